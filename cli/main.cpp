@@ -1,0 +1,38 @@
+#include <clocale>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "constraints/error.h"
+
+int main(int argc, char** argv) {
+  using namespace reachlab;
+  int exitCode = 0;
+  CLI::App app{"reach: reaching experiments without a window", "reach"};
+  app.set_version_flag("--version", "reach " REACHLAB_VERSION);
+  app.require_subcommand(1);
+  app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
+  for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
+                    addReplayCommand, addExportCommand, addRecoverCommand, addConstraintCommand, addBenchCommand})
+    add(app, exitCode);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "reach: %s\n", e.what());
+    return 2;
+  } catch (const UsageError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  } catch (const ResourceError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 3;
+  } catch (const RefusedError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 4;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "reach: %s\n", e.what());
+    return 3;
+  }
+  return exitCode;
+}

@@ -1,0 +1,17 @@
+#include "sim/dynamics/plant.h"
+
+namespace reachlab {
+
+std::string_view describe(StepStatus status) {
+  switch (status) {
+    case StepStatus::Ok: return "ok";
+    case StepStatus::HandLost: return "hand lost";
+    case StepStatus::NotFinite: return "not finite";
+    case StepStatus::Capped: return "too many sub-steps";
+    case StepStatus::AtEnd: return "end of the constraint";
+    case StepStatus::NoContinuation: return "no continuation";
+  }
+  return "";
+}
+
+}  // namespace reachlab

@@ -1,0 +1,98 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "constraints/constraint.h"
+
+namespace reachlab {
+
+inline constexpr int kMaxMasses = 512;
+
+enum class ObjectKind { Point, Chain, Parallel, Body };
+
+/// The simulated object (paper sec. 3-5). Chain: N masses, N-1 springs, the hand drives mass 1. Parallel: N masses, each tied to the
+/// hand by its own spring. Body: one mass with inertia, driven at an offset from its centre.
+struct Object {
+  ObjectKind kind = ObjectKind::Point;
+  std::vector<double> masses;                          // [kg]
+  std::vector<double> stiffness;                       // [N/m]
+  std::vector<double> damping;                         // [N s/m], as many as stiffness
+  double viscosity = 0;                                // [N s/m] lambda of Eq. (9), on every mass
+  Vec3 gravity;                                        // [m/s^2]
+  std::array<std::array<double, 3>, 3> inertia{};      // [kg m^2] body frame, body only
+  Vec3 fpOffset;                                       // [m] body frame, body only
+};
+
+/// Spring-damper between HIP and FP, Eq. (8).
+struct Coupling {
+  double stiffness = 0;  // [N/m]
+  double damping = 0;    // [N s/m]
+};
+
+struct Tolerance {
+  double position = 0.012;  // [m]
+  double velocity = 0.012;  // [m/s]
+  double time = 0.5;        // [s]
+};
+
+struct Task {
+  std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object
+  double duration = 1.35;             // [s] T
+  Tolerance tolerance;
+  double onset = 0.001;      // [m] t = 0 is when the HIP has moved this far
+  double armRadius = 0.01;   // [m]
+  double timeout = 10;       // [s] no onset by then: aborted
+};
+
+/// Two-link planar arm for criterion 2 (criteria.md 6); defaults unverified, after Uno 1989.
+struct Arm {
+  std::array<double, 2> length{0.25, 0.35};       // [m]
+  std::array<double, 2> centre{0.11, 0.15};       // [m] from the proximal joint
+  std::array<double, 2> mass{0.9, 1.1};           // [kg]
+  std::array<double, 2> inertia{0.065, 0.100};    // [kg m^2] about the proximal joint
+  std::array<double, 2> damping{0.08, 0.08};      // [N m s/rad]
+  std::array<double, 2> shoulder{0.0, -0.45};     // [m] of the shoulder in the task plane: along the line, across it (chest side negative)
+  bool elbowLeft = false;                         // which of the two postures
+};
+
+/// How v_HIP is estimated from device samples.
+struct VelocityEstimatorSpec {
+  std::string kind = "auto";  // auto | difference | butterworth | device
+  double cutoff = 40;         // [Hz] butterworth
+};
+
+/// One experiment file, validated: what the subject holds, on what, and what is asked. SI units throughout.
+struct Experiment {
+  int schemaVersion = 1;
+  std::string name;
+  ConstraintSpec constraint;
+  Object object;
+  std::optional<Coupling> coupling;  // required, but none for parallel
+  std::optional<Task> task;
+  std::string method = "auto";       // auto | rk4 | exact | abm | adaptive | stiff
+  double handMass = 0;               // [kg] predictions only
+  std::optional<double> forceLimit;  // [N] of the device; nullopt: the device's own
+  bool forceLimitEndsTrial = false;
+  VelocityEstimatorSpec velocityEstimator;
+  Arm arm;
+  std::string text;                  // the file as read: goes into the recording unchanged
+};
+
+/// Reads an experiment file, or a shipped one by name. Throws UsageError with every fault, one a line,
+/// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+Experiment readExperiment(const std::string& fileOrName);
+/// The same from text; `file` is only named in messages.
+Experiment parseExperiment(const std::string& text, const std::string& file);
+/// The experiment as a file that reads back equal (for saving from the window, and for the log).
+std::string toJson(const Experiment& experiment);
+/// Every fault of a value that did not come through the reader (edited in the window); empty when fine.
+std::vector<std::string> problems(const Experiment& experiment);
+
+/// Names of the shipped experiments, sorted.
+std::vector<std::string> shippedExperiments();
+/// Folder of resources: $REACHLAB_RESOURCES, else beside the source or installed. Throws ResourceError when there is none.
+std::string resourceFolder();
+
+}  // namespace reachlab

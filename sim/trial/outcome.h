@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace reachlab {
+
+enum class Outcome : std::uint8_t { None, Success, Failure, Aborted, Interrupted };
+enum class Reason : std::uint8_t {
+  None, Position, Velocity, TimeShort, TimeLong, ForceLimit, DeviceLost, NoOnset, Experimenter, EndOfConstraint, Computation, Program, FalseStart
+};
+std::string_view nameOf(Outcome outcome);  // "success", "failure", "aborted", "interrupted"
+std::string_view nameOf(Reason reason);    // "position", "velocity", "time_short", …
+
+/// How a trial ended. For a failure: which mass missed which tolerance and by how much.
+struct TrialResult {
+  Outcome outcome = Outcome::None;
+  Reason reason = Reason::None;
+  int mass = 0;               // from 1; 0 where no mass is to blame
+  double by = 0;              // excess over the tolerance, [m], [m/s] or [s]
+  double movementTime = 0;    // [s] t_e, or the time since onset at which the trial ended
+  std::uint64_t onsetTick = 0, endTick = 0;
+};
+
+/// Where the trial stands, as recorded with every tick.
+enum class Phase : std::uint8_t { Idle, Waiting, Armed, Moving, Done };
+/// The square near the top left: neutral before T - dT, green inside T +- dT, red after.
+enum class Semaphore : std::uint8_t { Neutral, Green, Red };
+
+}  // namespace reachlab
