@@ -1,0 +1,206 @@
+#include "sim/experiment/json_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+}
+
+std::string FaultList::place(const JsonNode& where) const { return fmt::format("{}:{}:{}", file_, where.line, where.column); }
+
+void FaultList::add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed) {
+  faults_.push_back(fmt::format("{}: {}{}{}", place(where), key.empty() ? "" : key + ": ", what,
+                                allowed.empty() ? std::string() : "; allowed: " + allowed));
+}
+
+void FaultList::throwIfAny() const {
+  if (!faults_.empty()) throw UsageError(fmt::format("{}", fmt::join(faults_, "\n")));
+}
+
+NumberRange anyNumber() { return {-kInfinity, kInfinity, true, "any finite number"}; }
+NumberRange positive(const std::string& unit) { return {0, kInfinity, false, fmt::format("more than 0 {}", unit)}; }
+NumberRange atLeastZero(const std::string& unit) { return {0, kInfinity, true, fmt::format("0 {} or more", unit)}; }
+NumberRange wholeNumber(double lo, double hi) { return {lo, hi, true, fmt::format("a whole number from {} to {}", lo, hi)}; }
+
+ObjectReader::ObjectReader(FaultList& faults, const JsonNode& node, std::string path)
+    : faults_(faults), node_(node), path_(std::move(path)) {
+  if (node_.kind != JsonNode::Kind::Object)
+    faults_.add(node_, path_.empty() ? "file" : path_, fmt::format("is {}", nameOf(node_.kind)), "an object { … }");
+}
+
+std::string ObjectReader::keyPath(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+const JsonNode* ObjectReader::optional(const std::string& key) {
+  known_.push_back(key);
+  return node_.find(key);
+}
+
+const JsonNode* ObjectReader::required(const std::string& key, const std::string& allowed) {
+  const JsonNode* node = optional(key);
+  if (node == nullptr && node_.kind == JsonNode::Kind::Object) faults_.add(node_, keyPath(key), "is missing", allowed);
+  return node;
+}
+
+bool ObjectReader::readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value) {
+  if (node.kind != JsonNode::Kind::Number) {
+    faults_.add(node, path, fmt::format("is {}", nameOf(node.kind)), range.allowed);
+    return false;
+  }
+  const bool inside = (range.loIncluded ? node.number >= range.lo : node.number > range.lo) && node.number <= range.hi;
+  if (!inside || !std::isfinite(node.number)) {
+    faults_.add(node, path, fmt::format("is {}", node.number), range.allowed);
+    return false;
+  }
+  value = node.number;
+  return true;
+}
+
+void ObjectReader::number(const std::string& key, const NumberRange& range, double& value) {
+  if (const JsonNode* node = optional(key)) readNumber(*node, keyPath(key), range, value);
+}
+
+bool ObjectReader::requiredNumber(const std::string& key, const NumberRange& range, double& value) {
+  const JsonNode* node = required(key, range.allowed);
+  return node != nullptr && readNumber(*node, keyPath(key), range, value);
+}
+
+void ObjectReader::integer(const std::string& key, int lo, int hi, int& value) {
+  const JsonNode* node = optional(key);
+  if (node == nullptr) return;
+  const NumberRange range = wholeNumber(lo, hi);
+  double read = 0;
+  if (!readNumber(*node, keyPath(key), range, read)) return;
+  if (read != std::floor(read)) {
+    faults_.add(*node, keyPath(key), fmt::format("is {}", read), range.allowed);
+    return;
+  }
+  value = static_cast<int>(read);
+}
+
+void ObjectReader::boolean(const std::string& key, bool& value) {
+  const JsonNode* node = optional(key);
+  if (node == nullptr) return;
+  if (node->kind != JsonNode::Kind::Boolean) {
+    faults_.add(*node, keyPath(key), fmt::format("is {}", nameOf(node->kind)), "true or false");
+    return;
+  }
+  value = node->boolean;
+}
+
+void ObjectReader::text(const std::string& key, std::string& value) {
+  const JsonNode* node = optional(key);
+  if (node == nullptr) return;
+  if (node->kind != JsonNode::Kind::String) {
+    faults_.add(*node, keyPath(key), fmt::format("is {}", nameOf(node->kind)), "a string");
+    return;
+  }
+  value = node->string;
+}
+
+bool ObjectReader::choice(const std::string& key, const std::vector<std::string>& names, std::string& value, bool isRequired) {
+  const std::string allowed = listOf(names);
+  const JsonNode* node = isRequired ? required(key, allowed) : optional(key);
+  if (node == nullptr) return false;
+  if (node->kind != JsonNode::Kind::String) {
+    faults_.add(*node, keyPath(key), fmt::format("is {}", nameOf(node->kind)), allowed);
+    return false;
+  }
+  if (std::find(names.begin(), names.end(), node->string) == names.end()) {
+    faults_.add(*node, keyPath(key), fmt::format("is \"{}\"", node->string), allowed);
+    return false;
+  }
+  value = node->string;
+  return true;
+}
+
+bool ObjectReader::numbers(const JsonNode& node, const std::string& key, int length, const NumberRange& range,
+                           std::vector<double>& values) {
+  const std::string shape = length < 0 ? "an array of numbers" : fmt::format("an array of {} number{}", length, length == 1 ? "" : "s");
+  if (node.kind != JsonNode::Kind::Array) {
+    faults_.add(node, keyPath(key), fmt::format("is {}", nameOf(node.kind)), shape);
+    return false;
+  }
+  if (length >= 0 && node.items.size() != static_cast<std::size_t>(length)) {
+    faults_.add(node, keyPath(key), fmt::format("has {} element{}", node.items.size(), node.items.size() == 1 ? "" : "s"), shape);
+    return false;
+  }
+  std::vector<double> read(node.items.size());
+  bool fine = true;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    fine = readNumber(node.items[i], fmt::format("{}[{}]", keyPath(key), i), range, read[i]) && fine;
+  if (fine) values = std::move(read);
+  return fine;
+}
+
+bool ObjectReader::strings(const JsonNode& node, const std::string& key, int length, std::vector<std::string>& values) {
+  const std::string shape = fmt::format("an array of {} strings", length);
+  if (node.kind != JsonNode::Kind::Array || node.items.size() != static_cast<std::size_t>(length)) {
+    faults_.add(node, keyPath(key),
+                node.kind == JsonNode::Kind::Array ? fmt::format("has {} elements", node.items.size())
+                                                   : fmt::format("is {}", nameOf(node.kind)),
+                shape);
+    return false;
+  }
+  std::vector<std::string> read;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (node.items[i].kind != JsonNode::Kind::String) {
+      faults_.add(node.items[i], fmt::format("{}[{}]", keyPath(key), i), fmt::format("is {}", nameOf(node.items[i].kind)), "a string");
+      return false;
+    }
+    read.push_back(node.items[i].string);
+  }
+  values = std::move(read);
+  return true;
+}
+
+void ObjectReader::finish() {
+  for (const auto& [key, value] : node_.members) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const std::string nearest = nearestName(key, known_);
+    std::vector<std::string> sorted = known_;
+    std::sort(sorted.begin(), sorted.end());
+    JsonNode keyPlace;
+    keyPlace.line = value.keyLine, keyPlace.column = value.keyColumn;
+    faults_.add(keyPlace, keyPath(key), nearest.empty() ? "is not known here" : fmt::format("is not known here; did you mean {}?", nearest),
+                listOf(sorted));
+  }
+}
+
+std::string nearestName(std::string_view name, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t bestDistance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t substituted = diagonal + (name[i - 1] != candidate[j - 1]);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+      }
+    }
+    if (row.back() < bestDistance) bestDistance = row.back(), best = candidate;
+  }
+  return best;
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    list += names[i];
+  }
+  return list;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,210 @@
+#include "sim/experiment/json_tree.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <tuple>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+constexpr std::size_t kMaxDepth = 64;
+
+// The parser reads the text through this iterator, so that the events below know how far it has come.
+struct CountingIterator {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  const char* at = nullptr;
+  const char** furthest = nullptr;
+  reference operator*() const { return *at; }
+  CountingIterator& operator++() {
+    ++at;
+    if (furthest != nullptr && at > *furthest) *furthest = at;
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    CountingIterator old = *this;
+    ++*this;
+    return old;
+  }
+  bool operator==(const CountingIterator& o) const { return at == o.at; }
+  bool operator!=(const CountingIterator& o) const { return at != o.at; }
+};
+
+class TreeBuilder : public nlohmann::json::json_sax_t {
+ public:
+  TreeBuilder(const std::string& text, std::string file, const char** furthest)
+      : text_(text), file_(std::move(file)), furthest_(furthest) {}
+
+  JsonNode root;
+
+  bool null() override { return put({}, tokenStart()); }
+  bool boolean(bool value) override {
+    JsonNode node;
+    node.kind = JsonNode::Kind::Boolean;
+    node.boolean = value;
+    return put(std::move(node), tokenStart());
+  }
+  bool number_integer(number_integer_t value) override { return putNumber(static_cast<double>(value), true); }
+  bool number_unsigned(number_unsigned_t value) override { return putNumber(static_cast<double>(value), true); }
+  bool number_float(number_float_t value, const string_t&) override { return putNumber(value, false); }
+  bool string(string_t& value) override {
+    JsonNode node;
+    node.kind = JsonNode::Kind::String;
+    node.string = value;
+    return put(std::move(node), stringStart());
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(JsonNode::Kind::Object); }
+  bool start_array(std::size_t) override { return open(JsonNode::Kind::Array); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& value) override {
+    const std::size_t start = stringStart();
+    if (open_.back()->find(value) != nullptr)
+      throw UsageError(fmt::format("{}: {}: stands here twice; allowed: each key once", place(start), value));
+    key_ = value;
+    keyStart_ = start;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
+    const std::size_t end = offset();
+    std::string what = e.what();
+    if (const auto colon = what.find("] "); colon != std::string::npos) what.erase(0, colon + 2);
+    if (e.id == 406) what = "this number is beyond the range of a double; allowed: finite numbers";
+    if (const auto at = what.find("column "); at != std::string::npos)
+      if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
+    throw UsageError(fmt::format("{}: {}", place(end > 0 ? end - 1 : 0), what));
+  }
+
+ private:
+  std::size_t offset() const { return static_cast<std::size_t>(*furthest_ - text_.data()); }
+
+  std::string place(std::size_t at) const {
+    const auto [line, column] = lineAndColumn(at);
+    return fmt::format("{}:{}:{}", file_, line, column);
+  }
+  std::pair<int, int> lineAndColumn(std::size_t at) const {
+    int line = 1, column = 1;
+    for (std::size_t i = 0; i < at && i < text_.size(); ++i) {
+      if (text_[i] == '\n') {
+        ++line, column = 1;
+      } else if ((static_cast<unsigned char>(text_[i]) & 0xC0) != 0x80) {
+        ++column;
+      }
+    }
+    return {line, column};
+  }
+  // Start of the word or number that has just been read; the parser is at most one character past its end.
+  std::size_t tokenStart() const {
+    const auto isTokenCharacter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.'; };
+    std::size_t at = std::min(offset(), text_.size());
+    while (at > 0 && !isTokenCharacter(text_[at - 1])) --at;
+    while (at > 0 && isTokenCharacter(text_[at - 1])) --at;
+    return at;
+  }
+  // Start of the string whose closing quote has just been read.
+  std::size_t stringStart() const {
+    std::size_t at = offset() - 1;
+    const auto isEscaped = [&](std::size_t quote) {
+      std::size_t backslashes = 0;
+      while (quote > backslashes && text_[quote - 1 - backslashes] == '\\') ++backslashes;
+      return backslashes % 2 == 1;
+    };
+    while (at > 0 && !(text_[at - 1] == '"' && !isEscaped(at - 1))) --at;
+    return at > 0 ? at - 1 : 0;
+  }
+  bool putNumber(double value, bool integer) {
+    JsonNode node;
+    node.kind = JsonNode::Kind::Number;
+    node.number = value;
+    node.integer = integer;
+    return put(std::move(node), tokenStart());
+  }
+  JsonNode* attach(JsonNode node, std::size_t start) {
+    std::tie(node.line, node.column) = lineAndColumn(start);
+    if (open_.empty()) {
+      root = std::move(node);
+      return &root;
+    }
+    JsonNode& parent = *open_.back();
+    if (parent.kind == JsonNode::Kind::Array) return &parent.items.emplace_back(std::move(node));
+    std::tie(node.keyLine, node.keyColumn) = lineAndColumn(keyStart_);
+    return &parent.members.emplace_back(key_, std::move(node)).second;
+  }
+  bool put(JsonNode node, std::size_t start) {
+    attach(std::move(node), start);
+    return true;
+  }
+  bool open(JsonNode::Kind kind) {
+    const std::size_t start = offset() - 1;
+    if (open_.size() >= kMaxDepth) throw UsageError(fmt::format("{}: nested too deeply; allowed: {} levels", place(start), kMaxDepth));
+    JsonNode node;
+    node.kind = kind;
+    // A child's address is stable: its parent gets no further child before it is closed.
+    open_.push_back(attach(std::move(node), start));
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  const std::string& text_;
+  std::string file_;
+  const char** furthest_;
+  std::vector<JsonNode*> open_;
+  std::string key_;
+  std::size_t keyStart_ = 0;
+};
+
+}  // namespace
+
+const JsonNode* JsonNode::find(const std::string& key) const {
+  for (const auto& [name, node] : members)
+    if (name == key) return &node;
+  return nullptr;
+}
+
+const char* nameOf(JsonNode::Kind kind) {
+  switch (kind) {
+    case JsonNode::Kind::Null: return "null";
+    case JsonNode::Kind::Boolean: return "a truth value";
+    case JsonNode::Kind::Number: return "a number";
+    case JsonNode::Kind::String: return "a string";
+    case JsonNode::Kind::Array: return "an array";
+    case JsonNode::Kind::Object: return "an object";
+  }
+  return "";
+}
+
+JsonNode parseJson(const std::string& text, const std::string& file) {
+  const char* furthest = text.data();
+  TreeBuilder builder(text, file, &furthest);
+  const CountingIterator begin{text.data(), &furthest}, end{text.data() + text.size(), nullptr};
+  nlohmann::json::sax_parse(begin, end, &builder, nlohmann::json::input_format_t::json, true, true);
+  return std::move(builder.root);
+}
+
+std::string readTextFile(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw UsageError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad() || (text.fail() && in.peek() != std::ifstream::traits_type::eof()))
+    throw UsageError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
+  return std::move(text).str();
+}
+
+}  // namespace reachlab
