@@ -1,0 +1,102 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "constraints/error.h"
+#include "sim/experiment/experiment.h"
+
+namespace reachlab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* nameOf(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::Point: return "point";
+    case ObjectKind::Chain: return "chain";
+    case ObjectKind::Parallel: return "parallel";
+    case ObjectKind::Body: return "body";
+  }
+  return "";
+}
+
+Json toArray(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json constraintJson(const ConstraintSpec& spec) {
+  Json json;
+  if (!spec.curve.empty()) {
+    json["curve"] = spec.curve;
+  } else if (!spec.surface.empty()) {
+    json["surface"] = spec.surface;
+  } else {
+    json["name"] = spec.name;
+  }
+  if (!spec.shape.empty()) json["shape"] = spec.shape;
+  return json;
+}
+
+Json objectJson(const Object& object) {
+  Json json;
+  json["kind"] = nameOf(object.kind);
+  json["masses_kg"] = object.masses;
+  json["stiffness_n_per_m"] = object.stiffness;
+  json["damping_n_s_per_m"] = object.damping;
+  json["viscosity_n_s_per_m"] = object.viscosity;
+  json["gravity_m_per_s2"] = toArray(object.gravity);
+  if (object.kind == ObjectKind::Body) {
+    json["inertia_kg_m2"] = object.inertia;
+    json["fp_offset_m"] = toArray(object.fpOffset);
+  }
+  return json;
+}
+
+Json taskJson(const Task& task) {
+  return {{"start", task.start},
+          {"target", task.target},
+          {"duration_s", task.duration},
+          {"tolerance",
+           {{"position_m", task.tolerance.position}, {"velocity_m_per_s", task.tolerance.velocity}, {"time_s", task.tolerance.time}}},
+          {"onset_m", task.onset},
+          {"arm_radius_m", task.armRadius},
+          {"timeout_s", task.timeout}};
+}
+
+}  // namespace
+
+std::string toJson(const Experiment& experiment) {
+  Json json;
+  json["schema_version"] = experiment.schemaVersion;
+  json["name"] = experiment.name;
+  json["constraint"] = constraintJson(experiment.constraint);
+  json["object"] = objectJson(experiment.object);
+  if (experiment.coupling)
+    json["coupling"] = {{"stiffness_n_per_m", experiment.coupling->stiffness}, {"damping_n_s_per_m", experiment.coupling->damping}};
+  if (experiment.task) json["task"] = taskJson(*experiment.task);
+  json["method"] = experiment.method;
+  json["hand_mass_kg"] = experiment.handMass;
+  if (experiment.forceLimit) json["force_limit_n"] = *experiment.forceLimit;
+  json["force_limit_ends_trial"] = experiment.forceLimitEndsTrial;
+  json["velocity_estimator"] = {{"kind", experiment.velocityEstimator.kind}, {"cutoff_hz", experiment.velocityEstimator.cutoff}};
+  const Arm& arm = experiment.arm;
+  json["arm"] = {{"link_length_m", arm.length},
+                 {"link_centre_m", arm.centre},
+                 {"link_mass_kg", arm.mass},
+                 {"link_inertia_kg_m2", arm.inertia},
+                 {"joint_damping_n_m_s_per_rad", arm.damping},
+                 {"shoulder_m", arm.shoulder},
+                 {"elbow_left", arm.elbowLeft}};
+  return json.dump(2) + "\n";
+}
+
+std::vector<std::string> problems(const Experiment& experiment) {
+  try {
+    parseExperiment(toJson(experiment), experiment.name.empty() ? "experiment" : experiment.name);
+    return {};
+  } catch (const UsageError& e) {
+    std::vector<std::string> lines;
+    std::istringstream text(e.what());
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  }
+}
+
+}  // namespace reachlab

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "constraints/error.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/json_reader.h"
+
+namespace reachlab {
+namespace fs = std::filesystem;
+
+std::string resourceFolder() {
+  std::vector<fs::path> places;
+  if (const char* chosen = std::getenv("REACHLAB_RESOURCES")) places.emplace_back(chosen);
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  if (!program.empty()) places.push_back(program.parent_path().parent_path() / "share" / "reachlab");
+  places.emplace_back(REACHLAB_RESOURCES_IN_SOURCE);
+  places.emplace_back(REACHLAB_RESOURCES_INSTALLED);
+  for (const fs::path& place : places)
+    if (fs::is_directory(place / "experiments", ignored)) return place.string();
+  throw ResourceError("the resources (shipped experiments) are not found; set REACHLAB_RESOURCES to their folder");
+}
+
+std::vector<std::string> shippedExperiments() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(resourceFolder()) / "experiments"))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Experiment readExperiment(const std::string& fileOrName) {
+  std::error_code ignored;
+  if (fs::is_regular_file(fileOrName, ignored)) return parseExperiment(readTextFile(fileOrName), fileOrName);
+  const bool looksLikeFile = fileOrName.find('/') != std::string::npos || fs::path(fileOrName).has_extension();
+  const std::vector<std::string> names = shippedExperiments();
+  if (std::find(names.begin(), names.end(), fileOrName) != names.end()) {
+    const std::string file = (fs::path(resourceFolder()) / "experiments" / (fileOrName + ".json")).string();
+    return parseExperiment(readTextFile(file), file);
+  }
+  if (fs::is_directory(fileOrName, ignored)) throw UsageError(fmt::format("{}: is a folder; allowed: an experiment file or name", fileOrName));
+  if (looksLikeFile) throw UsageError(fmt::format("{}: there is no such file; allowed: an experiment file, or one of {}", fileOrName, listOf(names)));
+  const std::string nearest = nearestName(fileOrName, names);
+  throw UsageError(fmt::format("{}: is neither a file nor a shipped experiment{}; allowed: a file, or one of {}", fileOrName,
+                               nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), listOf(names)));
+}
+
+}  // namespace reachlab

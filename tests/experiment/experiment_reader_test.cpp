@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "constraints/error.h"
+#include "sim/experiment/experiment.h"
+
+using namespace reachlab;
+
+namespace {
+
+const std::string kGood = R"({
+  "schema_version": 1,
+  "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  // a comment
+  "object": { "kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600] },
+  "coupling": { "stiffness_n_per_m": 600, "damping_n_s_per_m": 0 },
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 1.35,
+            "tolerance": { "position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5 } }
+}
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string faultOf(const std::string& text) {
+  try {
+    parseExperiment(text, "x.json");
+  } catch (const UsageError& e) {
+    return e.what();
+  }
+  return "no fault";
+}
+
+}  // namespace
+
+TEST(ExperimentReader, ReadsAGoodFile) {
+  const Experiment e = parseExperiment(kGood, "folder/mine.json");
+  EXPECT_EQ(e.name, "mine");
+  EXPECT_EQ(e.object.masses, (std::vector<double>{0.6, 0.6}));
+  EXPECT_EQ(e.object.damping, std::vector<double>{0});
+  EXPECT_EQ(e.coupling->stiffness, 600);
+  EXPECT_EQ(e.task->target, std::vector<double>{6.283185307179586});
+  EXPECT_EQ(e.task->onset, 0.001);
+}
+
+TEST(ExperimentReader, EveryShippedExperimentReadsAndWritesBackEqual) {
+  for (const std::string& name : shippedExperiments()) {
+    const Experiment e = readExperiment(name);
+    EXPECT_EQ(e.name, name);
+    const Experiment again = parseExperiment(toJson(e), name);
+    EXPECT_EQ(toJson(again), toJson(e)) << name;
+    EXPECT_TRUE(problems(e).empty()) << name;
+  }
+}
+
+struct Fault {
+  const char *from, *to, *message;
+};
+class ExperimentReaderFaults : public testing::TestWithParam<Fault> {};
+
+TEST_P(ExperimentReaderFaults, AreNamedWithPlaceKeyAndWhatIsAllowed) {
+  const Fault& fault = GetParam();
+  const std::string message = faultOf(replaced(kGood, fault.from, fault.to));
+  EXPECT_NE(message.find(fault.message), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, ExperimentReaderFaults,
+    testing::Values(
+        Fault{"\"duration_s\"", "\"duration\"", "x.json:7:62: task.duration: is not known here; did you mean duration_s?"},
+        Fault{"\"duration_s\": 1.35", "\"duration_s\": \"long\"", "x.json:7:76: task.duration_s: is a string; allowed: more than 0 s"},
+        Fault{"[0.6, 0.6]", "[0.6, -1]", "x.json:5:51: object.masses_kg[1]: is -1; allowed: more than 0 kg"},
+        Fault{"[600]", "[600, 600]", "object.stiffness_n_per_m: has 2 elements; allowed: an array of 1 number"},
+        Fault{"\"stiffness_n_per_m\": [600]", "\"viscosity_n_s_per_m\": 0", "object.stiffness_n_per_m: is missing"},
+        Fault{"1.35", "1e999", "x.json:7:80: this number is beyond the range of a double"},
+        Fault{"1.35", "NaN", "x.json:7:"},
+        Fault{"\"schema_version\": 1", "\"schema_version\": 2", "x.json:2:21: schema_version: is 2; allowed: 1"},
+        Fault{"\"schema_version\": 1,", "", "schema_version: is missing"},
+        Fault{"\"time_s\": 0.5", "\"time_s\": 0.5, \"time_s\": 0.6", "time_s: stands here twice"},
+        Fault{"\"start\": [0]", "\"start\": [0, 1]", "task.start: has 2 elements; allowed: an array of 1 number"},
+        Fault{"\"chain\"", "\"chian\"", "object.kind: is \"chian\"; allowed: point, chain, parallel or body"},
+        Fault{"\"name\": \"line\"", "\"name\": \"lime\"", "x.json:3:17: constraint"},
+        Fault{"\"damping_n_s_per_m\": 0 }", "\"damping_n_s_per_m\": -1 }", "coupling.damping_n_s_per_m: is -1"},
+        Fault{"\"chain\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600]",
+              "\"parallel\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600, 60]", "coupling: stands beside a parallel object"}));
+
+TEST(ExperimentReader, NamesEveryFaultAtOnce) {
+  std::string text = replaced(kGood, "[0.6, 0.6]", "[0.6, -1]");
+  text = replaced(text, "\"position_m\": 0.012", "\"position_m\": 0");
+  const std::string message = faultOf(text);
+  EXPECT_NE(message.find("masses_kg[1]"), std::string::npos) << message;
+  EXPECT_NE(message.find("position_m"), std::string::npos) << message;
+}
+
+TEST(ExperimentReader, RefusesAHeapOfBracketsInWords) {
+  EXPECT_NE(faultOf(std::string(100000, '[')).find("nested too deeply"), std::string::npos);
+}
+
+TEST(ExperimentReader, UnknownNameProposesTheNearest) {
+  try {
+    readExperiment("chain-moderat");
+    FAIL();
+  } catch (const UsageError& e) {
+    EXPECT_NE(std::string(e.what()).find("did you mean chain-moderate?"), std::string::npos) << e.what();
+  }
+}
