@@ -1,0 +1,152 @@
+#include "sim/record/append_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+// One sentence a person can act on: what failed, where, why, what to do.
+[[noreturn]] void fail(std::string_view what, const std::string& path) {
+  const int fault = errno;
+  std::string_view remedy = "check the folder and its permissions";
+  if (fault == ENOSPC || fault == EDQUOT) remedy = "free space on the disk or choose another folder with --data";
+  if (fault == EROFS || fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written with --data";
+  if (fault == EEXIST) remedy = "nothing is overwritten: choose another name";
+  if (fault == EIO || fault == ENODEV || fault == ENXIO) remedy = "the disk has gone: what was synced before is safe on it";
+  throw ResourceError(fmt::format("{}: {}: {}; {}", path, what, std::strerror(fault), remedy));
+}
+
+bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+// After a rename or a creation the folder itself must reach the disk, or the name may be lost with the power.
+void syncFolderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+AppendFile AppendFile::create(const std::string& path) {
+  makeFolders(std::filesystem::path(path).parent_path().string());
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail("cannot be created", path);
+  ::flock(descriptor, LOCK_EX | LOCK_NB);
+  syncFolderOf(path);
+  return {descriptor, path, 0};
+}
+
+AppendFile AppendFile::openAt(const std::string& path, std::uint64_t size) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor < 0) fail("cannot be opened for writing", path);
+  AppendFile file(descriptor, path, size);
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    throw ResourceError(path + ": is being written by another program; wait until its run has ended");
+  if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) fail("cannot be cut to its good part", path);
+  return file;
+}
+
+AppendFile::~AppendFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+AppendFile::AppendFile(AppendFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), size_(other.size_) {}
+
+AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(path_, other.path_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+void AppendFile::append(std::span<const std::uint8_t> bytes) {
+  if (!writeAll(descriptor_, bytes.data(), bytes.size())) {
+    const int fault = errno;
+    if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) size_ = 0;  // the torn record is then found by its CRC
+    errno = fault;
+    fail("cannot be written", path_);
+  }
+  size_ += bytes.size();
+}
+
+void AppendFile::sync() {
+  if (::fdatasync(descriptor_) != 0) fail("cannot be synced to the disk", path_);
+}
+
+void writeFileAtomically(const std::string& path, std::string_view text) {
+  makeFolders(std::filesystem::path(path).parent_path().string());
+  const std::string temporary = fmt::format("{}.{}.tmp", path, ::getpid());
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail("cannot be created", path);
+  const auto* data = reinterpret_cast<const std::uint8_t*>(text.data());
+  const bool good = writeAll(descriptor, data, text.size()) && ::fsync(descriptor) == 0;
+  const int fault = errno;
+  ::close(descriptor);
+  if (!good || ::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int reason = good ? errno : fault;
+    ::unlink(temporary.c_str());
+    errno = reason;
+    fail("cannot be written", path);
+  }
+  syncFolderOf(path);
+}
+
+std::string readWholeFile(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("cannot be opened", path);
+  std::string text;
+  struct stat status {};
+  if (::fstat(descriptor, &status) == 0) text.reserve(static_cast<std::size_t>(status.st_size));
+  char buffer[1 << 16];
+  ssize_t count = 0;
+  while ((count = ::read(descriptor, buffer, sizeof buffer)) > 0) text.append(buffer, static_cast<std::size_t>(count));
+  const int fault = errno;
+  ::close(descriptor);
+  if (count < 0) {
+    errno = fault;
+    fail("cannot be read", path);
+  }
+  return text;
+}
+
+void makeFolders(const std::string& path) {
+  if (path.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error) return;
+  errno = error.value();
+  fail("cannot be made", path);
+}
+
+bool isBeingWritten(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
+}
+
+}  // namespace reachlab

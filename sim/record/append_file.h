@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace reachlab {
+
+/// A file that only grows, held under an exclusive lock so that no second program writes or mends it. Move-only; one thread at a
+/// time. Members throw ResourceError naming the file, the fault and the remedy.
+class AppendFile {
+ public:
+  /// A new file; one that exists is refused.
+  static AppendFile create(const std::string& path);
+  /// An existing one, cut back to `size` bytes.
+  static AppendFile openAt(const std::string& path, std::uint64_t size);
+  ~AppendFile();
+  AppendFile(AppendFile&& other) noexcept;
+  AppendFile& operator=(AppendFile&& other) noexcept;
+
+  /// All or nothing: what a full disk lets through only in part is cut off again.
+  void append(std::span<const std::uint8_t> bytes);
+  /// Returns when everything appended is on the disk (fdatasync).
+  void sync();
+  std::uint64_t size() const { return size_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  AppendFile(int descriptor, std::string path, std::uint64_t size) : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
+  int descriptor_ = -1;
+  std::string path_;
+  std::uint64_t size_ = 0;
+};
+
+/// Replaces `path` by `text` in one step (temporary file, fsync, rename): a reader sees the old file or the new one, never a part.
+/// Makes the folders above it. Throws ResourceError.
+void writeFileAtomically(const std::string& path, std::string_view text);
+/// The whole file. Throws ResourceError.
+std::string readWholeFile(const std::string& path);
+/// Makes a folder and those above it. Throws ResourceError.
+void makeFolders(const std::string& path);
+/// True while another program holds the file's lock (a run is being recorded into it).
+bool isBeingWritten(const std::string& path);
+
+}  // namespace reachlab

@@ -1,0 +1,116 @@
+#include "sim/record/channels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+struct Quantity {
+  std::string name, column;            // before "_x" / with {} for the axis
+  std::string type, trackedPoint, units, description;
+};
+
+void addVector(std::vector<Channel>& out, const Quantity& q) {
+  for (const char* axis : kAxes)
+    out.push_back({q.name + "_" + axis, axis, q.type, q.trackedPoint, q.units, q.description, fmt::format(fmt::runtime(q.column), axis)});
+}
+
+void addScalar(std::vector<Channel>& out, const Quantity& q) {
+  out.push_back({q.name, "n/a", q.type, q.trackedPoint, q.units, q.description, q.column});
+}
+
+void addMass(std::vector<Channel>& out, int mass, int parameterCount) {
+  const std::string id = fmt::format("mass{}", mass);
+  const std::string what = fmt::format("simulated mass {}", mass);
+  addVector(out, {id + "_pos", id + "_{}_m", "POS", id, "m", what + ", position"});
+  addVector(out, {id + "_vel", id + "_v{}_m_per_s", "VEL", id, "m/s", what + ", velocity"});
+  addVector(out, {id + "_acc", id + "_a{}_m_per_s2", "ACCEL", id, "m/s^2", what + ", acceleration"});
+  for (int k = 1; k <= parameterCount; ++k)
+    addScalar(out, {fmt::format("{}_q{}", id, k), fmt::format("{}_q{}", id, k), "MISC", id, "n/a", what + ", constraint parameter"});
+  for (int k = 1; k <= parameterCount; ++k)
+    addScalar(out, {fmt::format("{}_q{}_rate", id, k), fmt::format("{}_q{}_per_s", id, k), "MISC", id, "1/s",
+                    what + ", rate of the constraint parameter"});
+}
+
+void addBody(std::vector<Channel>& out) {
+  const char* description = "simulated body, orientation in the world frame as a unit quaternion";
+  for (const char* part : {"w", "x", "y", "z"})
+    out.push_back({fmt::format("body_quat_{}", part), fmt::format("quat_{}", part), "ORNT", "mass1", "n/a", description,
+                   fmt::format("body_quat_{}", part)});
+  addVector(out, {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
+}
+
+double* putVector(double* at, const Vec3& v) noexcept {
+  at[0] = v.x;
+  at[1] = v.y;
+  at[2] = v.z;
+  return at + 3;
+}
+
+}  // namespace
+
+std::size_t ChannelTable::indexOf(const std::string& name) const {
+  const auto found = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+  if (found == channels.end()) throw UsageError("no channel named " + name);
+  return static_cast<std::size_t>(found - channels.begin());
+}
+
+ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount) {
+  ChannelTable table;
+  table.massCount = static_cast<int>(experiment.object.masses.size());
+  table.parameterCount = parameterCount;
+  table.body = experiment.object.kind == ObjectKind::Body;
+  auto& out = table.channels;
+  addScalar(out, {"latency", "time_s", "LATENCY", "n/a", "s", "time since the run began: ticks of 1 ms, the clock of protocol and physics"});
+  addScalar(out, {"measured_time", "measured_s", "MISC", "n/a", "s", "monotonic clock of the computer since the run began"});
+  addVector(out, {"hand_pos", "hand_{}_m", "POS", "hand", "m", "haptic interface point as the coupling sees it"});
+  addVector(out, {"hand_vel", "hand_v{}_m_per_s", "VEL", "hand", "m/s", "haptic interface point, estimated velocity"});
+  addVector(out, {"device_pos", "device_{}_m", "POS", "device", "m", "haptic interface point, raw device position"});
+  addVector(out, {"coupling_force", "coupling_{}_n", "MISC", "mass1", "N", "coupling force on the object, unclamped"});
+  addVector(out, {"feedback_force", "feedback_{}_n", "MISC", "hand", "N", "force meant for the hand, before the safety limits"});
+  addVector(out, {"device_force", "device_force_{}_n", "MISC", "hand", "N", "force commanded to the device"});
+  addScalar(out, {"energy", "energy_j", "MISC", "n/a", "J", "kinetic, elastic and gravity energy of object and coupling"});
+  addScalar(out, {"trial", "trial", "MISC", "n/a", "n/a", "trial number within the run, from 1; 0 between trials"});
+  addScalar(out, {"phase", "phase", "MISC", "n/a", "n/a", "0 idle, 1 waiting, 2 armed, 3 moving, 4 done"});
+  addScalar(out, {"valid", "valid", "MISC", "n/a", "n/a", "1 while the device delivers samples"});
+  for (int mass = 1; mass <= table.massCount; ++mass) addMass(out, mass, parameterCount);
+  if (table.body) addBody(out);
+  return table;
+}
+
+void fillRow(const ChannelTable& table, const TickState& state, double* row) noexcept {
+  double* at = row;
+  *at++ = static_cast<double>(state.tick) / 1000.0;
+  *at++ = static_cast<double>(state.measuredNs) * 1e-9;
+  at = putVector(at, state.hand.position);
+  at = putVector(at, state.hand.velocity);
+  at = putVector(at, state.device.position);
+  at = putVector(at, state.couplingForce);
+  at = putVector(at, state.feedbackForce);
+  at = putVector(at, state.deviceForce);
+  *at++ = state.energy;
+  *at++ = state.trial;
+  *at++ = static_cast<double>(state.phase);
+  *at++ = state.device.valid ? 1 : 0;
+  for (int i = 0; i < table.massCount; ++i) {
+    const MassState& mass = state.masses[static_cast<std::size_t>(i)];
+    at = putVector(at, mass.r);
+    at = putVector(at, mass.v);
+    at = putVector(at, mass.a);
+    for (int k = 0; k < table.parameterCount; ++k) *at++ = mass.q[static_cast<std::size_t>(k)];
+    for (int k = 0; k < table.parameterCount; ++k) *at++ = mass.qRate[static_cast<std::size_t>(k)];
+  }
+  if (table.body) {
+    for (const double part : state.body.orientation) *at++ = part;
+    putVector(at, state.body.angularVelocity);
+  }
+}
+
+}  // namespace reachlab

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_state.h"
+
+namespace reachlab {
+
+/// One column of the recording, in the words of BIDS channels.tsv.
+struct Channel {
+  std::string name;          // "hand_pos_x", "mass3_vel_y"
+  std::string component;     // x | y | z | n/a
+  std::string type;          // LATENCY | POS | VEL | ACCEL | MISC
+  std::string trackedPoint;  // hand | device | mass1 … | n/a
+  std::string units;         // s | m | m/s | m/s^2 | N | J | n/a …
+  std::string description;
+  std::string column;        // its name in CSV files, with the unit: "hand_x_m"
+};
+
+/// What is sampled in this scene, in the order of fillRow: time; hand (estimated); device (raw); coupling, feedback and device force;
+/// energy; phase, trial and validity; then position, velocity, acceleration and constraint parameters of each mass.
+struct ChannelTable {
+  std::vector<Channel> channels;
+  int massCount = 0;
+  int parameterCount = 0;  // constraint parameters of a mass: 0, 1 or 2
+  bool body = false;       // orientation and angular velocity follow
+
+  std::size_t size() const { return channels.size(); }
+  /// Index of a channel; throws UsageError when there is none of that name.
+  std::size_t indexOf(const std::string& name) const;
+};
+
+/// `parameterCount` is Constraint::parameterCount() of the scene's constraint.
+ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount);
+
+/// One row of the table: table.size() doubles. Haptic thread; never allocates.
+void fillRow(const ChannelTable& table, const TickState& state, double* row) noexcept;
+
+}  // namespace reachlab

@@ -1,0 +1,48 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "sim/record/log.h"
+#include "sim/record/run_configuration.h"
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+
+struct RecorderOptions {
+  bool threaded = true;           // false: written by the caller (virtual clock), so that nothing can be dropped
+  std::size_t queueTicks = 4096;  // how many ticks the disk may be behind before ticks are dropped and counted
+};
+
+/// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a thread
+/// of the recorder writes; blocks reach the kernel at least every 100 ms.
+class Recorder {
+ public:
+  /// Creates the log at `path` and writes the configuration. Throws ResourceError.
+  Recorder(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& options = {});
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Haptic thread, every tick; never waits, allocates or throws. False when the queue was full: the tick is lost and must be counted
+  /// (LoopFaults::droppedRecords).
+  bool tryPush(const TickState& state, Command command, std::uint32_t missedTicks) noexcept;
+
+  /// Controlling thread, after a trial has ended: returns its record once it is on the disk (fdatasync). Throws ResourceError when the
+  /// disk is full or gone; what was synced before stays good.
+  RecordedTrial awaitTrial(int trial);
+  /// A note by the experimenter. Controlling thread.
+  void note(const std::string& text);
+  /// Ends the log in order. Throws like awaitTrial.
+  void close();
+
+  /// The first fault of the disk, empty while all is well. Any thread.
+  std::string fault() const;
+  /// Processor time of the recorder's thread so far [s]; 0 when not threaded.
+  double processorSeconds() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/record/channels.h"
+
+namespace reachlab {
+
+/// What is known of a person, under the pseudonym that is the subject label. Empty or nullopt: not told.
+struct Participant {
+  std::optional<double> age;  // [years]
+  std::string sex;            // F | M | O
+  std::string handedness;     // R | L | A
+};
+
+/// One trial as it was planned before the run; its order is part of the configuration.
+struct PlannedTrial {
+  int index = 0;            // from 0: what the device's motion and the foreperiod depend on, with the seed
+  int foreperiodTicks = 0;  // [ms] between arming and the go signal; 0: go at arming
+  bool catchTrial = false;  // no go signal is given: moving is the failure
+};
+
+/// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value.
+struct RunConfiguration {
+  std::string subject = "01", session = "01", task = "reach";
+  int run = 1;                     // as in the file name
+  int block = 1;                   // within the session's plan, from 1; 1 without a plan
+  bool practice = false;
+  std::string condition;           // of the plan; empty: the experiment's name
+  int day = 0;                     // of the plan; 0: none
+  double pauseSeconds = 0;         // between trials
+  std::string experimentName, experimentText;  // the file as it was read
+  std::string planName, planText;  // empty without a plan
+  std::uint64_t seed = 0;
+  std::uint64_t orderSeed = 0;     // of the plan
+  std::vector<PlannedTrial> trials;
+  std::string device;              // as asked for: "simulated:noise=0"
+  std::string deviceName, deviceVersion;
+  double deviceMaxForce = 0;       // [N]
+  std::string method, methodReason;  // what the scene was compiled to
+  std::string softwareVersion, buildDescription, computer;
+  std::string startedUtc;          // ISO 8601 with milliseconds
+  std::string clock = "steady";    // virtual with --fast
+  double samplingHz = 100;         // of the sample rows
+  std::uint32_t sampleEveryTicks = 10;
+  Participant participant;
+  std::string notes;               // by the experimenter
+  ChannelTable table;
+};
+
+std::string toJson(const RunConfiguration& configuration);
+/// Throws UsageError naming `origin` when the text is no configuration.
+RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
+
+/// Labels are letters and digits only (BIDS). Throws UsageError otherwise.
+void checkLabel(const std::string& label, const std::string& what);
+
+}  // namespace reachlab

@@ -1,0 +1,108 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/record/log.h"
+#include "sim/record/run_configuration.h"
+#include "sim/trial/outcome.h"
+
+namespace reachlab {
+
+/// A raw tick as logged: with the configuration all that is needed to simulate the run again.
+struct RecordedTick {
+  std::uint64_t tick = 0;
+  std::int64_t measuredNs = 0;
+  DeviceSample device;
+  Command command = Command::None;
+  std::uint32_t missedTicks = 0;  // whole periods skipped before this tick
+};
+
+enum class EventKind : std::uint8_t {
+  TrialStart = 1,   // the trial was put up
+  Armed = 2,        // the hand was at the start
+  Go = 3,           // go signal
+  Onset = 4,        // the hand moved: t = 0
+  TrialEnd = 5,
+  ClampBegin = 6,   // the device gets less force than the object gives
+  ClampEnd = 7,
+  DeviceLost = 8,
+  DeviceBack = 9,
+  TicksMissed = 10,
+  StepFault = 11,   // a step did not end well; `value` is its StepStatus
+  Note = 12,        // by the experimenter
+};
+std::string_view nameOf(EventKind kind);
+
+struct RecordedEvent {
+  std::uint64_t tick = 0;
+  EventKind kind = EventKind::Note;
+  std::int32_t trial = 0;
+  double value = 0;
+  std::string text;
+};
+
+/// One trial of a run with its result and simple measures. An unfinished trial of a log that broke off is `Interrupted` by `Program`.
+struct RecordedTrial {
+  int trial = 0;                 // from 1 within the run
+  int index = 0;                 // of the planned order, from 0; a repeated trial has its predecessor's
+  bool catchTrial = false;
+  TrialResult result;
+  std::uint64_t startTick = 0, armedTick = 0, goTick = 0;  // 0: never came
+  std::uint64_t lastTick = 0;    // last tick that belongs to the trial
+  double peakHandSpeed = 0;      // [m/s] largest over every tick of the movement
+  double handPathLength = 0;     // [m] from onset to the end
+  double peakForce = 0;          // [N] largest coupling force
+  double meanForce = 0;          // [N]
+  std::uint64_t clampedTicks = 0, missedTicks = 0;
+  bool complete = true;          // false: the log broke off in this trial
+};
+
+/// Rows of the derived channels: row-major, table.size() numbers a row.
+struct SampleRows {
+  std::size_t columns = 0;
+  std::vector<std::uint64_t> ticks;
+  std::vector<double> values;
+  std::size_t size() const { return ticks.size(); }
+  double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
+};
+
+/// One recorded run, read to its last good record. The trials are known at once (from the index beside the log when there is a valid
+/// one); rows and ticks are read when asked for. Any thread, one at a time.
+class RunLog {
+ public:
+  /// Throws UsageError (not a log, configuration damaged) or ResourceError.
+  static RunLog open(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  const RunConfiguration& configuration() const { return configuration_; }
+  const std::vector<RecordedTrial>& trials() const { return trials_; }
+  /// Closed in order, and undamaged to the last byte.
+  bool healthy() const { return healthy_; }
+  bool closed() const { return closed_; }
+  std::uint64_t goodBytes() const { return goodBytes_; }
+  std::uint64_t fileBytes() const { return fileBytes_; }
+
+  /// Rows between two ticks, both included. Throws UsageError if the log has changed meanwhile.
+  SampleRows rows(std::uint64_t firstTick, std::uint64_t lastTick) const;
+  /// Rows of a trial (from trials()), from where it was put up to its end.
+  SampleRows rows(const RecordedTrial& trial) const { return rows(trial.startTick, trial.lastTick); }
+  SampleRows allRows() const;
+  std::vector<RecordedTick> ticks() const;
+  std::vector<RecordedEvent> events() const;
+
+ private:
+  RunLog() = default;
+  std::string path_;
+  RunConfiguration configuration_;
+  std::vector<RecordedTrial> trials_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> marks_;  // offset and sequence number to start reading a trial at
+  bool healthy_ = false, closed_ = false;
+  std::uint64_t goodBytes_ = 0, fileBytes_ = 0;
+};
+
+/// The logs of a dataset, a session's folder or a single file, sorted by name. Throws UsageError when there are none.
+std::vector<std::string> findLogs(const std::string& path);
+
+}  // namespace reachlab
