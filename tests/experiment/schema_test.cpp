@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "constraints/error.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/json_reader.h"
+
+using namespace reachlab;
+using Json = nlohmann::json;
+
+namespace {
+
+class ShippedSchema : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Json text = Json::parse(readTextFile(resourceFolder() + "/schemas/experiment.schema.json"));
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema_);
+  }
+  bool schemaAccepts(const Json& json) {
+    return valijson::Validator().validate(schema_, valijson::adapters::NlohmannJsonAdapter(json), nullptr);
+  }
+  static bool readerAccepts(const Json& json) {
+    try {
+      parseExperiment(json.dump(), "x.json");
+      return true;
+    } catch (const UsageError&) {
+      return false;
+    }
+  }
+
+ private:
+  valijson::Schema schema_;
+};
+
+}  // namespace
+
+TEST_F(ShippedSchema, AcceptsWhatTheReaderAccepts) {
+  for (const std::string& name : shippedExperiments()) {
+    EXPECT_TRUE(schemaAccepts(Json::parse(readExperiment(name).text, nullptr, true, true))) << name;
+    EXPECT_TRUE(schemaAccepts(Json::parse(toJson(readExperiment(name))))) << name;
+  }
+}
+
+TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
+  const Json good = Json::parse(toJson(readExperiment("chain-moderate")));
+  ASSERT_TRUE(schemaAccepts(good) && readerAccepts(good));
+  const std::vector<std::function<void(Json&)>> faults = {
+      [](Json& j) { j["unknown"] = 1; },
+      [](Json& j) { j["schema_version"] = 2; },
+      [](Json& j) { j.erase("object"); },
+      [](Json& j) { j["object"]["masses_kg"][0] = 0; },
+      [](Json& j) { j["object"]["kind"] = "string"; },
+      [](Json& j) { j["object"]["stiffness_n_per_m"][0] = -1; },
+      [](Json& j) { j["coupling"]["stiffness_n_per_m"] = "600"; },
+      [](Json& j) { j["task"]["tolerance"].erase("time_s"); },
+      [](Json& j) { j["task"]["duration_s"] = 0; },
+      [](Json& j) { j["task"]["start"] = Json::array(); },
+      [](Json& j) { j["method"] = "euler"; },
+      [](Json& j) { j["force_limit_n"] = 0; },
+      [](Json& j) { j["velocity_estimator"] = "guess"; },
+      [](Json& j) { j["arm"]["link_length_m"] = {1}; },
+      [](Json& j) { j["constraint"]["curve"] = {"0", "0", "phi"}; },
+  };
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    Json bad = good;
+    faults[i](bad);
+    EXPECT_FALSE(schemaAccepts(bad)) << "fault " << i;
+    EXPECT_FALSE(readerAccepts(bad)) << "fault " << i;
+  }
+}
