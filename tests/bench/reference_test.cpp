@@ -1,0 +1,92 @@
+#include "sim/bench/reference.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/bench/linear_reference.h"
+
+namespace reachlab::bench {
+namespace {
+
+// Twenty digits of states of order 1 to 10, with two to spare: what a reference promises.
+constexpr double kReferenceError = 1e-22;
+
+void expectEqual(const Reference& a, const Reference& b) {
+  ASSERT_EQ(a.samples, b.samples);
+  ASSERT_EQ(a.states.size(), b.states.size());
+  const Deviation d = compare(a, b);
+  EXPECT_LT(d.state, kReferenceError);
+  EXPECT_LT(d.position, kReferenceError);
+}
+
+TEST(Reference, ModesExponentialAndExtrapolationAgreeOnTheChain) {
+  const BenchScene scene = benchScene("S1");
+  const Reference modal = modalChainReference(scene);
+  expectEqual(modal, exponentialReference(scene));
+  expectEqual(modal, extrapolatedReference(scene));
+}
+
+TEST(Reference, ModesAndExtrapolationAgreeOnFiftyMasses) {
+  const BenchScene scene = benchScene("S1b50");
+  expectEqual(modalChainReference(scene), extrapolatedReference(scene));
+}
+
+TEST(Reference, ExponentialAndExtrapolationAgreeOnParallelAndStiffScenes) {
+  for (const char* name : {"S6", "S7a"}) {
+    SCOPED_TRACE(name);
+    const BenchScene scene = benchScene(name);
+    expectEqual(exponentialReference(scene), extrapolatedReference(scene));
+  }
+}
+
+// A lower order with a tighter bound takes steps of about half the length; what both agree on does not depend on the method's settings.
+TEST(Reference, ShorterStepsOfALowerOrderChangeNoDigitThatCounts) {
+  for (const char* name : {"S2a", "S2b", "S3", "S4", "S5", "S5h", "S7c", "S8"}) {
+    SCOPED_TRACE(name);
+    const BenchScene scene = benchScene(name);
+    expectEqual(extrapolatedReference(scene), extrapolatedReference(scene, {.columns = 11, .tolerance = 1e-30}));
+  }
+}
+
+TEST(Reference, GeodesicKeepsToTheSphereAndToItsSpeed) {
+  const BenchScene scene = benchScene("S7e");
+  const Reference reference = computeReference(scene);
+  for (int k = 0; k < reference.samples; ++k) {
+    const Quad* y = &reference.states[6 * k];
+    EXPECT_LT(static_cast<double>(absolute(Quad(squareRoot(dot3(y, y)) - Quad(0.1)))), 1e-17);  // the radius is a double
+    EXPECT_NEAR(static_cast<double>(squareRoot(dot3(y + 3, y + 3))), 0.2, 1e-15);               // 2 rad/s, rounded once
+  }
+}
+
+// sin^2 + cos^2 = 1 and the doubled angle, over every quadrant.
+TEST(Quad, SineAndCosineHoldTheirIdentitiesToThirtyTwoDigits) {
+  for (int i = -400; i <= 400; ++i) {
+    const Quad x = Quad(i) / 37;
+    const Quad twice = 2 * x;
+    const auto [s, c] = sineCosine(x);
+    const auto [s2, c2] = sineCosine(twice);
+    EXPECT_LT(static_cast<double>(absolute(Quad(s * s + c * c - 1))), 1e-32);
+    EXPECT_LT(static_cast<double>(absolute(Quad(2 * s * c - s2))), 1e-31);
+    EXPECT_NEAR(static_cast<double>(c2), std::cos(2.0 * i / 37), 2e-15);
+  }
+}
+
+// The Taylor segments that drive the plants against the law itself.
+TEST(HandLaw, SegmentsFollowTheLawToRounding) {
+  for (const BenchScene& scene : benchScenes()) {
+    SCOPED_TRACE(scene.name);
+    for (int tick = 0; tick < 1350; tick += 7) {
+      const double t0 = tick * 1e-3;
+      const HandSegment segment = makeSegment(scene.hand, t0, 1e-3);
+      for (double s : {0.0, 0.5, 1.0}) {
+        Vec3 r, v;
+        for (int k = segment.degree; k >= 0; --k) r = s * r + segment.position[k], v = s * v + segment.velocity[k];
+        const HandSample exact = makeSample(scene.hand, t0 + s * 1e-3);
+        EXPECT_LT(norm(r - exact.position), 1e-15);   // a few roundings of 0.1 m
+        EXPECT_LT(norm(v - exact.velocity), 3e-14);   // of 0.6 m/s, the rate of change of phase rounded at 1e-16 s and 4 phi
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::bench
