@@ -42,7 +42,7 @@ std::vector<std::uint8_t> makeHeader() {
 }
 
 bool isKnown(std::uint16_t type) {
-  return type >= static_cast<std::uint16_t>(RecordType::Configuration) && type <= static_cast<std::uint16_t>(RecordType::End);
+  return type >= static_cast<std::uint16_t>(RecordType::Configuration) && type <= static_cast<std::uint16_t>(RecordType::TrialSetup);
 }
 
 }  // namespace
@@ -153,6 +153,14 @@ bool LogReader::next(RecordView& record) {
   ++sequence_;
   return true;
 }
+
+bool LogReader::looksLike(std::uint64_t offset, RecordType type, std::uint32_t length) const {
+  if (offset > bytes_.size() || bytes_.size() - offset < kRecordFrameBytes) return false;
+  const std::uint8_t* at = bytes_.data() + offset;
+  return load<std::uint32_t>(at) == length && load<std::uint32_t>(at + 4) == static_cast<std::uint16_t>(type);
+}
+
+std::uint32_t LogReader::sequenceAt(std::uint64_t offset) const { return load<std::uint32_t>(bytes_.data() + offset + 8); }
 
 void LogReader::seek(std::uint64_t offset, std::uint32_t sequence) {
   at_ = offset;

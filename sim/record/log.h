@@ -29,7 +29,8 @@ enum class RecordType : std::uint16_t {
   Samples = 3,        // rows of derived channels
   Event = 4,          // one thing that happened at a tick
   Trial = 5,          // a trial's result
-  End = 6,            // the run was closed in order
+  End = 6,            // the run was closed in order; where the last trial record lies
+  TrialSetup = 7,     // a trial is about to be put up
 };
 
 /// Bytes of a payload being put together, and read back; both little-endian. Reading past the end gives zeros and clears `ok`.
@@ -97,6 +98,7 @@ class LogWriter {
   /// The records so far survive a power cut once this returns.
   void sync();
   std::uint64_t size() const { return file_.size(); }
+  std::uint32_t nextSequence() const { return sequence_; }
   const std::string& path() const { return file_.path(); }
 
  private:
@@ -127,6 +129,10 @@ class LogReader {
   bool next(RecordView& record);
   /// Goes on reading at `offset`, where record number `sequence` is expected (from an index).
   void seek(std::uint64_t offset, std::uint32_t sequence);
+  /// True when the bytes at `offset` could be the header of such a record; whether it is good, only next() tells.
+  bool looksLike(std::uint64_t offset, RecordType type, std::uint32_t length) const;
+  /// The sequence number that stands in the header at `offset`.
+  std::uint32_t sequenceAt(std::uint64_t offset) const;
   /// Where the last good record that was read ends.
   std::uint64_t goodEnd() const { return at_; }
   std::uint32_t nextSequence() const { return sequence_; }

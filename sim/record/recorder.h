@@ -27,6 +27,8 @@ class Recorder {
   /// (LoopFaults::droppedRecords).
   bool tryPush(const TickState& state, Command command, std::uint32_t missedTicks) noexcept;
 
+  /// Controlling thread, before a trial is put up: what its number stands for. Throws ResourceError.
+  void announce(const TrialSetup& setup);
   /// Controlling thread, after a trial has ended: returns its record once it is on the disk (fdatasync). Throws ResourceError when the
   /// disk is full or gone; what was synced before stays good.
   RecordedTrial awaitTrial(int trial);

@@ -27,6 +27,7 @@ struct PlannedTrial {
 struct RunConfiguration {
   std::string subject = "01", session = "01", task = "reach";
   int run = 1;                     // as in the file name
+  int firstRun = 1;                // the run that this one resumes, or itself: together they are one block
   int block = 1;                   // within the session's plan, from 1; 1 without a plan
   bool practice = false;
   std::string condition;           // of the plan; empty: the experiment's name

@@ -10,6 +10,12 @@
 
 namespace reachlab {
 
+/// A trial as it was put up, before it began: what its number stands for in the planned order.
+struct TrialSetup {
+  std::int32_t trial = 0;  // from 1 within the run, never used twice
+  PlannedTrial planned;
+};
+
 /// A raw tick as logged: with the configuration all that is needed to simulate the run again.
 struct RecordedTick {
   std::uint64_t tick = 0;
@@ -46,8 +52,7 @@ struct RecordedEvent {
 /// One trial of a run with its result and simple measures. An unfinished trial of a log that broke off is `Interrupted` by `Program`.
 struct RecordedTrial {
   int trial = 0;                 // from 1 within the run
-  int index = 0;                 // of the planned order, from 0; a repeated trial has its predecessor's
-  bool catchTrial = false;
+  PlannedTrial planned;          // a repeated trial has the index of its predecessor
   TrialResult result;
   std::uint64_t startTick = 0, armedTick = 0, goTick = 0;  // 0: never came
   std::uint64_t lastTick = 0;    // last tick that belongs to the trial
@@ -57,6 +62,8 @@ struct RecordedTrial {
   double meanForce = 0;          // [N]
   std::uint64_t clampedTicks = 0, missedTicks = 0;
   bool complete = true;          // false: the log broke off in this trial
+  std::uint64_t offset = 0;      // where in the log reading of this trial starts,
+  std::uint32_t sequence = 0;    // and the number of the record there
 };
 
 /// Rows of the derived channels: row-major, table.size() numbers a row.
@@ -68,12 +75,15 @@ struct SampleRows {
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 
-/// One recorded run, read to its last good record. The trials are known at once (from the index beside the log when there is a valid
-/// one); rows and ticks are read when asked for. Any thread, one at a time.
+/// Everything: every record's CRC, up to the first damage. Trials: only the chain of trial records, last to first, so that the cost
+/// follows the number of trials and not the bytes; rows are checked when they are read.
+enum class LogCheck { Everything, Trials };
+
+/// One recorded run, read to its last good record. Rows and ticks are read when asked for. Any thread, one at a time.
 class RunLog {
  public:
   /// Throws UsageError (not a log, configuration damaged) or ResourceError.
-  static RunLog open(const std::string& path);
+  static RunLog open(const std::string& path, LogCheck check = LogCheck::Everything);
 
   const std::string& path() const { return path_; }
   const RunConfiguration& configuration() const { return configuration_; }
@@ -91,13 +101,18 @@ class RunLog {
   SampleRows allRows() const;
   std::vector<RecordedTick> ticks() const;
   std::vector<RecordedEvent> events() const;
+  std::vector<TrialSetup> setups() const;
 
  private:
   RunLog() = default;
+  bool readChain(LogReader& reader);
+  void scan(LogReader& reader);
+  template <typename Visit>
+  void visit(std::uint64_t firstTick, Visit&& visit) const;
+
   std::string path_;
   RunConfiguration configuration_;
   std::vector<RecordedTrial> trials_;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> marks_;  // offset and sequence number to start reading a trial at
   bool healthy_ = false, closed_ = false;
   std::uint64_t goodBytes_ = 0, fileBytes_ = 0;
 };

@@ -1,0 +1,164 @@
+#include "sim/record/recorder.h"
+
+#include <time.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "constraints/error.h"
+#include "sim/record/run_writer.h"
+
+namespace reachlab {
+namespace {
+
+constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at its queue this often
+
+}  // namespace
+
+struct Recorder::Impl {
+  Impl(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& recorderOptions)
+      : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)),
+        writer(path, configuration),
+        ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size()) {}
+
+  RecorderOptions options;
+  ChannelTable table;
+  std::uint32_t every;
+  std::int64_t startNs = 0;  // haptic thread: clock at the first tick
+  bool anyTick = false;
+
+  mutable std::mutex mutex;  // guards what follows; the haptic thread never takes it
+  std::condition_variable changed;
+  RunWriter writer;
+  std::string fault;
+  int finishedTrial = 0;
+  bool closed = false;
+
+  TickRing ring;
+  std::atomic<double> processorSeconds{0};
+  std::jthread thread;
+
+  // With the mutex held.
+  void drain() {
+    const double* row = nullptr;
+    while (const QueuedTick* tick = ring.front(row)) {
+      if (fault.empty()) write(*tick, row);
+      ring.pop(tick->hasRow);
+    }
+    if (fault.empty()) guarded([this] { writer.flushIfDue(); });
+  }
+  void write(const QueuedTick& tick, const double* row) {
+    guarded([&] {
+      if (writer.add(tick, row)) finishedTrial = writer.lastTrial().trial;
+    });
+  }
+  template <typename Work>
+  void guarded(Work&& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      fault = error.what();
+    }
+  }
+  void throwIfFaulty() const {
+    if (!fault.empty()) throw ResourceError(fault);
+  }
+
+  void record(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      {
+        const std::scoped_lock lock(mutex);
+        drain();
+      }
+      changed.notify_all();
+      timespec used{};
+      ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+      processorSeconds = static_cast<double>(used.tv_sec) + static_cast<double>(used.tv_nsec) * 1e-9;
+      std::this_thread::sleep_for(kNap);
+    }
+  }
+};
+
+Recorder::Recorder(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& options)
+    : impl_(std::make_unique<Impl>(path, configuration, options)) {
+  if (options.threaded) impl_->thread = std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->record(stop); });
+}
+
+Recorder::~Recorder() {
+  try {
+    close();
+  } catch (const Error&) {  // the owner has had the chance to hear of it from close()
+  }
+}
+
+bool Recorder::tryPush(const TickState& state, Command command, std::uint32_t missedTicks) noexcept {
+  Impl& impl = *impl_;
+  if (!impl.anyTick) impl.startNs = state.measuredNs;
+  impl.anyTick = true;
+  double* rowSpace = nullptr;
+  QueuedTick* slot = impl.ring.beginPush(rowSpace);
+  if (slot == nullptr) return false;
+  const bool due = state.tick % impl.every == 0;
+  slot->raw = {state.tick, state.measuredNs - impl.startNs, state.device, command, missedTicks};
+  slot->facts = factsOf(state);
+  slot->hasRow = due && rowSpace != nullptr;
+  if (slot->hasRow) {
+    fillRow(impl.table, state, rowSpace);
+    rowSpace[1] = static_cast<double>(slot->raw.measuredNs) * 1e-9;
+  }
+  impl.ring.publish(slot->hasRow);
+  if (!impl.options.threaded) {
+    // The virtual clock waits for the disk; no other thread writes, so the lock is free.
+    const std::scoped_lock lock(impl.mutex);
+    impl.drain();
+  }
+  return !due || slot->hasRow;
+}
+
+void Recorder::announce(const TrialSetup& setup) {
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->throwIfFaulty();
+  impl_->drain();
+  impl_->guarded([&] { impl_->writer.announce(setup); });
+  impl_->throwIfFaulty();
+}
+
+RecordedTrial Recorder::awaitTrial(int trial) {
+  std::unique_lock lock(impl_->mutex);
+  if (!impl_->options.threaded) impl_->drain();
+  impl_->changed.wait(lock, [&] { return impl_->finishedTrial >= trial || !impl_->fault.empty() || !impl_->options.threaded; });
+  impl_->throwIfFaulty();
+  return impl_->writer.lastTrial();
+}
+
+void Recorder::note(const std::string& text) {
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->throwIfFaulty();
+  impl_->drain();
+  impl_->guarded([&] { impl_->writer.note(text); });
+  impl_->throwIfFaulty();
+}
+
+void Recorder::close() {
+  if (impl_->thread.joinable()) {
+    impl_->thread.request_stop();
+    impl_->thread.join();
+  }
+  const std::scoped_lock lock(impl_->mutex);
+  if (impl_->closed) return;
+  impl_->closed = true;
+  impl_->drain();
+  if (impl_->fault.empty()) impl_->guarded([this] { impl_->writer.close(); });
+  impl_->throwIfFaulty();
+}
+
+std::string Recorder::fault() const {
+  const std::scoped_lock lock(impl_->mutex);
+  return impl_->fault;
+}
+
+double Recorder::processorSeconds() const { return impl_->processorSeconds; }
+
+}  // namespace reachlab

@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace reachlab {
+
+struct Recovery {
+  bool mended = false;          // false: the log was healthy and is as it was
+  std::string damagedOriginal;  // where the log as found was kept
+  std::uint64_t keptBytes = 0, lostBytes = 0;
+  int trials = 0;               // in the mended log, the interrupted one included
+  bool interruptedTrial = false;
+};
+
+/// Mends a log in place: everything before the first damage stays byte for byte, a trial that was under way there is closed as
+/// `interrupted`, and the log is ended in order. The log as found is kept beside it (`….damaged`). A healthy log is left alone.
+/// Throws UsageError (no log, configuration damaged) or ResourceError (disk, or the log is being written).
+Recovery recoverLog(const std::string& path);
+
+}  // namespace reachlab

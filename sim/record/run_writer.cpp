@@ -1,0 +1,102 @@
+#include "sim/record/run_writer.h"
+
+namespace reachlab {
+namespace {
+
+constexpr auto kFlushEvery = std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
+constexpr std::uint32_t kTicksPerBlock = 1000;
+constexpr std::uint32_t kTicksPerClockLook = 16;
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration)
+    : log_(LogWriter::create(path)), samples_(configuration.table.size()) {
+  log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
+  log_.sync();
+}
+
+void RunWriter::announce(const TrialSetup& setup) {
+  flush();
+  ByteWriter payload;
+  encode(setup, payload);
+  tracker_.announce(setup);
+  log_.append(RecordType::TrialSetup, payload.bytes());
+}
+
+bool RunWriter::add(const QueuedTick& tick, const double* row) {
+  lastTick_ = tick.raw.tick;
+  // A trial begins a block of its own, so that it can be read without the one before.
+  const auto step = tracker_.add(tick.raw, tick.facts, events_);
+  if (step.started) {
+    std::vector<RecordedEvent> own;
+    own.swap(events_);
+    flush();
+    events_.swap(own);
+    tracker_.trial().offset = log_.size();
+    tracker_.trial().sequence = log_.nextSequence();
+  }
+  ticks_.add(tick.raw);
+  if (row != nullptr) samples_.add(tick.raw.tick, row);
+  if (step.finished) {
+    flush();
+    writeTrial(tracker_.trial());
+    return true;
+  }
+  if (ticks_.count() >= kTicksPerBlock || ticks_.count() % kTicksPerClockLook == 0) flushIfDue();
+  return false;
+}
+
+void RunWriter::flushIfDue() {
+  if (ticks_.count() >= kTicksPerBlock || std::chrono::steady_clock::now() - flushed_ >= kFlushEvery) flush();
+}
+
+void RunWriter::flush() {
+  if (!ticks_.empty()) {
+    log_.append(RecordType::Ticks, ticks_.payload());
+    ticks_.clear();
+  }
+  if (!samples_.empty()) {
+    log_.append(RecordType::Samples, samples_.payload());
+    samples_.clear();
+  }
+  writeEvents();
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+void RunWriter::writeEvents() {
+  for (const RecordedEvent& event : events_) {
+    ByteWriter payload;
+    encode(event, payload);
+    log_.append(RecordType::Event, payload.bytes());
+  }
+  events_.clear();
+}
+
+void RunWriter::writeTrial(RecordedTrial trial) {
+  ByteWriter payload;
+  encode(trial, lastLink_, payload);
+  const std::uint32_t sequence = log_.nextSequence();
+  lastLink_ = {log_.append(RecordType::Trial, payload.bytes()), sequence};
+  log_.sync();
+  lastTrial_ = trial;
+}
+
+void RunWriter::note(const std::string& text) {
+  events_.push_back({lastTick_, EventKind::Note, tracker_.underWay() ? tracker_.trial().trial : 0, 0, text});
+  flush();
+}
+
+void RunWriter::close() {
+  flush();
+  if (tracker_.underWay()) writeTrial(tracker_.brokenOff());
+  ByteWriter payload;
+  encodeEnd(lastLink_, payload);
+  log_.append(RecordType::End, payload.bytes());
+  log_.sync();
+}
+
+}  // namespace reachlab

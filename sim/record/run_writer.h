@@ -1,0 +1,42 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "sim/record/records.h"
+#include "sim/record/tick_ring.h"
+
+namespace reachlab {
+
+/// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
+class RunWriter {
+ public:
+  RunWriter(const std::string& path, const RunConfiguration& configuration);
+
+  void announce(const TrialSetup& setup);
+  /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
+  bool add(const QueuedTick& tick, const double* row);
+  void note(const std::string& text);
+  /// Hands what has gathered to the kernel; done by `add` when 100 ms of wall time or 1000 ticks have gathered.
+  void flush();
+  void flushIfDue();
+  void close();
+
+  const RecordedTrial& lastTrial() const { return lastTrial_; }
+
+ private:
+  void writeEvents();
+  void writeTrial(RecordedTrial trial);
+
+  LogWriter log_;
+  TickBlock ticks_;
+  SampleBlock samples_;
+  std::vector<RecordedEvent> events_;
+  TrialTracker tracker_;
+  RecordedTrial lastTrial_;
+  TrialLink lastLink_;
+  std::uint64_t lastTick_ = 0;
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace reachlab

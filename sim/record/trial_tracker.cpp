@@ -1,0 +1,99 @@
+#include "sim/record/trial_tracker.h"
+
+#include <algorithm>
+
+namespace reachlab {
+
+TickFacts factsOf(const TickState& state) noexcept {
+  return {state.phase, state.status, state.trial, !(state.deviceForce == state.feedbackForce) && state.device.valid, state.hand,
+          state.couplingForce, state.result};
+}
+
+void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {
+  trial_ = {};
+  trial_.trial = facts.trial;
+  trial_.planned.index = facts.trial - 1;
+  const auto setup = std::find_if(setups_.rbegin(), setups_.rend(), [&](const TrialSetup& s) { return s.trial == facts.trial; });
+  if (setup != setups_.rend()) trial_.planned = setup->planned;
+  setups_.clear();
+  trial_.startTick = tick.tick;
+  underWay_ = true;
+  phase_ = Phase::Idle;
+  forceSum_ = 0;
+  moving_ = 0;
+}
+
+void TrialTracker::measure(const TickFacts& facts) {
+  trial_.peakHandSpeed = std::max(trial_.peakHandSpeed, norm(facts.hand.velocity));
+  if (moving_ > 0) trial_.handPathLength += norm(facts.hand.position - lastPosition_);
+  const double force = norm(facts.couplingForce);
+  trial_.peakForce = std::max(trial_.peakForce, force);
+  forceSum_ += force;
+  ++moving_;
+  trial_.meanForce = forceSum_ / static_cast<double>(moving_);
+  lastPosition_ = facts.hand.position;
+}
+
+TrialTracker::Step TrialTracker::add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
+  Step step;
+  const auto tell = [&](EventKind kind, double value = 0) { events.push_back({tick.tick, kind, facts.trial, value, {}}); };
+  const bool inTrial = facts.phase != Phase::Idle && facts.trial > 0;
+  if (inTrial && facts.trial != trial_.trial) {
+    begin(tick, facts);
+    step.started = true;
+    tell(EventKind::TrialStart, trial_.planned.index);
+  }
+  if (tick.missedTicks > 0) tell(EventKind::TicksMissed, tick.missedTicks);
+  if (tick.device.valid != valid_) tell(tick.device.valid ? EventKind::DeviceBack : EventKind::DeviceLost);
+  valid_ = tick.device.valid;
+  if (facts.clamped != clamped_) tell(facts.clamped ? EventKind::ClampBegin : EventKind::ClampEnd);
+  clamped_ = facts.clamped;
+  if (facts.status != status_ && facts.status != StepStatus::Ok) tell(EventKind::StepFault, static_cast<double>(facts.status));
+  status_ = facts.status;
+  if (!underWay_) return step;
+
+  trial_.lastTick = tick.tick;
+  trial_.missedTicks += tick.missedTicks;
+  if (facts.clamped) ++trial_.clampedTicks;
+  if (facts.phase != phase_) {
+    if (facts.phase == Phase::Armed) {
+      trial_.armedTick = tick.tick;
+      tell(EventKind::Armed);
+    }
+    if (facts.phase == Phase::Moving) tell(EventKind::Onset);
+  }
+  const bool armed = facts.phase == Phase::Armed || facts.phase == Phase::Moving;
+  const std::uint64_t wait = static_cast<std::uint64_t>(std::max(0, trial_.planned.foreperiodTicks));
+  if (armed && trial_.armedTick > 0 && trial_.goTick == 0 && !trial_.planned.catchTrial && tick.tick >= trial_.armedTick + wait) {
+    trial_.goTick = tick.tick;
+    tell(EventKind::Go);
+  }
+  if (facts.phase == Phase::Moving) {
+    trial_.result.onsetTick = moving_ == 0 ? tick.tick : trial_.result.onsetTick;
+    measure(facts);
+  }
+  phase_ = facts.phase;
+  if (facts.phase == Phase::Done) {
+    if (trial_.result.onsetTick > 0 && facts.result.onsetTick > 0) measure(facts);
+    trial_.result = facts.result;
+    tell(EventKind::TrialEnd, static_cast<double>(facts.result.outcome));
+    underWay_ = false;
+    step.finished = true;
+  }
+  return step;
+}
+
+RecordedTrial TrialTracker::brokenOff() const {
+  RecordedTrial trial = trial_;
+  const std::uint64_t onset = trial.result.onsetTick;
+  trial.result = {};
+  trial.result.outcome = Outcome::Interrupted;
+  trial.result.reason = Reason::Program;
+  trial.result.onsetTick = onset;
+  trial.result.endTick = trial.lastTick;
+  trial.result.movementTime = onset > 0 ? static_cast<double>(trial.lastTick - onset) / 1000.0 : 0;
+  trial.complete = false;
+  return trial;
+}
+
+}  // namespace reachlab

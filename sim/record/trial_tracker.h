@@ -1,0 +1,56 @@
+#pragma once
+#include <vector>
+
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+
+/// What the recording needs of a tick besides its raw input and its row.
+struct TickFacts {
+  Phase phase = Phase::Idle;
+  StepStatus status = StepStatus::Ok;
+  std::int32_t trial = 0;
+  bool clamped = false;  // the device gets less force than the object gives
+  HandSample hand;
+  Vec3 couplingForce;    // [N]
+  TrialResult result;    // in phase Done
+};
+TickFacts factsOf(const TickState& state) noexcept;
+
+/// Follows a run tick by tick and tells what happened and how each trial went. A function of the ticks alone, so that the recorder and
+/// a reader of the log come to the same trial. One thread.
+class TrialTracker {
+ public:
+  /// What the next trials stand for in the planned order.
+  void announce(const TrialSetup& setup) { setups_.push_back(setup); }
+
+  struct Step {
+    bool started = false;   // this tick is the first of a trial
+    bool finished = false;  // `trial()` is complete
+  };
+  /// Appends to `events` what happened at this tick.
+  Step add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
+
+  /// The trial under way or just finished; trial number 0 before the first.
+  const RecordedTrial& trial() const { return trial_; }
+  RecordedTrial& trial() { return trial_; }
+  bool underWay() const { return underWay_; }
+  /// The trial under way as it is when the record breaks off here: interrupted by the program.
+  RecordedTrial brokenOff() const;
+
+ private:
+  void begin(const RecordedTick& tick, const TickFacts& facts);
+  void measure(const TickFacts& facts);
+
+  std::vector<TrialSetup> setups_;
+  RecordedTrial trial_;
+  bool underWay_ = false;
+  Phase phase_ = Phase::Idle;
+  bool clamped_ = false, valid_ = true;
+  StepStatus status_ = StepStatus::Ok;
+  Vec3 lastPosition_;
+  double forceSum_ = 0;
+  std::uint64_t moving_ = 0;  // ticks of the movement so far
+};
+
+}  // namespace reachlab

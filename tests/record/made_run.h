@@ -1,0 +1,109 @@
+#pragma once
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "sim/record/recorder.h"
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+
+/// A folder of its own under the build folder, gone at the end of the test.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& name)
+      : path_(std::filesystem::path(REACHLAB_BINARY_DIR) / "test-files" / (name + std::to_string(::getpid()))) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline RunConfiguration madeConfiguration(int masses = 2) {
+  Experiment experiment;
+  experiment.object.kind = ObjectKind::Chain;
+  experiment.object.masses.assign(static_cast<std::size_t>(masses), 0.6);
+  RunConfiguration configuration;
+  configuration.task = "made";
+  configuration.experimentName = "made";
+  configuration.seed = 18446744073709551615ull;  // the largest: no reader may pass it through a double
+  configuration.device = "made";
+  configuration.startedUtc = "2026-11-20T10:00:00.000Z";
+  configuration.table = makeChannelTable(experiment, 1);
+  return configuration;
+}
+
+/// A run that no physics made: every number is a known function of the tick, so that any row can be checked on its own.
+class MadeRun {
+ public:
+  static constexpr std::uint64_t kWaiting = 20, kArmed = 30, kMoving = 200, kDone = 25;
+  static constexpr std::uint64_t kTicksPerTrial = kWaiting + kArmed + kMoving + kDone;
+
+  explicit MadeRun(int masses = 2) : state_(std::make_unique<TickState>()) { state_->massCount = masses; }
+
+  static double valueAt(std::uint64_t tick) { return std::sin(0.01 * static_cast<double>(tick)) / 3; }
+
+  /// The state at the next tick.
+  const TickState& next() {
+    TickState& s = *state_;
+    const std::uint64_t tick = tick_++;
+    const std::uint64_t within = tick % kTicksPerTrial;
+    s.tick = tick;
+    s.measuredNs = static_cast<std::int64_t>(tick) * 1000003;
+    s.trial = static_cast<std::int32_t>(tick / kTicksPerTrial) + 1;
+    s.phase = within < kWaiting                        ? Phase::Waiting
+              : within < kWaiting + kArmed             ? Phase::Armed
+              : within < kWaiting + kArmed + kMoving   ? Phase::Moving
+                                                       : Phase::Done;
+    const double x = valueAt(tick);
+    s.device.position = {x, -x, 2 * x};
+    s.hand.position = {x, -x, 2 * x};
+    s.hand.velocity = {x / 7, 0, 0};
+    s.couplingForce = {10 * x, 0, 0};
+    s.feedbackForce = s.deviceForce = {-10 * x, 0, 0};
+    s.energy = x * x;
+    for (int i = 0; i < s.massCount; ++i) s.masses[static_cast<std::size_t>(i)].r = {x + i, 0, 0};
+    if (s.phase == Phase::Done) {
+      s.result.outcome = s.trial % 2 == 0 ? Outcome::Failure : Outcome::Success;
+      s.result.reason = s.trial % 2 == 0 ? Reason::Velocity : Reason::None;
+      s.result.mass = s.trial % 2 == 0 ? 2 : 0;
+      s.result.by = s.trial % 2 == 0 ? 0.001 * s.trial : 0;
+      s.result.movementTime = 0.001 * kMoving;
+      s.result.onsetTick = tick - within + kWaiting + kArmed;
+      s.result.endTick = tick - within + kWaiting + kArmed + kMoving;
+    }
+    return s;
+  }
+
+ private:
+  std::unique_ptr<TickState> state_;  // large
+  std::uint64_t tick_ = 0;
+};
+
+/// Writes a log of so many whole trials.
+inline void writeMadeRun(const std::string& path, int trials, const RunConfiguration& configuration = madeConfiguration(), bool close = true) {
+  Recorder recorder(path, configuration, {.threaded = false});
+  MadeRun run(configuration.table.massCount);
+  for (std::uint64_t tick = 0; tick < static_cast<std::uint64_t>(trials) * MadeRun::kTicksPerTrial; ++tick) {
+    if (tick % MadeRun::kTicksPerTrial == 0) {
+      const int trial = static_cast<int>(tick / MadeRun::kTicksPerTrial) + 1;
+      recorder.announce({trial, {trial - 1, 5 * trial, trial % 5 == 0}});
+    }
+    recorder.tryPush(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? Command::NextTrial : Command::None, 0);
+  }
+  if (close) recorder.close();
+}
+
+}  // namespace reachlab

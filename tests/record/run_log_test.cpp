@@ -1,0 +1,250 @@
+#include "sim/record/run_log.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "constraints/error.h"
+#include "sim/record/recover.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab {
+namespace {
+
+std::string bytesOf(const std::string& path) { return readWholeFile(path); }
+
+void writeBytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+void expectSameTrial(const RecordedTrial& a, const RecordedTrial& b) {
+  EXPECT_EQ(a.trial, b.trial);
+  EXPECT_EQ(a.planned.index, b.planned.index);
+  EXPECT_EQ(a.planned.foreperiodTicks, b.planned.foreperiodTicks);
+  EXPECT_EQ(a.planned.catchTrial, b.planned.catchTrial);
+  EXPECT_EQ(a.result.outcome, b.result.outcome);
+  EXPECT_EQ(a.result.reason, b.result.reason);
+  EXPECT_EQ(a.result.by, b.result.by);
+  EXPECT_EQ(a.startTick, b.startTick);
+  EXPECT_EQ(a.armedTick, b.armedTick);
+  EXPECT_EQ(a.goTick, b.goTick);
+  EXPECT_EQ(a.lastTick, b.lastTick);
+  EXPECT_EQ(a.peakHandSpeed, b.peakHandSpeed);
+  EXPECT_EQ(a.meanForce, b.meanForce);
+}
+
+TEST(RunLog, GivesBackWhatWasRecorded) {
+  const TemporaryFolder folder("log");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 3);
+  const RunLog log = RunLog::open(path);
+  EXPECT_TRUE(log.healthy());
+  EXPECT_EQ(log.configuration().seed, 18446744073709551615ull);
+  ASSERT_EQ(log.trials().size(), 3u);
+  const RecordedTrial& second = log.trials()[1];
+  EXPECT_EQ(second.trial, 2);
+  EXPECT_EQ(second.planned.foreperiodTicks, 10);
+  EXPECT_EQ(second.result.reason, Reason::Velocity);
+  EXPECT_EQ(second.result.by, 0.002);
+  EXPECT_EQ(second.startTick, MadeRun::kTicksPerTrial);
+  EXPECT_EQ(second.armedTick, MadeRun::kTicksPerTrial + MadeRun::kWaiting);
+  EXPECT_EQ(second.goTick, second.armedTick + 10);
+
+  const SampleRows rows = log.rows(second);
+  const std::size_t x = log.configuration().table.indexOf("hand_pos_x");
+  ASSERT_GT(rows.size(), 20u);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    EXPECT_EQ(rows.ticks[row] % 10, 0u);
+    EXPECT_EQ(rows.at(row, x), MadeRun::valueAt(rows.ticks[row]));
+  }
+  EXPECT_EQ(log.allRows().size(), 3 * MadeRun::kTicksPerTrial / 10 + 1);
+
+  const std::vector<RecordedTick> ticks = log.ticks();
+  ASSERT_EQ(ticks.size(), 3 * MadeRun::kTicksPerTrial);
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    EXPECT_EQ(ticks[i].tick, i);
+    EXPECT_EQ(ticks[i].device.position.x, MadeRun::valueAt(i));
+    EXPECT_EQ(ticks[i].measuredNs, static_cast<std::int64_t>(i) * 1000003);
+    EXPECT_EQ(ticks[i].command == Command::NextTrial, i % MadeRun::kTicksPerTrial == 0);
+  }
+}
+
+TEST(RunLog, ListsTheSameTrialsByTheChainAsByReadingEverything) {
+  const TemporaryFolder folder("chain");
+  for (const bool closed : {true, false}) {
+    const std::string path = folder / (closed ? "closed_log.reach" : "open_log.reach");
+    writeMadeRun(path, 12, madeConfiguration(), true);
+    if (!closed) {  // cut in the last trial, as a kill leaves it
+      const RunLog whole = RunLog::open(path);
+      std::filesystem::resize_file(path, whole.trials().back().offset + 400);
+    }
+    const RunLog everything = RunLog::open(path, LogCheck::Everything);
+    const RunLog quick = RunLog::open(path, LogCheck::Trials);
+    ASSERT_EQ(everything.trials().size(), quick.trials().size());
+    for (std::size_t i = 0; i < quick.trials().size(); ++i) expectSameTrial(quick.trials()[i], everything.trials()[i]);
+    EXPECT_EQ(quick.rows(quick.trials()[7]).values, everything.rows(everything.trials()[7]).values);
+  }
+}
+
+TEST(RunLog, MarksTheUnfinishedTrialOfABrokenOffLogAsInterrupted) {
+  const TemporaryFolder folder("broken");
+  const std::string path = folder / "a_log.reach";
+  {
+    Recorder recorder(path, madeConfiguration(), {.threaded = false});
+    MadeRun run;
+    for (std::uint64_t i = 0; i < MadeRun::kTicksPerTrial + 150; ++i) recorder.tryPush(run.next(), Command::None, 0);
+    recorder.note("coffee spilt");  // hands everything to the kernel
+    std::filesystem::copy_file(path, folder / "cut_log.reach");
+  }
+  const RunLog log = RunLog::open(folder / "cut_log.reach");
+  EXPECT_FALSE(log.healthy());
+  ASSERT_EQ(log.trials().size(), 2u);
+  EXPECT_EQ(log.trials()[1].result.outcome, Outcome::Interrupted);
+  EXPECT_EQ(log.trials()[1].result.reason, Reason::Program);
+  EXPECT_EQ(log.trials()[1].lastTick, MadeRun::kTicksPerTrial + 149);
+  EXPECT_TRUE(std::isnan(log.trials()[1].peakForce)) << "what was not measured to the end is not given as a number";
+  EXPECT_EQ(log.events().back().text, "coffee spilt");
+}
+
+TEST(RecoverLog, LeavesAHealthyLogAlone) {
+  const TemporaryFolder folder("healthy");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 2);
+  const std::string before = bytesOf(path);
+  EXPECT_FALSE(recoverLog(path).mended);
+  EXPECT_EQ(bytesOf(path), before);
+  EXPECT_FALSE(std::filesystem::exists(path + ".damaged"));
+}
+
+TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndTheOriginalBesideIt) {
+  const TemporaryFolder folder("mend");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 4);
+  const RunLog whole = RunLog::open(path);
+  std::string bytes = bytesOf(path);
+  bytes[whole.trials()[2].offset + 500] ^= 1;
+  writeBytes(path, bytes);
+  const Recovery recovery = recoverLog(path);
+  EXPECT_TRUE(recovery.mended);
+  EXPECT_EQ(bytesOf(path + ".damaged"), bytes);
+  const RunLog mended = RunLog::open(path);
+  EXPECT_TRUE(mended.healthy());
+  ASSERT_GE(mended.trials().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) expectSameTrial(mended.trials()[i], whole.trials()[i]);
+  EXPECT_FALSE(recoverLog(path).mended) << "a mended log is healthy";
+}
+
+TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
+  const TemporaryFolder folder("headless");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 1);
+  std::string bytes = bytesOf(path);
+  bytes[100] ^= 1;
+  writeBytes(path, bytes);
+  EXPECT_THROW(recoverLog(path), UsageError);
+}
+
+TEST(RecoverLog, RefusesALogThatIsBeingWritten) {
+  const TemporaryFolder folder("busy");
+  Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
+  EXPECT_THROW(recoverLog(folder / "a_log.reach"), ResourceError);
+}
+
+// One seeded random damage: a flipped bit, a cut, a duplicated or a zero-filled stretch.
+std::string damaged(const std::string& good, std::mt19937_64& random, std::size_t& firstTouched) {
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  std::string bytes = good;
+  const std::size_t at = below(good.size());
+  const std::size_t length = std::min(good.size() - at, 1 + below(4000));
+  switch (random() % 5) {
+    case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
+    case 1: bytes.resize(at); break;
+    case 2: bytes.erase(at, length); break;
+    case 3: bytes.insert(at, good.substr(at, length)); break;
+    default: std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length, '\0');
+  }
+  firstTouched = std::min(bytes.size(), good.size());
+  for (std::size_t i = 0; i < firstTouched; ++i)
+    if (bytes[i] != good[i]) firstTouched = i;
+  return bytes;
+}
+
+// Whatever happens to the bytes: no crash, no changed number, and every trial that was finished before the damage is there.
+TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
+  const TemporaryFolder folder("damage");
+  RunConfiguration configuration = madeConfiguration(1);
+  configuration.sampleEveryTicks = 50;
+  const std::string whole = folder / "whole_log.reach", hurt = folder / "hurt_log.reach";
+  writeMadeRun(whole, 5, configuration);
+  const RunLog good = RunLog::open(whole);
+  const std::string bytes = bytesOf(whole);
+  const std::size_t x = configuration.table.indexOf("hand_pos_x");
+  std::mt19937_64 random(20261121);
+  int refused = 0, shortened = 0;
+  for (int k = 0; k < 10000; ++k) {
+    std::size_t firstTouched = 0;
+    writeBytes(hurt, damaged(bytes, random, firstTouched));
+    try {
+      for (const LogCheck check : {LogCheck::Everything, LogCheck::Trials}) {
+        const RunLog log = RunLog::open(hurt, check);
+        ASSERT_LE(log.trials().size(), good.trials().size());
+        std::size_t finished = 0;
+        for (const RecordedTrial& trial : log.trials()) {
+          if (!trial.complete) continue;
+          expectSameTrial(trial, good.trials()[finished]);
+          ++finished;
+        }
+        std::size_t before = 0;
+        while (before + 1 < good.trials().size() && good.trials()[before + 1].offset <= firstTouched) ++before;
+        EXPECT_GE(finished, before) << "damage " << k << " at " << firstTouched;
+        shortened += finished < good.trials().size();
+        if (check == LogCheck::Trials) continue;
+        const SampleRows rows = log.allRows();
+        for (std::size_t row = 0; row < rows.size(); ++row) ASSERT_EQ(rows.at(row, x), MadeRun::valueAt(rows.ticks[row]));
+        for (const RecordedTick& tick : log.ticks()) ASSERT_EQ(tick.device.position.x, MadeRun::valueAt(tick.tick));
+      }
+    } catch (const UsageError&) {
+      // Only damage to the header or the configuration makes a log unreadable as a whole.
+      EXPECT_LT(firstTouched, good.trials()[0].offset) << "damage " << k;
+      ++refused;
+    }
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(shortened, 1000);
+}
+
+TEST(LogWriter, RefusesToOverwrite) {
+  const TemporaryFolder folder("clash");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 1);
+  const std::string before = bytesOf(path);
+  EXPECT_THROW(Recorder(path, madeConfiguration()), ResourceError);
+  EXPECT_EQ(bytesOf(path), before);
+}
+
+TEST(LogReader, RefusesANewerSchemaAndSaysWhatToDo) {
+  const TemporaryFolder folder("newer");
+  const std::string path = folder / "a_log.reach";
+  // Schema version 2 with a CRC of its own that is right: "REACHLOG", 2, crc32 of the twelve bytes.
+  const unsigned char newer[16] = {'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G', 2, 0, 0, 0, 0, 0, 0, 0};
+  std::string bytes(reinterpret_cast<const char*>(newer), sizeof newer);
+  std::uint32_t crc = 0xffffffffu;  // CRC-32 by its definition, so that the library is held against something
+  for (std::size_t i = 0; i < 12; ++i) {
+    crc ^= static_cast<unsigned char>(bytes[i]);
+    for (int k = 0; k < 8; ++k) crc = crc & 1 ? (crc >> 1) ^ 0xedb88320u : crc >> 1;
+  }
+  crc = ~crc;
+  std::memcpy(bytes.data() + 12, &crc, 4);
+  writeBytes(path, bytes);
+  try {
+    const LogReader reader(path);
+    FAIL() << "opened";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("schema version 2"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace reachlab
