@@ -1,0 +1,167 @@
+#include "sim/figure/figure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "constraints/error.h"
+#include "sim/figure/ticks.h"
+
+namespace reachlab {
+namespace {
+
+Figure exampleFigure() {
+  Figure figure;
+  figure.columns = 2;
+  Panel velocity;
+  velocity.title = "(a) Hand";
+  velocity.x.label = "Time (s)";
+  velocity.y.label = "Velocity (m/s)";
+  Series line;
+  line.label = "mean";
+  Band band;
+  band.label = "± SD";
+  for (int i = 0; i <= 50; ++i) {
+    const double s = i / 50.0, v = 30 * 0.2 * s * s * (1 - s) * (1 - s);
+    line.x.push_back(s), line.y.push_back(v);
+    band.x.push_back(s), band.low.push_back(0.9 * v), band.high.push_back(1.1 * v);
+  }
+  velocity.series = {line};
+  velocity.bands = {band};
+  velocity.rules = {{0.9, true, "T"}};
+  Panel precision;
+  precision.x.scale = precision.y.scale = Scale::Log;
+  Series points;
+  points.x = {10, 100, 1000};
+  points.y = {1e-3, 1e-7, 1e-12};
+  points.errorLow = {5e-4, 5e-8, 5e-13};
+  points.errorHigh = {2e-3, 2e-7, 2e-12};
+  points.marker = Marker::Diamond;
+  points.dash = Dash::DashDot;
+  precision.series = {points};
+  figure.panels = {velocity, precision};
+  return figure;
+}
+
+std::string readFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(NiceTicks, AreRoundInsideAndEvenlySpaced) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-9, 9), offset(-3, 3);
+  for (int trial = 0; trial < 500; ++trial) {
+    const double span = std::pow(10.0, exponent(random)), from = offset(random) * span, to = from + span;
+    const std::vector<double> ticks = niceTicks(from, to, 5);
+    ASSERT_GE(ticks.size(), 2u) << from << " " << to;
+    ASSERT_LE(ticks.size(), 8u);
+    const double step = ticks[1] - ticks[0];
+    const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    EXPECT_TRUE(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6) << mantissa;
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+      EXPECT_GE(ticks[i], from - 1e-8 * span);
+      EXPECT_LE(ticks[i], to + 1e-8 * span);
+      EXPECT_NEAR(ticks[i] / step, std::round(ticks[i] / step), 1e-6);
+    }
+  }
+}
+
+TEST(NiceTicks, OfNoIntervalAreNone) {
+  EXPECT_TRUE(niceTicks(1, 1, 5).empty());
+  EXPECT_TRUE(niceTicks(2, 1, 5).empty());
+  EXPECT_TRUE(niceTicks(std::nan(""), 1, 5).empty());
+  EXPECT_TRUE(niceTicks(0, std::numeric_limits<double>::infinity(), 5).empty());
+}
+
+TEST(TickText, ShowsAsManyDigitsAsTheStepNeeds) {
+  EXPECT_EQ(tickText(0.1 + 0.2, 0.1), "0.3");
+  EXPECT_EQ(tickText(0.25, 0.05), "0.25");
+  EXPECT_EQ(tickText(-2, 1), "−2");
+  EXPECT_EQ(tickText(-1e-17, 0.1), "0.0");
+  EXPECT_EQ(tickText(2e6, 1e6), "2·10⁶");
+}
+
+TEST(ChooseTicks, CoverTheDataAndKeepGivenEnds) {
+  Axis axis;
+  const AxisTicks linear = chooseTicks(axis, 0.013, 0.287, 150);
+  EXPECT_LE(linear.from, 0.013);
+  EXPECT_GE(linear.to, 0.287);
+  axis.from = 0.0;
+  EXPECT_EQ(chooseTicks(axis, 0.013, 0.287, 150).from, 0.0);
+  Axis log;
+  log.scale = Scale::Log;
+  const AxisTicks decades = chooseTicks(log, 3e-13, 0.2, 150);
+  EXPECT_LE(decades.from, 3e-13);
+  EXPECT_GE(decades.to, 0.2);
+  EXPECT_EQ(decades.major.front().second.substr(0, 2), "10");
+}
+
+TEST(ChooseTicks, OfNoDataOrOneValueAreStillAnAxis) {
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const Scale scale : {Scale::Linear, Scale::Log}) {
+    Axis axis;
+    axis.scale = scale;
+    for (const auto& [low, high] : {std::pair{inf, -inf}, std::pair{0.2, 0.2}, std::pair{0.0, 0.0}}) {
+      const AxisTicks ticks = chooseTicks(axis, low, high, 150);
+      EXPECT_LT(ticks.from, ticks.to);
+      EXPECT_TRUE(std::isfinite(ticks.from) && std::isfinite(ticks.to));
+    }
+  }
+}
+
+TEST(Figure, IsTheSameBytesEachTime) {
+  const Figure figure = exampleFigure();
+  const std::string svg = renderSvg(figure), pdf = renderPdf(figure), png = renderPng(figure);
+  EXPECT_EQ(svg, renderSvg(figure));
+  EXPECT_EQ(pdf, renderPdf(figure));
+  EXPECT_EQ(png, renderPng(figure));
+  EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
+}
+
+TEST(Figure, IsOfTheKindItsNameSays) {
+  const std::string folder = ::testing::TempDir();
+  writeFigure(exampleFigure(), folder + "/figure_test.svg");
+  writeFigure(exampleFigure(), folder + "/figure_test.pdf");
+  writeFigure(exampleFigure(), folder + "/figure_test.png");
+  EXPECT_NE(readFile(folder + "/figure_test.svg").find("<svg"), std::string::npos);
+  EXPECT_EQ(readFile(folder + "/figure_test.pdf").substr(0, 5), "%PDF-");
+  EXPECT_EQ(readFile(folder + "/figure_test.png").substr(1, 3), "PNG");
+  EXPECT_THROW(writeFigure(exampleFigure(), folder + "/figure_test.bmp"), UsageError);
+  EXPECT_THROW(writeFigure(exampleFigure(), folder + "/no/such/folder/figure.svg"), ResourceError);
+}
+
+TEST(Figure, PrefixesEveryIdAndReference) {
+  const std::string svg = renderSvg(exampleFigure(), "f3-");
+  std::size_t ids = 0;
+  for (std::size_t at = 0; (at = svg.find(" id=\"", at)) != std::string::npos; ++at, ++ids) EXPECT_EQ(svg.substr(at + 5, 3), "f3-");
+  EXPECT_GT(ids, 0u);
+  for (std::size_t at = 0; (at = svg.find("href=\"#", at)) != std::string::npos; ++at) EXPECT_EQ(svg.substr(at + 7, 3), "f3-");
+  for (std::size_t at = 0; (at = svg.find("url(#", at)) != std::string::npos; ++at) EXPECT_EQ(svg.substr(at + 5, 3), "f3-");
+}
+
+TEST(Figure, BearsHolesEmptySeriesAndHugeValues) {
+  Figure figure = exampleFigure();
+  Series holes;
+  holes.x = {0, 0.5, 1};
+  holes.y = {0.1, std::nan(""), std::numeric_limits<double>::infinity()};
+  figure.panels[0].series.push_back(holes);
+  figure.panels[0].series.push_back({});
+  figure.panels[1].series.push_back(holes);
+  figure.panels[1].y.to = 1e-6;  // points above the panel
+  figure.panels.push_back({});
+  const std::string svg = renderSvg(figure);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reachlab
