@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/experiment/experiment.h"
@@ -39,6 +40,8 @@ class Prediction {
   /// Positions and velocities of all masses at t; spans of massCount().
   virtual void massesAt(double t, std::span<double> position, std::span<double> velocity) const = 0;
   int massCount() const { return massCount_; }
+  /// Equal parts of [0, T] that are fine enough to see every wave of the profiles.
+  int scanCount() const { return 64 + static_cast<int>(2.0 * fastest_ * duration); }
 
   Criterion criterion{};
   double duration = 0;      // [s]
@@ -53,6 +56,7 @@ class Prediction {
 
  protected:
   int massCount_ = 0;
+  double fastest_ = 0;  // [rad/s] highest frequency in the profiles
 };
 
 /// Throws RefusedError (uncontrollable, condition > 1e12 …) and UsageError (no task, criterion not defined here).

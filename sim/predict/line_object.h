@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/experiment/experiment.h"
+
+namespace reachlab {
+
+/// The object on a straight line as the criteria see it (criteria.md 1): a spring network whose node 0 is the hand.
+/// Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the hand.
+struct LineObject {
+  bool parallel = false;
+  std::vector<double> masses;   // [kg]
+  std::vector<double> springs;  // [N/m], as many as masses
+  std::vector<double> dampers;  // [N s/m], as many as masses
+  double viscosity = 0;         // [N s/m] of the surroundings, on every mass
+  double handMass = 0;          // [kg]
+  double handDamping = 0;       // [N s/m]
+  std::vector<int> source;      // mass i of the experiment is masses[source[i]] here: equal parallel frequencies are one mass
+
+  int count() const { return static_cast<int>(masses.size()); }
+  bool damped() const;
+  double totalMass() const;     // [kg] with the hand
+};
+
+/// Takes the object out of the experiment. Throws UsageError for an object that has no form on a line, RefusedError for a spring of
+/// zero stiffness (what hangs on it cannot be brought to rest).
+LineObject makeLineObject(const Experiment& experiment, double handMass, double handDamping);
+
+/// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand: they become one mass.
+/// What was merged is said in `warnings`. Otherwise frequencies are never merged: the limit is not the merged solution (criteria.md 5).
+LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings);
+
+/// Two-way wave travel time along a chain, 2 sum sqrt(m_i / k_[i-1]) [s]; below it costs and peaks explode.
+double computeTravelTime(const LineObject& object);
+
+}  // namespace reachlab

@@ -1,0 +1,95 @@
+#include "sim/predict/peaks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace reachlab {
+namespace {
+
+constexpr double kEqual = 1e-12;        // relative difference below which two maxima are one and the same height
+constexpr double kWorthRefining = 0.9;  // of the largest sample: a lower one cannot become the largest between samples
+
+struct Peak {
+  double value = 0, time = 0;
+};
+
+// Where |v| is largest within [lo, hi], by golden section; the error of the value is the square of that of the time.
+Peak refine(const std::function<double(double)>& velocity, double lo, double hi) {
+  constexpr double kGolden = 0.6180339887498949;
+  double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
+  double fa = std::abs(velocity(a)), fb = std::abs(velocity(b));
+  const double enough = 2e-9 * (std::abs(lo) + std::abs(hi));
+  while (hi - lo > enough) {
+    if (fa >= fb) hi = b, b = a, fb = fa, a = hi - kGolden * (hi - lo), fa = std::abs(velocity(a));
+    else lo = a, a = b, fa = fb, b = lo + kGolden * (hi - lo), fb = std::abs(velocity(b));
+  }
+  const double time = (lo + hi) / 2;
+  return {velocity(time), time};
+}
+
+// Zero of the slope within [lo, hi] where it changes sign (Illinois variant of the false position).
+double findTurn(const std::function<double(double)>& slope, double lo, double hi) {
+  double flo = slope(lo), fhi = slope(hi);
+  if (flo == 0) return lo;
+  if (fhi == 0) return hi;
+  if ((flo > 0) == (fhi > 0)) return std::abs(flo) < std::abs(fhi) ? lo : hi;
+  int side = 0;
+  for (int i = 0; i < 60 && hi - lo > 1e-15 * hi; ++i) {
+    const double mid = std::clamp((lo * fhi - hi * flo) / (fhi - flo), lo, hi), f = slope(mid);
+    if (f == 0) return mid;
+    if ((f > 0) == (fhi > 0)) {
+      hi = mid, fhi = f;
+      if (side == 1) flo /= 2;
+      side = 1;
+    } else {
+      lo = mid, flo = f;
+      if (side == -1) fhi /= 2;
+      side = -1;
+    }
+  }
+  return (lo + hi) / 2;
+}
+
+template <class Refine>
+Peak largest(const std::vector<double>& samples, double duration, const Refine& refined) {
+  const auto last = static_cast<int>(samples.size()) - 1;
+  double most = 0;
+  for (const double v : samples) most = std::max(most, std::abs(v));
+  Peak best{samples.front(), 0};
+  for (int i = 0; i <= last; ++i) {
+    const double here = std::abs(samples[i]);
+    if (here < kWorthRefining * most || (i > 0 && std::abs(samples[i - 1]) > here) || (i < last && std::abs(samples[i + 1]) > here))
+      continue;
+    Peak peak{samples[i], duration * i / last};
+    if (i > 0 && i < last) {
+      const Peak between = refined(duration * (i - 1) / last, duration * (i + 1) / last);
+      if (std::abs(between.value) >= here) peak = between;
+    }
+    if (std::abs(peak.value) > std::abs(best.value) * (1 + kEqual)) best = peak;
+  }
+  return best;
+}
+
+}  // namespace
+
+void findPeaks(Prediction& prediction) {
+  const double T = prediction.duration;
+  const int count = prediction.scanCount();
+  const int object = prediction.massCount() - 1;
+  std::vector<double> hand(count + 1), mass(count + 1), x(object + 1), v(object + 1);
+  const auto massVelocity = [&](double t) { return prediction.massesAt(t, x, v), v[object]; };
+  for (int i = 0; i <= count; ++i) {
+    hand[i] = prediction.handAt(T * i / count).velocity;
+    mass[i] = massVelocity(T * i / count);
+  }
+  const Peak handPeak = largest(hand, T, [&](double lo, double hi) {
+    const double t = findTurn([&](double s) { return prediction.handAt(s).acceleration; }, lo, hi);
+    return Peak{prediction.handAt(t).velocity, t};
+  });
+  prediction.handPeak = handPeak.value;
+  prediction.handPeakTime = handPeak.time;
+  prediction.objectPeak = largest(mass, T, [&](double lo, double hi) { return refine(massVelocity, lo, hi); }).value;
+}
+
+}  // namespace reachlab
