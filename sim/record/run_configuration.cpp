@@ -83,6 +83,7 @@ std::string toJson(const RunConfiguration& c) {
       {"plan_name", c.planName},
       {"plan_text", c.planText},
       {"seed", c.seed},
+      {"session_seed", c.sessionSeed},
       {"order_seed", c.orderSeed},
       {"trials", toJson(c.trials)},
       {"device", c.device},
@@ -124,6 +125,7 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     c.planName = j.at("plan_name");
     c.planText = j.at("plan_text");
     c.seed = j.at("seed");
+    c.sessionSeed = j.at("session_seed");
     c.orderSeed = j.at("order_seed");
     c.trials = trialsFrom(j.at("trials"));
     c.device = j.at("device");

@@ -35,7 +35,8 @@ struct RunConfiguration {
   double pauseSeconds = 0;         // between trials
   std::string experimentName, experimentText;  // the file as it was read
   std::string planName, planText;  // empty without a plan
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 0;          // of this block: trial i depends on (seed, i) alone
+  std::uint64_t sessionSeed = 0;   // that the blocks' seeds come from
   std::uint64_t orderSeed = 0;     // of the plan
   std::vector<PlannedTrial> trials;
   std::string device;              // as asked for: "simulated:noise=0"

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+
+/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, and its line
+/// in the session's scans table. One run is one block, recorded continuously; trials are rows of events.tsv. Returns the files written.
+/// Throws ResourceError.
+std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder);
+
+/// Writes what describes the dataset as a whole: dataset_description.json and README.md (only where there is none, a person may have
+/// edited them), participants and sessions. Rows and columns that are there already are kept.
+std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder);
+
+/// Both, for these runs.
+std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::string& folder);
+
+// The texts of the files, for who wants to look at them before they are written.
+std::string motionTsv(const RunLog& run);
+std::string motionJson(const RunLog& run);
+std::string channelsTsv(const RunConfiguration& configuration);
+std::string channelsJson();
+std::string eventsTsv(const RunLog& run);
+std::string eventsJson(const RunConfiguration& configuration);
+
+}  // namespace reachlab

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/record/append_file.h"
+#include "sim/record/bids.h"
+#include "sim/record/table_text.h"
+#include "sim/record/tidy_csv.h"
+#include "sim/record/trial_measures.h"
+
+namespace reachlab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string orUnknown(const std::string& text) { return text.empty() ? "n/a" : text; }
+
+// The dataset's clock is the tick; rows lie a sampling period apart wherever nothing was dropped.
+double effectiveFrequency(const SampleRows& rows, double nominal) {
+  if (rows.size() < 2) return nominal;
+  const double seconds = static_cast<double>(rows.ticks.back() - rows.ticks.front()) / 1000.0;
+  return seconds > 0 ? static_cast<double>(rows.size() - 1) / seconds : nominal;
+}
+
+bool isSpatial(const Channel& channel) { return channel.component != "n/a"; }
+
+Json described(const std::string& description, const std::string& units = "") {
+  Json entry{{"Description", description}};
+  if (!units.empty()) entry["Units"] = units;
+  return entry;
+}
+
+}  // namespace
+
+std::string motionTsv(const RunLog& run) {
+  TableText table('\t', "n/a");  // no header: the columns are those of channels.tsv
+  const SampleRows rows = run.allRows();
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (std::size_t column = 0; column < rows.columns; ++column) table.number(rows.at(row, column));
+    table.endRow();
+  }
+  return table.text();
+}
+
+std::string motionJson(const RunLog& run) {
+  const RunConfiguration& c = run.configuration();
+  const SampleRows rows = run.allRows();
+  const auto count = [&](const std::string& type) {
+    return std::count_if(c.table.channels.begin(), c.table.channels.end(), [&](const Channel& channel) { return channel.type == type; });
+  };
+  std::set<std::string> points;
+  for (const Channel& channel : c.table.channels)
+    if (channel.trackedPoint != "n/a") points.insert(channel.trackedPoint);
+  Json j;
+  j["TaskName"] = c.task;
+  j["TaskDescription"] = fmt::format("Rest-to-rest reaching with the simulated object of experiment {}", c.experimentName);
+  j["Instructions"] = "Move the object to the target in the prescribed time and bring it to rest there";
+  j["SamplingFrequency"] = c.samplingHz;
+  j["SamplingFrequencyEffective"] = effectiveFrequency(rows, c.samplingHz);
+  j["RecordingDuration"] = rows.size() == 0 ? 0 : static_cast<double>(rows.ticks.back() - rows.ticks.front()) / 1000.0;
+  j["TrackingSystemName"] = "haptic";
+  j["Manufacturer"] = "n/a";
+  j["ManufacturersModelName"] = orUnknown(c.deviceName);
+  j["DeviceSerialNumber"] = "n/a";
+  j["SoftwareVersions"] = orUnknown(c.softwareVersion);
+  j["InstitutionName"] = "n/a";
+  j["InstitutionAddress"] = "n/a";
+  j["InstitutionalDepartmentName"] = "n/a";
+  j["MotionChannelCount"] = c.table.size();
+  for (const char* type : {"POS", "VEL", "ACCEL", "ANGACCEL", "GYRO", "JNTANG", "MAGN", "ORNT", "LATENCY", "MISC"})
+    j[std::string(type) + "ChannelCount"] = count(type);
+  j["TrackedPointsCount"] = points.size();
+  j["MissingValues"] = "n/a";
+  j["SubjectArtefactDescription"] = "n/a";
+  return j.dump(2) + "\n";
+}
+
+std::string channelsTsv(const RunConfiguration& c) {
+  TableText table('\t', "n/a");
+  table.row({"name", "component", "type", "tracked_point", "units", "placement", "reference_frame", "description"});
+  for (const Channel& channel : c.table.channels) {
+    const std::string frame = isSpatial(channel) ? "world" : "n/a";
+    table.row({channel.name, channel.component, channel.type, channel.trackedPoint, channel.units, "n/a", frame, channel.description});
+  }
+  return table.text();
+}
+
+std::string channelsJson() {
+  Json world;
+  world["Description"] = "Fixed frame of the scene, right-handed: x to the subject's right, y up, z towards the subject";
+  world["SpatialAxes"] = "RSP";
+  world["RotationOrder"] = "ZXY";
+  world["RotationRule"] = "right-hand";
+  Json j;
+  j["reference_frame"]["Description"] = "Reference frame of the channel";
+  j["reference_frame"]["Levels"]["world"] = world;
+  return j.dump(2) + "\n";
+}
+
+std::string eventsTsv(const RunLog& run) {
+  const RunConfiguration& c = run.configuration();
+  TableText table('\t', "n/a");
+  table.row({"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by", "movement_time",
+             "reaction_time", "go", "foreperiod", "peak_hand_speed", "hand_path", "peak_force", "missed_ticks"});
+  for (const RecordedTrial& trial : run.trials()) {
+    const TrialTimes times = timesOf(trial);
+    const double onset = std::isfinite(times.onset) ? times.onset : times.start;
+    table.number(onset).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
+    table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(c.condition);
+    table.cell(nameOf(trial.result.outcome)).cell(nameOf(trial.result.reason)).whole(trial.result.mass).number(trial.result.by);
+    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go).number(trial.planned.foreperiodTicks / 1000.0);
+    table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
+    table.whole(static_cast<long long>(trial.missedTicks));
+    table.endRow();
+  }
+  return table.text();
+}
+
+std::string eventsJson(const RunConfiguration& c) {
+  Json j;
+  j["trial_type"] = described("Kind of trial");
+  j["trial_type"]["Levels"] = {{"reach", "Rest-to-rest reach; onset is the start of the movement, duration ends with the trial"},
+                               {"catch", "Trial without a go signal: the hand should stay"}};
+  j["trial"] = described("Trial number within the block, from 1");
+  j["block"] = described("Block of the session's plan, from 1");
+  j["phase"] = described("Whether the block counts");
+  j["phase"]["Levels"] = {{"practice", "Familiarisation"}, {"recorded", "Counted in the analysis"}};
+  j["condition"] = described("Condition of the plan, else the experiment's name");
+  j["outcome"] = described("How the trial ended");
+  j["outcome"]["Levels"] = {{"success", "Every mass within all tolerances"},
+                            {"failure", "A tolerance was missed"},
+                            {"aborted", "Stopped by the experimenter, or no movement"},
+                            {"interrupted", "Cut off by a stop of the program or a lost device"}};
+  j["reason"] = described("Which tolerance was missed or what stopped the trial");
+  j["mass"] = described("Mass that missed the tolerance, from 1; 0: none");
+  j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short and time_long");
+  j["movement_time"] = described("From movement onset to the end of the trial", "s");
+  j["reaction_time"] = described("From the go signal to movement onset", "s");
+  j["go"] = described("Go signal, since the recording began", "s");
+  j["foreperiod"] = described("Planned time from arming to the go signal", "s");
+  j["peak_hand_speed"] = described("Largest estimated speed of the hand, every tick, unfiltered", "m/s");
+  j["hand_path"] = described("Length of the hand's path during the movement", "m");
+  j["peak_force"] = described("Largest coupling force", "N");
+  j["missed_ticks"] = described("Ticks of 1 ms that were skipped in the trial");
+  j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
+  return j.dump(2) + "\n";
+}
+
+std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder) {
+  const RunConfiguration& c = run.configuration();
+  const std::string session = fmt::format("{}/sub-{}/ses-{}", folder, c.subject, c.session);
+  const std::string tracked = runName(c, "tracksys-haptic_");
+  std::vector<std::string> written;
+  const auto write = [&](const std::string& path, const std::string& text) {
+    writeFileAtomically(path, text);
+    written.push_back(path);
+  };
+  const std::string base = session + "/motion/" + tracked;
+  write(base + "_motion.tsv", motionTsv(run));
+  write(base + "_motion.json", motionJson(run));
+  write(base + "_channels.tsv", channelsTsv(c));
+  write(base + "_channels.json", channelsJson());
+  write(base + "_events.tsv", eventsTsv(run));
+  write(base + "_events.json", eventsJson(c));
+  return written;
+}
+
+}  // namespace reachlab

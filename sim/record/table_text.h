@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reachlab {
+
+/// A table as text, cell by cell; the same bytes in every locale. Numbers read back equal.
+class TableText {
+ public:
+  /// `missing` stands for what is not known (a number that is not finite).
+  TableText(char separator, std::string missing) : separator_(separator), missing_(std::move(missing)) {}
+
+  TableText& cell(std::string_view text);  // quoted for CSV where it must be; tabs and line ends become spaces in TSV
+  TableText& cell(const char* text) { return cell(std::string_view(text)); }
+  TableText& cell(const std::string& text) { return cell(std::string_view(text)); }
+  TableText& number(double value);
+  TableText& whole(long long value);
+  TableText& missing() { return raw(missing_); }
+  void endRow();
+  void row(const std::vector<std::string>& cells);
+  const std::string& text() const { return text_; }
+
+ private:
+  TableText& raw(std::string_view text);
+  char separator_;
+  std::string missing_, text_;
+  bool rowBegun_ = false;
+};
+
+/// A TSV file: the header, and rows of as many cells. Throws nothing; a short row is filled with n/a.
+struct TsvTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+TsvTable parseTsv(const std::string& text);
+std::string toText(const TsvTable& table);
+
+}  // namespace reachlab

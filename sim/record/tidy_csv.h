@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+
+/// Writes `trials.csv` (one row a trial of all the runs) and one `sub-…_ses-…_task-…_run-…_samples.csv` a run into `folder`, for R, JASP,
+/// SPSS, pandas. Returns the files written. Throws ResourceError.
+std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder);
+
+/// The text of trials.csv.
+std::string trialsCsv(const std::vector<RunLog>& runs);
+std::string samplesCsv(const RunLog& run);
+
+/// `sub-01_ses-01_task-chainmoderate_run-01`: the BIDS name of a run without `tracksys` and suffix.
+std::string runName(const RunConfiguration& configuration, const std::string& between = "");
+
+/// What an outcome's `by` is measured in: m, m/s, s or nothing.
+std::string unitOf(Reason reason);
+
+}  // namespace reachlab

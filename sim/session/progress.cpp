@@ -1,0 +1,28 @@
+#include "sim/session/progress.h"
+
+#include <algorithm>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+
+std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults) {
+  std::vector<BlockProgress> blocks;
+  for (const RecordedRun& run : recordedRuns(place)) {
+    try {
+      const RunLog log = RunLog::open(run.path, LogCheck::Trials);
+      const RunConfiguration& configuration = log.configuration();
+      auto block = std::find_if(blocks.begin(), blocks.end(),
+                                [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
+      if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{configuration, {}, 0});
+      block->lastRun = configuration.run;
+      for (const RecordedTrial& trial : log.trials())
+        if (trial.result.outcome != Outcome::Interrupted) block->done.insert(trial.planned.index);
+    } catch (const Error& error) {
+      faults.emplace_back(error.what());
+    }
+  }
+  return blocks;
+}
+
+}  // namespace reachlab

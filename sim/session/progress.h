@@ -1,0 +1,21 @@
+#pragma once
+#include <set>
+#include <vector>
+
+#include "sim/session/session_folder.h"
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+
+/// One block as far as it is recorded: its first run and those that resumed it.
+struct BlockProgress {
+  RunConfiguration configuration;  // of the first run
+  std::set<int> done;              // planned indices that were finished: success, failure or aborted
+  bool complete() const { return done.size() >= configuration.trials.size(); }
+  int lastRun = 0;
+};
+
+/// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`.
+std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults);
+
+}  // namespace reachlab

@@ -1,0 +1,182 @@
+#include "sim/session/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <random>
+
+#include "constraints/error.h"
+#include "sim/experiment/json_tree.h"
+#include "sim/session/progress.h"
+#include "sim/session/trial_order.h"
+
+namespace reachlab {
+namespace {
+
+// A single experiment is a plan of one block.
+Plan planOf(const SessionRequest& request) {
+  const std::optional<std::string> file = findPlan(request.what);
+  if (file) {
+    const std::string text = readTextFile(*file);
+    if (isPlan(text, *file)) return parsePlan(text, *file);
+  }
+  Plan plan;
+  PlanBlock block;
+  block.experiment = request.what;
+  block.trials = request.trials.value_or(1);
+  plan.blocks.push_back(block);
+  return plan;
+}
+
+// A session is one day: the one asked for, else the session's label when that is a number.
+int dayOf(const SessionRequest& request, const Plan& plan) {
+  const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
+  if (!daysMatter) return 0;
+  int day = 0;
+  const std::string& label = request.place.session;
+  const auto [end, fault] = std::from_chars(label.data(), label.data() + label.size(), day);
+  const bool number = fault == std::errc{} && end == label.data() + label.size();
+  if (request.day) day = *request.day;
+  else if (!number)
+    throw UsageError(fmt::format("{}: the plan has days and session \"{}\" is no number; allowed: --session 01, 02 …, or --day N", plan.name, label));
+  return day;
+}
+
+const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number, const Experiment& experiment) {
+  const BlockProgress* found = nullptr;
+  for (const BlockProgress& block : progress) {
+    const RunConfiguration& c = block.configuration;
+    const bool same = plan.text.empty() ? c.planText.empty() && c.experimentText == experiment.text : c.planText == plan.text && c.block == number;
+    if (same) found = &block;
+  }
+  return found;
+}
+
+// A changed file under the name of a recorded one is no longer the same block.
+void refuseChanged(const std::vector<BlockProgress>& progress, const Plan& plan, const Experiment& experiment) {
+  for (const BlockProgress& block : progress) {
+    const RunConfiguration& c = block.configuration;
+    const bool sameName = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name : c.planName == plan.name;
+    if (sameName && !block.complete())
+      throw UsageError(fmt::format("{}: has changed since run {}, so that run cannot be resumed; allowed: the file as it was, or a new run without --resume",
+                                   plan.text.empty() ? experiment.name : plan.name, c.run));
+  }
+}
+
+void checkSameWishes(const SessionRequest& request, const BlockProgress& block) {
+  const auto planned = static_cast<int>(block.configuration.trials.size());
+  if (request.trials && *request.trials != planned)
+    throw UsageError(fmt::format("--trials {}: run {} was planned with {} trials; allowed with --resume: no --trials, or {}", *request.trials,
+                                 block.configuration.run, planned, planned));
+  if (request.seed && *request.seed != block.configuration.sessionSeed)
+    throw UsageError(fmt::format("--seed {}: run {} has the seed {}; allowed with --resume: no --seed, or {}", *request.seed,
+                                 block.configuration.run, block.configuration.sessionSeed, block.configuration.sessionSeed));
+}
+
+RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block, const Experiment& experiment) {
+  RunConfiguration c;
+  c.subject = request.place.subject;
+  c.session = request.place.session;
+  c.task = labelOf(experiment.name);
+  c.practice = block.practice;
+  c.condition = block.condition.empty() ? experiment.name : block.condition;
+  c.day = block.day;
+  c.pauseSeconds = block.pauseSeconds;
+  c.experimentName = experiment.name;
+  c.experimentText = experiment.text;
+  c.planName = plan.text.empty() ? "" : plan.name;
+  c.planText = plan.text;
+  c.orderSeed = plan.orderSeed;
+  return c;
+}
+
+std::vector<TrialSetup> remainingTrials(const RunConfiguration& configuration, const std::set<int>& done) {
+  std::vector<TrialSetup> trials;
+  for (const PlannedTrial& planned : configuration.trials)
+    if (!done.contains(planned.index)) trials.push_back({planned.index + 1, planned});
+  return trials;
+}
+
+// The seed of the session that is resumed, before that the one asked for, else a drawn one.
+void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, SessionToRun& session) {
+  if (resumed != nullptr) session.seed = resumed->configuration.sessionSeed;
+  else if (request.seed) session.seed = *request.seed;
+  else {
+    session.seed = drawSeed();
+    session.seedDrawn = true;
+  }
+}
+
+}  // namespace
+
+std::uint64_t drawSeed() {
+  std::random_device entropy;
+  return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
+}
+
+SessionToRun planSession(const SessionRequest& request) {
+  checkLabel(request.place.subject, "--subject");
+  checkLabel(request.place.session, "--session");
+  const Plan plan = planOf(request);
+  if (!plan.text.empty() && request.trials) throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
+  const int day = dayOf(request, plan);
+  const std::vector<int> order = blockOrder(plan, request.place.subject, day);
+  if (order.empty()) throw UsageError(fmt::format("{}: no block for day {}; allowed: a --session or --day that the plan has", plan.name, day));
+
+  SessionToRun session;
+  std::vector<std::string> faults;
+  const std::vector<BlockProgress> progress = readProgress(request.place, faults);
+  std::vector<Experiment> experiments;
+  std::vector<const BlockProgress*> recorded;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const PlanBlock& block = plan.blocks[static_cast<std::size_t>(order[k])];
+    experiments.push_back(readExperiment(block.experiment));
+    if (!experiments.back().task) throw UsageError(block.experiment + ": task: is missing, and a run needs one; allowed: { start, target, … }");
+    recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiments.back()));
+  }
+  const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
+  const BlockProgress* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
+  if (request.resume && resumed == nullptr) refuseChanged(progress, plan, experiments.front());
+  if (resumed != nullptr) checkSameWishes(request, *resumed);
+  chooseSeed(request, resumed, session);
+
+  int run = chooseRun(request.place, request.run);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const PlanBlock& planned = plan.blocks[static_cast<std::size_t>(order[k])];
+    const BlockProgress* before = request.resume ? recorded[k] : nullptr;
+    BlockToRun block;
+    block.experiment = experiments[k];
+    block.repeatAborted = planned.repeatAborted;
+    if (before != nullptr) {
+      block.configuration = before->configuration;
+    } else {
+      block.configuration = freshConfiguration(request, plan, planned, block.experiment);
+      block.configuration.block = static_cast<int>(k) + 1;
+      block.configuration.sessionSeed = session.seed;
+      block.configuration.seed = blockSeed(session.seed, block.configuration.block);
+      block.configuration.trials = planTrials(planned, block.configuration.seed);
+    }
+    block.trials = remainingTrials(block.configuration, before != nullptr ? before->done : std::set<int>{});
+    if (block.trials.empty()) continue;
+    block.configuration.run = run;
+    if (before == nullptr) block.configuration.firstRun = run;
+    block.configuration.device = request.device;
+    block.configuration.participant = request.participant;
+    block.configuration.notes = request.notes;
+    block.configuration.sampleEveryTicks = request.everyTick ? 1 : 10;
+    block.configuration.samplingHz = request.everyTick ? 1000 : 100;
+    block.logPath = logPath(request.place, block.configuration.task, run);
+    session.blocks.push_back(std::move(block));
+    run = chooseRun(request.place, run + 1);
+  }
+  for (std::size_t k = 0; k < session.blocks.size(); ++k) session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
+  const bool unfinished = std::any_of(recorded.begin(), recorded.end(), [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
+  if (!request.resume && unfinished)
+    session.hint = "an earlier run of this session was not finished; --resume goes on with it, this is a new run";
+  for (const std::string& fault : faults) session.hint += (session.hint.empty() ? "" : "\n") + fault;
+  return session;
+}
+
+}  // namespace reachlab

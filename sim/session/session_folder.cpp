@@ -1,0 +1,66 @@
+#include "sim/session/session_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view kEnding = "_log.reach";
+
+// The value of a `key-value` part of a BIDS name.
+std::string partOf(const std::string& name, const std::string& key) {
+  const std::size_t at = name.find("_" + key + "-");
+  if (at == std::string::npos) return {};
+  const std::size_t from = at + key.size() + 2;
+  return name.substr(from, name.find('_', from) - from);
+}
+
+}  // namespace
+
+std::string logPath(const SessionPlace& place, const std::string& task, int run) {
+  return fmt::format("{}/sourcedata/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, place.subject, place.session, task, run, kEnding);
+}
+
+std::string labelOf(const std::string& name) {
+  std::string label;
+  for (const char c : name)
+    if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) label += c;
+  return label.empty() ? "reach" : label;
+}
+
+std::vector<RecordedRun> recordedRuns(const SessionPlace& place) {
+  std::vector<RecordedRun> runs;
+  std::error_code error;
+  const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(place.data) / "sourcedata", error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(kEnding)) continue;
+    const std::string number = partOf(name, "run");
+    RecordedRun run{0, partOf(name, "task"), entry.path().string()};
+    const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), run.run);
+    if (fault == std::errc{} && end == number.data() + number.size()) runs.push_back(run);
+  }
+  std::sort(runs.begin(), runs.end(), [](const RecordedRun& a, const RecordedRun& b) { return a.run < b.run; });
+  return runs;
+}
+
+int chooseRun(const SessionPlace& place, std::optional<int> asked) {
+  const std::vector<RecordedRun> runs = recordedRuns(place);
+  const int free = runs.empty() ? 1 : runs.back().run + 1;
+  if (!asked) return free;
+  const auto taken = std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == *asked; });
+  if (taken != runs.end())
+    throw UsageError(fmt::format("--run {}: subject {}, session {} has this run already ({}), and nothing is overwritten; allowed: --run {}, the "
+                                 "next free one, or no --run",
+                                 *asked, place.subject, place.session, taken->path, free));
+  return *asked;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reachlab {
+
+/// A dataset's folder and the labels of one session in it.
+struct SessionPlace {
+  std::string data = "./data";
+  std::string subject = "01", session = "01";
+};
+
+struct RecordedRun {
+  int run = 0;
+  std::string task, path;
+};
+
+/// `…/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach`.
+std::string logPath(const SessionPlace& place, const std::string& task, int run);
+/// A BIDS label of a name: its letters and digits ("chain-moderate" gives "chainmoderate").
+std::string labelOf(const std::string& name);
+/// The session's logs, by run number. Empty when there are none.
+std::vector<RecordedRun> recordedRuns(const SessionPlace& place);
+/// The next free run number, or the one asked for. Throws UsageError with a proposal when that is taken: nothing is overwritten.
+int chooseRun(const SessionPlace& place, std::optional<int> asked);
+
+}  // namespace reachlab

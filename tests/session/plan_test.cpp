@@ -1,0 +1,137 @@
+#include "sim/session/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "constraints/error.h"
+#include "sim/session/trial_order.h"
+
+namespace reachlab {
+namespace {
+
+std::string faultsOf(const std::string& text) {
+  try {
+    parsePlan(text, "p.json");
+    return "";
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+}
+
+TEST(Plan, ReadsTheKeysOfABlockAndTheDefaultsOfThePlan) {
+  const Plan plan = parsePlan(R"({ "schema_version": 1, "order_seed": 9007199254740992, "pause_s": 2, "blocks": [
+      { "experiment": "chain-slow", "trials": 3, "practice": true, "condition": "warm up", "day": 2 },
+      { "experiment": "chain-fast", "trials": 100, "pause_s": 0.5, "foreperiod_s": [0.8, 1.6], "catch_share": 0.1 } ] })",
+                              "p.json");
+  EXPECT_EQ(plan.orderSeed, 9007199254740992ull);
+  ASSERT_EQ(plan.blocks.size(), 2u);
+  EXPECT_TRUE(plan.blocks[0].practice);
+  EXPECT_EQ(plan.blocks[0].pauseSeconds, 2);
+  EXPECT_EQ(plan.blocks[0].day, 2);
+  EXPECT_EQ(plan.blocks[0].condition, "warm up");
+  EXPECT_EQ(plan.blocks[1].pauseSeconds, 0.5) << "the lower level wins";
+  EXPECT_EQ(plan.blocks[1].foreperiodMax, 1.6);
+}
+
+TEST(Plan, NamesLineColumnAndKeyOfEveryFaultAtOnce) {
+  const std::string faults = faultsOf("{ \"schema_version\": 1,\n  \"blocks\": [\n    { \"experiment\": \"chain-slow\", \"trails\": 3 },\n"
+                                      "    { \"experiment\": \"chain-slow\", \"trials\": 0 },\n    { \"trials\": 1, \"pause_s\": -1 } ] }");
+  EXPECT_NE(faults.find("p.json:3:"), std::string::npos) << faults;
+  EXPECT_NE(faults.find("trails"), std::string::npos) << faults;
+  EXPECT_NE(faults.find("p.json:4:"), std::string::npos) << faults;
+  EXPECT_NE(faults.find("p.json:5:"), std::string::npos) << faults;
+  EXPECT_NE(faults.find("pause_s"), std::string::npos) << faults;
+  EXPECT_NE(faults.find("experiment"), std::string::npos) << faults;
+}
+
+TEST(Plan, RefusesWhatIsNoPlan) {
+  EXPECT_NE(faultsOf("[]"), "");
+  EXPECT_NE(faultsOf("{ \"schema_version\": 1, \"blocks\": [] }"), "");
+  EXPECT_NE(faultsOf("{ \"schema_version\": 1, \"blocks\": {} }"), "");
+  EXPECT_NE(faultsOf("{ \"schema_version\": 2, \"blocks\": [ { \"experiment\": \"chain-slow\", \"trials\": 1 } ] }"), "");
+  EXPECT_NE(faultsOf("{ \"blocks\": [ { \"experiment\": \"chain-slow\", \"trials\": 1 } ] }"), "");
+}
+
+TEST(Plan, ThePapersProtocolIsThreePacesOnTwoDaysWithAHundredTrialsEach) {
+  const std::string file = std::string(REACHLAB_SOURCE_DIR) + "/resources/plans/paper.json";
+  EXPECT_EQ(planProblems(file), std::vector<std::string>{});
+  const Plan plan = readPlan(file);
+  std::map<std::pair<int, std::string>, int> trials;
+  for (const PlanBlock& block : plan.blocks)
+    if (!block.practice) trials[{block.day, block.experiment}] += block.trials;
+  EXPECT_EQ(trials.size(), 6u);
+  for (const auto& [key, count] : trials) EXPECT_EQ(count, 100) << key.second;
+}
+
+TEST(BlockOrder, GivesSixSubjectsTheSixOrdersOfThreePaces) {
+  const Plan plan = readPlan(std::string(REACHLAB_SOURCE_DIR) + "/resources/plans/paper.json");
+  for (const int day : {1, 2}) {
+    std::set<std::vector<int>> orders;
+    for (const char* subject : {"01", "02", "03", "04", "05", "06"}) {
+      const std::vector<int> order = blockOrder(plan, subject, day);
+      orders.insert(order);
+      EXPECT_EQ(order, blockOrder(plan, subject, day));
+      for (const int block : order) EXPECT_EQ(plan.blocks[static_cast<std::size_t>(block)].day, day);
+    }
+    EXPECT_EQ(orders.size(), 6u);
+  }
+}
+
+TEST(BlockOrder, LeavesPracticeBlocksWhereTheyStand) {
+  const Plan plan = parsePlan(R"({ "schema_version": 1, "order_seed": 5, "counterbalance": "permute", "trials": 1, "blocks": [
+      { "experiment": "chain-slow", "practice": true }, { "experiment": "chain-slow" }, { "experiment": "chain-moderate" },
+      { "experiment": "chain-fast" } ] })",
+                              "p.json");
+  for (const char* subject : {"01", "02", "03", "anna"}) {
+    const std::vector<int> order = blockOrder(plan, subject, 0);
+    EXPECT_EQ(order[0], 0);
+    EXPECT_EQ(std::set<int>(order.begin(), order.end()), (std::set<int>{0, 1, 2, 3}));
+  }
+}
+
+TEST(PlanTrials, DrawsForeperiodsInTheirRangeFromSeedAndIndexAlone) {
+  PlanBlock block;
+  block.trials = 200;
+  block.foreperiodMin = 0.8;
+  block.foreperiodMax = 1.6;
+  const std::vector<PlannedTrial> many = planTrials(block, 7);
+  block.trials = 50;
+  const std::vector<PlannedTrial> few = planTrials(block, 7);
+  double sum = 0;
+  for (const PlannedTrial& trial : many) {
+    EXPECT_GE(trial.foreperiodTicks, 800);
+    EXPECT_LE(trial.foreperiodTicks, 1600);
+    sum += trial.foreperiodTicks;
+  }
+  // Mean of 200 even draws over 800 ms: standard error 800 / sqrt(12 * 200) = 16 ms; four of them.
+  EXPECT_NEAR(sum / 200, 1200, 4 * 16.4);
+  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].foreperiodTicks, many[i].foreperiodTicks);
+  EXPECT_NE(planTrials(block, 8)[3].foreperiodTicks, few[3].foreperiodTicks);
+}
+
+TEST(PlanTrials, PutsTheAskedShareOfCatchTrialsAtSeededPlacesAndNeverFirst) {
+  PlanBlock block;
+  block.trials = 100;
+  block.catchShare = 0.1;
+  std::set<std::vector<int>> placings;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::vector<int> places;
+    for (const PlannedTrial& trial : planTrials(block, seed))
+      if (trial.catchTrial) places.push_back(trial.index);
+    EXPECT_EQ(places.size(), 10u);
+    EXPECT_EQ(std::count(places.begin(), places.end(), 0), 0);
+    placings.insert(places);
+  }
+  EXPECT_EQ(placings.size(), 20u);
+}
+
+TEST(BlockSeed, OfTheFirstBlockIsTheRunsOwn) {
+  EXPECT_EQ(blockSeed(42, 1), 42u);
+  EXPECT_NE(blockSeed(42, 2), blockSeed(42, 3));
+}
+
+}  // namespace
+}  // namespace reachlab
