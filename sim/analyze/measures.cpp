@@ -1,0 +1,107 @@
+#include "sim/analyze/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "sim/analyze/filter.h"
+#include "sim/analyze/smoothness.h"
+
+namespace reachlab {
+namespace {
+
+double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+std::vector<Vec3> filteredVelocity(const std::vector<Vec3>& position, double rate, double cutoff) {
+  std::vector<Vec3> velocity(position.size());
+  std::vector<double> x(position.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = component(position[i], axis);
+    const std::vector<double> v = differentiate(lowPass(x, rate, cutoff), rate);
+    for (std::size_t i = 0; i < x.size(); ++i) (axis == 0 ? velocity[i].x : axis == 1 ? velocity[i].y : velocity[i].z) = v[i];
+  }
+  return velocity;
+}
+
+double alongPath(const TrialData& trial, const Vec3& velocity, std::size_t sample) {
+  if (trial.along.empty()) return norm(velocity);
+  return dot(velocity, trial.along[trial.along.size() == 1 ? 0 : std::min(sample, trial.along.size() - 1)]);
+}
+
+std::size_t sampleAt(const TrialData& trial, double time, std::size_t size) {
+  return static_cast<std::size_t>(std::clamp(std::round(time * trial.rate), 0.0, static_cast<double>(size - 1)));
+}
+
+double meanOf(const std::vector<double>& values, std::size_t first, std::size_t last) {
+  double sum = 0;
+  for (std::size_t i = first; i <= last; ++i) sum += values[i];
+  return sum / static_cast<double>(last - first + 1);
+}
+
+double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3& along) {
+  double farthest = 0;
+  for (const Vec3& p : positions) farthest = std::max(farthest, dot(p - aim, along));
+  return farthest;
+}
+
+}  // namespace
+
+TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options) {
+  TrialSignals signals;
+  const std::vector<Vec3> velocity = filteredVelocity(trial.hand, trial.rate, options.cutoff);
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    signals.speed.push_back(norm(velocity[i]));
+    signals.handVelocity.push_back(alongPath(trial, velocity[i], i));
+  }
+  for (std::size_t i = 0; i < trial.objectVelocity.size(); ++i)
+    signals.objectVelocity.push_back(alongPath(trial, trial.objectVelocity[i], i));
+  signals.movement = options.onset.rule == OnsetRule::Task
+                         ? movementWithin(signals.speed, trial.rate, trial.taskOnset, trial.taskEnd)
+                         : findMovement(signals.speed, trial.rate, options.onset);
+  return signals;
+}
+
+TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signals) {
+  TrialMeasures m;
+  m.movementTime = trial.taskEnd - trial.taskOnset;
+  m.peakForce = trial.peakForce;
+  m.meanForce = trial.meanForce;
+  const Movement& move = signals.movement;
+  if (!move.found) return m;
+  m.onset = move.onset;
+  m.offset = move.offset;
+  m.duration = move.duration();
+  m.reactionTime = move.onset - trial.goTime;
+  m.peakSpeed = move.peak;
+  m.timeToPeak = move.peakTime - move.onset;
+  m.timeToPeakPercent = 100 * m.timeToPeak / m.duration;
+  m.symmetryRatio = m.timeToPeak / (move.offset - move.peakTime);
+
+  const std::size_t first = sampleAt(trial, move.onset, signals.speed.size());
+  const std::size_t last = sampleAt(trial, move.offset, signals.speed.size());
+  const std::span<const double> speed(signals.speed.data() + first, last - first + 1);
+  m.speedPeaks = static_cast<double>(countPeaks(speed));
+  m.sparc = computeSparc(speed, trial.rate);
+  m.ldlj = computeLogDimensionlessJerk(speed, trial.rate);
+  // The integral of the filtered speed: tremor and noise of single samples would lengthen a sum of distances.
+  m.pathLength = 0;
+  for (std::size_t i = first; i < last; ++i) m.pathLength += 0.5 * (signals.speed[i] + signals.speed[i + 1]) / trial.rate;
+
+  const Vec3 asked = trial.target - trial.start;
+  m.handEndpointError = norm(trial.hand[last] - trial.hand.front() - asked);
+  if (!trial.object.empty()) {
+    const std::size_t end = std::isfinite(trial.taskEnd) ? sampleAt(trial, trial.taskEnd, trial.object.size()) : trial.object.size() - 1;
+    m.objectEndpointError = norm(trial.object[end] - trial.target);
+  }
+  if (trial.along.size() == 1) {
+    m.handOvershoot = overshoot(trial.hand, trial.hand.front() + asked, trial.along.front());
+    m.objectOvershoot = overshoot(trial.object, trial.target, trial.along.front());
+  }
+  if (!std::isfinite(m.peakForce) && !trial.force.empty()) {
+    m.peakForce = *std::max_element(trial.force.begin(), trial.force.end());
+    m.meanForce = meanOf(trial.force, first, std::min(last, trial.force.size() - 1));
+  }
+  return m;
+}
+
+}  // namespace reachlab
