@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "sim/dynamics/plant.h"
 #include "sim/haptics/device.h"
@@ -43,5 +45,12 @@ struct TickState {
   BodyState body;
   std::array<MassState, kMaxMasses> masses{};
 };
+static_assert(std::is_trivially_copyable_v<TickState>);
+
+/// Copies a state with only the masses that are there, so that the cost follows the scene.
+inline void copyState(const TickState& from, TickState& to) noexcept {
+  const std::size_t used = offsetof(TickState, masses) + static_cast<std::size_t>(from.massCount) * sizeof(MassState);
+  std::memcpy(static_cast<void*>(&to), &from, used);
+}
 
 }  // namespace reachlab

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/record/channels.h"
+#include "sim/trial/planned_trial.h"
 
 namespace reachlab {
 
@@ -14,13 +15,6 @@ struct Participant {
   std::optional<double> age;  // [years]
   std::string sex;            // F | M | O
   std::string handedness;     // R | L | A
-};
-
-/// One trial as it was planned before the run; its order is part of the configuration.
-struct PlannedTrial {
-  int index = 0;            // from 0: what the device's motion and the foreperiod depend on, with the seed
-  int foreperiodTicks = 0;  // [ms] between arming and the go signal; 0: go at arming
-  bool catchTrial = false;  // no go signal is given: moving is the failure
 };
 
 /// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value.

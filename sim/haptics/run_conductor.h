@@ -1,0 +1,78 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/haptics/haptic_loop.h"
+
+namespace reachlab {
+
+struct ConductedTrial {
+  std::int32_t trial = 0;  // from 1 within the run
+  PlannedTrial planned;
+  TrialResult result;
+};
+
+/// Conducts one run: one experiment on one device, trial after trial. The command line calls `runTrial` and waits; the window calls
+/// `putUpNext` and `poll` from a timer. The controlling thread owns it; the haptic thread is inside.
+///
+///   RunConductor run(experiment, makeDevice("simulated", experiment, seed), trials);
+///   run.start(&sink);                        // the sink was made from run.engine() and run.device()
+///   while (run.putUpNext()) … run.poll() …   // or run.runTrial(interrupt)
+///   run.finish();
+class RunConductor {
+ public:
+  /// Compiles the scene. Throws UsageError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
+  RunConductor(const Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<PlannedTrial> trials,
+               const LoopOptions& options = {});
+  ~RunConductor();
+  RunConductor(const RunConductor&) = delete;
+  RunConductor& operator=(const RunConductor&) = delete;
+
+  const TickEngine& engine() const { return loop_ ? loop_->engine() : *engine_; }  // constants only while running
+  DeviceInfo device() const { return device_->info(); }
+
+  /// Starts the loop; ticks go to `sink`, which outlives the run and may be null.
+  void start(RunSink* sink);
+
+  /// Puts the next planned trial up. False when none is left, or one is under way. May throw ResourceError from the sink.
+  bool putUpNext();
+  /// One more trial at the end of the plan (a repetition keeps its index).
+  void append(const PlannedTrial& trial) { trials_.push_back(trial); }
+  std::size_t trialsLeft() const { return trials_.size() - next_; }
+  bool underWay() const { return underWay_; }
+
+  /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Does not wait for the trial,
+  /// but does for the disk. May throw ResourceError from the sink. On the virtual clock it computes the trial to its end.
+  std::optional<ConductedTrial> poll();
+  /// After `poll`: the newest state seen.
+  const TickState& latest() const { return *latest_; }
+  /// Ends the trial under way: by the experimenter, or because the program is asked to stop.
+  void abort() { loop_->tryCommand(Command::Abort); }
+  void interrupt() { loop_->tryCommand(Command::Interrupt); }
+
+  /// putUpNext and poll until the trial has ended; nullopt when none is left. When `stop` becomes true, the trial is interrupted.
+  std::optional<ConductedTrial> runTrial(const std::atomic<bool>& stop);
+
+  /// Stops the loop, zero force, closes the sink. Idempotent.
+  void finish();
+  LoopReport report() const { return loop_ ? loop_->report() : LoopReport{}; }
+
+ private:
+  void advanceUntilDone(const std::atomic<bool>* stop);
+
+  std::unique_ptr<HapticDevice> device_;
+  std::unique_ptr<TickEngine> engine_;  // until `start`
+  LoopOptions options_;
+  std::vector<PlannedTrial> trials_;
+  std::size_t next_ = 0;
+  std::int32_t trial_ = 0;
+  bool underWay_ = false, finished_ = false;
+  RunSink* sink_ = nullptr;
+  std::unique_ptr<HapticLoop> loop_;
+  std::unique_ptr<TickState> first_;
+  const TickState* latest_;
+};
+
+}  // namespace reachlab

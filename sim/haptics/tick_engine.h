@@ -1,0 +1,79 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "sim/dynamics/hand_path.h"
+#include "sim/haptics/device.h"
+#include "sim/haptics/force_safety.h"
+#include "sim/haptics/tick_state.h"
+#include "sim/haptics/velocity_estimator.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab {
+
+/// All that comes from outside in one tick. Logged, and with the configuration enough to compute the run again bit for bit.
+struct TickInput {
+  DeviceSample device;
+  Command command = Command::None;
+  PlannedTrial planned;            // of the trial that NextTrial puts up
+  std::uint32_t missedTicks = 0;   // whole periods that were skipped before this tick
+  std::int64_t measuredNs = 0;     // for the record only
+};
+
+struct EngineOptions {
+  double deviceMaxForce = 12;  // [N] DeviceInfo::maxForce, unless the experiment gives a limit
+  /// DeviceInfo::virtualHand: the hand moves by tick count, so after a gap it is where it was and nothing has to be anchored anew.
+  bool virtualHand = false;
+};
+
+/// Everything deterministic of one tick, from device sample to device force: estimate the hand, step the object, judge the trial, limit
+/// the force. Physics and protocol advance by one tick a tick, whatever the clock did; after a gap of more than kGapTicks the device's
+/// force is zero and rises again by a ramp, and a real hand, which has moved meanwhile, is seen to go on from where it was: the
+/// difference is blended out over kReanchorTicks, so the object feels neither a jump nor a burst.
+/// `tick` is a pure function of construction and inputs so far. One thread at a time.
+class TickEngine {
+ public:
+  static constexpr std::uint32_t kGapTicks = 5;
+  static constexpr int kReanchorTicks = 250;
+
+  /// Throws UsageError without a task, RefusedError from compileScene.
+  TickEngine(const Experiment& experiment, const EngineOptions& options);
+  TickEngine(const Experiment& experiment, Scene scene, const EngineOptions& options);
+
+  /// Haptic thread: neither allocates, locks, waits nor throws.
+  void tick(const TickInput& input) noexcept;
+  /// After the latest tick; before the first, the object at rest at the start.
+  const TickState& state() const noexcept { return state_; }
+  /// What a virtual hand is to be told after the latest tick.
+  std::optional<Cue> cue() const noexcept { return cue_; }
+  /// What only the loop around this knows: late ticks, longest gap, dropped records.
+  LoopFaults& faults() noexcept { return state_.faults; }
+
+  const MethodChoice& choice() const { return scene_.choice; }
+  const Constraint& constraint() const { return scene_.constraint; }
+  const ProtocolSettings& protocol() const { return settings_; }
+  std::string stopReason() const { return scene_.plant->stopReason(); }
+
+ private:
+  HandSample takeHand(const TickInput& input) noexcept;
+  void putUp() noexcept;
+  void placeFixedPoint(HandSample& hand) noexcept;
+
+  Scene scene_;
+  std::vector<double> start_;          // constraint parameters
+  ProtocolSettings settings_;
+  bool virtualHand_;
+  VelocityEstimator estimator_;
+  HandPath path_;
+  ForceSafety safety_;
+  ProtocolState protocol_;
+  Vec3 fpOffset_;                      // [m] HIP minus FP-on-mass-1 at arming, fixed in world axes
+  Vec3 anchor_;                        // [m] the hand after a gap: seen minus true, at the gap
+  int anchorTicks_ = 0;                // left of the blend
+  Vec3 lastSeen_;                      // [m] where the hand was last seen
+  bool anySample_ = false, handBroken_ = false;
+  std::optional<Cue> cue_;
+  TickState state_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace reachlab {
+
+/// One trial as it was planned before the run; its order is part of the configuration.
+struct PlannedTrial {
+  int index = 0;            // from 0: what the device's motion and the foreperiod depend on, with the seed
+  int foreperiodTicks = 0;  // [ms] between arming and the go signal; 0: go at arming
+  bool catchTrial = false;  // no go signal is given: moving is the failure
+};
+
+}  // namespace reachlab

@@ -1,0 +1,88 @@
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "sim/dynamics/plant.h"
+#include "sim/haptics/tick_state.h"
+#include "sim/trial/planned_trial.h"
+
+/// The trial as a state machine over ticks of 1 ms. A pure function of what it is given: no clock, no device, no plant.
+///
+///   from             on                                                     to
+///   Idle, Done       NextTrial                                              Waiting   trial + 1, result cleared
+///   Waiting          the HIP within armRadius of the start, not at the      Armed     the FP is placed on the HIP
+///                    tick of NextTrial itself
+///   Armed            onset (the HIP has moved more than `onset` from        Moving    t = 0; semaphore neutral
+///                    where it was at arming) after the go signal
+///   Armed            onset before the go signal, or in a catch trial        Done      failure, false_start
+///   Armed            no onset within `timeout` of the go signal             Done      aborted, no_onset
+///   Armed            catch trial: T + dT after the foreperiod               Done      success
+///   Moving           all masses within dx and dv, t < T - dT                Done      failure, time_short
+///   Moving           all masses within dx and dv, |t - T| <= dT             Done      success
+///   Moving           t = T + dT and not all masses within                   Done      failure, position or velocity
+///   Armed, Moving    the device's force was clamped, if that ends trials    Done      failure, force_limit
+///   Armed, Moving    the body ran off the constraint                        Done      failure, end_of_constraint
+///   Armed, Moving    a step failed (not finite, capped, no continuation)    Done      aborted, computation
+///   W., A., M.       the device lost for kLostTicks, or a number of its     Done      aborted, device_lost
+///                    is not finite
+///   W., A., M.       Abort / Interrupt                                      Done      aborted / interrupted, experimenter
+///
+/// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
+/// At T + dT the reason is `position` while any mass is farther than dx from the target, else `velocity`; the mass to blame is the one
+/// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
+namespace reachlab {
+
+inline constexpr double kTickSeconds = 0.001;
+inline constexpr int kLostTicks = 20;  // a driver may skip a packet or two; longer than this the movement is not known any more
+
+/// A task in metres and ticks.
+struct ProtocolSettings {
+  Vec3 start, target;              // [m] r(start), r(target)
+  double armRadius = 0.01;         // [m]
+  double onset = 0.001;            // [m]
+  double positionTolerance = 0;    // [m] dx
+  double velocityTolerance = 0;    // [m/s] dv
+  double earliest = 0;             // [s] T - dT
+  std::int64_t earliestTick = 0;   // first tick since onset that is not before T - dT
+  std::int64_t latestTick = 0;     // last tick since onset that is not after T + dT
+  std::int64_t timeoutTicks = 0;
+  bool forceLimitEndsTrial = false;
+};
+
+/// Throws UsageError when the experiment has no task, or its start or target is no place on the constraint.
+ProtocolSettings makeProtocolSettings(const Experiment& experiment, const Constraint& constraint);
+/// A place on the constraint given by its parameters (three metres when free) [m]; not finite outside the domain.
+Vec3 placeOn(const Constraint& constraint, std::span<const double> q);
+
+/// What the protocol sees of one tick.
+struct ProtocolInput {
+  std::uint64_t tick = 0;
+  Command command = Command::None;
+  PlannedTrial planned;                 // used with NextTrial
+  Vec3 hip;                             // [m] raw
+  bool handValid = true;
+  bool handBroken = false;              // the device gave something that is not finite
+  bool clamped = false;                 // at the tick before
+  StepStatus status = StepStatus::Ok;
+  std::span<const MassState> masses;
+};
+
+struct ProtocolState {
+  Phase phase = Phase::Idle;
+  Semaphore semaphore = Semaphore::Neutral;
+  std::int32_t trial = 0;               // from 1
+  PlannedTrial planned;
+  bool gone = false;                    // the go signal was given
+  Vec3 armedAt;                         // [m] the HIP at arming
+  std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
+  int lostTicks = 0;                    // in a row
+  TrialResult result;                   // in Done
+};
+
+/// Haptic thread, once a tick, after the step; neither allocates nor throws.
+void advance(const ProtocolSettings& settings, const ProtocolInput& input, ProtocolState& state) noexcept;
+
+/// Forces act and the object moves.
+constexpr bool isEngaged(Phase phase) noexcept { return phase == Phase::Armed || phase == Phase::Moving; }
+
+}  // namespace reachlab
