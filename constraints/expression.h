@@ -1,0 +1,85 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace reachlab {
+
+enum class Op : std::uint8_t {
+  Constant, Variable, Parameter,
+  Add, Sub, Mul, Div, Neg, PowInt, Pow,
+  Sin, Cos, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign
+};
+const char* nameOf(Op op);
+bool isFunction(Op op);
+/// Number of operands that are nodes (PowInt has one: its exponent is a number).
+int operandCount(Op op);
+
+/// One operation on earlier nodes. Constant: `value`; Variable, Parameter: `a` is its index; PowInt: `b` is the exponent.
+struct ExpressionNode {
+  Op op = Op::Constant;
+  int a = -1, b = -1;
+  double value = 0;
+};
+
+/// Value of one operation on numbers, exactly as the compiled forms compute it.
+double applyOp(Op op, double a, double b) noexcept;
+
+/// Expressions that share their equal parts: equal nodes are one node, operands come before what uses them, so a walk in index order
+/// needs no recursion. Building simplifies: constants fold, signs and constant factors move outwards, powers of one base join.
+/// Throws UsageError when it would hold more than kMaxExpressionNodes.
+class ExpressionGraph {
+ public:
+  static constexpr int kMaxExpressionNodes = 20000;
+
+  int constant(double value);
+  int variable(int index);
+  int parameter(int index);
+  int add(int a, int b);
+  int sub(int a, int b);
+  int mul(int a, int b);
+  int div(int a, int b);
+  int neg(int a);
+  int pow(int a, int b);
+  int powInt(int a, int exponent);
+  int apply(Op function, int a, int b = -1);
+
+  /// d(root)/d(variable) of each root, exact.
+  std::vector<int> differentiate(std::span<const int> roots, int variable);
+  /// The roots with every integer power written out as products (the form that is compiled).
+  std::vector<int> expandPowers(std::span<const int> roots);
+
+  const ExpressionNode& node(int id) const { return nodes_[static_cast<std::size_t>(id)]; }
+  int size() const { return static_cast<int>(nodes_.size()); }
+  bool isConstant(int id) const { return node(id).op == Op::Constant; }
+  bool isConstant(int id, double value) const { return isConstant(id) && node(id).value == value; }
+  /// Which nodes the roots need.
+  std::vector<bool> reachableFrom(std::span<const int> roots) const;
+
+ private:
+  struct Key {
+    Op op;
+    int a, b;
+    std::uint64_t bits;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const noexcept;
+  };
+  struct Scaled {  // factor * id
+    double factor;
+    int id;
+  };
+  int intern(const ExpressionNode& node);
+  Scaled splitFactor(int id) const;
+  int scale(double factor, int id);
+  int sum(int a, int b, bool minus);
+  bool joinSquares(int a, int b, int& joined);
+  int derivativeOf(int id, const std::vector<int>& d);
+
+  std::vector<ExpressionNode> nodes_;
+  std::unordered_map<Key, int, KeyHash> ids_;
+};
+
+}  // namespace reachlab

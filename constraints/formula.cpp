@@ -1,0 +1,133 @@
+#include "constraints/formula.h"
+
+#include <algorithm>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+struct Parsed {
+  std::array<int, 3> roots{-1, -1, -1};
+  std::vector<FormulaFault> faults;
+};
+
+Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
+  const FormulaNames names{variablesOf(text.kind), text.parameters};
+  Parsed result;
+  std::vector<bool> used(text.parameters.size(), false);
+  for (std::size_t k = 0; k < 3; ++k) {
+    ParsedFormula parsed = parseFormula(text.coordinates[k], names, graph);
+    result.roots[k] = parsed.root;
+    for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || parsed.used[i];
+    if (parsed.fault) {
+      parsed.fault->coordinate = static_cast<int>(k);
+      result.faults.push_back(*parsed.fault);
+    }
+  }
+  if (!result.faults.empty()) return result;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!used[i])
+      result.faults.push_back({-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate; allowed: names that the formula uses"});
+  return result;
+}
+
+std::vector<FormulaFault> parameterFaults(const FormulaText& text) {
+  std::vector<FormulaFault> faults;
+  if (text.parameters.size() > kMaxShapeParameters)
+    faults.push_back({-1, 0, 0, "has " + std::to_string(text.parameters.size()) + " shape parameters; allowed: 8"});
+  for (const std::string& name : text.parameters)
+    if (const std::string fault = parameterNameFault(name, variablesOf(text.kind)); !fault.empty())
+      faults.push_back({-1, 0, 0, "shape." + name.substr(0, 40) + " " + fault});
+  return faults;
+}
+
+void append(std::vector<int>& roots, const std::vector<int>& more) { roots.insert(roots.end(), more.begin(), more.end()); }
+
+}  // namespace
+
+std::vector<std::string> variablesOf(ConstraintKind kind) {
+  if (kind == ConstraintKind::Curve) return {"phi"};
+  if (kind == ConstraintKind::Surface) return {"u", "v"};
+  return {};
+}
+
+std::vector<FormulaFault> formulaFaults(const FormulaText& text) {
+  if (std::vector<FormulaFault> faults = parameterFaults(text); !faults.empty()) return faults;
+  ExpressionGraph graph;
+  return parseCoordinates(text, graph).faults;
+}
+
+std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& origin) {
+  auto formula = std::make_shared<CompiledFormula>();
+  formula->text = text;
+  ExpressionGraph& graph = formula->graph;
+  std::vector<FormulaFault> faults = parameterFaults(text);
+  Parsed parsed;
+  if (faults.empty()) {
+    parsed = parseCoordinates(text, graph);
+    faults = parsed.faults;
+  }
+  if (!faults.empty()) {
+    const char* what = text.kind == ConstraintKind::Curve ? "curve" : "surface";
+    std::string message;
+    for (const FormulaFault& fault : faults) {
+      message += (message.empty() ? "" : "\n") + origin + ": ";
+      if (fault.coordinate >= 0)
+        message += std::string(what) + "[" + std::to_string(fault.coordinate) + "], character " + std::to_string(fault.character) + ": ";
+      message += fault.what;
+    }
+    throw UsageError(message);
+  }
+
+  const std::vector<int> r(parsed.roots.begin(), parsed.roots.end());
+  formula->roots = r;
+  if (text.kind == ConstraintKind::Curve) {
+    std::vector<int> order = r;
+    formula->derivatives.push_back(parsed.roots);
+    for (int k = 1; k <= kMaxDerivative; ++k) {
+      try {
+        order = graph.differentiate(order, 0);
+      } catch (const UsageError&) {
+        if (k <= 2) throw UsageError(origin + ": the formula with its derivatives is too large; allowed: a shorter formula");
+        break;  // the third and fourth are extras of small formulas
+      }
+      formula->derivatives.push_back({order[0], order[1], order[2]});
+      if (k <= 2) append(formula->roots, order);
+    }
+    const auto& second = formula->derivatives[2];
+    formula->straight = std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
+  } else {
+    const std::vector<int> rU = graph.differentiate(r, 0), rV = graph.differentiate(r, 1);
+    append(formula->roots, rU);
+    append(formula->roots, rV);
+    append(formula->roots, graph.differentiate(rU, 0));
+    append(formula->roots, graph.differentiate(rU, 1));
+    append(formula->roots, graph.differentiate(rV, 1));
+  }
+  formula->program =
+      compileProgram(graph, formula->roots, static_cast<int>(text.parameters.size()), static_cast<int>(variablesOf(text.kind).size()));
+  return formula;
+}
+
+std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables) {
+  const std::vector<bool> needed = graph.reachableFrom(roots);
+  std::vector<double> values(needed.size(), 0.0);
+  for (std::size_t id = 0; id < needed.size(); ++id) {
+    if (!needed[id]) continue;
+    const ExpressionNode& n = graph.node(static_cast<int>(id));
+    switch (n.op) {
+      case Op::Constant: values[id] = n.value; break;
+      case Op::Variable: values[id] = variables[n.a]; break;
+      case Op::Parameter: values[id] = shape[n.a]; break;
+      case Op::PowInt: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b); break;
+      default:
+        values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b < 0 ? 0 : values[static_cast<std::size_t>(n.b)]);
+    }
+  }
+  std::vector<double> result;
+  for (const int root : roots) result.push_back(values[static_cast<std::size_t>(root)]);
+  return result;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "constraints/constraint.h"
+#include "constraints/expression.h"
+
+namespace reachlab {
+
+/// Operations of the straight-line program. R: register, C: number kept in the instruction.
+enum class Code : std::uint16_t {
+  Load, Add, AddC, Sub, RSubC, Mul, MulC, NegMul, MulAdd, MulSub, RMulSub, Div, RDivC, Neg, Square,
+  SinCos, Pow, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign, Return
+};
+
+struct Instruction {
+  const void* handler = nullptr;  // where the interpreter jumps for it
+  double number = 0;
+  std::uint16_t a = 0, b = 0, c = 0;  // operand registers; SinCos: b receives the sine, c the cosine
+  std::uint16_t out = 0;
+};
+
+inline constexpr int kMaxRegisters = 1024;
+inline constexpr int kMaxOutputs = 18;
+
+/// A formula with its derivatives as a list of operations on registers: first the shape, then the variables, then the results.
+/// Immutable once made; evaluated by any thread, without allocation, recursion or loops.
+struct Program {
+  std::vector<Instruction> instructions;
+  std::uint16_t parameterCount = 0;
+  std::array<std::uint16_t, kMaxOutputs> outputs{};  // registers, in the order of CurvePoint's or SurfacePoint's members
+};
+
+/// Compiles roots (x, y, z of r, then of each derivative, in the order of the point's members). Throws UsageError when it needs more
+/// than kMaxRegisters.
+Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int parameterCount, int variableCount);
+
+/// The interpreter, as the functions of constraint.h; `program` points to a Program.
+void evaluateCurveProgram(const void* program, const double* shape, double phi, CurvePoint& out) noexcept;
+void evaluateSurfaceProgram(const void* program, const double* shape, double u, double v, SurfacePoint& out) noexcept;
+
+/// Address that the interpreter jumps to for an operation.
+const void* handlerOf(Code code) noexcept;
+
+}  // namespace reachlab
