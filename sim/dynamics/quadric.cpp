@@ -1,0 +1,63 @@
+#include "sim/dynamics/quadric.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <vector>
+
+namespace reachlab {
+namespace {
+
+constexpr int kAcross = 12;          // samples along u and v
+constexpr double kVanishes = 1e-13;  // of the largest singular value: rounding of 144 sums of ten terms
+constexpr double kUnique = 1e-7;     // the next singular value must stand clear of that
+
+double sampleAt(const Domain& domain, double start, double fraction) {
+  const double lo = std::isfinite(domain.lo) ? domain.lo : start - 3, hi = std::isfinite(domain.hi) ? domain.hi : start + 3;
+  return lo + (hi - lo) * fraction;
+}
+
+}  // namespace
+
+std::optional<Quadric> fitQuadric(const Surface& surface, const std::array<Domain, 2>& domain, const std::array<double, 2>& start) {
+  std::vector<Vec3> points;
+  Vec3 centre;
+  for (int i = 0; i < kAcross; ++i)
+    for (int j = 0; j < kAcross; ++j) {
+      // Off the lattice's corners, and unevenly, so that no symmetry of the surface is mistaken for a law.
+      const double fu = (i + 0.37 + 0.011 * j) / (kAcross + 0.5), fv = (j + 0.41 + 0.013 * i) / (kAcross + 0.5);
+      const Vec3 r = evaluate(surface, sampleAt(domain[0], start[0], fu), sampleAt(domain[1], start[1], fv)).r;
+      if (!isFinite(r)) return std::nullopt;
+      points.push_back(r);
+      centre += r;
+    }
+  centre *= 1.0 / static_cast<double>(points.size());
+  double size = 0;
+  for (const Vec3& r : points) size = std::max(size, norm(r - centre));
+  if (!(size > 0)) return std::nullopt;
+
+  Eigen::Matrix<double, Eigen::Dynamic, 10> monomials(points.size(), 10);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 d = (points[i] - centre) / size;
+    monomials.row(static_cast<Eigen::Index>(i)) << d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z, d.x, d.y, d.z, 1;
+  }
+  const Eigen::JacobiSVD<decltype(monomials)> svd(monomials, Eigen::ComputeFullV);
+  const auto& sigma = svd.singularValues();
+  if (sigma(9) > kVanishes * sigma(0) || sigma(8) < kUnique * sigma(0)) return std::nullopt;
+  const Eigen::Matrix<double, 10, 1> f = svd.matrixV().col(9);
+
+  Quadric q;
+  q.centre = centre;
+  q.a = {f(0) / size, f(1) / size, f(2) / size, f(3) / 2 / size, f(4) / 2 / size, f(5) / 2 / size};
+  q.b = {f(6), f(7), f(8)};
+  q.c = f(9) * size;
+  double slope = 0;
+  for (const Vec3& r : points) slope += norm(q.gradient(r));
+  slope /= static_cast<double>(points.size());
+  if (!(slope > 0)) return std::nullopt;
+  for (double& value : q.a) value /= slope;
+  q.b = q.b / slope;
+  q.c /= slope;
+  return q;
+}
+
+}  // namespace reachlab

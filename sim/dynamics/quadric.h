@@ -1,0 +1,33 @@
+#pragma once
+#include <array>
+#include <optional>
+
+#include "constraints/constraint.h"
+
+namespace reachlab {
+
+/// A surface of second degree, F(r) = d.A d + b.d + c = 0 with d = r - centre [m]; F is scaled so that its gradient is of order one.
+/// Spheres, ellipsoids, paraboloids, cones, cylinders, hyperboloids: on them a mass can be followed in world coordinates, where no
+/// parametrisation has its poles.
+struct Quadric {
+  std::array<double, 6> a{};  // A: xx, yy, zz, xy, xz, yz [1/m]
+  Vec3 b;                     // no unit
+  double c = 0;               // [m]
+  Vec3 centre;                // [m] of the sampled points
+
+  /// A d for any vector [1/m times its unit].
+  Vec3 times(const Vec3& d) const noexcept {
+    return {a[0] * d.x + a[3] * d.y + a[4] * d.z, a[3] * d.x + a[1] * d.y + a[5] * d.z, a[4] * d.x + a[5] * d.y + a[2] * d.z};
+  }
+  Vec3 gradient(const Vec3& r) const noexcept { return 2.0 * times(r - centre) + b; }
+  double value(const Vec3& r) const noexcept {
+    const Vec3 d = r - centre;
+    return dot(d, times(d) + b) + c;
+  }
+};
+
+/// The quadric on which the whole parametrised surface lies, found from samples of r(u, v) alone (the null vector of their monomials), or
+/// nothing: not of second degree, not unique (a plane), or not finite. Infinite domains are sampled over `start` ± 3. Allocates.
+std::optional<Quadric> fitQuadric(const Surface& surface, const std::array<Domain, 2>& domain, const std::array<double, 2>& start);
+
+}  // namespace reachlab
