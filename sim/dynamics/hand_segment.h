@@ -15,11 +15,24 @@ struct HandSegment {
   std::array<Vec3, kMaxDegree + 1> velocity{};
 };
 
+/// Value at s of a segment's polynomial [m] or [m/s].
+inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int degree, double s) noexcept {
+  Vec3 value = c[degree];
+  for (int k = degree - 1; k >= 0; --k) value = s * value + c[k];
+  return value;
+}
+/// The part of a segment between s0 and s1, as a segment of its own.
+HandSegment part(const HandSegment& whole, double s0, double s1) noexcept;
+
 /// One hand sample in world coordinates, at the end of a tick. `valid` is false when the device was lost.
 struct HandSample {
   Vec3 position;  // [m]
   Vec3 velocity;  // [m/s] estimated
   bool valid = true;
 };
+
+inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
+  return {valueAt(hand.position, hand.degree, s), valueAt(hand.velocity, hand.degree, s), true};
+}
 
 }  // namespace reachlab

@@ -48,6 +48,8 @@ class Plant {
   /// Advances by dt [s] while the hand follows `hand`. On anything but Ok the state stays as it was (AtEnd, NoContinuation: the state is
   /// the last one on the constraint).
   [[nodiscard]] virtual StepStatus step(const HandSegment& hand, double dt) noexcept = 0;
+  /// How much of the last step's dt went by: less than 1 only after AtEnd and NoContinuation.
+  virtual double lastStepFraction() const noexcept { return 1; }
   /// The hand's motion has broken (a jump, a gap): multistep methods start anew. State unchanged.
   virtual void restart() noexcept = 0;
 

@@ -1,0 +1,105 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sim/dynamics/axis_hand.h"
+#include "sim/dynamics/lanes.h"
+#include "sim/dynamics/propagator.h"
+
+namespace reachlab {
+
+/// One exact step of a chain by its propagator: 2N columns, all sizes known to the compiler (N = 0: known when compiled).
+template <int N>
+class DenseCore {
+ public:
+  static constexpr int kGroups = lanesFor(2 * N);
+  static constexpr bool kFixed = N > 0;
+  using Column = std::conditional_t<kFixed, std::array<Lanes, kFixed ? kGroups : 1>, std::vector<Lanes>>;
+  struct State {
+    Column z;
+  };
+
+  DenseCore(const ObjectModel& model, bool coupled, double dt)
+      : n_(model.count()), stiffness_(coupled ? model.handStiffness[0] : 0), damping_(coupled ? model.handDamping[0] : 0) {
+    const Propagator propagator = computePropagator(model, coupled, dt);
+    for (int j = 0; j < 2 * n_; ++j) columns_.push_back(column({propagator.d.data() + j * 2 * n_, static_cast<std::size_t>(2 * n_)}));
+    for (int k = 0; k < kForceTerms; ++k) force_[k] = column(propagator.force[k]);
+    gravity_ = column(propagator.gravity);
+    if constexpr (kFixed)
+      for (int j = 0; j < 2 * N; ++j) fixed_[j] = columns_[j];
+  }
+
+  State makeState() const { return {column({})}; }
+  void place(State& state, std::span<const double> x, std::span<const double> v) const noexcept {
+    for (int i = 0; i < n_; ++i) {
+      at(state.z, i) = i > 0 ? x[i] - x[i - 1] : x[0];
+      at(state.z, n_ + i) = i > 0 ? v[i] - v[i - 1] : v[0];
+    }
+  }
+  void read(const State& state, std::span<double> x, std::span<double> v) const noexcept {
+    for (int i = 0; i < n_; ++i) {
+      x[i] = at(state.z, i) + (i > 0 ? x[i - 1] : 0);
+      v[i] = at(state.z, n_ + i) + (i > 0 ? v[i - 1] : 0);
+    }
+  }
+
+  /// `next` must not be `state`. False if the result is not finite.
+  bool advance(const State& state, const AxisHand& hand, State& next) const noexcept {
+    std::array<double, kForceTerms> f;
+    for (int k = 0; k < kForceTerms; ++k) f[k] = stiffness_ * hand.r[k] + damping_ * hand.v[k];
+    f[0] = damping_ * hand.v[0] + hand.extraForce;
+    const int groups = kFixed ? kGroups : lanesFor(2 * n_);
+    if constexpr (kFixed) {
+      std::array<Lanes, kFixed ? kGroups : 1> even = state.z, odd, push;
+      for (int g = 0; g < kGroups; ++g) {
+        push[g] = force_[0][g] * f[0] + gravity_[g] * hand.gravity;
+        odd[g] = broadcast(0);
+      }
+      for (int k = 1; k <= hand.degree; ++k)
+        for (int g = 0; g < kGroups; ++g) push[g] += force_[k][g] * f[k];
+#pragma GCC unroll 16
+      for (int j = 0; j < 2 * N; j += 2)
+        for (int g = 0; g < kGroups; ++g) {
+          even[g] += fixed_[j][g] * (j == 0 ? at(state.z, 0) - hand.r[0] : at(state.z, j));
+          odd[g] += fixed_[j + 1][g] * at(state.z, j + 1);
+        }
+      Lanes check = broadcast(0);
+      for (int g = 0; g < kGroups; ++g) {
+        next.z[g] = even[g] + (odd[g] + push[g]);
+        check += next.z[g] * 0.0;
+      }
+      return allFinite(check);
+    } else {
+      for (int g = 0; g < groups; ++g) next.z[g] = state.z[g] + force_[0][g] * f[0] + gravity_[g] * hand.gravity;
+      for (int k = 1; k <= hand.degree; ++k)
+        for (int g = 0; g < groups; ++g) next.z[g] += force_[k][g] * f[k];
+      for (int j = 0; j < 2 * n_; ++j) {
+        const double zj = at(state.z, j) - (j == 0 ? hand.r[0] : 0);
+        for (int g = 0; g < groups; ++g) next.z[g] += columns_[j][g] * zj;
+      }
+      Lanes check = broadcast(0);
+      for (int g = 0; g < groups; ++g) check += next.z[g] * 0.0;
+      return allFinite(check);
+    }
+  }
+
+ private:
+  static double& at(Column& c, int i) noexcept { return reinterpret_cast<double*>(c.data())[i]; }
+  static double at(const Column& c, int i) noexcept { return reinterpret_cast<const double*>(c.data())[i]; }
+  Column column(std::span<const double> values) const {
+    Column c{};
+    if constexpr (!kFixed) c.assign(lanesFor(2 * n_), broadcast(0));
+    for (std::size_t i = 0; i < values.size(); ++i) at(c, static_cast<int>(i)) = values[i];
+    return c;
+  }
+
+  int n_;
+  double stiffness_, damping_;
+  std::array<Column, kFixed ? 2 * N : 1> fixed_{};
+  std::array<Column, kForceTerms> force_{};
+  Column gravity_{};
+  std::vector<Column> columns_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,39 @@
+#include "sim/dynamics/compile.h"
+#include "sim/dynamics/dense_core.h"
+#include "sim/dynamics/oscillator_core.h"
+
+namespace reachlab {
+namespace {
+
+template <class Core>
+std::unique_ptr<Plant> make(const ObjectModel& model, const LinearSpace& space, double dt) {
+  if (space.axes == 1) return std::make_unique<LinearPlant<Core, 1>>(model, space, dt);
+  return std::make_unique<LinearPlant<Core, 3>>(model, space, dt);
+}
+
+}  // namespace
+
+LinearSpace linearSpace(const Constraint& constraint) {
+  if (constraint.kind == ConstraintKind::Free) return {3, {}, {}, {}};
+  const CurvePoint p = evaluate(constraint.curve, 0.0);
+  return {1, p.r, p.rPhi, constraint.domain[0]};
+}
+
+std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpace& space, double dt) {
+  if (model.kind == ObjectKind::Parallel) return make<OscillatorCore>(model, space, dt);
+  switch (model.count()) {
+    case 1: return make<DenseCore<1>>(model, space, dt);
+    case 2: return make<DenseCore<2>>(model, space, dt);
+    case 3: return make<DenseCore<3>>(model, space, dt);
+    case 4: return make<DenseCore<4>>(model, space, dt);
+    case 5: return make<DenseCore<5>>(model, space, dt);
+    case 6: return make<DenseCore<6>>(model, space, dt);
+    case 7: return make<DenseCore<7>>(model, space, dt);
+    case 8: return make<DenseCore<8>>(model, space, dt);
+    default: break;
+  }
+  if (model.count() >= 16 && canBeModal(model)) return make<OscillatorCore>(model, space, dt);
+  return make<DenseCore<0>>(model, space, dt);
+}
+
+}  // namespace reachlab

@@ -1,0 +1,23 @@
+#pragma once
+#include <span>
+
+#include "sim/dynamics/object_model.h"
+#include "sim/dynamics/plant.h"
+
+namespace reachlab {
+
+/// What acts on the object from outside at one instant.
+struct Surroundings {
+  HandSample hand;
+  bool coupled = true;
+  Vec3 extraForce;  // [N] on mass 1
+};
+
+/// Force of the hand on mass i, Eq. (8) [N].
+Vec3 handForce(const ObjectModel& model, const Surroundings& around, const MassState& mass, int i) noexcept;
+/// Sum of all forces on mass i but the constraint's own [N].
+Vec3 netForce(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses, int i) noexcept;
+/// Kinetic + elastic (springs and coupling) + gravity energy [J], without a body's rotation.
+double computeEnergy(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses) noexcept;
+
+}  // namespace reachlab

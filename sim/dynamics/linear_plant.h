@@ -1,0 +1,174 @@
+#pragma once
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "sim/dynamics/axis_hand.h"
+#include "sim/dynamics/plant_base.h"
+
+namespace reachlab {
+
+/// Where a linear object lives: one axis of a straight line r(phi) = origin + phi * tangent, or the three axes of free space.
+struct LinearSpace {
+  int axes = 1;
+  Vec3 origin;          // [m] r(0)
+  Vec3 tangent;         // [m] r_phi, constant
+  Domain domain;        // of phi
+};
+
+/// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore): the state is that of the differential equation at each tick to
+/// rounding, for any stiffness and damping and any polynomial hand.
+template <class Core, int Axes>
+class LinearPlant final : public PlantBase {
+ public:
+  LinearPlant(const ObjectModel& model, const LinearSpace& space, double dt)
+      : PlantBase(model), space_(space), length_(norm(space.tangent)), axis_(Axes == 1 ? space.tangent / length_ : Vec3{}) {
+    bounded_ = Axes == 1 && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi)) && !space.domain.periodic;
+    x_.resize(model.count());
+    v_.resize(model.count());
+    cores_.push_back(makeCores(dt));
+    current_ = cores_[0].get();
+    for (int a = 0; a < Axes; ++a) state_.push_back(core().makeState()), next_.push_back(core().makeState());
+  }
+
+  void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
+    for (int a = 0; a < Axes; ++a) {
+      std::fill(x_.begin(), x_.end(), Axes == 1 ? q[0] * length_ : q[a]);
+      std::fill(v_.begin(), v_.end(), Axes == 1 ? qRate[0] * length_ : qRate[a]);
+      core().place(state_[a], x_, v_);
+    }
+    fraction_ = 1;
+  }
+  void setExtraForce(const Vec3& force) noexcept override { extra_ = force; }
+  void setCoupled(bool coupled) noexcept override {
+    if (coupled == coupled_) return;
+    for (int a = 0; a < Axes; ++a) {
+      core().read(state_[a], x_, v_);
+      (coupled ? current_->coupled : current_->alone).place(state_[a], x_, v_);
+    }
+    coupled_ = coupled;
+  }
+
+  StepStatus step(const HandSegment& hand, double dt) noexcept override {
+    if (dt != current_->dt) selectStep(dt);
+    fraction_ = 1;
+    AxisHand axisHand;
+    axisHand.degree = coupled_ ? hand.degree : 0;
+    for (int a = 0; a < Axes; ++a) {
+      if (coupled_)
+        for (int k = 0; k <= hand.degree; ++k) {
+          axisHand.r[k] = along(k == 0 ? hand.position[k] - space_.origin : hand.position[k], a);
+          axisHand.v[k] = along(hand.velocity[k], a);
+        }
+      axisHand.extraForce = along(extra_, a);
+      axisHand.gravity = along(model_.gravity, a);
+      if (!core().advance(state_[a], axisHand, next_[a])) return StepStatus::NotFinite;
+    }
+    if (bounded_ && leaves()) return StepStatus::AtEnd;
+    std::swap(state_, next_);
+    return StepStatus::Ok;
+  }
+  void restart() noexcept override {}
+
+  void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
+    locate(masses.first(model_.count()));
+    for (int i = 0; i < model_.count(); ++i) {
+      const Vec3 a = netForce(model_, {hand, coupled_, extra_}, masses, i) / model_.mass[i];
+      masses[i].a = Axes == 1 ? dot(a, axis_) * axis_ : a;
+    }
+  }
+  std::string stopReason() const override {
+    return fraction_ < 1 ? "a mass reached the end of the line's domain" : std::string();
+  }
+
+ private:
+  struct Cores {
+    double dt;
+    Core coupled, alone;
+  };
+  std::unique_ptr<Cores> makeCores(double dt) const {
+    return std::make_unique<Cores>(Cores{dt, Core(model_, true, dt), Core(model_, false, dt)});
+  }
+  const Core& core() const noexcept { return coupled_ ? current_->coupled : current_->alone; }
+  double along(const Vec3& vector, int a) const noexcept {
+    if constexpr (Axes == 1) return dot(vector, axis_);
+    return a == 0 ? vector.x : a == 1 ? vector.y : vector.z;
+  }
+  /// Another step than the compiled one (the last row of a simulation): computed once and kept. Allocates; a haptic loop never does it.
+  void selectStep(double dt) noexcept {
+    for (const auto& cores : cores_)
+      if (cores->dt == dt) {
+        current_ = cores.get();
+        return;
+      }
+    if (cores_.size() > 4) cores_.resize(1);
+    cores_.push_back(makeCores(dt));
+    current_ = cores_.back().get();
+  }
+
+  void locate(std::span<MassState> masses) const noexcept override {
+    for (int a = 0; a < Axes; ++a) {
+      core().read(state_[a], x_, v_);
+      for (std::size_t i = 0; i < masses.size(); ++i) {
+        if constexpr (Axes == 1) {
+          masses[i].q = {x_[i] / length_, 0};
+          masses[i].qRate = {v_[i] / length_, 0};
+          masses[i].r = space_.origin + x_[i] * axis_;
+          masses[i].v = v_[i] * axis_;
+        } else {
+          (a == 0 ? masses[i].r.x : a == 1 ? masses[i].r.y : masses[i].r.z) = x_[i];
+          (a == 0 ? masses[i].v.x : a == 1 ? masses[i].v.y : masses[i].v.z) = v_[i];
+        }
+      }
+    }
+  }
+
+  /// True if a mass is beyond an end after the step; then the state is put where the first mass meets it (cubic through both ends of
+  /// the step, error dt^4 x''''/384).
+  bool leaves() noexcept {
+    const int n = model_.count();
+    std::vector<double>&x1 = x_, &v1 = v_;
+    core().read(next_[0], x1, v1);
+    const double lo = space_.domain.lo * length_, hi = space_.domain.hi * length_;
+    bool outside = false;
+    for (int i = 0; i < n; ++i) outside = outside || x1[i] < lo || x1[i] > hi;
+    if (!outside) return false;
+    std::array<double, kMaxMasses> x0, v0;
+    core().read(state_[0], {x0.data(), static_cast<std::size_t>(n)}, {v0.data(), static_cast<std::size_t>(n)});
+    const double dt = current_->dt;
+    const auto cubic = [&](int i, double s) {
+      const double d = x1[i] - x0[i], c2 = 3 * d - dt * (2 * v0[i] + v1[i]), c3 = -2 * d + dt * (v0[i] + v1[i]);
+      return std::array{x0[i] + s * (dt * v0[i] + s * (c2 + s * c3)), v0[i] + s * (2 * c2 + 3 * s * c3) / dt};
+    };
+    double first = 1;
+    for (int i = 0; i < n; ++i) {
+      if (x1[i] >= lo && x1[i] <= hi) continue;
+      double inside = 0, beyond = first;
+      for (int round = 0; round < 60; ++round) {
+        const double middle = 0.5 * (inside + beyond), x = cubic(i, middle)[0];
+        (x < lo || x > hi ? beyond : inside) = middle;
+      }
+      first = std::min(first, inside);
+    }
+    std::array<double, kMaxMasses> x, v;
+    for (int i = 0; i < n; ++i) {
+      const auto [place, speed] = cubic(i, first);
+      x[i] = std::fmin(std::fmax(place, lo), hi);
+      v[i] = speed;
+    }
+    core().place(state_[0], {x.data(), static_cast<std::size_t>(n)}, {v.data(), static_cast<std::size_t>(n)});
+    fraction_ = first;
+    return true;
+  }
+
+  LinearSpace space_;
+  double length_;  // [m] |r_phi|
+  Vec3 axis_;
+  bool bounded_ = false;
+  std::vector<std::unique_ptr<Cores>> cores_;
+  Cores* current_ = nullptr;
+  std::vector<typename Core::State> state_, next_;   // one an axis
+  mutable std::vector<double> x_, v_;                // scratch
+};
+
+}  // namespace reachlab

@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+
+#include "sim/experiment/experiment.h"
+
+namespace reachlab {
+
+/// S numbers on the stack with the size known to the compiler; S = 0: the size is known when the scene is compiled, within a bound, so
+/// that a step allocates nothing either way. Left uninitialised: every method writes before it reads.
+template <int S>
+struct Numbers {
+  std::array<double, S> values;
+  explicit Numbers(int = S) {}
+  static constexpr int size() noexcept { return S; }
+  double& operator[](int i) noexcept { return values[i]; }
+  const double& operator[](int i) const noexcept { return values[i]; }
+};
+
+inline constexpr int kMostStates = 2 * kMaxMasses + 2;
+
+template <>
+struct Numbers<0> {
+  explicit Numbers(int size) : size_(size) {}
+  Numbers(const Numbers& other) noexcept : size_(other.size_) { copy(other); }
+  Numbers& operator=(const Numbers& other) noexcept {
+    size_ = other.size_;
+    copy(other);
+    return *this;
+  }
+  int size() const noexcept { return size_; }
+  double& operator[](int i) noexcept { return values_[i]; }
+  const double& operator[](int i) const noexcept { return values_[i]; }
+
+ private:
+  void copy(const Numbers& other) noexcept {
+    for (int i = 0; i < size_; ++i) values_[i] = other.values_[i];
+  }
+  int size_;
+  std::array<double, kMostStates> values_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,124 @@
+#include "sim/dynamics/oscillator_core.h"
+
+#include <cmath>
+
+#include "sim/dynamics/chain_modes.h"
+
+namespace reachlab {
+
+OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt) : n_(model.count()) {
+  struct Oscillator {
+    ObjectModel model;
+    double handStiffness, handDamping, extra, gravity, rest;
+  };
+  std::vector<Oscillator> oscillators;
+  const auto single = [](double stiffness, double damping, double mass) {
+    ObjectModel one;
+    one.mass = {mass};
+    one.handStiffness = {stiffness};
+    one.handDamping = {damping};
+    return one;
+  };
+  if (model.kind == ObjectKind::Parallel) {
+    for (int i = 0; i < n_; ++i) {
+      const double k = coupled ? model.handStiffness[i] : 0, b = coupled ? model.handDamping[i] : 0;
+      ObjectModel one = single(k, b, model.mass[i]);
+      one.viscosity = model.viscosity;
+      oscillators.push_back({one, k, b, i == 0 ? 1.0 : 0.0, 1.0, 1.0});
+    }
+  } else {
+    const ChainModes modes = computeModes(model, coupled);
+    toModes_ = modes.toModes;
+    toMasses_ = modes.toMasses;
+    const double k = coupled ? model.handStiffness[0] : 0, b = coupled ? model.handDamping[0] : 0;
+    for (int j = 0; j < n_; ++j) {
+      const double share = modes.toMasses(0, j);  // force on mass 1 as felt by mode j
+      const double rest = modes.toModes.row(j).sum();
+      oscillators.push_back({single(modes.squaredFrequency[j], modes.damping[j], 1.0), k * share, b * share, share, rest, rest});
+    }
+  }
+  groups_.resize(lanesFor(n_), Group{});
+  for (int j = 0; j < n_; ++j) {
+    const Oscillator& o = oscillators[j];
+    const Propagator p = computePropagator(o.model, true, dt);
+    Group& g = groups_[j / kLanes];
+    const int lane = j % kLanes;
+    g.xx[lane] = p.d[0];
+    g.vx[lane] = p.d[1];
+    g.xv[lane] = p.d[2];
+    g.vv[lane] = p.d[3];
+    g.rest[lane] = o.rest;
+    g.extraX[lane] = o.extra * p.force[0][0];
+    g.extraV[lane] = o.extra * p.force[0][1];
+    g.gravityX[lane] = o.gravity * p.gravity[0];
+    g.gravityV[lane] = o.gravity * p.gravity[1];
+    for (int k = 0; k < kForceTerms; ++k) {
+      g.handX[k][lane] = k > 0 ? o.handStiffness * p.force[k][0] : 0;
+      g.handV[k][lane] = k > 0 ? o.handStiffness * p.force[k][1] : 0;
+      g.rateX[k][lane] = o.handDamping * p.force[k][0];
+      g.rateV[k][lane] = o.handDamping * p.force[k][1];
+    }
+    damped_ = damped_ || o.handDamping != 0;
+  }
+}
+
+OscillatorCore::State OscillatorCore::makeState() const {
+  return {std::vector<Lanes>(groups_.size(), broadcast(0)), std::vector<Lanes>(groups_.size(), broadcast(0))};
+}
+
+void OscillatorCore::place(State& state, std::span<const double> x, std::span<const double> v) const noexcept {
+  for (int j = 0; j < n_; ++j) {
+    double e = 0, rate = 0;
+    if (toModes_.size() == 0) {
+      e = x[j];
+      rate = v[j];
+    } else {
+      for (int i = 0; i < n_; ++i) {
+        e += toModes_(j, i) * x[i];
+        rate += toModes_(j, i) * v[i];
+      }
+    }
+    state.x[j / kLanes][j % kLanes] = e;
+    state.v[j / kLanes][j % kLanes] = rate;
+  }
+}
+
+void OscillatorCore::read(const State& state, std::span<double> x, std::span<double> v) const noexcept {
+  for (int i = 0; i < n_; ++i) {
+    x[i] = v[i] = 0;
+    if (toMasses_.size() == 0) {
+      x[i] = state.x[i / kLanes][i % kLanes];
+      v[i] = state.v[i / kLanes][i % kLanes];
+    } else {
+      for (int j = 0; j < n_; ++j) {  // mode by mode along a row of toMasses_
+        x[i] += toMasses_(i, j) * state.x[j / kLanes][j % kLanes];
+        v[i] += toMasses_(i, j) * state.v[j / kLanes][j % kLanes];
+      }
+    }
+  }
+}
+
+bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
+  Lanes check = broadcast(0);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const Group& g = groups_[i];
+    const Lanes e = state.x[i] - g.rest * hand.r[0], v = state.v[i];
+    Lanes pushX = g.extraX * hand.extraForce + g.gravityX * hand.gravity;
+    Lanes pushV = g.extraV * hand.extraForce + g.gravityV * hand.gravity;
+    for (int k = 1; k <= hand.degree; ++k) {
+      pushX += g.handX[k] * hand.r[k];
+      pushV += g.handV[k] * hand.r[k];
+    }
+    if (damped_)
+      for (int k = 0; k <= hand.degree; ++k) {
+        pushX += g.rateX[k] * hand.v[k];
+        pushV += g.rateV[k] * hand.v[k];
+      }
+    next.x[i] = state.x[i] + (g.xx * e + (g.xv * v + pushX));
+    next.v[i] = v + (g.vx * e + (g.vv * v + pushV));
+    check += (next.x[i] + next.v[i]) * 0.0;
+  }
+  return allFinite(check);
+}
+
+}  // namespace reachlab

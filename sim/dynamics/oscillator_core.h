@@ -1,0 +1,45 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "sim/dynamics/dense_core.h"
+#include "sim/dynamics/lanes.h"
+
+namespace reachlab {
+
+/// Independent oscillators e_j'' + c_j e_j' + w_j^2 e_j = g_j f, four at a time, each by its own exact propagator. A parallel object is
+/// one as it stands; a chain is one in its modes, where N masses cost O(N) a step.
+class OscillatorCore {
+ public:
+  struct State {
+    std::vector<Lanes> x, v;
+  };
+
+  /// Parallel objects, or chains whose damping the modes diagonalise (canBeModal).
+  OscillatorCore(const ObjectModel& model, bool coupled, double dt);
+
+  State makeState() const;
+  void place(State& state, std::span<const double> x, std::span<const double> v) const noexcept;
+  void read(const State& state, std::span<double> x, std::span<double> v) const noexcept;
+  /// `next` must not be `state`. False if the result is not finite.
+  bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
+
+ private:
+  struct Group {
+    Lanes xx, xv, vx, vv;                                              // exp(A dt) - 1
+    Lanes rest;                                                        // e at rest for a hand at 1 m
+    Lanes extraX, extraV, gravityX, gravityV;
+    std::array<Lanes, kForceTerms> handX{}, handV{};                   // by position coefficients
+    std::array<Lanes, kForceTerms> rateX{}, rateV{};                   // by velocity coefficients
+  };
+  int n_ = 0;
+  bool damped_ = false;            // the hand's velocity matters
+  std::vector<Group> groups_;
+  Eigen::MatrixXd toModes_, toMasses_;  // empty for a parallel object
+};
+
+/// True if K's modes diagonalise the damping to rounding (none, viscosity on equal masses, damping proportional to stiffness).
+bool canBeModal(const ObjectModel& model);
+
+}  // namespace reachlab
