@@ -4,23 +4,15 @@
 
 #include "constraints/error.h"
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/line_constraint.h"
 #include "sim/dynamics/plant.h"
 
 namespace reachlab {
-namespace {
-
-Constraint constraintOf(const Experiment& experiment) {
-  if (experiment.constraint.name == "line" && experiment.constraint.curve.empty() && experiment.constraint.surface.empty())
-    return makeLine(experiment.constraint);
-  throw RefusedError("this constraint has no dynamics");
-}
-
-}  // namespace
 
 Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   Scene scene;
-  scene.constraint = constraintOf(experiment);
+  scene.constraint = makeConstraint(experiment.constraint);
+  if (scene.constraint.kind == ConstraintKind::Surface || (scene.constraint.kind == ConstraintKind::Curve && !scene.constraint.straight))
+    throw RefusedError("dynamics on '" + scene.constraint.name + "' are not linear");
   const ObjectModel model = makeObjectModel(experiment);
   if (!(options.step > 0) || !std::isfinite(options.step)) throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
   const LinearSpace space = linearSpace(scene.constraint);
