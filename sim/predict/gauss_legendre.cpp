@@ -2,39 +2,44 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
+
+#include "sim/predict/double_double.h"
 
 namespace reachlab {
 
 // Newton on P_n from Tricomi's estimate of its roots (Abramowitz and Stegun 22.16.6), in extended precision so that nodes and weights
 // are right to the last bit of a double.
-GaussRule makeGaussRule(int count) {
-  GaussRule rule;
+template <class Real>
+GaussRule<Real> makeGaussRule(int count) {
+  using Wide = std::conditional_t<std::is_same_v<Real, double>, long double, Real>;
+  constexpr int kPasses = 8;  // the error squares with each from about 1e-3
+  GaussRule<Real> rule;
   rule.node.resize(static_cast<size_t>(count)), rule.weight.resize(static_cast<size_t>(count));
-  const long double n = count;
   for (int i = 0; i < (count + 1) / 2; ++i) {
-    long double x = std::cos(std::numbers::pi_v<long double> * (i + 0.75L) / (n + 0.5L));
-    long double slope = 1;
-    for (int pass = 0; pass < 8; ++pass) {
-      long double p0 = 1, p1 = x;
-      for (int k = 2; k <= count; ++k) {
-        const long double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
-        p0 = p1, p1 = p2;
+    Wide x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
+    Wide slope = 1.0;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      Wide before = 0.0, p = 1.0;
+      for (int k = 1; k <= count; ++k) {
+        const Wide next = (Wide(2.0 * k - 1) * x * p - Wide(k - 1.0) * before) / Wide(1.0 * k);
+        before = p, p = next;
       }
-      if (count == 1) p0 = 1, p1 = x;
-      slope = n * (x * p1 - p0) / (x * x - 1);
-      const long double step = p1 / slope;
-      x -= step;
-      if (std::abs(step) < 1e-19L) break;
+      slope = Wide(1.0 * count) * (x * p - before) / (x * x - Wide(1.0));
+      x -= p / slope;
     }
     const auto lo = static_cast<size_t>(i), hi = static_cast<size_t>(count - 1 - i);
-    rule.node[lo] = static_cast<double>(-x), rule.node[hi] = static_cast<double>(x);
-    rule.weight[lo] = rule.weight[hi] = static_cast<double>(2 / ((1 - x * x) * slope * slope));
+    rule.node[lo] = static_cast<Real>(-x), rule.node[hi] = static_cast<Real>(x);
+    rule.weight[lo] = rule.weight[hi] = static_cast<Real>(Wide(2.0) / ((Wide(1.0) - x * x) * slope * slope));
   }
   return rule;
 }
 
-const GaussRule& gaussRule16() {
-  static const GaussRule rule = makeGaussRule(16);
+template GaussRule<double> makeGaussRule(int);
+template GaussRule<DoubleDouble> makeGaussRule(int);
+
+const GaussRule<double>& gaussRule16() {
+  static const GaussRule<double> rule = makeGaussRule<double>(16);
   return rule;
 }
 

@@ -1,15 +1,17 @@
 #pragma once
-#include <array>
 #include <vector>
 
 namespace reachlab {
 
 /// Gauss-Legendre nodes (ascending) and weights on [-1, 1]; exact for polynomials of degree 2 count - 1.
+template <class Real>
 struct GaussRule {
-  std::vector<double> node, weight;
+  std::vector<Real> node, weight;
 };
-GaussRule makeGaussRule(int count);
+/// Real is double (right to the last bit) or DoubleDouble.
+template <class Real>
+GaussRule<Real> makeGaussRule(int count);
 /// The 16-point rule, computed once. Any thread.
-const GaussRule& gaussRule16();
+const GaussRule<double>& gaussRule16();
 
 }  // namespace reachlab

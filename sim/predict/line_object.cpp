@@ -22,8 +22,8 @@ void requirePositive(const std::vector<double>& values, const char* what, const 
 
 }  // namespace
 
-bool LineObject::damped() const {
-  return viscosity > 0 || handDamping > 0 || std::any_of(dampers.begin(), dampers.end(), [](double b) { return b > 0; });
+bool LineObject::damped(bool withHand) const {
+  return viscosity > 0 || (withHand && handDamping > 0) || std::any_of(dampers.begin(), dampers.end(), [](double b) { return b > 0; });
 }
 
 double LineObject::totalMass() const { return std::accumulate(masses.begin(), masses.end(), handMass); }

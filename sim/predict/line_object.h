@@ -19,7 +19,7 @@ struct LineObject {
   std::vector<int> source;      // mass i of the experiment is masses[source[i]] here: equal parallel frequencies are one mass
 
   int count() const { return static_cast<int>(masses.size()); }
-  bool damped() const;
+  bool damped(bool withHand = true) const;
   double totalMass() const;     // [kg] with the hand
 };
 

@@ -18,7 +18,7 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   const Eigen::Index polynomials = even ? (order + 1) / 2 : order / 2;
   const Eigen::Index unknowns = polynomials + frequency.size();
   const double fastest = frequency.size() > 0 ? frequency.maxCoeff() : 0.0;
-  const GaussRule& rule = gaussRule16();
+  const GaussRule<double>& rule = gaussRule16();
   const auto points = static_cast<Eigen::Index>(rule.node.size());
   const auto panels = static_cast<Eigen::Index>(std::ceil(std::max({fastest * halfTime / kPhasePerPanel, unknowns / 12.0, 1.0})));
   const double width = halfTime / static_cast<double>(panels);

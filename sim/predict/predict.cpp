@@ -6,20 +6,34 @@
 #include <numbers>
 
 #include "constraints/error.h"
+#include "sim/predict/condition.h"
+#include "sim/predict/crackle_prediction.h"
 #include "sim/predict/line_object.h"
 #include "sim/predict/parity_prediction.h"
 #include "sim/predict/peaks.h"
+#include "sim/predict/series_prediction.h"
 
 namespace reachlab {
 namespace {
-
-constexpr double kWarnCondition = 1e6, kRefuseCondition = 1e12;  // criteria.md 5
 
 // Displacement along a straight task, in the direction of the target [m].
 double computeStraightDistance(const Experiment& experiment, const Task& task) {
   const auto& shape = experiment.constraint.shape;
   const auto length = shape.find("length_m");
   return (length == shape.end() ? 0.2 : length->second) * std::abs(task.target.at(0) - task.start.at(0)) / (2 * std::numbers::pi);
+}
+
+std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
+  if (criterion == Criterion::MinCrackle) return makeCracklePrediction(object, distance, duration);
+  const bool byHand = criterion == Criterion::MinHandJerk || criterion == Criterion::MinHandCrackle;
+  const bool handDampingMatters = !byHand && !(criterion == Criterion::MinComAcceleration && object.handMass == 0);
+  if (object.damped(handDampingMatters)) return makeSeriesPrediction(object, criterion, distance, duration);
+  std::unique_ptr<Prediction> prediction = makeParityPrediction(object, criterion, distance, duration);
+  if (!(prediction->condition > kClosedFormCondition && prediction->condition <= kRefuseCondition)) return prediction;
+  const double condition = prediction->condition;
+  prediction = makeSeriesPrediction(object, criterion, distance, duration);
+  prediction->condition = condition;
+  return prediction;
 }
 
 void judge(Prediction& prediction, const LineObject& object) {
@@ -48,13 +62,13 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
 
   if (experiment.constraint.name != "line" || !experiment.constraint.curve.empty() || !experiment.constraint.surface.empty())
     throw RefusedError("constraint: this criterion is defined on the line");
-  if (criterion == Criterion::MinTorqueChange || criterion == Criterion::MinCrackle || options.handDamping > 0)
+  if (criterion == Criterion::MinTorqueChange)
     throw RefusedError(fmt::format("{}: not defined for this object", nameOf(criterion)));
 
   std::vector<std::string> warnings;
   const LineObject object = mergeEqualFrequencies(
       makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration, warnings);
-  std::unique_ptr<Prediction> prediction = makeParityPrediction(object, criterion, distance, duration);
+  std::unique_ptr<Prediction> prediction = makeLinearPrediction(object, criterion, distance, duration);
   prediction->criterion = criterion;
   prediction->duration = duration;
   prediction->distance = distance;

@@ -1,0 +1,155 @@
+#include "sim/predict/crackle_prediction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reachlab {
+namespace {
+
+using Real = long double;                // the sums of derivatives cancel by a few digits
+using Polynomial = std::vector<Real>;    // in D = d/dt, lowest power first
+
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  Polynomial c(a.size() + b.size() - 1, 0);
+  for (size_t i = 0; i < a.size(); ++i)
+    for (size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
+  return c;
+}
+
+Polynomial operator+(Polynomial a, const Polynomial& b) {
+  a.resize(std::max(a.size(), b.size()), 0);
+  for (size_t i = 0; i < b.size(); ++i) a[i] += b[i];
+  return a;
+}
+
+// Node 0 is the hand, node i the i-th mass; each is its polynomial applied to z.
+std::vector<Polynomial> computeChainPolynomials(const LineObject& object) {
+  const int n = object.count();
+  std::vector<Polynomial> node(n + 1);
+  // X_i = x_i / (kappa_0 … kappa_(i-1)) and the elongation d_i likewise: k_(i-1) d_(i-1) = (m_i D^2 + lambda D) X_i + k_i kappa_i d_i.
+  const auto kappa = [&](int i) { return Polynomial{1, static_cast<Real>(object.dampers[i]) / object.springs[i]}; };
+  node[n] = {1};
+  Polynomial elongation{0};
+  for (int i = n; i > 0; --i) {
+    const Real k = object.springs[i - 1];
+    Polynomial next = Polynomial{0, object.viscosity / k, object.masses[i - 1] / k} * node[i];
+    if (i < n) next = next + Polynomial{object.springs[i] / k} * (kappa(i) * elongation);
+    elongation = next;
+    node[i - 1] = elongation + kappa(i - 1) * node[i];
+  }
+  Polynomial product{1};
+  for (int i = 1; i <= n; ++i) {
+    product = product * kappa(i - 1);
+    node[i] = node[i] * product;
+  }
+  return node;
+}
+
+std::vector<Polynomial> computeParallelPolynomials(const LineObject& object) {
+  const int n = object.count();
+  std::vector<Polynomial> node(n + 1, Polynomial{1});
+  for (int j = 0; j < n; ++j) {
+    const Real k = object.springs[j];
+    const Polynomial oscillator{1, (static_cast<Real>(object.dampers[j]) + object.viscosity) / k, object.masses[j] / k};
+    for (int i = 0; i <= n; ++i)
+      node[i] = node[i] * (i == j + 1 ? Polynomial{1, static_cast<Real>(object.dampers[j]) / k} : oscillator);
+  }
+  return node;
+}
+
+class CracklePrediction final : public Prediction {
+ public:
+  CracklePrediction(const LineObject& object, double distanceInMetres, double seconds)
+      : half_(seconds / 2), distance_(distanceInMetres), power_(2 * object.count() + 2), source_(object.source),
+        node_(object.parallel ? computeParallelPolynomials(object) : computeChainPolynomials(object)) {
+    massCount_ = static_cast<int>(source_.size());
+    fastest_ = std::sqrt(2.0 * power_) * power_ / seconds;
+    // Times H^-k, so that rows multiply derivatives with respect to sigma.
+    for (Polynomial& p : node_)
+      for (size_t k = 0; k < p.size(); ++k) p[k] /= std::pow(static_cast<Real>(half_), static_cast<Real>(k));
+    Real scale = 0.5L;  // (2n+1)! / (n!^2 2^(2n+1))
+    for (int i = 1; i <= power_; ++i) scale *= (2 * i + 1) / (2.0L * i);
+    slope_ = scale * distance_;
+    // z^(n+1) = slope 2^n n! P_n(sigma) / H^(n+1) up to sign.
+    Real top = slope_ / half_;
+    for (int i = 1; i <= power_; ++i) top *= 2 * i / static_cast<Real>(half_);
+    cost = static_cast<double>(top * top * half_ * 2 / (2 * power_ + 1));
+    condition = computeAmplification();
+    handJump = 0.0;
+    handVelocityJump = 0.0;
+  }
+
+  PredictedHand handAt(double t) const override {
+    std::vector<Real> z(derivatives());
+    computeDerivatives(t, z);
+    const Real H = half_;
+    return {static_cast<double>(sum(node_[0], z, 0)), static_cast<double>(sum(node_[0], z, 1) / H),
+            static_cast<double>(sum(node_[0], z, 2) / (H * H))};
+  }
+
+  void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
+    std::vector<Real> z(derivatives());
+    computeDerivatives(t, z);
+    for (int i = 0; i < massCount_; ++i) {
+      position[i] = static_cast<double>(sum(node_[source_[i] + 1], z, 0));
+      velocity[i] = static_cast<double>(sum(node_[source_[i] + 1], z, 1) / half_);
+    }
+  }
+
+ private:
+  size_t derivatives() const { return static_cast<size_t>(power_) + 1; }
+
+  static Real sum(const Polynomial& row, const std::vector<Real>& z, size_t shift) {
+    Real s = 0;
+    for (size_t k = 0; k < row.size(); ++k) s += row[k] * z[k + shift];
+    return s;
+  }
+
+  // z and its derivatives with respect to sigma, up to order 2N+2. With F_m = f^(m) / (1 - sigma^2)^(n-m), f = (1 - sigma^2)^n:
+  // F_(m+1) = 2 (m-n) sigma F_m + m (m-1-2n) (1 - sigma^2) F_(m-1), from (1 - sigma^2) f' = -2 n sigma f.
+  void computeDerivatives(double t, std::vector<Real>& z) const {
+    const int n = power_;
+    const Real s = std::clamp((static_cast<Real>(t) - half_) / half_, -1.0L, 1.0L), rest = (1 - s) * (1 + s);
+    const Real low = (1 - std::abs(s)) / 2, high = 1 - low;  // I_low(n+1, n+1): a binomial tail, all terms positive
+    Real tail = 0, term = 2 * slope_ / (distance_ * (n + 1)) * std::pow(rest, static_cast<Real>(n)) * low;
+    for (int j = n + 1; j <= 2 * n + 1; ++j) {
+      tail += term;
+      term *= low / high * (2 * n + 1 - j) / (j + 1);
+    }
+    z[0] = distance_ * (s < 0 ? tail : 1 - tail);
+    Real before = 0, now = 1;
+    for (int m = 0; m < n; ++m) {
+      z[m + 1] = slope_ * now * std::pow(rest, static_cast<Real>(n - m));
+      const Real next = 2 * (m - n) * s * now + m * (m - 1.0L - 2 * n) * rest * before;
+      before = now, now = next;
+    }
+  }
+
+  double computeAmplification() const {
+    constexpr int kPoints = 100;
+    std::vector<Real> z(derivatives());
+    Real terms = 0, total = 0;
+    for (int i = 0; i <= kPoints; ++i) {
+      computeDerivatives(2 * half_ * i / kPoints, z);
+      Real absolute = 0;
+      for (size_t k = 0; k < node_[0].size(); ++k) absolute += std::abs(node_[0][k] * z[k + 1]);
+      terms = std::max(terms, absolute);
+      total = std::max(total, std::abs(sum(node_[0], z, 1)));
+    }
+    return static_cast<double>(terms / total);
+  }
+
+  double half_, distance_;
+  int power_;  // n = 2N+2
+  std::vector<int> source_;
+  std::vector<Polynomial> node_;
+  Real slope_ = 0;  // of dz/dsigma at T/2
+};
+
+}  // namespace
+
+std::unique_ptr<Prediction> makeCracklePrediction(const LineObject& object, double distance, double duration) {
+  return std::make_unique<CracklePrediction>(object, distance, duration);
+}
+
+}  // namespace reachlab
