@@ -1,11 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
 #include "cli/commands.h"
+#include "cli/predict_output.h"
 #include "constraints/error.h"
 
 namespace reachlab {
+namespace {
+
+struct PredictArguments {
+  std::string experiment, criterion, sweep, out, figure;
+  double duration = 0, handMass = -1, handDamping = 0;
+  int samples = 201, unknowns = 0;
+  bool json = false, time = false;
+};
+
+Criterion parseCriterion(const std::string& name) {
+  if (const auto criterion = criterionFromName(name)) return *criterion;
+  std::string names;
+  for (int i = 0; i < kCriterionCount; ++i) names += (i ? ", " : "") + std::string(nameOf(static_cast<Criterion>(i)));
+  throw UsageError(fmt::format("--criterion: '{}' is not a criterion; allowed: {}", name, names));
+}
+
+void writeText(const std::string& text, const std::string& path) {
+  if (path.empty()) {
+    std::cout << text << std::flush;
+    return;
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw ResourceError(fmt::format("{}: cannot be written", path));
+}
+
+// Median of repeated computations, on stderr: a figure for the machine at hand.
+void reportTime(const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
+  constexpr int kRuns = 21;
+  std::vector<double> microseconds;
+  for (int i = 0; i < kRuns; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    predict(experiment, criterion, options);
+    microseconds.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+  }
+  std::nth_element(microseconds.begin(), microseconds.begin() + kRuns / 2, microseconds.end());
+  std::cerr << fmt::format("computed in {:.0f} us (median of {})\n", microseconds[kRuns / 2], kRuns);
+}
+
+void runSweep(const PredictArguments& arguments, const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
+  const Sweep sweep = parseSweep(arguments.sweep);
+  const auto begin = std::chrono::steady_clock::now();
+  double shown = 0;
+  const auto rows = computeFamily(experiment, criterion, options, sweep, [&](int done, int total) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (seconds < shown + 1) return;
+    shown = seconds;
+    std::cerr << fmt::format("{} of {}\n", done, total);
+  });
+  for (const FamilyRow& row : rows)
+    if (!row.prediction) std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
+  writeText(writeFamilyCsv(sweep, rows), arguments.out);
+  if (!arguments.figure.empty()) writeFigure(drawFamily(sweep, rows, criterion), arguments.figure);
+}
+
+void runPredict(const PredictArguments& arguments) {
+  const Criterion criterion = parseCriterion(arguments.criterion);
+  if (arguments.samples < 2) throw UsageError("--samples: allowed: 2 or more");
+  if (arguments.json && !arguments.sweep.empty()) throw UsageError("--sweep: writes CSV rows; --json is for a single prediction");
+  const Experiment experiment = readExperiment(arguments.experiment);
+  PredictOptions options;
+  options.duration = arguments.duration;
+  options.handDamping = arguments.handDamping;
+  options.unknowns = arguments.unknowns;
+  if (arguments.handMass >= 0) options.handMass = arguments.handMass;
+  if (!arguments.sweep.empty()) return runSweep(arguments, experiment, criterion, options);
+
+  const auto prediction = predict(experiment, criterion, options);
+  for (const std::string& warning : prediction->warnings) std::cerr << "warning: " << warning << '\n';
+  if (arguments.time) reportTime(experiment, criterion, options);
+  if (arguments.json) std::cout << writePredictionJson(*prediction) << std::flush;
+  if (!arguments.json || !arguments.out.empty()) writeText(writePredictionCsv(*prediction, arguments.samples), arguments.out);
+  if (!arguments.figure.empty()) writeFigure(drawPrediction(*prediction, arguments.samples), arguments.figure);
+}
+
+std::string footer() {
+  std::string text = "Criteria:\n";
+  for (int i = 0; i < kCriterionCount; ++i)
+    text += fmt::format("  {:24}{}\n", nameOf(static_cast<Criterion>(i)), describe(static_cast<Criterion>(i)));
+  text += "Keys of --sweep:\n";
+  for (const SweepKey& key : sweepKeys()) text += fmt::format("  {:28}{}\n", key.name, key.meaning);
+  return text +
+         "Examples:\n"
+         "  reach predict chain-moderate --criterion min-hand-jerk > hand.csv\n"
+         "  reach predict parallel --criterion min-hand-force-change --hand-mass 1 --json\n"
+         "  reach predict dingwell --criterion min-hand-jerk --sweep duration_s=0.5:3:0.05 --out family.csv --figure family.svg\n";
+}
+
+}  // namespace
 
 void addPredictCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("predict", "");
-  command->callback([] { throw UsageError("predict: not there yet"); });
+  CLI::App* command = app.add_subcommand("predict", "What the hand should do under one optimality criterion: profiles (CSV) or numbers (JSON)");
+  const auto arguments = std::make_shared<PredictArguments>();
+  command->add_option("experiment", arguments->experiment, "Experiment file, or the name of a shipped one")->required();
+  command->add_option("--criterion", arguments->criterion, "One of the criteria below")->required();
+  command->add_option("--duration", arguments->duration, "Movement time [s]; default: the task's")->check(CLI::PositiveNumber);
+  command->add_option("--hand-mass", arguments->handMass, "Mass of the hand [kg]; default: the experiment's")->check(CLI::NonNegativeNumber);
+  command->add_option("--hand-damping", arguments->handDamping, "Damping of the hand itself [N s/m]; default 0")->check(CLI::NonNegativeNumber);
+  command->add_option("--samples", arguments->samples, "Rows from 0 to T; default 201");
+  command->add_option("--unknowns", arguments->unknowns, "Unknowns of arm and curve predictions; default: chosen for 1e-8")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--sweep", arguments->sweep, "KEY=FROM:TO:STEP: one row for each value, on all cores");
+  command->add_flag("--json", arguments->json, "Cost, peaks, jumps, condition and travel time as JSON instead of the CSV (beside it with --out)");
+  command->add_option("--out", arguments->out, "File for the CSV; default: standard output");
+  command->add_option("--figure", arguments->figure, "Draws profiles or family: FILE.svg, FILE.pdf or FILE.png");
+  command->add_flag("--time", arguments->time, "Tells on stderr how long the computation takes");
+  command->footer(footer());
+  command->callback([arguments] { runPredict(*arguments); });
 }
 
 }  // namespace reachlab

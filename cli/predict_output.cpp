@@ -1,0 +1,137 @@
+#include "cli/predict_output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace reachlab {
+namespace {
+
+std::string number(double value) { return fmt::format("{:.17g}", value); }
+std::string orEmpty(const std::optional<double>& value) { return value ? number(*value) : ""; }
+std::string orNull(const std::optional<double>& value) { return value ? number(*value) : "null"; }
+std::string quoted(std::string_view text) { return nlohmann::json(text).dump(); }
+
+double sampleTime(const Prediction& prediction, int i, int samples) {
+  return i == samples - 1 ? prediction.duration : prediction.duration * i / (samples - 1);
+}
+
+Series makeSeries(std::string label, Color color = palette::kBlack, Dash dash = Dash::Solid, double width = kNormal) {
+  Series series;
+  series.label = std::move(label);
+  series.color = color;
+  series.dash = dash;
+  series.width = width;
+  return series;
+}
+
+}  // namespace
+
+std::string writePredictionCsv(const Prediction& prediction, int samples) {
+  std::string out = "time_s,hand_m,hand_m_per_s,hand_m_per_s2";
+  const auto n = static_cast<size_t>(prediction.massCount());
+  for (size_t i = 1; i <= n; ++i) out += fmt::format(",mass{0}_m,mass{0}_m_per_s", i);
+  out += '\n';
+  std::vector<double> x(n), v(n);
+  for (int i = 0; i < samples; ++i) {
+    const double t = sampleTime(prediction, i, samples);
+    const PredictedHand hand = prediction.handAt(t);
+    prediction.massesAt(t, x, v);
+    out += number(t) + ',' + number(hand.position) + ',' + number(hand.velocity) + ',' + number(hand.acceleration);
+    for (size_t m = 0; m < n; ++m) out += ',' + number(x[m]) + ',' + number(v[m]);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string writePredictionJson(const Prediction& p) {
+  std::string warnings;
+  for (const std::string& w : p.warnings) warnings += (warnings.empty() ? "" : ", ") + quoted(w);
+  std::string out = "{\n";
+  const auto line = [&](std::string_view key, const std::string& value) { out += fmt::format("  \"{}\": {},\n", key, value); };
+  line("criterion", quoted(nameOf(p.criterion)));
+  line("duration_s", number(p.duration));
+  line("distance_m", number(p.distance));
+  line("cost", number(p.cost));
+  line("hand_peak_m_per_s", number(p.handPeak));
+  line("hand_peak_s", number(p.handPeakTime));
+  line("object_peak_m_per_s", number(p.objectPeak));
+  line("hand_jump_m", orNull(p.handJump));
+  line("hand_jump_m_per_s", orNull(p.handVelocityJump));
+  line("condition", number(p.condition));
+  line("travel_time_s", orNull(p.travelTime));
+  out += fmt::format("  \"warnings\": [{}]\n}}\n", warnings);
+  return out;
+}
+
+std::string writeFamilyCsv(const Sweep& sweep, const std::vector<FamilyRow>& rows) {
+  std::string out = sweep.key +
+                    ",cost,hand_peak_m_per_s,hand_peak_s,object_peak_m_per_s,hand_jump_m,hand_jump_m_per_s,condition,travel_time_s,"
+                    "hand_velocity_peaks,hand_reverses,refused\n";
+  for (const FamilyRow& row : rows) {
+    out += number(row.value);
+    if (row.prediction) {
+      const Prediction& p = *row.prediction;
+      for (const double value : {p.cost, p.handPeak, p.handPeakTime, p.objectPeak}) out += ',' + number(value);
+      out += ',' + orEmpty(p.handJump) + ',' + orEmpty(p.handVelocityJump) + ',' + number(p.condition) + ',' + orEmpty(p.travelTime);
+      out += fmt::format(",{},{},0\n", row.shape.velocityPeaks, row.shape.reverses ? 1 : 0);
+    } else {
+      out += ",,,,,,,,,,,1\n";
+    }
+  }
+  return out;
+}
+
+Figure drawPrediction(const Prediction& prediction, int samples) {
+  Series hand = makeSeries("hand", palette::kBlack, Dash::Solid, kThick), object = makeSeries("object", palette::kBlue, Dash::Dashed, kThick);
+  const auto n = static_cast<size_t>(prediction.massCount());
+  std::vector<double> x(n), v(n);
+  for (int i = 0; i < samples; ++i) {
+    const double t = sampleTime(prediction, i, samples);
+    prediction.massesAt(t, x, v);
+    hand.x.push_back(t), hand.y.push_back(prediction.handAt(t).velocity);
+    object.x.push_back(t), object.y.push_back(v.back());
+  }
+  Panel panel;
+  panel.title = nameOf(prediction.criterion);
+  panel.x.label = "Time (s)";
+  panel.y.label = "Velocity (m/s)";
+  panel.series = {hand, object};
+  Figure figure;
+  figure.panels = {panel};
+  return figure;
+}
+
+Figure drawFamily(const Sweep& sweep, const std::vector<FamilyRow>& rows, Criterion criterion) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Series hand = makeSeries("hand"), object = makeSeries("object", palette::kBlue, Dash::Dashed), cost = makeSeries("");
+  Series count = makeSeries("peaks of the hand"), reversal = makeSeries("hand reverses", palette::kVermilion, Dash::Solid, 0);
+  reversal.marker = Marker::Cross;
+  for (const FamilyRow& row : rows) {
+    const Prediction* p = row.prediction.get();
+    for (Series* s : {&hand, &object, &cost, &count, &reversal}) s->x.push_back(row.value);
+    hand.y.push_back(p ? std::abs(p->handPeak) : none);
+    object.y.push_back(p ? std::abs(p->objectPeak) : none);
+    cost.y.push_back(p ? p->cost : none);
+    count.y.push_back(p ? row.shape.velocityPeaks : none);
+    reversal.y.push_back(p && row.shape.reverses ? row.shape.velocityPeaks : none);
+  }
+  const auto panel = [&](const std::string& y, Scale scale, std::vector<Series> series) {
+    Panel made;
+    made.x.label = sweep.key;
+    made.y.label = y;
+    made.y.scale = scale;
+    made.series = std::move(series);
+    return made;
+  };
+  Figure figure;
+  figure.title = nameOf(criterion);
+  figure.columns = 3;
+  figure.panels = {panel("Peak velocity (m/s)", Scale::Linear, {hand, object}), panel("Cost", Scale::Log, {cost}),
+                   panel("Peaks of the hand's velocity", Scale::Linear, {count, reversal})};
+  return figure;
+}
+
+}  // namespace reachlab
