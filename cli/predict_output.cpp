@@ -12,7 +12,7 @@ namespace {
 std::string number(double value) { return fmt::format("{:.17g}", value); }
 std::string orEmpty(const std::optional<double>& value) { return value ? number(*value) : ""; }
 std::string orNull(const std::optional<double>& value) { return value ? number(*value) : "null"; }
-std::string quoted(std::string_view text) { return nlohmann::json(text).dump(); }
+std::string asJsonText(std::string_view text) { return nlohmann::json(text).dump(); }
 
 double sampleTime(const Prediction& prediction, int i, int samples) {
   return i == samples - 1 ? prediction.duration : prediction.duration * i / (samples - 1);
@@ -48,10 +48,10 @@ std::string writePredictionCsv(const Prediction& prediction, int samples) {
 
 std::string writePredictionJson(const Prediction& p) {
   std::string warnings;
-  for (const std::string& w : p.warnings) warnings += (warnings.empty() ? "" : ", ") + quoted(w);
+  for (const std::string& w : p.warnings) warnings += (warnings.empty() ? "" : ", ") + asJsonText(w);
   std::string out = "{\n";
   const auto line = [&](std::string_view key, const std::string& value) { out += fmt::format("  \"{}\": {},\n", key, value); };
-  line("criterion", quoted(nameOf(p.criterion)));
+  line("criterion", asJsonText(nameOf(p.criterion)));
   line("duration_s", number(p.duration));
   line("distance_m", number(p.distance));
   line("cost", number(p.cost));
