@@ -311,7 +311,7 @@ TEST_P(AgainstReference, ProfilesAndCostAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, AgainstReference, testing::ValuesIn(cases()),
-                         [](const testing::TestParamInfo<Case>& info) { return info.param.name; });
+                         [](const testing::TestParamInfo<Case>& parameter) { return parameter.param.name; });
 
 // Criterion 3 by its boundary system: z a polynomial of degree 4N+5 in t/T, 2N+3 conditions at each end; the rest follows by
 // differentiating it through the equations of motion.
