@@ -1,6 +1,4 @@
 #pragma once
-#include <atomic>
-
 #include "sim/haptics/device.h"
 #include "sim/haptics/triple_buffer.h"
 

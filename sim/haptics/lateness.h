@@ -39,7 +39,7 @@ class LatenessHistogram {
   // Below 16 each number has its own bucket; above, the four bits after the leading one choose within the octave.
   static constexpr std::size_t bucketOf(std::uint64_t value) noexcept {
     if (value < kSub) return value;
-    const int shift = std::bit_width(value) - 1 - kSubBits;
+    const int shift = static_cast<int>(std::bit_width(value)) - 1 - kSubBits;
     return static_cast<std::size_t>((static_cast<std::uint64_t>(shift) + 1) * kSub + ((value >> shift) - kSub));
   }
   static constexpr std::uint64_t upperEdge(std::size_t bucket) noexcept {

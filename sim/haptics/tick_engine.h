@@ -1,6 +1,8 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "sim/dynamics/hand_path.h"
 #include "sim/haptics/device.h"
@@ -57,7 +59,9 @@ class TickEngine {
  private:
   HandSample takeHand(const TickInput& input) noexcept;
   void putUp() noexcept;
+  StepStatus stepObject(const HandSample& hand) noexcept;
   void placeFixedPoint(HandSample& hand) noexcept;
+  void exertForce(const HandSample& hand, StepStatus status, std::uint32_t missedTicks) noexcept;
 
   Scene scene_;
   std::vector<double> start_;          // constraint parameters
@@ -70,8 +74,11 @@ class TickEngine {
   Vec3 fpOffset_;                      // [m] HIP minus FP-on-mass-1 at arming, fixed in world axes
   Vec3 anchor_;                        // [m] the hand after a gap: seen minus true, at the gap
   int anchorTicks_ = 0;                // left of the blend
-  Vec3 lastSeen_;                      // [m] where the hand was last seen
-  bool anySample_ = false, handBroken_ = false;
+  Vec3 lastSeen_, lastRaw_;            // [m] where the hand was last seen by the coupling, and by the device
+  bool handBroken_ = false;            // the device gave something that is not finite; until the next trial
+  bool handLost_ = true;               // at the tick before
+  bool clamped_ = false;               // at the tick before, by the force limit
+  StepStatus forceStatus_ = StepStatus::Ok;
   std::optional<Cue> cue_;
   TickState state_;
 };

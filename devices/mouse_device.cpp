@@ -1,0 +1,33 @@
+#include "devices/mouse_device.h"
+
+#include <cmath>
+
+#include "sim/trial/protocol.h"
+
+namespace reachlab {
+
+DeviceInfo MouseDevice::info() const {
+  DeviceInfo info;
+  info.name = "mouse";
+  info.version = "1";
+  return info;
+}
+
+DeviceSample MouseDevice::read() noexcept {
+  if (const Vec3* target = targets_.takeLatest()) target_ = *target;
+  // Exact solution of the critically damped system over one tick, with the target held.
+  constexpr double w = 1 / kSmoothing;
+  const double decay = std::exp(-w * kTickSeconds);
+  const Vec3 away = position_ - target_, slope = velocity_ + w * away;
+  position_ = target_ + decay * (away + kTickSeconds * slope);
+  velocity_ = decay * (velocity_ - w * kTickSeconds * slope);
+  DeviceSample sample;
+  sample.position = position_;
+  sample.velocity = velocity_;
+  sample.hasVelocity = true;
+  return sample;
+}
+
+void MouseDevice::write(const Vec3&) noexcept {}
+
+}  // namespace reachlab

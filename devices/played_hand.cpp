@@ -1,0 +1,37 @@
+#include "devices/played_hand.h"
+
+#include <utility>
+
+namespace reachlab {
+
+PlayedHand::PlayedHand(DeviceInfo info, PlanReach plan) : info_(std::move(info)), plan_(std::move(plan)), playing_(plan_(0)) {
+  info_.virtualHand = true;
+}
+
+void PlayedHand::prepareTrial(int index) { prepared_ = plan_(index); }
+
+void PlayedHand::cue(Cue cue) noexcept {
+  if (cue == Cue::Go) {
+    going_ = true;
+    return;
+  }
+  std::swap(playing_, prepared_);
+  at_ = 0;
+  going_ = false;
+}
+
+DeviceSample PlayedHand::read() noexcept {
+  DeviceSample sample;
+  if (playing_.position.empty()) {
+    sample.valid = false;
+    return sample;
+  }
+  const std::size_t last = playing_.position.size() - 1;
+  if (going_ && at_ < last) ++at_;
+  sample.position = playing_.position[at_];
+  sample.hasVelocity = !playing_.velocity.empty();
+  if (sample.hasVelocity && at_ > 0 && at_ < last) sample.velocity = playing_.velocity[at_];
+  return sample;
+}
+
+}  // namespace reachlab

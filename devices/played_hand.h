@@ -1,0 +1,40 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "sim/haptics/device.h"
+
+namespace reachlab {
+
+/// A hand's motion from the go signal on, a sample a tick; at rest on the first sample before and on the last one after.
+struct PlayedReach {
+  std::vector<Vec3> position;  // [m]
+  std::vector<Vec3> velocity;  // [m/s]; empty: not known, to be estimated
+};
+
+/// Minimum number of samples for a played reach is one.
+using PlanReach = std::function<PlayedReach(int trial)>;
+
+/// A virtual hand that plays one reach a trial, by tick count, so that the same reaches give the same run at any speed of the clock.
+/// Renders no force.
+class PlayedHand final : public HapticDevice {
+ public:
+  /// `plan` is called by prepareTrial, from the controlling thread; trial 0 at once, so that what cannot be planned is said at the start.
+  PlayedHand(DeviceInfo info, PlanReach plan);
+
+  DeviceInfo info() const override { return info_; }
+  void prepareTrial(int index) override;
+  void cue(Cue cue) noexcept override;
+  DeviceSample read() noexcept override;
+  void write(const Vec3&) noexcept override {}
+
+ private:
+  DeviceInfo info_;
+  PlanReach plan_;
+  PlayedReach prepared_;  // the controlling thread's, until Cue::Place
+  PlayedReach playing_;
+  std::size_t at_ = 0;
+  bool going_ = false;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,24 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "sim/predict/predict.h"
+
+namespace reachlab {
+
+/// Where a subject means to have the hand: a function of time on [0, duration] [m], world frame.
+struct ReachPlan {
+  double duration = 0;  // [s]
+  std::function<Vec3(double time)> handAt;
+};
+
+/// The reach from start to target of this task, planned for this very object:
+///   - on a straight line, and free in space along the chord: what the criterion predicts;
+///   - chain or parallel masses on a curve: the prediction for a line as long as the curve between start and target, laid along the arc;
+///     beyond the target the curve goes on;
+///   - one mass on a curve or surface: the mass is to follow the minimum-jerk law in the constraint's parameters, so the hand leads it by
+///     the spring's extension, r_HIP = r + (m r'' + lambda r')/k.
+/// Gravity is not compensated. Throws UsageError (no task, start and target are one place), RefusedError from predict.
+ReachPlan makeReachPlan(const Experiment& experiment, Criterion criterion, std::optional<double> handMass);
+
+}  // namespace reachlab

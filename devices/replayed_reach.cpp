@@ -1,0 +1,125 @@
+#include "devices/replayed_reach.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "constraints/error.h"
+#include "devices/natural_spline.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kRest = 0.3, kJoin = 0.1;  // [s]
+
+bool readRow(const std::string& line, std::array<double, 4>& row) {
+  const char* at = line.data();
+  const char* end = at + line.size();
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const auto [next, error] = std::from_chars(at, end, row[i]);
+    if (error != std::errc() || !std::isfinite(row[i])) return false;
+    at = next;
+    if (i + 1 < row.size() && (at == end || *at++ != ',')) return false;
+  }
+  return at == end;
+}
+
+// Turns `from` onto `to` (unit vectors) by the smallest rotation: v + w x v + w x (w x v)/(1 + c), w = from x to (Rodrigues).
+Vec3 turn(const Vec3& v, const Vec3& from, const Vec3& to) {
+  const Vec3 w = cross(from, to);
+  const double c = dot(from, to);
+  if (c > -1 + 1e-12) return v + cross(w, v) + cross(w, cross(w, v)) / (1 + c);
+  // Opposite: half a turn about any axis across.
+  const Vec3 helper = std::abs(from.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 axis = cross(from, helper) / norm(cross(from, helper));
+  return 2 * dot(axis, v) * axis - v;
+}
+
+std::vector<std::string> filesOf(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(path, error))
+      if (entry.path().extension() == ".csv") files.push_back(entry.path().string());
+    if (files.empty()) throw ResourceError(path + ": no CSV files to replay in this folder");
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+  if (!fs::exists(path, error)) throw ResourceError(path + ": no such file or folder to replay");
+  return {path};
+}
+
+}  // namespace
+
+RecordedReach readReach(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw ResourceError(file + ": cannot be opened");
+  RecordedReach reach;
+  reach.file = file;
+  std::string line;
+  const auto trim = [&line] {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+  };
+  std::getline(in, line);
+  trim();
+  if (line != "time_s,x_m,y_m,z_m") throw UsageError(file + ":1: header: not that of a reach; allowed: time_s,x_m,y_m,z_m");
+  for (int number = 2; std::getline(in, line); ++number) {
+    trim();
+    if (line.empty()) continue;
+    std::array<double, 4> row{};
+    if (!readRow(line, row)) throw UsageError(fmt::format("{}:{}: not four finite numbers with commas between", file, number));
+    if (!reach.time.empty() && !(row[0] > reach.time.back()))
+      throw UsageError(fmt::format("{}:{}: time_s: does not increase", file, number));
+    reach.time.push_back(row[0]);
+    reach.position.push_back({row[1], row[2], row[3]});
+  }
+  if (reach.time.size() < 2) throw UsageError(file + ": fewer than two samples");
+  return reach;
+}
+
+PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
+  const Vec3 first = reach.position.front();
+  const auto distance = [&](const Vec3& p) { return norm(p - first); };
+  const Vec3 far = *std::max_element(reach.position.begin(), reach.position.end(),
+                                     [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+  const Vec3 chord = far - first, wanted = target - start;
+  const double length = norm(chord), asked = norm(wanted);
+  if (!(length > 0)) throw UsageError(reach.file + ": the hand does not move");
+  if (!(asked > 0)) throw UsageError("task: start and target are the same place; a recorded reach cannot be laid onto them");
+
+  std::vector<Vec3> laid;
+  laid.reserve(reach.position.size());
+  for (const Vec3& p : reach.position) laid.push_back(start + asked / length * turn(p - first, chord / length, wanted / asked));
+  const NaturalSpline spline(reach.time, laid);
+
+  PlayedReach played;
+  const double begin = reach.time.front(), whole = reach.time.back() - begin;
+  const auto ticks = static_cast<std::size_t>(std::ceil((kRest + whole) / kTickSeconds - 1e-9));
+  for (std::size_t i = 0; i <= ticks; ++i) {
+    const double t = static_cast<double>(i) * kTickSeconds - kRest;
+    const double x = std::clamp(t / kJoin, 0.0, 1.0);
+    const double blend = x * x * x * (10 + x * (6 * x - 15));
+    const Vec3 recorded = spline.at(begin + std::clamp(t, 0.0, whole));
+    played.position.push_back(start + blend * (recorded - start));
+  }
+  return played;
+}
+
+std::unique_ptr<HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target) {
+  std::vector<PlayedReach> reaches;
+  for (const std::string& file : filesOf(path)) reaches.push_back(layOnto(readReach(file), start, target));
+  DeviceInfo info;
+  info.name = "replay";
+  info.version = "1";
+  return std::make_unique<PlayedHand>(
+      info, [reaches = std::move(reaches)](int trial) { return reaches[static_cast<std::size_t>(trial) % reaches.size()]; });
+}
+
+}  // namespace reachlab

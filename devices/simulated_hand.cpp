@@ -1,0 +1,146 @@
+#include "devices/simulated_hand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "constraints/error.h"
+#include "devices/played_hand.h"
+#include "devices/reach_plan.h"
+#include "sim/session/seeded.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab {
+namespace {
+
+/// Numbers of one trial; the same on every machine (the standard library's distributions are not).
+class TrialRandom {
+ public:
+  TrialRandom(std::uint64_t seed, int trial) : state_(seededBits(seed, static_cast<std::uint64_t>(trial))) {}
+  double uniform() { return seededFraction(state_, count_++); }
+  // Box and Muller 1958; bounded, so that no trial is out of the human range.
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
+    return std::clamp(radius * std::cos(2 * std::numbers::pi * uniform()), -kMostSigmas, kMostSigmas);
+  }
+
+ private:
+  static constexpr double kMostSigmas = 3;
+  std::uint64_t state_, count_ = 0;
+};
+
+/// A smooth random function of time with unit variance: a few sinusoids of voluntary movement's frequencies.
+class SmoothNoise {
+ public:
+  explicit SmoothNoise(TrialRandom& random) {
+    for (Wave& w : waves_) {
+      w.omega = 2 * std::numbers::pi * (kLowest + (kHighest - kLowest) * random.uniform());
+      w.phase = 2 * std::numbers::pi * random.uniform();
+    }
+  }
+  double at(double t) const {
+    double sum = 0;
+    for (const Wave& w : waves_) sum += std::sin(w.omega * t + w.phase);
+    return sum * std::sqrt(2.0 / static_cast<double>(waves_.size()));
+  }
+
+ private:
+  static constexpr double kLowest = 0.5, kHighest = 4;  // [Hz]
+  struct Wave {
+    double omega = 0, phase = 0;
+  };
+  std::array<Wave, 4> waves_{};
+};
+
+struct Frame {
+  Vec3 along, across, up;
+};
+Frame frameOf(const Vec3& along) {
+  const Vec3 e = along / norm(along);
+  const Vec3 helper = std::abs(e.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Vec3 across = cross(e, helper) / norm(cross(e, helper));
+  return {e, across, cross(across, e)};
+}
+
+PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uint64_t seed, int trial) {
+  TrialRandom random(seed, trial);
+  const double stretch = 1 + subject.noise * subject.timeSd * random.normal();
+  constexpr double kReactionSpread = 0.15;
+  const double reaction = subject.reaction * (1 + std::min(subject.noise, 1.0) * kReactionSpread * random.normal());
+  const SmoothNoise along(random), across(random), up(random);
+  const double sd = subject.noise * subject.speedSd;
+
+  const double duration = plan.duration * stretch;
+  const auto still = static_cast<std::size_t>(std::max(1.0, reaction / kTickSeconds));
+  const auto steps = static_cast<std::size_t>(std::ceil(duration / kTickSeconds));
+  PlayedReach reach;
+  reach.position.reserve(still + steps + 2);
+  Vec3 planned = plan.handAt(0), hand = planned;
+  reach.position.assign(still, planned);
+  for (std::size_t i = 1; i <= steps; ++i) {
+    const double t = std::min(static_cast<double>(i) * kTickSeconds, duration);
+    const Vec3 next = plan.handAt(std::min(t / stretch, plan.duration)), by = next - planned;
+    planned = next;
+    hand += by;
+    if (const double distance = norm(by); sd > 0 && distance > 0) {
+      const Frame frame = frameOf(by);
+      hand += sd * distance * (along.at(t) * frame.along + across.at(t) * frame.across + up.at(t) * frame.up);
+    }
+    reach.position.push_back(hand);
+  }
+  reach.position.push_back(hand);
+  const std::size_t count = reach.position.size();
+  reach.velocity.resize(count);
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * kTickSeconds);
+  return reach;
+}
+
+double readNumber(const std::string& key, const std::string& text, double most) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0) || !(value <= most))
+    throw UsageError(fmt::format("--device simulated: {}={}: allowed: a number from 0 to {}", key, text, most));
+  return value;
+}
+
+Criterion readCriterion(const std::string& text) {
+  if (const auto criterion = criterionFromName(text)) return *criterion;
+  throw UsageError(fmt::format("--device simulated: criterion={}: allowed: the names of `reach list criteria`", text));
+}
+
+}  // namespace
+
+SubjectSpec parseSubject(const std::string& text) {
+  SubjectSpec subject;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string item = text.substr(at, end - at);
+    at = end + 1;
+    const std::size_t equals = item.find('=');
+    const std::string key = item.substr(0, equals), value = equals == std::string::npos ? "" : item.substr(equals + 1);
+    if (key == "noise") subject.noise = readNumber(key, value, 10);
+    else if (key == "time-sd") subject.timeSd = readNumber(key, value, 0.3);
+    else if (key == "speed-sd") subject.speedSd = readNumber(key, value, 1);
+    else if (key == "reaction") subject.reaction = readNumber(key, value, 5);
+    else if (key == "hand-mass") subject.handMass = readNumber(key, value, 1000);
+    else if (key == "criterion") subject.criterion = readCriterion(value);
+    else
+      throw UsageError(fmt::format("--device simulated: {}: unknown; allowed: noise, criterion, hand-mass, time-sd, speed-sd, reaction", key));
+  }
+  return subject;
+}
+
+std::unique_ptr<HapticDevice> makeSimulatedHand(const Experiment& experiment, const SubjectSpec& subject, std::uint64_t seed) {
+  const ReachPlan plan = makeReachPlan(experiment, subject.criterion, subject.handMass);
+  DeviceInfo info;
+  info.name = "simulated";
+  info.version = "1";
+  return std::make_unique<PlayedHand>(info, [=](int trial) { return carryOut(plan, subject, seed, trial); });
+}
+
+}  // namespace reachlab

@@ -1,0 +1,66 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/statvfs.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "sim/haptics/os.h"
+
+namespace reachlab::os {
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+std::int64_t read(clockid_t clock) noexcept {
+  timespec t{};
+  ::clock_gettime(clock, &t);
+  return t.tv_sec * kNsPerSecond + t.tv_nsec;
+}
+
+}  // namespace
+
+std::int64_t now() noexcept { return read(CLOCK_MONOTONIC); }
+
+std::int64_t threadProcessorTime() noexcept { return read(CLOCK_THREAD_CPUTIME_ID); }
+
+void sleepUntil(std::int64_t deadline) noexcept {
+  const timespec t{deadline / kNsPerSecond, deadline % kNsPerSecond};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+  }
+}
+
+std::string requestRealTime(int priority) {
+  const sched_param parameters{priority};
+  const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters);
+  return error == 0 ? std::string() : fmt::format("no real-time priority ({})", std::strerror(error));
+}
+
+void requestExactSleep() noexcept { ::prctl(PR_SET_TIMERSLACK, 1UL); }
+
+std::string lockMemory() {
+  return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? std::string() : fmt::format("memory not locked ({})", std::strerror(errno));
+}
+
+bool syncFile(int descriptor) noexcept { return ::fdatasync(descriptor) == 0; }
+
+bool syncFolder(const std::string& folder) noexcept {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool synced = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  return synced;
+}
+
+std::uint64_t freeDiskSpace(const std::string& path) noexcept {
+  struct statvfs disk {};
+  return ::statvfs(path.c_str(), &disk) == 0 ? static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize : 0;
+}
+
+}  // namespace reachlab::os

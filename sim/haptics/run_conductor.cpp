@@ -1,0 +1,82 @@
+#include "sim/haptics/run_conductor.h"
+
+#include <chrono>
+
+namespace reachlab {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
+
+}  // namespace
+
+RunConductor::RunConductor(const Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<PlannedTrial> trials,
+                           const LoopOptions& options)
+    : device_(std::move(device)),
+      engine_(std::make_unique<TickEngine>(experiment, EngineOptions{device_->info().maxForce, device_->info().virtualHand})),
+      options_(options), trials_(std::move(trials)), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
+
+RunConductor::~RunConductor() {
+  if (loop_) loop_->stop();
+}
+
+void RunConductor::start(RunSink* sink) {
+  sink_ = sink;
+  loop_ = std::make_unique<HapticLoop>(std::move(engine_), *device_, sink, options_);
+  loop_->start();
+}
+
+bool RunConductor::putUpNext() {
+  if (underWay_ || next_ == trials_.size()) return false;
+  const PlannedTrial& planned = trials_[next_];
+  device_->prepareTrial(planned.index);
+  if (sink_ != nullptr) sink_->announce(trial_ + 1, planned);
+  if (!loop_->tryCommand(Command::NextTrial, planned)) return false;
+  ++trial_;
+  ++next_;
+  underWay_ = true;
+  return true;
+}
+
+void RunConductor::advanceUntilDone(const std::atomic<bool>* stop) {
+  const TickState& state = loop_->engine().state();
+  bool asked = false;
+  do {
+    if (stop != nullptr && *stop && !asked) {
+      interrupt();
+      asked = true;
+    }
+    loop_->advance();
+  } while (state.trial != trial_ || state.phase != Phase::Done);
+}
+
+std::optional<ConductedTrial> RunConductor::poll() {
+  if (options_.virtualClock && underWay_) advanceUntilDone(nullptr);
+  if (const TickState* newer = loop_->takeLatest()) latest_ = newer;
+  if (!underWay_ || latest_->trial != trial_ || latest_->phase != Phase::Done) return std::nullopt;
+  underWay_ = false;
+  if (sink_ != nullptr) sink_->awaitTrial(trial_);
+  return ConductedTrial{trial_, trials_[next_ - 1], latest_->result};
+}
+
+std::optional<ConductedTrial> RunConductor::runTrial(const std::atomic<bool>& stop) {
+  if (!putUpNext()) return std::nullopt;
+  if (options_.virtualClock) advanceUntilDone(&stop);
+  bool asked = false;
+  while (true) {
+    if (const auto ended = poll()) return ended;
+    if (stop && !asked) {
+      interrupt();
+      asked = true;
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void RunConductor::finish() {
+  if (!loop_ || finished_) return;
+  finished_ = true;
+  loop_->stop();
+  if (sink_ != nullptr) sink_->close();
+}
+
+}  // namespace reachlab

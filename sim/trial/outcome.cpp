@@ -1,0 +1,35 @@
+#include "sim/trial/outcome.h"
+
+namespace reachlab {
+
+std::string_view nameOf(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::None: return "none";
+    case Outcome::Success: return "success";
+    case Outcome::Failure: return "failure";
+    case Outcome::Aborted: return "aborted";
+    case Outcome::Interrupted: return "interrupted";
+  }
+  return "none";
+}
+
+std::string_view nameOf(Reason reason) {
+  switch (reason) {
+    case Reason::None: return "none";
+    case Reason::Position: return "position";
+    case Reason::Velocity: return "velocity";
+    case Reason::TimeShort: return "time_short";
+    case Reason::TimeLong: return "time_long";
+    case Reason::ForceLimit: return "force_limit";
+    case Reason::DeviceLost: return "device_lost";
+    case Reason::NoOnset: return "no_onset";
+    case Reason::Experimenter: return "experimenter";
+    case Reason::EndOfConstraint: return "end_of_constraint";
+    case Reason::Computation: return "computation";
+    case Reason::Program: return "program";
+    case Reason::FalseStart: return "false_start";
+  }
+  return "none";
+}
+
+}  // namespace reachlab

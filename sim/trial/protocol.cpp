@@ -1,0 +1,134 @@
+#include "sim/trial/protocol.h"
+
+#include <algorithm>
+
+namespace reachlab {
+namespace {
+
+struct Worst {
+  int mass = 0;  // from 1
+  double by = 0;
+};
+
+// The mass farthest beyond dx (or dv); mass 0 when all are within.
+template <typename Measure>
+Worst findWorst(std::span<const MassState> masses, double tolerance, Measure&& measure) noexcept {
+  Worst worst;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const double excess = measure(masses[i]) - tolerance;
+    if (!(excess <= 0) && !(worst.mass > 0 && excess <= worst.by)) worst = {static_cast<int>(i) + 1, excess};
+  }
+  return worst;
+}
+
+struct Arrival {
+  Worst position, velocity;
+  bool complete() const noexcept { return position.mass == 0 && velocity.mass == 0; }
+};
+
+Arrival judge(const ProtocolSettings& s, std::span<const MassState> masses) noexcept {
+  return {findWorst(masses, s.positionTolerance, [&](const MassState& m) { return norm(m.r - s.target); }),
+          findWorst(masses, s.velocityTolerance, [](const MassState& m) { return norm(m.v); })};
+}
+
+void end(ProtocolState& state, std::uint64_t tick, Outcome outcome, Reason reason, Worst worst = {}) noexcept {
+  const bool moved = state.phase == Phase::Moving;
+  state.phase = Phase::Done;
+  state.result.outcome = outcome;
+  state.result.reason = reason;
+  state.result.mass = worst.mass;
+  state.result.by = worst.by;
+  state.result.onsetTick = moved ? state.onsetTick : 0;
+  state.result.endTick = tick;
+  state.result.movementTime = moved ? static_cast<double>(tick - state.onsetTick) * kTickSeconds : 0;
+}
+
+void putUp(const ProtocolInput& in, ProtocolState& state) noexcept {
+  const std::int32_t trial = state.trial + 1;
+  state = {};
+  state.phase = Phase::Waiting;
+  state.trial = trial;
+  state.planned = in.planned;
+  state.putUpTick = in.tick;
+}
+
+void arm(const ProtocolInput& in, ProtocolState& state) noexcept {
+  state.phase = Phase::Armed;
+  state.armedTick = in.tick;
+  state.armedAt = in.hip;
+  state.gone = !state.planned.catchTrial && state.planned.foreperiodTicks <= 0;
+}
+
+void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
+  const auto waited = static_cast<std::int64_t>(in.tick - state.armedTick);
+  const std::int64_t foreperiod = std::max(0, state.planned.foreperiodTicks);
+  if (in.handValid && norm(in.hip - state.armedAt) > s.onset) {
+    state.onsetTick = in.tick;
+    state.phase = Phase::Moving;
+    if (!state.gone) end(state, in.tick, Outcome::Failure, Reason::FalseStart);
+    return;
+  }
+  if (state.planned.catchTrial) {
+    if (waited >= foreperiod + s.latestTick) end(state, in.tick, Outcome::Success, Reason::None);
+    return;
+  }
+  if (waited >= foreperiod + s.timeoutTicks) return end(state, in.tick, Outcome::Aborted, Reason::NoOnset);
+  state.gone = waited >= foreperiod;
+}
+
+void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
+  const auto moved = static_cast<std::int64_t>(in.tick - state.onsetTick);
+  if (moved >= s.earliestTick) state.semaphore = Semaphore::Green;
+  const Arrival arrival = judge(s, in.masses);
+  if (arrival.complete()) {
+    if (moved < s.earliestTick)
+      end(state, in.tick, Outcome::Failure, Reason::TimeShort, {0, s.earliest - static_cast<double>(moved) * kTickSeconds});
+    else
+      end(state, in.tick, Outcome::Success, Reason::None);
+    return;
+  }
+  if (moved < s.latestTick) return;
+  const bool away = arrival.position.mass > 0;
+  end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, away ? arrival.position : arrival.velocity);
+  state.semaphore = Semaphore::Red;
+}
+
+// What ends a trial whatever the subject does; true when it did.
+bool endByForce(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
+  if (in.command == Command::Interrupt) return end(state, in.tick, Outcome::Interrupted, Reason::Experimenter), true;
+  if (in.command == Command::Abort) return end(state, in.tick, Outcome::Aborted, Reason::Experimenter), true;
+  state.lostTicks = in.handValid ? 0 : state.lostTicks + 1;
+  if (in.handBroken || state.lostTicks > kLostTicks) return end(state, in.tick, Outcome::Aborted, Reason::DeviceLost), true;
+  if (!isEngaged(state.phase)) return false;
+  switch (in.status) {
+    case StepStatus::Ok:
+    case StepStatus::HandLost: break;
+    case StepStatus::AtEnd: return end(state, in.tick, Outcome::Failure, Reason::EndOfConstraint), true;
+    case StepStatus::NotFinite:
+    case StepStatus::Capped:
+    case StepStatus::NoContinuation: return end(state, in.tick, Outcome::Aborted, Reason::Computation), true;
+  }
+  if (in.clamped && s.forceLimitEndsTrial) return end(state, in.tick, Outcome::Failure, Reason::ForceLimit), true;
+  return false;
+}
+
+}  // namespace
+
+void advance(const ProtocolSettings& settings, const ProtocolInput& input, ProtocolState& state) noexcept {
+  if (state.phase == Phase::Idle || state.phase == Phase::Done) {
+    if (input.command == Command::NextTrial) putUp(input, state);
+    return;
+  }
+  if (endByForce(settings, input, state)) return;
+  switch (state.phase) {
+    case Phase::Waiting:
+      if (input.handValid && norm(input.hip - settings.start) <= settings.armRadius) arm(input, state);
+      break;
+    case Phase::Armed: watchForOnset(settings, input, state); break;
+    case Phase::Moving: watchForArrival(settings, input, state); break;
+    case Phase::Idle:
+    case Phase::Done: break;
+  }
+}
+
+}  // namespace reachlab

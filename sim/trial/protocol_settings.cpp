@@ -1,0 +1,43 @@
+#include <cmath>
+
+#include "constraints/error.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kTicksPerSecond = 1000;
+constexpr double kWholeTick = 1e-6;  // [ticks] a decimal time such as 1.35 s is a whole number of ticks, whatever its binary form
+
+}  // namespace
+
+Vec3 placeOn(const Constraint& constraint, std::span<const double> q) {
+  switch (constraint.kind) {
+    case ConstraintKind::Curve: return evaluate(constraint.curve, q[0]).r;
+    case ConstraintKind::Surface: return evaluate(constraint.surface, q[0], q[1]).r;
+    case ConstraintKind::Free: break;
+  }
+  return {q[0], q[1], q[2]};
+}
+
+ProtocolSettings makeProtocolSettings(const Experiment& experiment, const Constraint& constraint) {
+  if (!experiment.task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
+  const Task& task = *experiment.task;
+  ProtocolSettings s;
+  s.start = placeOn(constraint, task.start);
+  s.target = placeOn(constraint, task.target);
+  if (!isFinite(s.start)) throw UsageError("task.start: no place on the constraint");
+  if (!isFinite(s.target)) throw UsageError("task.target: no place on the constraint");
+  s.armRadius = task.armRadius;
+  s.onset = task.onset;
+  s.positionTolerance = task.tolerance.position;
+  s.velocityTolerance = task.tolerance.velocity;
+  s.earliest = task.duration - task.tolerance.time;
+  s.earliestTick = std::llround(std::ceil(s.earliest * kTicksPerSecond - kWholeTick));
+  s.latestTick = std::llround(std::floor((task.duration + task.tolerance.time) * kTicksPerSecond + kWholeTick));
+  s.timeoutTicks = std::llround(task.timeout * kTicksPerSecond);
+  s.forceLimitEndsTrial = experiment.forceLimitEndsTrial;
+  return s;
+}
+
+}  // namespace reachlab
