@@ -20,7 +20,8 @@ class AppendFile {
 
   /// All or nothing: what a full disk lets through only in part is cut off again.
   void append(std::span<const std::uint8_t> bytes);
-  /// Returns when everything appended is on the disk (fdatasync).
+  /// Returns when everything appended is on the disk (fdatasync) and the file is still found under its name: a folder that was unmounted
+  /// or deleted under an open file takes writes without a word.
   void sync();
   std::uint64_t size() const { return size_; }
   const std::string& path() const { return path_; }

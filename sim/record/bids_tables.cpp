@@ -90,6 +90,12 @@ std::string participantsJson() {
   return j.dump(2) + "\n";
 }
 
+// BIDS gives times without a zone.
+std::string acquisitionTime(const RunConfiguration& c) {
+  const bool zone = !c.startedUtc.empty() && c.startedUtc.back() == 'Z';
+  return zone ? c.startedUtc.substr(0, c.startedUtc.size() - 1) : c.startedUtc;
+}
+
 }  // namespace
 
 std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder) {
@@ -115,10 +121,10 @@ std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& ru
                                {"handedness", c.participant.handedness}});
     const std::string sessionsFile = fmt::format("{}/{}/{}_sessions.tsv", folder, subject, subject);
     sessions.try_emplace(sessionsFile, sessionsFile, std::vector<std::string>{"session_id", "acq_time"})
-        .first->second.set(session, {{"acq_time", c.startedUtc}});
+        .first->second.set(session, {{"acq_time", acquisitionTime(c)}});
     const std::string scansFile = fmt::format("{}/{}/{}/{}_{}_scans.tsv", folder, subject, session, subject, session);
     scans.try_emplace(scansFile, scansFile, std::vector<std::string>{"filename", "acq_time"})
-        .first->second.set("motion/" + runName(c, "tracksys-haptic_") + "_motion.tsv", {{"acq_time", c.startedUtc}});
+        .first->second.set("motion/" + runName(c, "tracksys-haptic_") + "_motion.tsv", {{"acq_time", acquisitionTime(c)}});
   }
   written.push_back(participants.write());
   for (auto& [path, table] : sessions) written.push_back(table.write());

@@ -47,6 +47,8 @@ void addBody(std::vector<Channel>& out) {
   addVector(out, {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
 }
 
+constexpr std::size_t kTrialColumn = 21;  // latency, measured time, six vectors, energy
+
 double* putVector(double* at, const Vec3& v) noexcept {
   at[0] = v.x;
   at[1] = v.y;
@@ -111,6 +113,10 @@ void fillRow(const ChannelTable& table, const TickState& state, double* row) noe
     for (const double part : state.body.orientation) *at++ = part;
     putVector(at, state.body.angularVelocity);
   }
+}
+
+void numberTrial(const ChannelTable&, int firstTrial, double* row) noexcept {
+  if (row[kTrialColumn] > 0) row[kTrialColumn] += firstTrial - 1;
 }
 
 }  // namespace reachlab

@@ -19,13 +19,14 @@ constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at i
 
 struct Recorder::Impl {
   Impl(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& recorderOptions)
-      : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)),
+      : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)), firstTrial(configuration.firstTrial),
         writer(path, configuration),
         ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size()) {}
 
   RecorderOptions options;
   ChannelTable table;
   std::uint32_t every;
+  int firstTrial;
   std::int64_t startNs = 0;  // haptic thread: clock at the first tick
   bool anyTick = false;
 
@@ -93,7 +94,7 @@ Recorder::~Recorder() {
   }
 }
 
-bool Recorder::tryPush(const TickState& state, Command command, std::uint32_t missedTicks) noexcept {
+bool Recorder::onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept {
   Impl& impl = *impl_;
   if (!impl.anyTick) impl.startNs = state.measuredNs;
   impl.anyTick = true;
@@ -101,12 +102,13 @@ bool Recorder::tryPush(const TickState& state, Command command, std::uint32_t mi
   QueuedTick* slot = impl.ring.beginPush(rowSpace);
   if (slot == nullptr) return false;
   const bool due = state.tick % impl.every == 0;
-  slot->raw = {state.tick, state.measuredNs - impl.startNs, state.device, command, missedTicks};
+  slot->raw = {state.tick, state.measuredNs, state.device, command, missedTicks};
   slot->facts = factsOf(state);
   slot->hasRow = due && rowSpace != nullptr;
   if (slot->hasRow) {
     fillRow(impl.table, state, rowSpace);
-    rowSpace[1] = static_cast<double>(slot->raw.measuredNs) * 1e-9;
+    numberTrial(impl.table, impl.firstTrial, rowSpace);
+    rowSpace[1] = static_cast<double>(state.measuredNs - impl.startNs) * 1e-9;
   }
   impl.ring.publish(slot->hasRow);
   if (!impl.options.threaded) {
@@ -117,7 +119,8 @@ bool Recorder::tryPush(const TickState& state, Command command, std::uint32_t mi
   return !due || slot->hasRow;
 }
 
-void Recorder::announce(const TrialSetup& setup) {
+void Recorder::announce(std::int32_t trial, const PlannedTrial& planned) {
+  const TrialSetup setup{trial + impl_->firstTrial - 1, planned};
   const std::scoped_lock lock(impl_->mutex);
   impl_->throwIfFaulty();
   impl_->drain();
@@ -125,11 +128,16 @@ void Recorder::announce(const TrialSetup& setup) {
   impl_->throwIfFaulty();
 }
 
-RecordedTrial Recorder::awaitTrial(int trial) {
+void Recorder::awaitTrial(std::int32_t trial) {
+  trial += impl_->firstTrial - 1;
   std::unique_lock lock(impl_->mutex);
   if (!impl_->options.threaded) impl_->drain();
   impl_->changed.wait(lock, [&] { return impl_->finishedTrial >= trial || !impl_->fault.empty() || !impl_->options.threaded; });
   impl_->throwIfFaulty();
+}
+
+RecordedTrial Recorder::lastTrial() const {
+  const std::scoped_lock lock(impl_->mutex);
   return impl_->writer.lastTrial();
 }
 

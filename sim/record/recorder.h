@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "sim/haptics/run_sink.h"
 #include "sim/record/log.h"
 #include "sim/record/run_configuration.h"
 #include "sim/record/run_log.h"
@@ -15,27 +16,29 @@ struct RecorderOptions {
 
 /// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a thread
 /// of the recorder writes; blocks reach the kernel at least every 100 ms.
-class Recorder {
+class Recorder : public RunSink {
  public:
   /// Creates the log at `path` and writes the configuration. Throws ResourceError.
   Recorder(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& options = {});
-  ~Recorder();
+  ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Haptic thread, every tick; never waits, allocates or throws. False when the queue was full: the tick is lost and must be counted
   /// (LoopFaults::droppedRecords).
-  bool tryPush(const TickState& state, Command command, std::uint32_t missedTicks) noexcept;
+  bool onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept override;
 
-  /// Controlling thread, before a trial is put up: what its number stands for. Throws ResourceError.
-  void announce(const TrialSetup& setup);
-  /// Controlling thread, after a trial has ended: returns its record once it is on the disk (fdatasync). Throws ResourceError when the
-  /// disk is full or gone; what was synced before stays good.
-  RecordedTrial awaitTrial(int trial);
+  /// Controlling thread, before a trial is put up: what the engine's `trial`-th (from 1) stands for. Throws ResourceError.
+  void announce(std::int32_t trial, const PlannedTrial& planned) override;
+  /// Controlling thread, after the engine's `trial`-th has ended: returns once its record is on the disk (fdatasync). Throws
+  /// ResourceError when the disk is full or gone; what was synced before stays good.
+  void awaitTrial(std::int32_t trial) override;
+  /// The trial that awaitTrial has seen to the disk.
+  RecordedTrial lastTrial() const;
   /// A note by the experimenter. Controlling thread.
   void note(const std::string& text);
   /// Ends the log in order. Throws like awaitTrial.
-  void close();
+  void close() override;
 
   /// The first fault of the disk, empty while all is well. Any thread.
   std::string fault() const;

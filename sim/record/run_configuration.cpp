@@ -73,11 +73,13 @@ std::string toJson(const RunConfiguration& c) {
       {"task", c.task},
       {"run", c.run},
       {"first_run", c.firstRun},
+      {"first_trial", c.firstTrial},
       {"block", c.block},
       {"practice", c.practice},
       {"condition", c.condition},
       {"day", c.day},
       {"pause_s", c.pauseSeconds},
+      {"repeat_aborted", c.repeatAborted},
       {"experiment_name", c.experimentName},
       {"experiment_text", c.experimentText},
       {"plan_name", c.planName},
@@ -90,6 +92,7 @@ std::string toJson(const RunConfiguration& c) {
       {"device_name", c.deviceName},
       {"device_version", c.deviceVersion},
       {"device_max_force_n", c.deviceMaxForce},
+      {"virtual_hand", c.virtualHand},
       {"method", c.method},
       {"method_reason", c.methodReason},
       {"software_version", c.softwareVersion},
@@ -115,11 +118,13 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     c.task = j.at("task");
     c.run = j.at("run");
     c.firstRun = j.at("first_run");
+    c.firstTrial = j.at("first_trial");
     c.block = j.at("block");
     c.practice = j.at("practice");
     c.condition = j.at("condition");
     c.day = j.at("day");
     c.pauseSeconds = j.at("pause_s");
+    c.repeatAborted = j.at("repeat_aborted");
     c.experimentName = j.at("experiment_name");
     c.experimentText = j.at("experiment_text");
     c.planName = j.at("plan_name");
@@ -132,6 +137,7 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     c.deviceName = j.at("device_name");
     c.deviceVersion = j.at("device_version");
     c.deviceMaxForce = j.at("device_max_force_n");
+    c.virtualHand = j.at("virtual_hand");
     c.method = j.at("method");
     c.methodReason = j.at("method_reason");
     c.softwareVersion = j.at("software_version");

@@ -12,14 +12,14 @@ namespace reachlab {
 
 /// A trial as it was put up, before it began: what its number stands for in the planned order.
 struct TrialSetup {
-  std::int32_t trial = 0;  // from 1 within the run, never used twice
+  std::int32_t trial = 0;  // as the recording numbers it, never used twice in a run
   PlannedTrial planned;
 };
 
 /// A raw tick as logged: with the configuration all that is needed to simulate the run again.
 struct RecordedTick {
   std::uint64_t tick = 0;
-  std::int64_t measuredNs = 0;
+  std::int64_t measuredNs = 0;    // monotonic clock of the computer
   DeviceSample device;
   Command command = Command::None;
   std::uint32_t missedTicks = 0;  // whole periods skipped before this tick
@@ -51,7 +51,7 @@ struct RecordedEvent {
 
 /// One trial of a run with its result and simple measures. An unfinished trial of a log that broke off is `Interrupted` by `Program`.
 struct RecordedTrial {
-  int trial = 0;                 // from 1 within the run
+  int trial = 0;                 // from 1; a resumed block goes on counting
   PlannedTrial planned;          // a repeated trial has the index of its predecessor
   TrialResult result;
   std::uint64_t startTick = 0, armedTick = 0, goTick = 0;  // 0: never came

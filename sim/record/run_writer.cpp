@@ -14,7 +14,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 }  // namespace
 
 RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration)
-    : log_(LogWriter::create(path)), samples_(configuration.table.size()) {
+    : log_(LogWriter::create(path)), samples_(configuration.table.size()), tracker_(configuration.firstTrial) {
   log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
   log_.sync();
 }

@@ -34,8 +34,9 @@ void TrialTracker::measure(const TickFacts& facts) {
   lastPosition_ = facts.hand.position;
 }
 
-TrialTracker::Step TrialTracker::add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
+TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, std::vector<RecordedEvent>& events) {
   Step step;
+  if (facts.trial > 0) facts.trial += firstTrial_ - 1;
   const auto tell = [&](EventKind kind, double value = 0) { events.push_back({tick.tick, kind, facts.trial, value, {}}); };
   const bool inTrial = facts.phase != Phase::Idle && facts.trial > 0;
   if (inTrial && facts.trial != trial_.trial) {

@@ -21,6 +21,8 @@ TickFacts factsOf(const TickState& state) noexcept;
 /// a reader of the log come to the same trial. One thread.
 class TrialTracker {
  public:
+  /// Trials are numbered from `firstTrial`; the engine counts them from 1.
+  explicit TrialTracker(int firstTrial = 1) : firstTrial_(firstTrial) {}
   /// What the next trials stand for in the planned order.
   void announce(const TrialSetup& setup) { setups_.push_back(setup); }
 
@@ -29,7 +31,7 @@ class TrialTracker {
     bool finished = false;  // `trial()` is complete
   };
   /// Appends to `events` what happened at this tick.
-  Step add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
+  Step add(const RecordedTick& tick, TickFacts facts, std::vector<RecordedEvent>& events);
 
   /// The trial under way or just finished; trial number 0 before the first.
   const RecordedTrial& trial() const { return trial_; }
@@ -42,6 +44,7 @@ class TrialTracker {
   void begin(const RecordedTick& tick, const TickFacts& facts);
   void measure(const TickFacts& facts);
 
+  int firstTrial_;
   std::vector<TrialSetup> setups_;
   RecordedTrial trial_;
   bool underWay_ = false;

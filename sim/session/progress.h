@@ -10,9 +10,10 @@ namespace reachlab {
 /// One block as far as it is recorded: its first run and those that resumed it.
 struct BlockProgress {
   RunConfiguration configuration;  // of the first run
-  std::set<int> done;              // planned indices that were finished: success, failure or aborted
+  std::set<int> done;              // planned indices that were finished, and are not to be repeated
   bool complete() const { return done.size() >= configuration.trials.size(); }
   int lastRun = 0;
+  int lastTrial = 0;               // largest trial number used so far
 };
 
 /// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`.

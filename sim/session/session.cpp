@@ -84,6 +84,7 @@ RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& p
   c.condition = block.condition.empty() ? experiment.name : block.condition;
   c.day = block.day;
   c.pauseSeconds = block.pauseSeconds;
+  c.repeatAborted = block.repeatAborted;
   c.experimentName = experiment.name;
   c.experimentText = experiment.text;
   c.planName = plan.text.empty() ? "" : plan.name;
@@ -92,11 +93,19 @@ RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& p
   return c;
 }
 
-std::vector<TrialSetup> remainingTrials(const RunConfiguration& configuration, const std::set<int>& done) {
-  std::vector<TrialSetup> trials;
+std::vector<PlannedTrial> remainingTrials(const RunConfiguration& configuration, const std::set<int>& done) {
+  std::vector<PlannedTrial> trials;
   for (const PlannedTrial& planned : configuration.trials)
-    if (!done.contains(planned.index)) trials.push_back({planned.index + 1, planned});
+    if (!done.contains(planned.index)) trials.push_back(planned);
   return trials;
+}
+
+// A block that broke off goes on with the number of the trial it broke off in. Where single trials are left (repeats of aborted ones),
+// they get numbers that were not used yet.
+int firstTrialOf(const std::vector<PlannedTrial>& remaining, const BlockProgress* before) {
+  if (before == nullptr) return 1;
+  const bool oneStretch = remaining.back().index - remaining.front().index + 1 == static_cast<int>(remaining.size());
+  return oneStretch && before->lastTrial <= remaining.front().index + 1 ? remaining.front().index + 1 : before->lastTrial + 1;
 }
 
 // The seed of the session that is resumed, before that the one asked for, else a drawn one.
@@ -148,7 +157,6 @@ SessionToRun planSession(const SessionRequest& request) {
     const BlockProgress* before = request.resume ? recorded[k] : nullptr;
     BlockToRun block;
     block.experiment = experiments[k];
-    block.repeatAborted = planned.repeatAborted;
     if (before != nullptr) {
       block.configuration = before->configuration;
     } else {
@@ -161,6 +169,7 @@ SessionToRun planSession(const SessionRequest& request) {
     block.trials = remainingTrials(block.configuration, before != nullptr ? before->done : std::set<int>{});
     if (block.trials.empty()) continue;
     block.configuration.run = run;
+    block.configuration.firstTrial = firstTrialOf(block.trials, before);
     if (before == nullptr) block.configuration.firstRun = run;
     block.configuration.device = request.device;
     block.configuration.participant = request.participant;

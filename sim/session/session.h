@@ -29,8 +29,7 @@ struct BlockToRun {
   Experiment experiment;
   RunConfiguration configuration;
   std::string logPath;
-  std::vector<TrialSetup> trials;    // still to be done, in order
-  bool repeatAborted = false;
+  std::vector<PlannedTrial> trials;  // still to be done, in order; numbered from configuration.firstTrial
   int blocksAfter = 0;               // of the same session
 };
 

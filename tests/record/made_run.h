@@ -37,7 +37,7 @@ inline RunConfiguration madeConfiguration(int masses = 2) {
   experiment.object.masses.assign(static_cast<std::size_t>(masses), 0.6);
   RunConfiguration configuration;
   configuration.task = "made";
-  configuration.experimentName = "made";
+  configuration.experimentName = configuration.condition = "made";
   configuration.seed = 18446744073709551615ull;  // the largest: no reader may pass it through a double
   configuration.device = "made";
   configuration.startedUtc = "2026-11-20T10:00:00.000Z";
@@ -99,9 +99,9 @@ inline void writeMadeRun(const std::string& path, int trials, const RunConfigura
   for (std::uint64_t tick = 0; tick < static_cast<std::uint64_t>(trials) * MadeRun::kTicksPerTrial; ++tick) {
     if (tick % MadeRun::kTicksPerTrial == 0) {
       const int trial = static_cast<int>(tick / MadeRun::kTicksPerTrial) + 1;
-      recorder.announce({trial, {trial - 1, 5 * trial, trial % 5 == 0}});
+      recorder.announce(trial, {trial - 1, 5 * trial, trial % 5 == 0});
     }
-    recorder.tryPush(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? Command::NextTrial : Command::None, 0);
+    recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? Command::NextTrial : Command::None, 0);
   }
   if (close) recorder.close();
 }

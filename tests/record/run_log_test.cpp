@@ -93,7 +93,7 @@ TEST(RunLog, MarksTheUnfinishedTrialOfABrokenOffLogAsInterrupted) {
   {
     Recorder recorder(path, madeConfiguration(), {.threaded = false});
     MadeRun run;
-    for (std::uint64_t i = 0; i < MadeRun::kTicksPerTrial + 150; ++i) recorder.tryPush(run.next(), Command::None, 0);
+    for (std::uint64_t i = 0; i < MadeRun::kTicksPerTrial + 150; ++i) recorder.onTick(run.next(), Command::None, 0);
     recorder.note("coffee spilt");  // hands everything to the kernel
     std::filesystem::copy_file(path, folder / "cut_log.reach");
   }

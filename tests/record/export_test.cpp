@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "sim/record/bids.h"
+#include "sim/record/table_text.h"
+#include "sim/record/tidy_csv.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::vector<std::string>> cellsOf(const std::string& text, char separator) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, separator);) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+bool isNumber(const std::string& text) {
+  double value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return fault == std::errc{} && end == text.data() + text.size();
+}
+
+class Exported : public testing::Test {
+ protected:
+  void SetUp() override {
+    configuration_ = madeConfiguration();
+    configuration_.participant = {31, "F", "L"};
+    configuration_.practice = true;
+    path_ = folder_ / "sourcedata/sub-01_ses-01_task-made_run-01_log.reach";
+    writeMadeRun(path_, 3, configuration_);
+  }
+  TemporaryFolder folder_{"export"};
+  RunConfiguration configuration_;
+  std::string path_;
+};
+
+// No validator looks at these: a header row in motion.tsv, decimal commas, units, doubled channels, counts, the task's name.
+TEST_F(Exported, MotionHasNoHeaderAndANumberInEveryCell) {
+  const auto rows = cellsOf(motionTsv(RunLog::open(path_)), '\t');
+  ASSERT_EQ(rows.size(), 3 * MadeRun::kTicksPerTrial / 10 + 1);
+  for (const auto& row : rows) {
+    ASSERT_EQ(row.size(), configuration_.table.size());
+    for (const std::string& cell : row) ASSERT_TRUE(cell == "n/a" || isNumber(cell)) << cell;
+  }
+}
+
+TEST_F(Exported, MotionCellsReadBackAsTheRecordedNumbers) {
+  const RunLog log = RunLog::open(path_);
+  const auto rows = cellsOf(motionTsv(log), '\t');
+  const std::size_t x = configuration_.table.indexOf("hand_pos_x");
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    double value = 0;
+    std::from_chars(rows[row][x].data(), rows[row][x].data() + rows[row][x].size(), value);
+    EXPECT_EQ(value, MadeRun::valueAt(10 * row));
+  }
+}
+
+TEST_F(Exported, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
+  const auto rows = cellsOf(channelsTsv(configuration_), '\t');
+  const json motion = json::parse(motionJson(RunLog::open(path_)));
+  const std::map<std::string, std::set<std::string>> allowed{{"LATENCY", {"s"}}, {"POS", {"m"}}, {"VEL", {"m/s"}}, {"ACCEL", {"m/s^2"}},
+                                                             {"MISC", {"s", "N", "J", "n/a", "1/s"}}};
+  std::set<std::string> names, points;
+  std::map<std::string, int> counts;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), rows[0].size());
+    EXPECT_TRUE(names.insert(rows[i][0]).second) << rows[i][0];
+    ++counts[rows[i][2]];
+    ASSERT_TRUE(allowed.contains(rows[i][2])) << rows[i][2];
+    EXPECT_TRUE(allowed.at(rows[i][2]).contains(rows[i][4])) << rows[i][0] << " in " << rows[i][4];
+    if (rows[i][3] != "n/a") points.insert(rows[i][3]);
+  }
+  EXPECT_EQ(motion.at("MotionChannelCount"), rows.size() - 1);
+  for (const auto& [key, value] : motion.items())
+    if (key.ends_with("ChannelCount") && key != "MotionChannelCount")
+      EXPECT_EQ(value, counts[key.substr(0, key.size() - std::string("ChannelCount").size())]) << key;
+  EXPECT_EQ(counts["LATENCY"], 1);
+  EXPECT_EQ(motion.at("TrackedPointsCount"), points.size());
+  EXPECT_EQ(motion.at("TaskName"), "made") << "the same as task- in the file's name";
+  EXPECT_EQ(motion.at("SamplingFrequencyEffective"), 100);
+}
+
+TEST_F(Exported, EventsGiveOneRowATrialInOrderWithinTheRecording) {
+  const RunLog log = RunLog::open(path_);
+  const auto rows = cellsOf(eventsTsv(log), '\t');
+  const json described = json::parse(eventsJson(configuration_));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0][0], "onset");
+  EXPECT_EQ(rows[0][1], "duration");
+  for (const std::string& column : rows[0])
+    if (column != "onset" && column != "duration") EXPECT_TRUE(described.contains(column)) << column;
+  EXPECT_EQ(rows[2][0], "0.325") << "the second trial's onset, 275 + 50 ticks, less the first row's zero";
+}
+
+TEST_F(Exported, TrialsCsvBeginsWithThePromisedColumns) {
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path_));
+  const std::string text = trialsCsv(runs);
+  EXPECT_TRUE(text.starts_with("subject,session,run,block,trial,phase,condition,outcome,reason,mass,movement_time_s,")) << text;
+  const auto rows = cellsOf(text, ',');
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ((std::vector<std::string>(rows[2].begin(), rows[2].begin() + 10)),
+            (std::vector<std::string>{"01", "01", "1", "1", "2", "practice", "made", "failure", "velocity", "2"}));
+}
+
+TEST_F(Exported, SamplesCsvHasUniqueColumnsThatCarryTheirUnits) {
+  const auto rows = cellsOf(samplesCsv(RunLog::open(path_)), ',');
+  std::set<std::string> columns(rows[0].begin(), rows[0].end());
+  EXPECT_EQ(columns.size(), rows[0].size());
+  for (const char* column : {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1", "coupling_x_n", "device_force_z_n"})
+    EXPECT_TRUE(columns.contains(column)) << column;
+}
+
+TEST_F(Exported, WritingTheDatasetAgainKeepsWhatAPersonHasAddedToIt) {
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path_));
+  const std::string out = folder_ / "dataset";
+  writeBids(runs, out);
+  EXPECT_EQ(readWholeFile(out + "/participants.tsv"), "participant_id\tage\tsex\thandedness\nsub-01\t31\tF\tL\n");
+  writeFileAtomically(out + "/participants.tsv", "participant_id\tage\tgroup\nsub-00\t20\tcontrol\nsub-01\tn/a\tpatient\n");
+  writeFileAtomically(out + "/README.md", "mine\n");
+  writeBids(runs, out);
+  EXPECT_EQ(readWholeFile(out + "/participants.tsv"),
+            "participant_id\tage\tgroup\tsex\thandedness\nsub-00\t20\tcontrol\tn/a\tn/a\nsub-01\t31\tpatient\tF\tL\n");
+  EXPECT_EQ(readWholeFile(out + "/README.md"), "mine\n");
+}
+
+TEST_F(Exported, ScansNameTheMotionFilesThatAreThere) {
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path_));
+  const std::string out = folder_ / "dataset";
+  writeBids(runs, out);
+  const TsvTable scans = parseTsv(readWholeFile(out + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"));
+  ASSERT_EQ(scans.rows.size(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(out + "/sub-01/ses-01/" + scans.rows[0][0])) << scans.rows[0][0];
+}
+
+TEST(TableText, QuotesForCsvAndKeepsTsvOnOneLine) {
+  TableText csv(',', ""), tsv('\t', "n/a");
+  csv.cell("a,\"b\"").number(0.1).number(std::nan("")).endRow();
+  tsv.cell("a\tb\nc").number(0.1).number(std::nan("")).cell("").endRow();
+  EXPECT_EQ(csv.text(), "\"a,\"\"b\"\"\",0.10000000000000001,\n");
+  EXPECT_EQ(tsv.text(), "a b c\t0.1\tn/a\tn/a\n");
+}
+
+}  // namespace
+}  // namespace reachlab
