@@ -3,69 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/predict/flat_output.h"
+
 namespace reachlab {
 namespace {
 
-using Real = long double;                // the sums of derivatives cancel by a few digits
-using Polynomial = std::vector<Real>;    // in D = d/dt, lowest power first
-
-Polynomial operator*(const Polynomial& a, const Polynomial& b) {
-  Polynomial c(a.size() + b.size() - 1, 0);
-  for (size_t i = 0; i < a.size(); ++i)
-    for (size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
-  return c;
-}
-
-Polynomial operator+(Polynomial a, const Polynomial& b) {
-  a.resize(std::max(a.size(), b.size()), 0);
-  for (size_t i = 0; i < b.size(); ++i) a[i] += b[i];
-  return a;
-}
-
-// Node 0 is the hand, node i the i-th mass; each is its polynomial applied to z.
-std::vector<Polynomial> computeChainPolynomials(const LineObject& object) {
-  const int n = object.count();
-  std::vector<Polynomial> node(n + 1);
-  // X_i = x_i / (kappa_0 … kappa_(i-1)) and the elongation d_i likewise: k_(i-1) d_(i-1) = (m_i D^2 + lambda D) X_i + k_i kappa_i d_i.
-  const auto kappa = [&](int i) { return Polynomial{1, static_cast<Real>(object.dampers[i]) / object.springs[i]}; };
-  node[n] = {1};
-  Polynomial elongation{0};
-  for (int i = n; i > 0; --i) {
-    const Real k = object.springs[i - 1];
-    Polynomial next = Polynomial{0, object.viscosity / k, object.masses[i - 1] / k} * node[i];
-    if (i < n) next = next + Polynomial{object.springs[i] / k} * (kappa(i) * elongation);
-    elongation = next;
-    node[i - 1] = elongation + kappa(i - 1) * node[i];
-  }
-  Polynomial product{1};
-  for (int i = 1; i <= n; ++i) {
-    product = product * kappa(i - 1);
-    node[i] = node[i] * product;
-  }
-  return node;
-}
-
-std::vector<Polynomial> computeParallelPolynomials(const LineObject& object) {
-  const int n = object.count();
-  std::vector<Polynomial> node(n + 1, Polynomial{1});
-  for (int j = 0; j < n; ++j) {
-    const Real k = object.springs[j];
-    const Polynomial oscillator{1, (static_cast<Real>(object.dampers[j]) + object.viscosity) / k, object.masses[j] / k};
-    for (int i = 0; i <= n; ++i)
-      node[i] = node[i] * (i == j + 1 ? Polynomial{1, static_cast<Real>(object.dampers[j]) / k} : oscillator);
-  }
-  return node;
-}
+using Real = long double;  // the sums of derivatives cancel by a few digits
 
 class CracklePrediction final : public Prediction {
  public:
   CracklePrediction(const LineObject& object, double distanceInMetres, double seconds)
       : half_(seconds / 2), distance_(distanceInMetres), power_(2 * object.count() + 2), source_(object.source),
-        node_(object.parallel ? computeParallelPolynomials(object) : computeChainPolynomials(object)) {
+        node_(computeFlatPolynomials(object)) {
     massCount_ = static_cast<int>(source_.size());
     fastest_ = std::sqrt(2.0 * power_) * power_ / seconds;
     // Times H^-k, so that rows multiply derivatives with respect to sigma.
-    for (Polynomial& p : node_)
+    for (FlatPolynomial& p : node_)
       for (size_t k = 0; k < p.size(); ++k) p[k] /= std::pow(static_cast<Real>(half_), static_cast<Real>(k));
     Real scale = 0.5L;  // (2n+1)! / (n!^2 2^(2n+1))
     for (int i = 1; i <= power_; ++i) scale *= (2 * i + 1) / (2.0L * i);
@@ -99,7 +52,7 @@ class CracklePrediction final : public Prediction {
  private:
   size_t derivatives() const { return static_cast<size_t>(power_) + 1; }
 
-  static Real sum(const Polynomial& row, const std::vector<Real>& z, size_t shift) {
+  static Real sum(const FlatPolynomial& row, const std::vector<Real>& z, size_t shift) {
     Real s = 0;
     for (size_t k = 0; k < row.size(); ++k) s += row[k] * z[k + shift];
     return s;
@@ -142,7 +95,7 @@ class CracklePrediction final : public Prediction {
   double half_, distance_;
   int power_;  // n = 2N+2
   std::vector<int> source_;
-  std::vector<Polynomial> node_;
+  std::vector<FlatPolynomial> node_;
   Real slope_ = 0;  // of dz/dsigma at T/2
 };
 

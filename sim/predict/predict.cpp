@@ -3,24 +3,47 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "constraints/error.h"
+#include "sim/predict/arm_prediction.h"
 #include "sim/predict/condition.h"
 #include "sim/predict/crackle_prediction.h"
 #include "sim/predict/line_object.h"
 #include "sim/predict/parity_prediction.h"
+#include "sim/predict/path_prediction.h"
 #include "sim/predict/peaks.h"
 #include "sim/predict/series_prediction.h"
 
 namespace reachlab {
 namespace {
 
-// Displacement along a straight task, in the direction of the target [m].
-double computeStraightDistance(const Experiment& experiment, const Task& task) {
-  const auto& shape = experiment.constraint.shape;
-  const auto length = shape.find("length_m");
-  return (length == shape.end() ? 0.2 : length->second) * std::abs(task.target.at(0) - task.start.at(0)) / (2 * std::numbers::pi);
+// Where the task goes when it goes straight: along a line of the catalogue, any curve with constant r_phi, or freely in space.
+struct StraightTask {
+  Vec3 start, target;  // [m] world
+  double distance = 0;
+};
+
+StraightTask computeStraightTask(const Constraint& constraint, const Task& task) {
+  StraightTask straight;
+  const auto place = [&](const std::vector<double>& q) {
+    if (constraint.kind == ConstraintKind::Free) return Vec3{q.at(0), q.at(1), q.at(2)};
+    return evaluate(constraint.curve, q.at(0)).r;
+  };
+  straight.start = place(task.start);
+  straight.target = place(task.target);
+  if (constraint.kind == ConstraintKind::Free) straight.distance = norm(straight.target - straight.start);
+  else straight.distance = norm(evaluate(constraint.curve, task.start[0]).rPhi) * std::abs(task.target[0] - task.start[0]);
+  return straight;
+}
+
+// The arm moves in the plane of x, along, and -z, away from the chest.
+std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, const Constraint& constraint, const StraightTask& straight,
+                                              const LineObject& object, double duration, int unknowns) {
+  const ArmTask task{{straight.start.x, -straight.start.z}, {straight.target.x, -straight.target.z}, duration};
+  if (constraint.kind == ConstraintKind::Free) return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), unknowns);
+  const Vec3 way = straight.target - straight.start;
+  if (std::hypot(way.y, way.z) > 1e-9 * norm(way)) throw RefusedError("min-torque-change: the line must lie along x, as the arm's task plane does");
+  return makeLineArmPrediction(experiment.arm, task, object, unknowns);
 }
 
 std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
@@ -36,8 +59,8 @@ std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Crite
   return prediction;
 }
 
-void judge(Prediction& prediction, const LineObject& object) {
-  if (!object.parallel) prediction.travelTime = computeTravelTime(object);
+void judge(Prediction& prediction, const LineObject* object) {
+  if (object != nullptr && !object->parallel) prediction.travelTime = computeTravelTime(*object);
   if (!std::isfinite(prediction.cost) || prediction.condition > kRefuseCondition || std::isnan(prediction.condition))
     throw RefusedError(fmt::format(
         "the object cannot be brought to rest in {:.6g} s with any precision (condition {:.1e} > {:.0e}{}); allow more time",
@@ -51,29 +74,53 @@ void judge(Prediction& prediction, const LineObject& object) {
     prediction.warnings.push_back(fmt::format("ill-conditioned ({:.1e}): tiny changes of the object change the prediction", prediction.condition));
 }
 
+std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, const Constraint& constraint, Criterion criterion, double duration,
+                                               int unknowns) {
+  if (criterion != Criterion::MinHandJerk)
+    throw RefusedError(fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces", nameOf(criterion)));
+  const Task& task = *experiment.task;
+  const auto masses = static_cast<int>(experiment.object.masses.size());
+  if (experiment.object.kind == ObjectKind::Body) throw UsageError("object: the criteria are not defined for a body that turns");
+  if (masses != 1)
+    throw RefusedError("min-hand-jerk: on curves and surfaces it is computed for a single mass; several masses need a straight line");
+  if (constraint.kind == ConstraintKind::Curve)
+    return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, masses, unknowns);
+  return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, masses, unknowns);
+}
+
 }  // namespace
 
 std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
   if (!experiment.task) throw UsageError("task: missing; a prediction needs a start and a target");
   const Task& task = *experiment.task;
+  const Constraint constraint = makeConstraint(experiment.constraint);
+  const auto parameters = static_cast<size_t>(constraint.kind == ConstraintKind::Free ? 3 : constraint.parameterCount());
+  if (task.start.size() != parameters || task.target.size() != parameters)
+    throw UsageError(fmt::format("task: start and target need {} numbers each", parameters));
+  if (task.start == task.target) throw UsageError("task: start and target are the same place");
   const double duration = options.duration > 0 ? options.duration : task.duration;
-  const double distance = computeStraightDistance(experiment, task);
-  if (!(distance > 0)) throw UsageError("task: start and target are the same place");
+  if (!(duration > 0) || !std::isfinite(duration)) throw UsageError("duration: allowed: above 0 s");
 
-  if (experiment.constraint.name != "line" || !experiment.constraint.curve.empty() || !experiment.constraint.surface.empty())
-    throw RefusedError("constraint: this criterion is defined on the line");
-  if (criterion == Criterion::MinTorqueChange)
-    throw RefusedError(fmt::format("{}: not defined for this object", nameOf(criterion)));
-
+  std::unique_ptr<Prediction> prediction;
   std::vector<std::string> warnings;
-  const LineObject object = mergeEqualFrequencies(
-      makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration, warnings);
-  std::unique_ptr<Prediction> prediction = makeLinearPrediction(object, criterion, distance, duration);
+  std::optional<LineObject> object;
+  const bool straight = constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
+  if (straight) {
+    const StraightTask way = computeStraightTask(constraint, task);
+    if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");
+    object = mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration, warnings);
+    if (std::abs(dot(experiment.object.gravity, way.target - way.start)) > 0)
+      warnings.push_back("gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the weight");
+    prediction = criterion == Criterion::MinTorqueChange ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
+                                                         : makeLinearPrediction(*object, criterion, way.distance, duration);
+    prediction->distance = way.distance;
+  } else {
+    prediction = makeBentPrediction(experiment, constraint, criterion, duration, options.unknowns);
+  }
   prediction->criterion = criterion;
   prediction->duration = duration;
-  prediction->distance = distance;
   prediction->warnings.insert(prediction->warnings.begin(), warnings.begin(), warnings.end());
-  judge(*prediction, object);
+  judge(*prediction, object ? &*object : nullptr);
   findPeaks(*prediction);
   return prediction;
 }

@@ -1,0 +1,251 @@
+#include "sim/predict/transcription.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+constexpr int kMostIterations = 60;
+constexpr double kSettled = 1e-10;      // change of the unknowns, relative, at which the next Newton step is below rounding
+// Change of the profile, of its peak, from n to 3n/2 unknowns. It is the error of the coarser; that of the finer, which is given, is
+// about its power 3/2 as long as the expansion converges geometrically, and below 1e-8.
+constexpr double kProfileChange = 1e-7;
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+class Newton {
+ public:
+  Newton(const TranscribedProblem& problem, const RestToRestBasis& basis, int unknowns)
+      : p_(problem), unknowns_(unknowns), motions_(static_cast<int>(problem.from.size())),
+        rule_(makeGaussRule<double>(3 * (unknowns + problem.order) / 2 + 8)) {
+    const double rate = 2 / p_.duration;
+    for (const double x : rule_.node) {
+      Matrix a(p_.locals, motions_ * unknowns_);
+      Vector fixed = Vector::Zero(p_.locals);
+      const std::vector<double> values = legendreValues(p_.order + unknowns + p_.order + 1, x);
+      for (int motion = 0; motion < motions_; ++motion) {
+        Matrix table(p_.order + 1, unknowns_ + 1);
+        for (int m = 0; m <= p_.order; ++m)
+          for (int c = 0; c <= unknowns_; ++c) {
+            const LegendreSeries& series = basis.derivative(c, m);
+            double sum = 0;
+            for (size_t n = 0; n < series.size(); ++n) sum += series[n] * values[n];
+            table(m, c) = sum * std::pow(rate, m);
+          }
+        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> local(
+            p_.local[motion].data(), p_.locals, p_.order + 1);
+        const Matrix all = local * table;
+        fixed += all.col(0) * (p_.to[motion] - p_.from[motion]) + local.col(0) * p_.from[motion];
+        a.middleCols(motion * unknowns_, unknowns_) = all.rightCols(unknowns_);
+      }
+      rows_.push_back(std::move(a));
+      fixed_.push_back(std::move(fixed));
+    }
+  }
+
+  double cost(const Vector& c) const {
+    double sum = 0;
+    std::vector<double> r(p_.residuals);
+    Vector a;
+    for (size_t i = 0; i < rows_.size(); ++i) {
+      a = fixed_[i];
+      a.noalias() += rows_[i] * c;
+      p_.residual(a.data(), r.data(), nullptr, nullptr);
+      for (const double value : r) sum += weight(i) * value * value;
+    }
+    return sum;
+  }
+
+  double expand(const Vector& c, Vector& gradient, Matrix& hessian) const {
+    const int n = static_cast<int>(c.size()), l = p_.locals;
+    gradient = Vector::Zero(n);
+    hessian = Matrix::Zero(n, n);
+    double sum = 0;
+    std::vector<double> r(p_.residuals), ra(p_.residuals * l), raa(p_.residuals * l * l);
+    for (size_t i = 0; i < rows_.size(); ++i) {
+      const Vector a = fixed_[i] + rows_[i] * c;
+      p_.residual(a.data(), r.data(), ra.data(), raa.data());
+      Vector g = Vector::Zero(l);
+      Matrix h = Matrix::Zero(l, l);
+      for (int k = 0; k < p_.residuals; ++k) {
+        sum += weight(i) * r[k] * r[k];
+        const Eigen::Map<const Vector> slope(&ra[k * l], l);
+        const Eigen::Map<const Matrix> bend(&raa[k * l * l], l, l);
+        g += 2 * weight(i) * r[k] * slope;
+        h += 2 * weight(i) * (slope * slope.transpose() + r[k] * bend);
+      }
+      gradient += rows_[i].transpose() * g;
+      hessian.noalias() += rows_[i].transpose() * (h * rows_[i]);
+    }
+    return sum;
+  }
+
+ private:
+  double weight(size_t i) const { return rule_.weight[i] * p_.duration / 2; }
+
+  const TranscribedProblem& p_;
+  int unknowns_, motions_;
+  GaussRule<double> rule_;
+  std::vector<Matrix> rows_;
+  std::vector<Vector> fixed_;
+};
+
+}  // namespace
+
+LegendreSeries TranscribedMotion::derivative(int motion, int m) const {
+  LegendreSeries series = basis.combine(coefficient[motion], m);
+  for (double& c : series) c *= std::pow(2 / duration, m);
+  if (m == 0) series[0] += start[motion];
+  return series;
+}
+
+TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
+  const int motions = static_cast<int>(problem.from.size()), total = motions * unknowns;
+  TranscribedMotion motion{RestToRestBasis(problem.order, unknowns), {}, problem.from, problem.duration};
+  const Newton newton(problem, motion.basis, unknowns);
+  Vector c = Vector::Zero(total), gradient;
+  Matrix hessian;
+  for (size_t m = 0; m < guess.size(); ++m)
+    for (size_t k = 0; k < guess[m].size() && k < static_cast<size_t>(unknowns); ++k) c(static_cast<int>(m) * unknowns + static_cast<int>(k)) = guess[m][k];
+
+  double damping = 0;
+  bool settled = false;
+  for (int iteration = 0; iteration < kMostIterations && !settled; ++iteration) {
+    motion.cost = newton.expand(c, gradient, hessian);
+    motion.iterations = iteration + 1;
+    if (!std::isfinite(motion.cost)) break;
+    const double scale = hessian.diagonal().cwiseAbs().maxCoeff();
+    Eigen::LLT<Matrix> factor(hessian + damping * scale * Matrix::Identity(total, total));
+    while (factor.info() != Eigen::Success) {  // not convex here: lean towards steepest descent
+      damping = std::max(10 * damping, 1e-6);
+      factor.compute(hessian + damping * scale * Matrix::Identity(total, total));
+    }
+    const Vector step = -factor.solve(gradient);
+    double length = 1;
+    const double slope = gradient.dot(step), small = kSettled * (c.norm() + 1e-3 * std::abs(problem.to[0] - problem.from[0]));
+    settled = damping == 0 && step.norm() <= small;
+    while (!settled && length > 1e-6 && !(newton.cost(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost)) length /= 2;
+    c += length * step;
+    damping = length < 0.1 ? std::max(10 * damping, 1e-6) : damping < 1e-5 ? 0 : damping / 10;
+    if (settled) {
+      motion.cost = newton.cost(c);
+      const double rcond = factor.rcond();
+      motion.condition = rcond > 0 ? 1 / std::sqrt(rcond) : std::numeric_limits<double>::infinity();
+    }
+  }
+  if (!settled) throw RefusedError(fmt::format("no minimum was found within {} Newton steps; another posture, a longer time or another path may help", kMostIterations));
+  for (int m = 0; m < motions; ++m) {
+    std::vector<double> all{problem.to[m] - problem.from[m]};
+    all.insert(all.end(), c.data() + m * unknowns, c.data() + (m + 1) * unknowns);
+    motion.coefficient.push_back(std::move(all));
+  }
+  return motion;
+}
+
+TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
+  if (unknowns > 0) return solveTranscription(problem, unknowns, guess);
+  constexpr int kFirst = 16, kMost = 160;
+  TranscribedMotion motion = solveTranscription(problem, kFirst, guess);
+  for (int n = kFirst + kFirst / 2; n <= kMost; n += n / 2) {
+    std::vector<std::vector<double>> warm;
+    for (const auto& c : motion.coefficient) warm.emplace_back(c.begin() + 1, c.end());
+    TranscribedMotion finer = solveTranscription(problem, n, warm);
+    double change = 0, peak = 0;
+    for (size_t m = 0; m < problem.from.size(); ++m) {
+      const LegendreSeries coarse = motion.derivative(static_cast<int>(m), 1), fine = finer.derivative(static_cast<int>(m), 1);
+      for (int i = 0; i <= 64; ++i) {
+        const double x = i / 32.0 - 1, v = evaluate(fine, x);
+        peak = std::max(peak, std::abs(v));
+        change = std::max(change, std::abs(v - evaluate(coarse, x)));
+      }
+    }
+    motion = std::move(finer);
+    if (change < kProfileChange * peak) return motion;
+  }
+  throw RefusedError(fmt::format("the profile has not settled to 1e-8 of its peak with {} unknowns", kMost));
+}
+
+TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknowns) {
+  constexpr int kTrial = 16;
+  constexpr double kBend = 0.2;  // of the way, early or late, for the starts that are not straight
+  const RestToRestBasis basis(problem.order, 2);
+  std::optional<TranscribedMotion> best;
+  std::string refusal;
+  const size_t motions = problem.from.size();
+  for (int start = 0; start < 1 + 2 * static_cast<int>(motions); ++start) {
+    std::vector<std::vector<double>> guess(motions);
+    if (start > 0) {
+      const size_t motion = static_cast<size_t>(start - 1) / 2;
+      const double way = std::max(std::abs(problem.to[motion] - problem.from[motion]), 1e-3);
+      guess[motion] = {(start % 2 ? kBend : -kBend) * way / std::abs(evaluate(basis.derivative(1, 0), 0.4))};
+    }
+    try {
+      TranscribedMotion found = solveTranscription(problem, unknowns > 0 ? unknowns : kTrial, guess);
+      if (!best || found.cost < best->cost * (1 - 1e-9)) best = std::move(found);
+    } catch (const RefusedError& refused) {
+      refusal = refused.what();
+    }
+  }
+  if (!best) throw RefusedError(refusal);
+  if (unknowns > 0) return std::move(*best);
+  std::vector<std::vector<double>> warm;
+  for (const auto& c : best->coefficient) warm.emplace_back(c.begin() + 1, c.end());
+  return solveTranscriptionAdaptively(problem, 0, warm);
+}
+
+SeriesOfOne makeSeriesOfVelocity(const LegendreSeries& velocity, double duration) {
+  SeriesOfOne one;
+  one.velocity = velocity;
+  one.position = integrate(velocity);
+  for (double& c : one.position) c *= duration / 2;
+  // P_n' = (2n-1) P_(n-1) + P_(n-2)', from the top.
+  one.acceleration.assign(velocity.size(), 0);
+  for (size_t n = velocity.size(); n-- > 1;) {
+    const double above = n + 1 < velocity.size() ? one.acceleration[n + 1] / (2 * static_cast<double>(n) + 3) : 0;
+    one.acceleration[n - 1] = (2 * static_cast<double>(n) - 1) * (velocity[n] + above);
+  }
+  for (double& c : one.acceleration) c *= 2 / duration;
+  return one;
+}
+
+namespace {
+
+class LegendrePrediction final : public Prediction {
+ public:
+  LegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double seconds) : hand_(std::move(hand)), masses_(std::move(masses)) {
+    duration = seconds;
+    massCount_ = static_cast<int>(masses_.size());
+    fastest_ = static_cast<double>(hand_.position.size()) / seconds;
+  }
+  PredictedHand handAt(double t) const override {
+    const double x = 2 * t / duration - 1;
+    return {evaluate(hand_.position, x), evaluate(hand_.velocity, x), evaluate(hand_.acceleration, x)};
+  }
+  void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
+    const double x = 2 * t / duration - 1;
+    for (size_t i = 0; i < masses_.size(); ++i) position[i] = evaluate(masses_[i].position, x), velocity[i] = evaluate(masses_[i].velocity, x);
+  }
+
+ private:
+  SeriesOfOne hand_;
+  std::vector<SeriesOfOne> masses_;
+};
+
+}  // namespace
+
+std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration) {
+  auto prediction = std::make_unique<LegendrePrediction>(std::move(hand), std::move(masses), duration);
+  prediction->handJump = 0.0;
+  prediction->handVelocityJump = 0.0;
+  return prediction;
+}
+
+}  // namespace reachlab
