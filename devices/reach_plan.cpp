@@ -11,9 +11,41 @@
 namespace reachlab {
 namespace {
 
-// The same object and time on a straight line of this length: what the criteria are defined for.
-std::shared_ptr<const Prediction> predictOnLine(const Experiment& experiment, double length, Criterion criterion,
-                                                std::optional<double> handMass) {
+// A plan and the time that the protocol will measure when it is carried out to the letter, from onset to arrival.
+struct TimedPlan {
+  ReachPlan plan;
+  double arrival = 0;  // [s]
+};
+using MakePlan = std::function<TimedPlan(double duration)>;
+
+constexpr double kLook = 0.001;  // [s]
+
+// From the first time that `hasLeft` to the first one from there on that `isThere`.
+template <typename HasLeft, typename IsThere>
+double computeArrival(double duration, HasLeft&& hasLeft, IsThere&& isThere) {
+  double onset = 0;
+  while (onset < duration && !hasLeft(onset)) onset += kLook;
+  double t = onset;
+  while (t < duration && !isThere(t)) t += kLook;
+  return t - onset;
+}
+
+ReachPlan timeForTask(const Task& task, const MakePlan& makePlan) {
+  TimedPlan timed = makePlan(task.duration);
+  if (timed.arrival >= task.duration - task.tolerance.time) return timed.plan;
+  double shorter = task.duration, longer = task.duration;
+  while (timed.arrival < task.duration && longer < 8 * task.duration) timed = makePlan(longer *= 1.5);
+  const double accuracy = std::max(kLook, 0.05 * task.tolerance.time);
+  while (std::abs(timed.arrival - task.duration) > accuracy && longer - shorter > kLook) {
+    const double middle = (shorter + longer) / 2;
+    timed = makePlan(middle);
+    (timed.arrival < task.duration ? shorter : longer) = middle;
+  }
+  return timed.plan;
+}
+
+// The same object on a straight line of this length: what the criteria are defined for.
+Experiment onLine(const Experiment& experiment, double length) {
   Experiment line = experiment;
   line.constraint = {};
   line.constraint.name = "line";
@@ -21,17 +53,34 @@ std::shared_ptr<const Prediction> predictOnLine(const Experiment& experiment, do
   line.task->start = {0};
   line.task->target = {2 * std::numbers::pi};
   if (line.object.kind == ObjectKind::Body) line.object.kind = ObjectKind::Point;
-  PredictOptions options;
-  options.handMass = handMass;
-  return predict(line, criterion, options);
+  return line;
+}
+
+// What the criterion predicts, timed; `place` lays a distance from the start into the world.
+ReachPlan planByPrediction(const Experiment& line, Criterion criterion, std::optional<double> handMass, std::function<Vec3(double)> place) {
+  const Task& task = *line.task;
+  return timeForTask(task, [&](double duration) {
+    PredictOptions options;
+    options.handMass = handMass;
+    options.duration = duration;
+    const std::shared_ptr<const Prediction> prediction = predict(line, criterion, options);
+    std::vector<double> x(line.object.masses.size()), v(x.size());
+    const auto hasLeft = [&](double t) { return std::abs(prediction->handAt(t).position) > task.onset; };
+    const auto isThere = [&](double t) {
+      prediction->massesAt(t, x, v);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::abs(x[i] - prediction->distance) > task.tolerance.position || std::abs(v[i]) > task.tolerance.velocity) return false;
+      return true;
+    };
+    return TimedPlan{{duration, [=](double t) { return place(prediction->handAt(t).position); }}, computeArrival(duration, hasLeft, isThere)};
+  });
 }
 
 ReachPlan planAlongChord(const Experiment& experiment, const Vec3& start, const Vec3& target, Criterion criterion,
                          std::optional<double> handMass) {
   const double length = norm(target - start);
   const Vec3 direction = (target - start) / length;
-  const auto prediction = predictOnLine(experiment, length, criterion, handMass);
-  return {prediction->duration, [=](double t) { return start + prediction->handAt(t).position * direction; }};
+  return planByPrediction(onLine(experiment, length), criterion, handMass, [=](double s) { return start + s * direction; });
 }
 
 // phi as a function of arc length from `from`, by Simpson's rule on equal parts of phi; beyond `to` the last part's slope goes on.
@@ -61,11 +110,8 @@ class ArcTable {
 ReachPlan planAlongCurve(const Experiment& experiment, const Constraint& constraint, Criterion criterion, std::optional<double> handMass) {
   const ArcTable table(constraint.curve, experiment.task->start[0], experiment.task->target[0]);
   if (!(table.length() > 0)) throw UsageError("task: start and target are the same place");
-  const auto prediction = predictOnLine(experiment, table.length(), criterion, handMass);
-  return {prediction->duration, [=](double t) {
-            const double s = prediction->handAt(t).position;
-            return evaluate(constraint.curve, table.phiAt(s)).r;
-          }};
+  return planByPrediction(onLine(experiment, table.length()), criterion, handMass,
+                          [=](double s) { return evaluate(constraint.curve, table.phiAt(s)).r; });
 }
 
 // Minimum-jerk law 10 x^3 - 15 x^4 + 6 x^5 (Flash and Hogan 1985) with its first two derivatives.
@@ -76,33 +122,52 @@ MinimumJerk minimumJerkAt(double x) {
   return {x * x * x * (10 + x * (6 * x - 15)), 30 * x * x * (1 - x) * (1 - x), 60 * x * (1 - x) * (1 - 2 * x)};
 }
 
-ReachPlan planByInverseDynamics(const Experiment& experiment, const Constraint& constraint) {
+struct Motion {
+  Vec3 r, v, a;  // [m], [m/s], [m/s^2]
+};
+
+// The minimum-jerk law in the parameters of a curve or surface.
+struct ParameterReach {
+  Constraint constraint;
+  std::array<double, 2> from{}, by{};
+
+  Motion at(double t, double duration) const {
+    const MinimumJerk law = minimumJerkAt(t / duration);
+    const double rate = law.rate / duration, change = law.acceleration / (duration * duration);
+    const double q = from[0] + by[0] * law.value, u = by[0] * rate;
+    if (constraint.kind == ConstraintKind::Curve) {
+      const CurvePoint p = evaluate(constraint.curve, q);
+      return {p.r, u * p.rPhi, by[0] * change * p.rPhi + u * u * p.rPhiPhi};
+    }
+    const SurfacePoint p = evaluate(constraint.surface, q, from[1] + by[1] * law.value);
+    const double w = by[1] * rate;
+    return {p.r, u * p.rU + w * p.rV,
+            by[0] * change * p.rU + by[1] * change * p.rV + u * u * p.rUu + 2 * u * w * p.rUv + w * w * p.rVv};
+  }
+};
+
+ReachPlan planByInverseDynamics(const Experiment& experiment, const Constraint& constraint, const ProtocolSettings& place) {
   const Task& task = *experiment.task;
   const double mass = experiment.object.masses.at(0), stiffness = experiment.coupling->stiffness, viscosity = experiment.object.viscosity;
-  const double duration = task.duration;
-  std::array<double, 2> from{}, by{};
-  for (int k = 0; k < constraint.parameterCount(); ++k) from[k] = task.start[k], by[k] = task.target[k] - task.start[k];
-  if (by[0] == 0 && by[1] == 0) throw UsageError("task: start and target are the same place");
-  return {duration, [=](double t) {
-            const MinimumJerk law = minimumJerkAt(t / duration);
-            const std::array<double, 2> q{from[0] + by[0] * law.value, from[1] + by[1] * law.value};
-            const double rate = law.rate / duration, change = law.acceleration / (duration * duration);
-            Vec3 r, v, a;
-            if (constraint.kind == ConstraintKind::Curve) {
-              const CurvePoint p = evaluate(constraint.curve, q[0]);
-              r = p.r;
-              v = by[0] * rate * p.rPhi;
-              a = by[0] * change * p.rPhi + by[0] * rate * by[0] * rate * p.rPhiPhi;
-            } else {
-              const SurfacePoint p = evaluate(constraint.surface, q[0], q[1]);
-              const double u = by[0] * rate, w = by[1] * rate;
-              r = p.r;
-              v = u * p.rU + w * p.rV;
-              a = by[0] * change * p.rU + by[1] * change * p.rV + u * u * p.rUu + 2 * u * w * p.rUv + w * w * p.rVv;
-            }
-            const Vec3 lead = (mass * a + viscosity * v) / stiffness;
-            return isFinite(lead) ? r + lead : r;  // at a pole the parameters say nothing of the acceleration
-          }};
+  ParameterReach reach{constraint};
+  for (int k = 0; k < constraint.parameterCount(); ++k) {
+    reach.from[k] = task.start[k];
+    reach.by[k] = task.target[k] - task.start[k];
+  }
+  if (reach.by[0] == 0 && reach.by[1] == 0) throw UsageError("task: start and target are the same place");
+  return timeForTask(task, [&](double duration) {
+    const auto handAt = [=](double t) {
+      const Motion m = reach.at(t, duration);
+      const Vec3 lead = (mass * m.a + viscosity * m.v) / stiffness;
+      return isFinite(lead) ? m.r + lead : m.r;  // at a pole the parameters say nothing of the acceleration
+    };
+    const auto hasLeft = [&](double t) { return norm(handAt(t) - place.start) > task.onset; };
+    const auto isThere = [&](double t) {
+      const Motion m = reach.at(t, duration);
+      return norm(m.r - place.target) <= task.tolerance.position && norm(m.v) <= task.tolerance.velocity;
+    };
+    return TimedPlan{{duration, handAt}, computeArrival(duration, hasLeft, isThere)};
+  });
 }
 
 }  // namespace
@@ -118,7 +183,7 @@ ReachPlan makeReachPlan(const Experiment& experiment, Criterion criterion, std::
   if (flexible) throw RefusedError("the simulated subject has no plan for several masses on a surface; use one mass, or a curve");
   if (!experiment.coupling || !(experiment.coupling->stiffness > 0))
     throw RefusedError("coupling.stiffness_n_per_m: 0; nothing joins the simulated subject to the object");
-  return planByInverseDynamics(experiment, constraint);
+  return planByInverseDynamics(experiment, constraint, place);
 }
 
 }  // namespace reachlab

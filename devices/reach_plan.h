@@ -18,6 +18,8 @@ struct ReachPlan {
 ///     beyond the target the curve goes on;
 ///   - one mass on a curve or surface: the mass is to follow the minimum-jerk law in the constraint's parameters, so the hand leads it by
 ///     the spring's extension, r_HIP = r + (m r'' + lambda r')/k.
+/// The movement takes the task's T, unless it would then be judged too short even if carried out to the letter (the parallel object
+/// creeps into a wide tolerance long before T): a subject who has practised takes longer, so that it is judged to take T.
 /// Gravity is not compensated. Throws UsageError (no task, start and target are one place), RefusedError from predict.
 ReachPlan makeReachPlan(const Experiment& experiment, Criterion criterion, std::optional<double> handMass);
 

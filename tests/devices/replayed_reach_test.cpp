@@ -1,0 +1,173 @@
+#include "devices/replayed_reach.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "constraints/error.h"
+#include "devices/natural_spline.h"
+
+namespace reachlab {
+namespace {
+
+const std::string kReaches = REACHLAB_SOURCE_DIR "/resources/reaches";
+
+class Files : public ::testing::Test {
+ protected:
+  Files() : folder(std::filesystem::temp_directory_path() / ("reach-replay-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder);
+  }
+  ~Files() override { std::filesystem::remove_all(folder); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  }
+  std::filesystem::path folder;
+};
+
+// A curved reach in a frame of its own: chord of 0.5 m, a detour of 5 cm, overshoot and return at the end, uneven times.
+RecordedReach curvedReach() {
+  RecordedReach reach;
+  for (int i = 0; i <= 80; ++i) {
+    const double t = (i + 0.3 * std::sin(i)) / 80, x = 0.5 * std::sin(1.8 * t);
+    reach.time.push_back(t);
+    reach.position.push_back({2 + 0.05 * std::sin(3 * t), -1 + x, 0.3});
+  }
+  return reach;
+}
+
+TEST(ReplayedReach, KeepsTheShapeOfTheReachUpToScale) {
+  const RecordedReach reach = curvedReach();
+  const Vec3 start{-0.1, 0.02, 0}, target{0.1, 0.02, 0.01};
+  const PlayedReach played = layOnto(reach, start, target);
+  const Vec3 first = reach.position.front();
+  double chord = 0;
+  for (const Vec3& p : reach.position) chord = std::max(chord, norm(p - first));
+  const double scale = norm(target - start) / chord;
+  for (std::size_t i = 20; i + 1 < reach.time.size(); ++i) {  // the last one is held, not passed
+    const double tick = (0.3 + reach.time[i]) * 1000;
+    const auto k = static_cast<std::size_t>(tick);
+    if (k + 1 >= played.position.size()) break;
+    const Vec3 at = played.position[k] + (tick - static_cast<double>(k)) * (played.position[k + 1] - played.position[k]);
+    // A chord of 1 ms cuts a corner of less than a (1 ms)^2/8, with a < 20 m/s^2 scaled.
+    EXPECT_NEAR(norm(at - start), scale * norm(reach.position[i] - first), 3e-6);
+  }
+}
+
+TEST(ReplayedReach, LaysTheFarthestSampleOnTheTarget) {
+  const Vec3 start{0.01, -0.1, 0.02}, target{0.03, 0.1, -0.05};
+  for (const double sign : {1.0, -1.0}) {
+    RecordedReach reach;
+    for (int i = 0; i <= 100; ++i) reach.time.push_back(0.01 * i), reach.position.push_back(sign * 0.004 * i * Vec3{0.2, 2, -0.7});
+    const PlayedReach played = layOnto(reach, start, target);
+    EXPECT_NEAR(norm(played.position.back() - target), 0, 1e-12) << "rounding of the rotation";
+  }
+}
+
+TEST(ReplayedReach, RestsForThreeTenthsAndJoinsWithoutAJump) {
+  const PlayedReach played = layOnto(curvedReach(), {-0.1, 0, 0}, {0.1, 0, 0});
+  for (int tick = 0; tick <= 300; ++tick) EXPECT_NEAR(norm(played.position[tick] - Vec3{-0.1, 0, 0}), 0, 1e-15);
+  for (std::size_t i = 300; i + 1 < played.position.size(); ++i)
+    EXPECT_LT(norm(played.position[i + 1] - played.position[i]), 1e-3) << "below 1 m/s at tick " << i;
+}
+
+TEST(ReplayedReach, DoesNotScaleTime) {
+  const RecordedReach reach = readReach(kReaches + "/reach-00.csv");
+  const PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
+  EXPECT_NEAR(static_cast<double>(played.position.size() - 1), 300 + 1000 * (reach.time.back() - reach.time.front()), 1);
+}
+
+TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kReaches)) {
+    if (entry.path().extension() != ".csv") continue;
+    ++files;
+    const PlayedReach played = layOnto(readReach(entry.path().string()), {-0.1, 0, 0}, {0.1, 0, 0});
+    double nearest = 1;
+    for (const Vec3& p : played.position) nearest = std::min(nearest, norm(p - Vec3{0.1, 0, 0}));
+    EXPECT_LT(nearest, 1e-3) << entry.path();  // the sample lies between two ticks
+  }
+  EXPECT_EQ(files, 19);
+}
+
+TEST(ReplayedReach, ALostDirectionIsTurnedByHalfATurn) {
+  RecordedReach reach{"back.csv", {0, 0.5, 1}, {{0, 0, 0}, {-0.2, 0.05, 0}, {-0.4, 0, 0}}};
+  const PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
+  EXPECT_NEAR(norm(played.position.back() - Vec3{0.1, 0, 0}), 0, 1e-12) << "rounding";
+  for (const Vec3& p : played.position) EXPECT_TRUE(isFinite(p));
+}
+
+TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
+  write("b.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.2,1,0,0\n");
+  write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n");
+  const auto device = makeReplayHand(folder.string(), {0, 0, 0}, {1, 0, 0});
+  const auto ticksOf = [&](int trial) {
+    device->prepareTrial(trial);
+    device->cue(Cue::Place);
+    device->cue(Cue::Go);
+    int ticks = 0;
+    while (device->read().position.x < 1 - 1e-9) ++ticks;
+    return ticks;
+  };
+  const int a = ticksOf(0), b = ticksOf(1);
+  EXPECT_NEAR(b - a, 100, 1);
+  EXPECT_EQ(ticksOf(2), a);
+}
+
+TEST_F(Files, SaysWhatIsWrongWithAFile) {
+  EXPECT_THROW(readReach((folder / "missing.csv").string()), ResourceError);
+  EXPECT_THROW(makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}), ResourceError);
+  EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
+  const std::string header = "time_s,x_m,y_m,z_m\n";
+  for (const char* rows : {"", "0,0,0,0\n", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
+    EXPECT_THROW(readReach(write("bad.csv", header + rows)), UsageError) << rows;
+  EXPECT_THROW(readReach(write("bad.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n")), UsageError);
+  const std::string still = write("still.csv", header + "0,1,1,1\n1,1,1,1\n");
+  EXPECT_THROW(layOnto(readReach(still), {}, {1, 0, 0}), UsageError);
+}
+
+TEST_F(Files, NamesFileAndLine) {
+  const std::string file = write("bad.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n1,zero,0,0\n");
+  try {
+    readReach(file);
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(file + ":3:", 0), 0u) << error.what();
+  }
+}
+
+// A cubic that bends at neither end is its own natural spline: x^3 - 3 x^2 on [0, 1] has the second derivative 6 x - 6, zero at 1
+// only, so a whole one is put together from sin, and the error falls as the fourth power of the spacing.
+TEST(NaturalSpline, ErrorFallsWithTheFourthPowerOfTheSpacing) {
+  const auto errorWith = [](int parts) {
+    std::vector<double> time;
+    std::vector<Vec3> value;
+    for (int i = 0; i <= parts; ++i) {
+      time.push_back(3.14159265358979323846 * i / parts);
+      value.push_back({std::sin(time.back()), 0, 0});
+    }
+    const NaturalSpline spline(time, value);
+    double worst = 0;
+    for (int i = 0; i <= 1000; ++i) {
+      const double t = time.back() * i / 1000;
+      worst = std::max(worst, std::abs(spline.at(t).x - std::sin(t)));
+    }
+    return worst;
+  };
+  EXPECT_NEAR(errorWith(10) / errorWith(20), 16, 1) << "the next order adds a few per cent";
+}
+
+TEST(NaturalSpline, GoesThroughItsPointsAndIsStraightThroughTwo) {
+  const std::vector<double> time{0, 0.1, 0.5, 0.55, 2};
+  const std::vector<Vec3> value{{0, 1, 0}, {2, 0, 1}, {1, 1, 1}, {0, 5, 0}, {3, 3, 3}};
+  const NaturalSpline spline(time, value);
+  for (std::size_t i = 0; i < time.size(); ++i) EXPECT_NEAR(norm(spline.at(time[i]) - value[i]), 0, 1e-12);
+  EXPECT_NEAR(NaturalSpline({0, 2}, {{0, 0, 0}, {4, 0, 0}}).at(0.5).x, 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace reachlab

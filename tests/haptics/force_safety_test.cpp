@@ -1,0 +1,81 @@
+#include "sim/haptics/force_safety.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace reachlab {
+namespace {
+
+constexpr double kRounding = 1e-12;  // [N] a few operations on numbers of about 10
+
+// Past the ramp, at rest on `force`.
+ForceSafety settled(double limit, const Vec3& force) {
+  ForceSafety safety(limit);
+  for (int i = 0; i < 300; ++i) safety.limit(force, true, true);
+  return safety;
+}
+
+TEST(ForceSafety, PassesWhatIsWithinTheLimit) {
+  const Vec3 force{3, -4, 1};
+  ForceSafety safety = settled(12, force);
+  EXPECT_EQ(safety.limit(force, true, true), force);
+}
+
+TEST(ForceSafety, ClampsTheNormAndKeepsTheDirection) {
+  const Vec3 force{30, -40, 0};
+  ForceSafety safety = settled(10, force);
+  const Vec3 out = safety.limit(force, true, true);
+  EXPECT_NEAR(out.x, 6, kRounding);
+  EXPECT_NEAR(out.y, -8, kRounding);
+  EXPECT_EQ(out.z, 0);
+}
+
+TEST(ForceSafety, AKickIsSpreadOverTicks) {
+  ForceSafety safety = settled(12, {});
+  Vec3 last;
+  for (int i = 0; i < 6; ++i) {
+    const Vec3 out = safety.limit({0, 12, 0}, true, true);
+    EXPECT_LE(norm(out - last), ForceSafety::kSlewPerTick + kRounding);
+    last = out;
+  }
+  EXPECT_NEAR(last.y, 12, kRounding);
+}
+
+TEST(ForceSafety, GrowsFromZeroWhenATrialEngages) {
+  ForceSafety safety(10);
+  double last = 0;
+  for (int tick = 1; tick <= 200; ++tick) {
+    const double size = norm(safety.limit({100, 0, 0}, true, true));
+    EXPECT_NEAR(size, 10.0 * tick / 200, kRounding);
+    EXPECT_GT(size, last);
+    last = size;
+  }
+}
+
+TEST(ForceSafety, IsZeroAtOnceWhenNotEngagedOrTheHandIsNotHeldAndRampsAfterwards) {
+  for (const bool engaged : {false, true}) {
+    ForceSafety safety = settled(10, {5, 0, 0});
+    EXPECT_EQ(safety.limit({5, 0, 0}, engaged, !engaged), Vec3{});
+    EXPECT_NEAR(norm(safety.limit({5, 0, 0}, true, true)), 10.0 / 200, kRounding);
+  }
+}
+
+TEST(ForceSafety, LatchesOnWhatIsNotANumberUntilRearmed) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    ForceSafety safety = settled(10, {5, 0, 0});
+    EXPECT_EQ(safety.limit({0, bad, 0}, true, true), Vec3{});
+    EXPECT_TRUE(safety.latched());
+    EXPECT_EQ(safety.limit({5, 0, 0}, true, true), Vec3{});
+    safety.rearm();
+    EXPECT_GT(norm(safety.limit({5, 0, 0}, true, true)), 0);
+  }
+}
+
+TEST(ForceSafety, AHugeForceIsStillTheLimit) {
+  ForceSafety safety = settled(10, {1e200, 0, 0});
+  EXPECT_LE(norm(safety.limit({1e200, 1e200, 0}, true, true)), 10 + kRounding);
+}
+
+}  // namespace
+}  // namespace reachlab

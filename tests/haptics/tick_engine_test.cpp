@@ -1,0 +1,300 @@
+#include "sim/haptics/tick_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kLimit = 12;  // [N]
+
+DeviceSample handAt(const Vec3& position) {
+  DeviceSample sample;
+  sample.position = position;
+  return sample;
+}
+
+// chain-moderate with a hand that is put where the test wants it.
+class Engine : public ::testing::Test {
+ protected:
+  explicit Engine(bool virtualHand = false)
+      : experiment(readExperiment("chain-moderate")), engine(experiment, {kLimit, virtualHand}), hand(engine.protocol().start) {}
+
+  const TickState& tick(Command command = Command::None, std::uint32_t missed = 0) {
+    TickInput input;
+    input.device = handAt(hand);
+    input.command = command;
+    input.missedTicks = missed;
+    engine.tick(input);
+    return engine.state();
+  }
+  void arm() {
+    tick(Command::NextTrial);
+    tick();
+    ASSERT_EQ(engine.state().phase, Phase::Armed);
+  }
+  // A hand on its way at 0.2 m/s.
+  void move(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      hand.x += 2e-4;
+      tick();
+    }
+  }
+  Vec3 massOne() const { return engine.state().masses[0].r; }
+
+  Experiment experiment;
+  TickEngine engine;
+  Vec3 hand;
+};
+class VirtualHandEngine : public Engine {
+ protected:
+  VirtualHandEngine() : Engine(true) {}
+};
+
+TEST_F(Engine, RestsAtTheStartWithoutForceUntilArmed) {
+  hand.y += 0.05;
+  tick(Command::NextTrial);
+  for (int i = 0; i < 50; ++i) {
+    const TickState& state = tick();
+    ASSERT_EQ(state.phase, Phase::Waiting);
+    EXPECT_EQ(state.deviceForce, Vec3{});
+    EXPECT_EQ(state.couplingForce, Vec3{});
+    for (int m = 0; m < state.massCount; ++m) EXPECT_EQ(norm(state.masses[m].v), 0);
+  }
+}
+
+TEST_F(Engine, PlacesTheFixedPointOnTheHandAtArming) {
+  const Vec3 offset{0.004, -0.005, 0.006};
+  hand += offset;
+  arm();
+  EXPECT_EQ(engine.state().couplingForce, Vec3{});
+  EXPECT_EQ(engine.state().hand.position, massOne());
+  hand.x += 5e-4;
+  const TickState& state = tick();
+  EXPECT_NEAR(norm(state.couplingForce), 600 * 5e-4, 1e-3) << "k_h times the hand's way; the mass has hardly moved in one tick";
+}
+
+TEST_F(Engine, TheDeviceFeelsTheOppositeOfTheObject) {
+  arm();
+  for (int i = 0; i < 400; ++i) {
+    hand.x += 2e-4;
+    const TickState& state = tick();
+    EXPECT_EQ(state.feedbackForce + state.couplingForce, Vec3{});
+    EXPECT_LE(norm(state.deviceForce), kLimit);
+  }
+  EXPECT_EQ(engine.state().deviceForce, engine.state().feedbackForce) << "within the limits nothing is changed";
+}
+
+TEST_F(Engine, TellsAVirtualHandWhenToBeWhere) {
+  tick(Command::NextTrial);
+  EXPECT_EQ(engine.cue(), Cue::Place);
+  tick();
+  EXPECT_EQ(engine.cue(), Cue::Go);
+  tick();
+  EXPECT_EQ(engine.cue(), std::nullopt);
+}
+
+TEST_F(Engine, GivesTheGoSignalAfterTheForeperiod) {
+  TickInput input;
+  input.device = handAt(hand);
+  input.command = Command::NextTrial;
+  input.planned.foreperiodTicks = 3;
+  engine.tick(input);
+  tick();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(engine.cue(), std::nullopt);
+    tick();
+  }
+  EXPECT_EQ(engine.cue(), Cue::Go);
+}
+
+TEST_F(Engine, ForcesAreZeroAsSoonAsTheTrialHasEnded) {
+  arm();
+  move(300);
+  ASSERT_GT(norm(engine.state().deviceForce), 0);
+  const TickState& state = tick(Command::Abort);
+  EXPECT_EQ(state.phase, Phase::Done);
+  EXPECT_EQ(state.deviceForce, Vec3{});
+  EXPECT_EQ(state.couplingForce, Vec3{});
+  const Vec3 where = massOne();
+  move(20);
+  EXPECT_EQ(massOne(), where);
+}
+
+TEST_F(Engine, TheNextTrialBeginsLikeTheFirst) {
+  const auto run = [this] {
+    hand = engine.protocol().start;
+    tick(Command::NextTrial);
+    tick();
+    move(500);
+    const TickState& state = engine.state();
+    std::vector<double> numbers{state.couplingForce.x, state.energy};
+    for (int m = 0; m < state.massCount; ++m) numbers.insert(numbers.end(), {state.masses[m].r.x, state.masses[m].v.x, state.masses[m].a.x});
+    tick(Command::Abort);
+    return numbers;
+  };
+  const auto first = run();
+  EXPECT_EQ(first, run());
+}
+
+TEST_F(Engine, AHandThatIsNotANumberGivesZeroForceAndEndsTheTrial) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    hand = engine.protocol().start;
+    arm();
+    move(300);
+    const Vec3 good = hand, mass = massOne();
+    hand.z = bad;
+    tick();
+    EXPECT_EQ(engine.state().deviceForce, Vec3{});
+    EXPECT_EQ(engine.state().phase, Phase::Done);
+    EXPECT_EQ(engine.state().result.reason, Reason::DeviceLost);
+    EXPECT_EQ(massOne(), mass);
+    hand = good;
+    for (int i = 0; i < 500; ++i) EXPECT_EQ(tick().deviceForce, Vec3{});
+    EXPECT_TRUE(isFinite(engine.state().hand.position));
+  }
+}
+
+TEST_F(Engine, ALostHandGivesZeroForceAndComesBackWithoutAJump) {
+  arm();
+  move(300);
+  const double before = engine.state().couplingForce.x;
+  TickInput lost;
+  lost.device = handAt(hand);
+  lost.device.valid = false;
+  for (int i = 0; i < 10; ++i) {
+    engine.tick(lost);
+    EXPECT_EQ(engine.state().deviceForce, Vec3{});
+    EXPECT_EQ(engine.state().status, StepStatus::HandLost);
+  }
+  hand.x += 0.003;
+  const TickState& back = tick();
+  EXPECT_EQ(back.phase, Phase::Moving);
+  EXPECT_NEAR(back.couplingForce.x, before, 0.2) << "3 mm at 600 N/m at once would be 1.8 N; mass 1 moves on by 0.2 mm";
+}
+
+// 125 ms during which the hand went on at 0.2 m/s: 2.5 cm in one tick, 15 N at once if it were believed.
+TEST_F(Engine, ALongGapGivesNeitherABurstNorAJump) {
+  arm();
+  move(300);
+  Vec3 mass = massOne(), force = engine.state().couplingForce;
+  hand.x += 0.025;
+  tick(Command::None, 124);
+  EXPECT_EQ(engine.state().deviceForce, Vec3{}) << "the tick after a gap renders nothing";
+  Vec3 deviceForce;
+  double mostForce = 0, mostMass = 0, mostDevice = 0;
+  for (int i = 0; i < 600; ++i) {
+    const TickState& state = i == 0 ? engine.state() : tick();
+    mostForce = std::max(mostForce, norm(state.couplingForce - force));
+    mostMass = std::max(mostMass, norm(massOne() - mass));
+    mostDevice = std::max(mostDevice, norm(state.deviceForce - deviceForce));
+    force = state.couplingForce;
+    mass = massOne();
+    deviceForce = state.deviceForce;
+  }
+  // While the gap is blended out the hand moves by at most 1.875 * 2.5 cm / 250 ms more than before.
+  EXPECT_LT(mostForce, 0.25);
+  EXPECT_LT(mostMass, 1.2e-3);
+  EXPECT_LE(mostDevice, ForceSafety::kSlewPerTick);
+  EXPECT_NEAR(engine.state().hand.position.x, hand.x, 1e-12) << "seen where it is, once the blend is over";
+  EXPECT_EQ(engine.state().faults.missedTicks, 124u);
+}
+
+TEST_F(VirtualHandEngine, AGapChangesNothingForAHandThatMovesByTickCount) {
+  TickEngine other(experiment, {kLimit, true});
+  const auto both = [&](Command command, std::uint32_t missed) {
+    TickInput input;
+    input.device = handAt(hand);
+    input.command = command;
+    other.tick(input);
+    input.missedTicks = missed;
+    engine.tick(input);
+    for (int m = 0; m < 5; ++m) ASSERT_EQ(engine.state().masses[m].r, other.state().masses[m].r);
+    ASSERT_EQ(engine.state().couplingForce, other.state().couplingForce);
+  };
+  both(Command::NextTrial, 0);
+  both(Command::None, 0);
+  for (int i = 0; i < 800; ++i) {
+    hand.x += 2e-4;
+    both(Command::None, i % 100 == 50 ? 130 : 0);
+  }
+  EXPECT_EQ(engine.state().tick, 802u) << "one tick a tick, whatever the clock did";
+}
+
+// The object feels what the hand did; the device is spared the kick.
+TEST_F(Engine, AJumpOfTenCentimetresStaysFiniteAndWithinTheLimits) {
+  arm();
+  move(100);
+  hand.x += 0.1;
+  Vec3 last = engine.state().deviceForce;
+  for (int i = 0; i < 300; ++i) {
+    const TickState& state = tick();
+    ASSERT_TRUE(isFinite(state.couplingForce));
+    EXPECT_LE(norm(state.deviceForce), kLimit * (1 + 1e-12));
+    EXPECT_LE(norm(state.deviceForce - last), ForceSafety::kSlewPerTick * (1 + 1e-12));
+    last = state.deviceForce;
+  }
+  EXPECT_GT(engine.state().faults.clampedTicks, 0u);
+  // Momentum: five masses of 0.6 kg cannot have gained more than 60 N (k_h times the jump) for 0.3 s.
+  for (int m = 0; m < 5; ++m) EXPECT_LT(norm(engine.state().masses[m].v), 60 * 0.3 / 0.6);
+}
+
+TEST_F(Engine, TheEnergyOfTheObjectIsTheWorkOfTheHand) {
+  arm();
+  double work = 0;
+  Vec3 hip = engine.state().hand.position, force;
+  for (int i = 0; i < 800; ++i) {
+    hand.x += 2e-4 * std::sin(i * 3.14159265358979 / 800);
+    const TickState& state = tick();
+    work += dot(0.5 * (force + state.couplingForce), state.hand.position - hip);
+    force = state.couplingForce;
+    hip = state.hand.position;
+  }
+  // Trapezoid of a force that swings at up to 60 rad/s: relative error (60 * 1e-3)^2/12 = 3e-4.
+  EXPECT_NEAR(engine.state().energy, work, 5e-4 * work);
+}
+
+TEST(TickEngine, TheSameInputsGiveTheSameBits) {
+  const Experiment experiment = readExperiment("parallel");
+  TickEngine one(experiment, {}), two(experiment, {});
+  TickInput input;
+  for (int i = 0; i < 1500; ++i) {
+    input.device = handAt({-0.1 + (i > 10 ? 5e-5 * (i - 10) : 0), 1e-4 * std::sin(0.1 * i), 0});
+    input.command = i == 1 ? Command::NextTrial : Command::None;
+    one.tick(input);
+    two.tick(input);
+    ASSERT_EQ(std::memcmp(&one.state().masses, &two.state().masses, sizeof(MassState) * 2), 0);
+    ASSERT_EQ(one.state().couplingForce, two.state().couplingForce);
+  }
+}
+
+TEST(TickEngine, RefusesAnExperimentWithoutATask) {
+  Experiment experiment = readExperiment("chain-moderate");
+  experiment.task.reset();
+  EXPECT_THROW(TickEngine(experiment, {}), UsageError);
+}
+
+TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {
+  Experiment experiment = readExperiment("chain-moderate");
+  experiment.forceLimit = 1;
+  experiment.forceLimitEndsTrial = true;
+  TickEngine engine(experiment, {kLimit, false});
+  TickInput input;
+  input.device = handAt(engine.protocol().start);
+  input.command = Command::NextTrial;
+  for (int i = 0; i < 2000 && engine.state().phase != Phase::Done; ++i) {
+    engine.tick(input);
+    EXPECT_LE(norm(engine.state().deviceForce), 1 + 1e-12);
+    input.command = Command::None;
+    input.device.position.x += 2e-4;
+  }
+  EXPECT_EQ(engine.state().result.reason, Reason::ForceLimit);
+}
+
+}  // namespace
+}  // namespace reachlab
