@@ -1,11 +1,78 @@
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
 #include "cli/commands.h"
 #include "constraints/error.h"
+#include "sim/bench/suite.h"
 
 namespace reachlab {
+namespace {
+
+struct BenchArguments {
+  bench::SuiteOptions suite;
+  std::string json, svg;
+};
+
+nlohmann::ordered_json number(double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr); }
+
+void writeFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw ResourceError(path + ": cannot be written");
+}
+
+std::string toJson(const std::vector<bench::Row>& rows) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const bench::Row& row : rows) {
+    nlohmann::ordered_json o;
+    o["scene"] = row.scene;
+    o["method"] = row.method;
+    o["step_s"] = row.step;
+    o["tolerance"] = row.tolerance > 0 ? number(row.tolerance) : nullptr;
+    o["state_error"] = number(row.error.state);
+    o["position_error_m"] = number(row.error.position);
+    o["ns_per_ms"] = row.failure.empty() ? number(row.nsPerMs) : nullptr;
+    o["steps"] = row.steps;
+    o["rhs_evaluations"] = row.rhsEvaluations;
+    all.push_back(std::move(o));
+  }
+  return all.dump(1) + "\n";
+}
+
+void runBench(const BenchArguments& arguments) {
+  const std::vector<bench::Row> rows =
+      bench::runSuite(arguments.suite, [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
+  std::fputs(bench::formatTable(rows).c_str(), stdout);
+  bool peers = false;
+  for (const bench::Row& row : rows) peers |= bench::isPeer(row);
+  if (peers) std::fputs(("\n" + bench::formatRatios(rows)).c_str(), stdout);
+  if (!arguments.json.empty()) writeFile(arguments.json, toJson(rows));
+  if (!arguments.svg.empty()) writeFile(arguments.svg, bench::drawWorkPrecision(rows));
+}
+
+}  // namespace
 
 void addBenchCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("bench", "");
-  command->callback([] { throw UsageError("bench: not there yet"); });
+  auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* command = app.add_subcommand("bench", "Sets speed against error: scenes S1 to S8, every method, against references of over 20 digits");
+  command->add_option("--scene", arguments->suite.scenes, "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S8); default all");
+  command->add_option("--method", arguments->suite.methods, "Methods (auto rk4 exact abm adaptive stiff, or a peer if built); default all");
+  command->add_option("--rounds", arguments->suite.effort.rounds, "Timed repetitions, interleaved over the methods")
+      ->check(CLI::Range(5, 1000))
+      ->capture_default_str();
+  command->add_flag("--quick", arguments->suite.quick, "1 ms and the default tolerance only, no peers unless named");
+  command->add_option("--json", arguments->json, "Write the rows to this file");
+  command->add_option("--svg", arguments->svg, "Draw price against error into this file");
+  command->footer(
+      "Prices are nanoseconds of processor time per simulated millisecond (median of the rounds, quartiles beside it); errors are the\n"
+      "largest over samples at 100 Hz, in SI units. Compare prices within one run only.\n"
+      "Examples: reach bench --scene S1 --scene S2a --quick\n"
+      "          reach bench --json rows.json --svg work-precision.svg");
+  command->callback([arguments] { runBench(*arguments); });
 }
 
 }  // namespace reachlab

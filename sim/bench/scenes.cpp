@@ -100,7 +100,6 @@ BenchScene onSurface(std::string name, std::string title, std::vector<std::strin
 // A great circle whose nearest approach to the pole, `tilt` rad from it, comes at 0.675 s; 2 rad/s.
 BenchScene pastPole(std::string name, std::string title, double tilt) {
   BenchScene s = onSurface(std::move(name), std::move(title), {"R*sin(v)*cos(u)", "R*sin(v)*sin(u)", "R*cos(v)"}, {{"R", 0.1}}, 0, {}, {}, {});
-  s.experiment.coupling = Coupling{0, 0};
   s.hand.kind = HandLaw::Kind::None;
   s.cartesian = true;
   constexpr double kSpeed = 2;  // [rad/s]

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "sim/bench/quad.h"
 
@@ -87,29 +88,35 @@ T dot3(const T* a, const T* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// 1/x as far as T carries it; a double was divided beforehand, as one would by hand.
+template <class T>
+T inverseOf([[maybe_unused]] double x, [[maybe_unused]] double inverse) {
+  if constexpr (std::is_same_v<T, double>) return inverse;
+  else return T(1) / x;
+}
+
 /// Chain of N equal masses on the x axis; coordinates are displacements from x0 [m]. The hand pulls mass 1.
 template <int N>
 struct LineChain {
   static constexpr int kCoordinates = N, kMasses = N, kHandDegree = 5;
   static constexpr unsigned kHandAxes = 1;
   double mass, k, b, kHand, bHand, x0;
+  double inverseMass = 1 / mass;
   bool handVelocity() const { return bHand != 0; }
 
   template <class T>
-  void rate(const T* y, const T* r, const T* v, T* dy) const {
-    for (int i = 0; i < N; ++i) dy[i] = y[N + i];
-    const T inverse = T(1) / mass;
-    T left = kHand * (r[0] - x0 - y[0]);
-    if (bHand != 0) left += bHand * (v[0] - y[N]);
-    for (int i = 0; i < N; ++i) {
-      T right = 0;
-      if (i + 1 < N) {
-        right = k * (y[i] - y[i + 1]);
-        if (b != 0) right += b * (y[N + i] - y[N + i + 1]);
-      }
-      dy[N + i] = (left - right) * inverse;
-      left = right;
+  void rate(const T* __restrict y, const T* r, const T* v, T* __restrict dy) const {
+    const T inverse = inverseOf<T>(mass, inverseMass);
+    T tension[N + 1];  // before mass i
+    tension[0] = kHand * (r[0] - x0 - y[0]);
+    for (int i = 1; i < N; ++i) tension[i] = k * (y[i - 1] - y[i]);
+    tension[N] = 0;
+    if (b != 0 || bHand != 0) {
+      tension[0] += bHand * (v[0] - y[N]);
+      for (int i = 1; i < N; ++i) tension[i] += b * (y[N + i - 1] - y[N + i]);
     }
+    for (int i = 0; i < N; ++i) dy[i] = y[N + i];
+    for (int i = 0; i < N; ++i) dy[N + i] = (tension[i] - tension[i + 1]) * inverse;
   }
   template <class T>
   void positions(const T* y, T* r) const {
@@ -122,14 +129,16 @@ struct LineParallel {
   static constexpr int kCoordinates = 2, kMasses = 2, kHandDegree = 5;
   static constexpr unsigned kHandAxes = 1;
   double mass, k1, k2, x0;
+  double inverseMass = 1 / mass;
   bool handVelocity() const { return false; }
 
   template <class T>
-  void rate(const T* y, const T* r, const T*, T* dy) const {
+  void rate(const T* __restrict y, const T* r, const T*, T* __restrict dy) const {
     const T hand = r[0] - x0;
     dy[0] = y[2], dy[1] = y[3];
-    dy[2] = (k1 / mass) * (hand - y[0]);
-    dy[3] = (k2 / mass) * (hand - y[1]);
+    const T inverse = inverseOf<T>(mass, inverseMass);
+    dy[2] = k1 * inverse * (hand - y[0]);
+    dy[3] = k2 * inverse * (hand - y[1]);
   }
   template <class T>
   void positions(const T* y, T* r) const {
@@ -147,7 +156,7 @@ struct CurveBead {
   bool handVelocity() const { return true; }
 
   template <class T>
-  void rate(const T* y, const T* r, const T* v, T* dy) const {
+  void rate(const T* __restrict y, const T* r, const T* v, T* __restrict dy) const {
     T p[3], d[3], dd[3];
     shape.evaluate(y[0], p, d, dd);
     const T w = y[1];
@@ -175,7 +184,7 @@ struct SurfaceBead {
   bool handVelocity() const { return Driven; }
 
   template <class T>
-  void rate(const T* y, const T* r, const T* v, T* dy) const {
+  void rate(const T* __restrict y, const T* r, const T* v, T* __restrict dy) const {
     T p[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
     shape.evaluate(y[0], y[1], p, ru, rv, ruu, ruv, rvv);
     const T du = y[2], dv = y[3];
@@ -209,7 +218,7 @@ struct CurveChain {
   bool handVelocity() const { return true; }
 
   template <class T>
-  void rate(const T* y, const T* r, const T* v, T* dy) const {
+  void rate(const T* __restrict y, const T* r, const T* v, T* __restrict dy) const {
     T p[N][3], d[N][3], dd[N][3];
     for (int i = 0; i < N; ++i) shape.evaluate(y[i], p[i], d[i], dd[i]);
     T left[3], right[3] = {0, 0, 0};

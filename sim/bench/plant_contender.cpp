@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include "sim/bench/contender.h"
+#include "sim/dynamics/plant.h"
+
+namespace reachlab::bench {
+namespace {
+
+void takeSample(const BenchScene& scene, const Plant& plant, const HandSample& hand, Trajectory& out) {
+  std::vector<MassState> masses(plant.massCount());
+  plant.observe(hand, masses);
+  const bool line = scene.experiment.constraint.name == "line";
+  const int perMass = line || scene.cartesian ? 1 : static_cast<int>(scene.start.size());
+  for (const bool rates : {false, true})
+    for (const MassState& m : masses) {
+      const Vec3& cartesian = rates ? m.v : m.r;
+      if (scene.cartesian) out.states.insert(out.states.end(), {cartesian.x, cartesian.y, cartesian.z});
+      else if (line) out.states.push_back(rates ? m.v.x : m.r.x - scene.hand.from.x);
+      else out.states.insert(out.states.end(), (rates ? m.qRate : m.q).begin(), (rates ? m.qRate : m.q).begin() + perMass);
+    }
+  for (const MassState& m : masses) out.positions.insert(out.positions.end(), {m.r.x, m.r.y, m.r.z});
+}
+
+HandSample endOf(const HandSegment& segment) {
+  HandSample hand;
+  for (int k = segment.degree; k >= 0; --k) hand.position += segment.position[k], hand.velocity += segment.velocity[k];
+  return hand;
+}
+
+struct PlantRun {
+  BenchScene scene;
+  Scene compiled;
+  Segments segments;
+  double step;
+  int stepsPerTick;
+
+  void operator()(Trajectory* out) {
+    Plant& plant = *compiled.plant;
+    plant.setCoupled(scene.hand.kind != HandLaw::Kind::None);
+    if (scene.rate.empty()) plant.placeAtRest(scene.start);
+    else plant.place(scene.start, scene.rate);
+    if (out) {
+      runSampled(plant, *out);
+      return;
+    }
+    StepStatus status = StepStatus::Ok;
+    for (const HandSegment& segment : *segments) {
+      status = plant.step(segment, step);
+      if (status != StepStatus::Ok) break;
+    }
+    consume(static_cast<double>(static_cast<int>(status)));
+  }
+
+  void runSampled(Plant& plant, Trajectory& out) {
+    const std::uint64_t before = plant.rhsEvaluations();
+    takeSample(scene, plant, makeSample(scene.hand, 0), out);
+    std::uint64_t tickStart = before;
+    for (std::size_t i = 0; i < segments->size(); ++i) {
+      const StepStatus status = plant.step((*segments)[i], step);
+      if (status != StepStatus::Ok) {
+        out.failure = std::string(describe(status)) + " at " + std::to_string(static_cast<double>(i) * step) + " s";
+        return;
+      }
+      ++out.steps;
+      if ((i + 1) % stepsPerTick == 0) {
+        const std::uint64_t now = plant.rhsEvaluations();
+        out.worstTick = std::max(out.worstTick, now - tickStart);
+        tickStart = now;
+      }
+      if ((i + 1) % (stepsPerTick * kTicksPerSample) == 0) takeSample(scene, plant, endOf((*segments)[i]), out);
+    }
+    out.rhsEvaluations = plant.rhsEvaluations() - before;
+  }
+};
+
+}  // namespace
+
+Segments makeSegments(const BenchScene& scene, double step) {
+  const int count = static_cast<int>(std::lround(scene.duration / step));
+  auto segments = std::make_shared<std::vector<HandSegment>>();
+  segments->reserve(count);
+  for (int i = 0; i < count; ++i) segments->push_back(makeSegment(scene.hand, i * step, step));
+  return segments;
+}
+
+Contender makePlantContender(const BenchScene& scene, const std::string& method, double step, double tolerance) {
+  SceneOptions options;
+  options.method = method, options.step = step, options.tolerance = tolerance;
+  auto run = std::make_shared<PlantRun>(
+      PlantRun{scene, compileScene(scene.experiment, options), makeSegments(scene, step), step, static_cast<int>(std::lround(kTick / step))});
+  Contender out;
+  out.method = method, out.step = step, out.tolerance = tolerance;
+  const MethodChoice& choice = run->compiled.choice;
+  out.form = (method == "auto" ? choice.method + ", " : "") + choice.form;
+  out.run = [run](Trajectory* trajectory) { (*run)(trajectory); };
+  return out;
+}
+
+}  // namespace reachlab::bench
