@@ -92,10 +92,11 @@ void append(Reference& out, const std::vector<Quad>& y, double x0) {
   }
 }
 
+// exp(A dt) of the state and the hand's derivatives together.
 template <class System>
-Reference propagate(const BenchScene& scene, const System& system) {
+Matrix stateAndHandStep(const System& system, const Quad& dt) {
   constexpr int kStates = 2 * System::kCoordinates, kAll = kStates + kHandTerms;
-  const double x0 = scene.hand.from.x;
+  const double x0 = system.x0;
   // The columns of A, read off the right-hand side at unit vectors (it is linear, and zero at rest under the hand).
   Matrix a(kAll);
   for (int j = 0; j < kStates + 2; ++j) {
@@ -105,11 +106,17 @@ Reference propagate(const BenchScene& scene, const System& system) {
     if (j == kStates) r[0] += 1;
     if (j == kStates + 1) v[0] = 1;
     system.rate(y.data(), r, v, dy.data());
-    for (int i = 0; i < kStates; ++i) a(i, j) = dy[i] / 100;
+    for (int i = 0; i < kStates; ++i) a(i, j) = dy[i] * dt;
   }
-  for (int k = 0; k + 1 < kHandTerms; ++k) a(kStates + k, kStates + k + 1) = Quad(1) / 100;
-  const Matrix step = exponential(a);
+  for (int k = 0; k + 1 < kHandTerms; ++k) a(kStates + k, kStates + k + 1) = dt;
+  return exponential(a);
+}
 
+template <class System>
+Reference propagate(const BenchScene& scene, const System& system) {
+  constexpr int kStates = 2 * System::kCoordinates, kAll = kStates + kHandTerms;
+  const double x0 = scene.hand.from.x;
+  const Matrix step = stateAndHandStep(system, Quad(1) / 100);
   Reference out = emptyReference(scene, System::kCoordinates);
   std::vector<Quad> y(kAll, Quad(0)), next(kAll);
   for (int s = 0; s < out.samples; ++s) {
@@ -182,6 +189,26 @@ Reference modalChainReference(const BenchScene& scene) {
 Reference exponentialReference(const BenchScene& scene) {
   return visitSystem(scene, [&]<class System>(const System& system) -> Reference {
     if constexpr (requires { system.x0; } && System::kCoordinates <= 10) return propagate(scene, system);
+    throw UsageError("bench: scene " + scene.name + " has no small matrix");
+  });
+}
+
+ExactStep computeExactStep(const BenchScene& scene, double dt) {
+  return visitSystem(scene, [&]<class System>(const System& system) -> ExactStep {
+    if constexpr (requires { system.x0; } && System::kCoordinates <= 10) {
+      const Matrix step = stateAndHandStep(system, Quad(dt));
+      ExactStep out;
+      out.states = 2 * System::kCoordinates;
+      for (int i = 0; i < out.states; ++i) {
+        for (int j = 0; j < out.states; ++j) out.matrix.push_back(static_cast<double>(step(i, j)));
+        Quad scale = 1;  // k-th derivative = k!/dt^k times the k-th coefficient
+        for (int k = 0; k < kHandTerms; ++k) {
+          out.matrix.push_back(static_cast<double>(step(i, out.states + k) * scale));
+          scale *= (k + 1) / Quad(dt);
+        }
+      }
+      return out;
+    }
     throw UsageError("bench: scene " + scene.name + " has no small matrix");
   });
 }
