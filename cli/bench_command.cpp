@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "constraints/error.h"
+#include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
 
 namespace reachlab {
@@ -14,7 +15,10 @@ namespace {
 struct BenchArguments {
   bench::SuiteOptions suite;
   std::string json, svg;
+  bool sampled = false;
 };
+
+void showProgress(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
 nlohmann::ordered_json number(double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr); }
 
@@ -44,8 +48,11 @@ std::string toJson(const std::vector<bench::Row>& rows) {
 }
 
 void runBench(const BenchArguments& arguments) {
-  const std::vector<bench::Row> rows =
-      bench::runSuite(arguments.suite, [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
+  if (arguments.sampled) {
+    std::fputs(bench::formatSampledHand(bench::measureSampledHand(showProgress)).c_str(), stdout);
+    return;
+  }
+  const std::vector<bench::Row> rows = bench::runSuite(arguments.suite, showProgress);
   std::fputs(bench::formatTable(rows).c_str(), stdout);
   bool peers = false;
   for (const bench::Row& row : rows) peers |= bench::isPeer(row);
@@ -65,6 +72,7 @@ void addBenchCommand(CLI::App& app, int&) {
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
   command->add_flag("--quick", arguments->suite.quick, "1 ms and the default tolerance only, no peers unless named");
+  command->add_flag("--sampled", arguments->sampled, "Instead: what a hand costs that comes as samples at 1 kHz, clean, noisy and quantised");
   command->add_option("--json", arguments->json, "Write the rows to this file");
   command->add_option("--svg", arguments->svg, "Draw price against error into this file");
   command->footer(

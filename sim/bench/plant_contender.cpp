@@ -75,14 +75,6 @@ struct PlantRun {
 
 }  // namespace
 
-Segments makeSegments(const BenchScene& scene, double step) {
-  const int count = static_cast<int>(std::lround(scene.duration / step));
-  auto segments = std::make_shared<std::vector<HandSegment>>();
-  segments->reserve(count);
-  for (int i = 0; i < count; ++i) segments->push_back(makeSegment(scene.hand, i * step, step));
-  return segments;
-}
-
 Contender makePlantContender(const BenchScene& scene, const std::string& method, double step, double tolerance) {
   SceneOptions options;
   options.method = method, options.step = step, options.tolerance = tolerance;

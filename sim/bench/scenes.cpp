@@ -81,6 +81,14 @@ BenchScene nearCusp(std::string name, std::string title, double small) {
   return s;
 }
 
+// So that the scene is compiled where it begins.
+void setStart(BenchScene& s) {
+  Task task;
+  task.start = task.target = s.start;
+  task.duration = kReach;
+  s.experiment.task = task;
+}
+
 BenchScene onSurface(std::string name, std::string title, std::vector<std::string> formula, std::map<std::string, double> shape,
                      double viscosity, std::vector<double> start, Vec3 from, Vec3 by) {
   BenchScene s;
@@ -91,6 +99,7 @@ BenchScene onSurface(std::string name, std::string title, std::vector<std::strin
   s.experiment.constraint.shape = std::move(shape);
   setBead(s, viscosity);
   s.start = std::move(start);
+  setStart(s);
   s.hand.kind = HandLaw::Kind::Straight;
   s.hand.duration = kReach;
   s.hand.from = from, s.hand.by = by;
@@ -109,6 +118,7 @@ BenchScene pastPole(std::string name, std::string title, double tilt) {
   const Vec3 v = kSpeed * (std::cos(angle) * along - std::sin(angle) * nearest);
   const double rho2 = r.x * r.x + r.y * r.y;
   s.start = {std::atan2(r.y, r.x), std::atan2(std::sqrt(rho2), r.z)};
+  setStart(s);
   s.rate = {(r.x * v.y - r.y * v.x) / rho2, -v.z / std::sqrt(rho2)};
   return s;
 }

@@ -37,25 +37,26 @@ struct ParallelForm {
   }
 };
 
-/// Free on a sphere in world coordinates: r'' = -(v.v / R^2) r by RK4, then position and velocity put back on the sphere.
+/// Free on a sphere in world coordinates: r'' = -(v.v / R^2) r by RK4, then position and velocity put back on the sphere. v.v is taken
+/// once a step, because the motion keeps it.
 struct SphereForm {
   static constexpr int kStates = 6, kMasses = 1, kRhsPerStep = 4;
-  double radius;
+  double inverse;  // 1/R^2
   Vec3 r, v;
 
   void step(const HandSegment&) {
     constexpr double h = kTick;
-    const double inverse = 1 / (radius * radius);
-    const auto rate = [inverse](const Vec3& at, const Vec3& velocity) { return -dot(velocity, velocity) * inverse * at; };
-    const Vec3 a1 = rate(r, v), r2 = r + h / 2 * v, v2 = v + h / 2 * a1;
-    const Vec3 a2 = rate(r2, v2), r3 = r + h / 2 * v2, v3 = v + h / 2 * a2;
-    const Vec3 a3 = rate(r3, v3), r4 = r + h * v3, v4 = v + h * a3;
-    const Vec3 a4 = rate(r4, v4);
+    const double w2 = -dot(v, v) * inverse;
+    const Vec3 a1 = w2 * r, r2 = r + h / 2 * v, v2 = v + h / 2 * a1;
+    const Vec3 a2 = w2 * r2, r3 = r + h / 2 * v2, v3 = v + h / 2 * a2;
+    const Vec3 a3 = w2 * r3, r4 = r + h * v3, v4 = v + h * a3;
+    const Vec3 a4 = w2 * r4;
     r += h / 6 * (v + 2.0 * (v2 + v3) + v4);
     v += h / 6 * (a1 + 2.0 * (a2 + a3) + a4);
     // One Newton step for |r| = R: the RK4 step left it by 1e-15 of itself.
-    r *= 1.5 - 0.5 * dot(r, r) * inverse;
-    v -= dot(v, r) * inverse * r;
+    const double outside = 0.5 - 0.5 * dot(r, r) * inverse, outward = dot(v, r) * inverse;
+    v -= outward * r;
+    r += outside * r;
   }
   double probe() const { return r.x; }
   void state(double* out) const { out[0] = r.x, out[1] = r.y, out[2] = r.z, out[3] = v.x, out[4] = v.y, out[5] = v.z; }
@@ -71,7 +72,7 @@ Contender makeSmallLimit(const BenchScene& scene) {
   double p[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
   SphereShape{radius}.evaluate(scene.start[0], scene.start[1], p, ru, rv, ruu, ruv, rvv);
   const double du = scene.rate[0], dv = scene.rate[1];
-  return makeLimitContender(scene, SphereForm{radius, {p[0], p[1], p[2]}, {ru[0] * du + rv[0] * dv, ru[1] * du + rv[1] * dv, ru[2] * du + rv[2] * dv}});
+  return makeLimitContender(scene, SphereForm{1 / (radius * radius), {p[0], p[1], p[2]}, {ru[0] * du + rv[0] * dv, ru[1] * du + rv[1] * dv, ru[2] * du + rv[2] * dv}});
 }
 
 std::optional<Contender> makeLimit(const BenchScene& scene) {
