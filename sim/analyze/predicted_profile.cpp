@@ -3,43 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/analyze/filter.h"
+
 namespace reachlab {
 
-PredictedProfile sampleProfile(const Prediction& prediction, const OnsetOptions& options, double taskOnset) {
-  constexpr double kRate = 2000;  // [Hz] fine enough that its own interpolation does not show (1e-6 of the peak)
+PredictedProfile sampleProfile(const Prediction& prediction, const MeasureOptions& options, double taskOnset) {
+  constexpr double kRate = 1000;      // [Hz] fine enough that its own interpolation does not show (1e-6 of the peak)
+  constexpr std::size_t kRest = 300;  // samples of rest on either side, in which the filter dies out
   const double T = prediction.duration;
   const auto steps = static_cast<std::size_t>(std::max(2.0, std::ceil(T * kRate)));
-  const double rate = static_cast<double>(steps) / T;
+  const double rate = static_cast<double>(steps) / T, rest = static_cast<double>(kRest) / rate;
 
-  // One sample of rest on either side, so that a velocity that jumps at an end is crossed there.
-  std::vector<double> speed(steps + 3, 0.0);
-  double movedAt = 0;
-  bool moved = false;
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const PredictedHand hand = prediction.handAt(static_cast<double>(i) / rate);
-    speed[i + 1] = std::abs(hand.velocity);
-    moved = moved || std::abs(hand.position) > taskOnset;
-    if (!moved) movedAt = static_cast<double>(i) / rate;
+  std::vector<double> hand(steps + 1 + 2 * kRest, 0.0), object = hand;
+  std::vector<double> position(static_cast<std::size_t>(prediction.massCount())), velocity(position.size());
+  double movedAt = T;
+  for (std::size_t i = steps + 1; i-- > 0;) {
+    const double t = std::min(T, static_cast<double>(i) / rate);
+    const PredictedHand at = prediction.handAt(t);
+    prediction.massesAt(t, position, velocity);
+    hand[i + kRest] = at.velocity;
+    object[i + kRest] = velocity.empty() ? 0 : velocity.back();
+    if (std::abs(at.position) > taskOnset) movedAt = t;
   }
-  double first = movedAt, last = T;
-  if (options.rule != OnsetRule::Task) {
-    const Movement movement = findMovement(speed, rate, options);
-    first = std::clamp(movement.onset - 1 / rate, 0.0, T);
-    last = std::clamp(movement.offset - 1 / rate, 0.0, T);
-  }
-
+  hand = lowPass(hand, rate, options.cutoff);
+  std::vector<double> speed(hand.size());
+  for (std::size_t i = 0; i < hand.size(); ++i) speed[i] = std::abs(hand[i]);
+  const Movement movement = options.onset.rule == OnsetRule::Task ? movementWithin(speed, rate, rest + movedAt, rest + T)
+                                                                  : findMovement(speed, rate, options.onset);
   PredictedProfile profile;
   profile.criterion = prediction.criterion;
   profile.taskDuration = T;
-  profile.duration = last - first;
+  profile.duration = movement.duration();
   profile.warnings = prediction.warnings;
-  std::vector<double> position(static_cast<std::size_t>(prediction.massCount())), velocity(position.size());
-  for (std::size_t i = 0; i < kProfilePoints; ++i) {
-    const double t = first + (last - first) * static_cast<double>(i) / static_cast<double>(kProfilePoints - 1);
-    profile.hand.push_back(prediction.handAt(t).velocity);
-    prediction.massesAt(t, position, velocity);
-    profile.object.push_back(velocity.empty() ? 0 : velocity.back());
-  }
+  profile.hand = normaliseTime(hand, rate, movement.onset, movement.offset);
+  profile.object = normaliseTime(object, rate, movement.onset, movement.offset);
   return profile;
 }
 

@@ -67,12 +67,12 @@ std::vector<Criterion> wantedCriteria(const StudyOptions& options) {
 }
 
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
-PredictedProfile profileLasting(const Experiment& experiment, Criterion criterion, PredictOptions how, const OnsetOptions& onset,
+PredictedProfile profileLasting(const Experiment& experiment, Criterion criterion, PredictOptions how, const MeasureOptions& measure,
                                 double measured) {
   how.duration = experiment.task->duration;
   PredictedProfile profile;
   for (int step = 0; step < 8; ++step) {
-    profile = sampleProfile(*predict(experiment, criterion, how), onset, experiment.task->onset);
+    profile = sampleProfile(*predict(experiment, criterion, how), measure, experiment.task->onset);
     if (std::abs(profile.duration / measured - 1) < 1e-6) break;
     how.duration *= measured / profile.duration;
   }
@@ -87,12 +87,11 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
   PredictOptions how;
   how.handMass = options.handMass;
   how.handDamping = options.handDamping;
-  const OnsetOptions& onset = options.measure.onset;
   for (const Criterion criterion : wantedCriteria(options)) {
     try {
       PredictedProfile profile = options.predictMeanDuration && result.used > 0
-                                     ? profileLasting(condition.experiment, criterion, how, onset, result.duration.mean)
-                                     : sampleProfile(*predict(condition.experiment, criterion, how), onset, condition.experiment.task->onset);
+                                     ? profileLasting(condition.experiment, criterion, how, options.measure, result.duration.mean)
+                                     : sampleProfile(*predict(condition.experiment, criterion, how), options.measure, condition.experiment.task->onset);
       result.unscaledDurations.push_back(profile.duration);
       result.predictions.push_back(result.used > 0 ? scaledTo(std::move(profile), result.duration.mean) : std::move(profile));
     } catch (const Error& error) {

@@ -30,6 +30,12 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
+/// Paper: a figure without it is unreadable where the page around it is dark.
+void paintWhite(cairo_t* context) {
+  cairo_set_source_rgb(context, 1, 1, 1);
+  cairo_paint(context);
+}
+
 /// Draws the figure, or with `draw` false only finds out how large it is.
 Size paint(const Figure& figure, cairo_t* context, bool draw) {
   Canvas canvas(context);
@@ -119,6 +125,7 @@ std::string renderSvg(const Figure& figure, const std::string& idPrefix) {
   const Surface surface(cairo_svg_surface_create_for_stream(append, &bytes, size.width, size.height), &cairo_surface_destroy);
   {
     const Context context(cairo_create(surface.get()), &cairo_destroy);
+    paintWhite(context.get());
     paint(figure, context.get(), true);
   }
   finish(surface.get());
@@ -152,8 +159,7 @@ std::string renderPng(const Figure& figure, double dpi) {
                         &cairo_surface_destroy);
   {
     const Context context(cairo_create(surface.get()), &cairo_destroy);
-    cairo_set_source_rgb(context.get(), 1, 1, 1);
-    cairo_paint(context.get());
+    paintWhite(context.get());
     cairo_scale(context.get(), scale, scale);
     paint(figure, context.get(), true);
   }

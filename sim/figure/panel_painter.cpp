@@ -145,7 +145,10 @@ void PanelPainter::measure() {
     if (rule.vertical) margins_.top = std::max(margins_.top, (panel_.title.empty() ? 0 : kTitleFont + 4) + kTickFont + 4);
     else margins_.right = std::max(margins_.right, canvas_.textWidth(rule.label) + 2 * kGap);
   }
-  if (place_ == LegendPlace::Below) margins_.bottom += legendHeight_ + 2;
+  if (place_ == LegendPlace::Below) {
+    margins_.bottom += legendHeight_ + 2;
+    for (double* side : {&margins_.left, &margins_.right}) *side = std::max(*side, (legendWidth_ - width_) / 2);
+  }
   if (place_ == LegendPlace::Right) margins_.right += legendWidth_ + 4;
 }
 

@@ -31,7 +31,7 @@ AxisTicks linearTicks(const Axis& axis, double low, double high, double length) 
     low = middle - half;
     high = middle + half;
   }
-  const int wanted = std::clamp(static_cast<int>(length / 26), 2, 9);  // about a centimetre between ticks
+  const int wanted = std::clamp(static_cast<int>(length / 22), 2, 9);  // somewhat less than a centimetre between ticks
   const double step = niceStep(axis.to.value_or(high) - axis.from.value_or(low), wanted);
   // A quarter of a tick is round enough; a hair's width of slack keeps 0.3/0.1 from becoming one step more.
   out.from = axis.from.value_or(std::floor(low / (step / 4) + 1e-9) * step / 4);

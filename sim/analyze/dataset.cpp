@@ -1,0 +1,222 @@
+#include "sim/analyze/dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "constraints/constraint.h"
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+/// Where the columns that are needed stand in this run's table.
+struct Columns {
+  std::size_t hand, force, object, velocity;
+  std::size_t parameter = 0;  // of mass 1, on curves
+  explicit Columns(const ChannelTable& table) {
+    const std::string last = fmt::format("mass{}", table.massCount);
+    hand = table.indexOf("hand_pos_x");
+    force = table.indexOf("coupling_force_x");
+    object = table.indexOf(last + "_pos_x");
+    velocity = table.indexOf(last + "_vel_x");
+    if (table.parameterCount == 1) parameter = table.indexOf("mass1_q1");
+  }
+};
+
+Vec3 vectorAt(const SampleRows& rows, std::size_t row, std::size_t column) {
+  return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
+}
+
+Vec3 pointAt(const Constraint& constraint, const std::vector<double>& at) {
+  switch (constraint.kind) {
+    case ConstraintKind::Curve: return evaluate(constraint.curve, at.at(0)).r;
+    case ConstraintKind::Surface: return evaluate(constraint.surface, at.at(0), at.at(1)).r;
+    case ConstraintKind::Free: return {at.at(0), at.at(1), at.at(2)};
+  }
+  return {};
+}
+
+/// The path's unit direction: from start to target on a line and in free space, the tangent under the driven mass on other curves.
+struct Path {
+  Constraint constraint;
+  Vec3 start, target, chord;
+  double sense = 1;  // of the parameter, on curves
+
+  Path(const Experiment& experiment) : constraint(makeConstraint(experiment.constraint)) {
+    const Task& task = *experiment.task;
+    start = pointAt(constraint, task.start);
+    target = pointAt(constraint, task.target);
+    const Vec3 way = target - start;
+    chord = norm(way) > 0 ? way / norm(way) : Vec3{};
+    if (constraint.kind == ConstraintKind::Curve) sense = task.target[0] >= task.start[0] ? 1 : -1;
+  }
+  bool bent() const { return constraint.kind == ConstraintKind::Curve && !constraint.straight; }
+  bool directed() const { return constraint.kind != ConstraintKind::Surface && (bent() || norm(chord) > 0); }
+  Vec3 tangent(double parameter) const {
+    const Vec3 d = evaluate(constraint.curve, parameter).rPhi;
+    const double length = norm(d);
+    return length > 0 ? sense / length * d : Vec3{};
+  }
+};
+
+/// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
+void appendEvenly(TrialData& trial, const SampleRows& rows, const Columns& columns, const Path& path, std::uint64_t every) {
+  const auto put = [&](std::size_t a, std::size_t b, double part) {
+    const auto mix = [&](std::size_t column) { return (1 - part) * vectorAt(rows, a, column) + part * vectorAt(rows, b, column); };
+    trial.hand.push_back(mix(columns.hand));
+    trial.object.push_back(mix(columns.object));
+    trial.objectVelocity.push_back(mix(columns.velocity));
+    trial.force.push_back(norm(mix(columns.force)));
+    if (path.bent()) trial.along.push_back(path.tangent((1 - part) * rows.at(a, columns.parameter) + part * rows.at(b, columns.parameter)));
+  };
+  std::size_t a = 0;
+  for (std::uint64_t tick = rows.ticks.front(); tick <= rows.ticks.back(); tick += every) {
+    while (a + 1 < rows.size() && rows.ticks[a + 1] <= tick) ++a;
+    const std::size_t b = std::min(a + 1, rows.size() - 1);
+    const double gap = static_cast<double>(rows.ticks[b] - rows.ticks[a]);
+    put(a, b, gap > 0 ? static_cast<double>(tick - rows.ticks[a]) / gap : 0);
+  }
+}
+
+std::size_t conditionIndex(Dataset& dataset, const std::string& name, const Experiment& experiment) {
+  auto& conditions = dataset.input.conditions;
+  int clashes = 0;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const bool sameName = conditions[i].name == name || conditions[i].name.starts_with(name + " (experiment ");
+    if (sameName && conditions[i].experiment.text == experiment.text) return i;
+    clashes += sameName;
+  }
+  // One name over unlike experiments would mix what cannot be compared.
+  const std::string own = clashes > 0 ? fmt::format("{} (experiment {})", name, clashes + 1) : name;
+  if (clashes > 0) dataset.notes.push_back(fmt::format("{} was recorded with more than one experiment; they are kept apart", name));
+  conditions.push_back({own, experiment});
+  return conditions.size() - 1;
+}
+
+RunProvenance provenanceOf(const RunConfiguration& c, std::size_t trials) {
+  RunProvenance p;
+  p.subject = c.subject;
+  p.session = c.session;
+  p.condition = c.condition.empty() ? c.experimentName : c.condition;
+  p.experiment = c.experimentName;
+  p.device = c.device;
+  p.method = c.method;
+  p.software = c.softwareVersion;
+  p.startedUtc = c.startedUtc;
+  p.clock = c.clock;
+  p.run = c.run;
+  p.block = c.block;
+  p.day = c.day;
+  p.practice = c.practice;
+  p.seed = c.seed;
+  p.samplingHz = c.samplingHz;
+  p.trials = trials;
+  return p;
+}
+
+}  // namespace
+
+void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset) {
+  constexpr std::uint64_t kAfterTicks = 500;  // the hand may come to rest a little after the trial has ended
+  const RunConfiguration& c = run.configuration;
+  dataset.runs.push_back(provenanceOf(c, run.trials.size()));
+  if (!experiment.task) {
+    dataset.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
+    return;
+  }
+  const std::size_t condition = conditionIndex(dataset, dataset.runs.back().condition, experiment);
+  const Columns columns(c.table);
+  const Path path(experiment);
+  const std::uint64_t every = std::max<std::uint64_t>(1, c.sampleEveryTicks);
+  for (std::size_t i = 0; i < run.trials.size(); ++i) {
+    const RecordedTrial& recorded = run.trials[i];
+    TrialData trial;
+    trial.key = {c.subject, c.session, dataset.input.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
+    trial.practice = c.practice;
+    trial.catchTrial = recorded.planned.catchTrial;
+    trial.result = recorded.result;
+    trial.rate = 1000.0 / static_cast<double>(every);
+    trial.start = path.start;
+    trial.target = path.target;
+    if (path.directed() && !path.bent()) trial.along = {path.chord};
+    if (recorded.armedTick > 0) {
+      std::uint64_t last = recorded.lastTick + kAfterTicks;
+      if (i + 1 < run.trials.size()) last = std::min(last, std::max(recorded.lastTick, run.trials[i + 1].startTick - 1));
+      const SampleRows rows = run.rowsOf(recorded.armedTick, last);
+      if (rows.size() > 0) {
+        appendEvenly(trial, rows, columns, path, every);
+        const auto seconds = [&](std::uint64_t tick) {
+          return tick == 0 ? kNotMeasured : (static_cast<double>(tick) - static_cast<double>(rows.ticks.front())) / 1000.0;
+        };
+        trial.goTime = seconds(recorded.goTick);
+        trial.taskOnset = seconds(recorded.result.onsetTick);
+        trial.taskEnd = recorded.result.onsetTick == 0 ? kNotMeasured : seconds(std::max(recorded.result.endTick, recorded.result.onsetTick));
+      }
+      if (recorded.result.onsetTick > 0 && recorded.peakForce > 0) {
+        trial.peakForce = recorded.peakForce;
+        if (recorded.meanForce > 0) trial.meanForce = recorded.meanForce;
+      }
+    }
+    dataset.input.trials.push_back(std::move(trial));
+    dataset.input.conditionOf.push_back(condition);
+  }
+}
+
+void numberDays(std::span<TrialData> trials) {
+  std::map<std::string, std::set<std::string>> sessions;
+  for (const TrialData& trial : trials) sessions[trial.key.subject].insert(trial.key.session);
+  for (TrialData& trial : trials) {
+    if (trial.key.day > 0) continue;
+    const auto& own = sessions[trial.key.subject];
+    trial.key.day = 1 + static_cast<int>(std::distance(own.begin(), own.find(trial.key.session)));
+  }
+}
+
+Dataset openDataset(const std::string& folder, const std::string& experimentFile, const DatasetProgress& progress) {
+  Dataset dataset;
+  std::vector<std::string> logs;
+  try {
+    logs = findLogs(folder);
+  } catch (const UsageError&) {
+    // No logs: the exported files may still be there.
+  }
+  std::map<std::string, Experiment> parsed;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (progress) progress(i, logs.size(), logs[i]);
+    try {
+      const RunLog log = RunLog::open(logs[i]);
+      const RunConfiguration& c = log.configuration();
+      auto known = parsed.find(c.experimentText);
+      if (known == parsed.end())
+        known = parsed.emplace(c.experimentText, parseExperiment(c.experimentText, c.experimentName)).first;
+      Experiment experiment = known->second;
+      experiment.text = c.experimentText;
+      addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset);
+      dataset.runs.back().file = logs[i];
+      dataset.runs.back().healthy = log.healthy();
+      if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
+    } catch (const Error& error) {
+      dataset.notes.push_back(fmt::format("{}: left out: {}", logs[i], error.what()));
+    }
+  }
+  if (logs.empty()) {
+    for (const RunSource& run : readBidsRuns(folder)) {
+      Experiment experiment = readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile);
+      addRun(run, experiment, dataset);
+    }
+    dataset.notes.push_back("no logs in sourcedata/: read from the BIDS files, with the experiments as they are shipped or given now");
+  }
+  if (dataset.runs.empty()) {
+    std::string why = folder + ": nothing to analyse";
+    for (const std::string& note : dataset.notes) why += "\n" + note;
+    throw UsageError(why);
+  }
+  numberDays(dataset.input.trials);
+  return dataset;
+}
+
+}  // namespace reachlab

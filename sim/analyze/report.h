@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/analyze/dataset.h"
+#include "sim/analyze/figures.h"
+
+namespace reachlab {
+
+/// What the report says of itself.
+struct ReportHeader {
+  std::string dataset, version, command;
+};
+
+/// One self-contained HTML page: what was analysed and how, counts, Table 2, figures (SVG inside), ranking in plain words, measures,
+/// provenance. Needs no network, no script, and prints.
+std::string makeReport(const ReportHeader& header, const StudyResult& study, const std::vector<NamedFigure>& figures,
+                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes);
+
+/// Text as HTML text.
+std::string escaped(const std::string& text);
+
+}  // namespace reachlab

@@ -1,0 +1,20 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "sim/analyze/study.h"
+
+namespace reachlab {
+
+/// The study as tidy CSV files, by file name (docs/analysis.md has their columns). Every number of a figure or of the report is in one.
+/// Numbers read back equal; an empty cell is what could not be measured.
+std::map<std::string, std::string> makeTables(const StudyResult& study);
+
+/// "(1) min-hand-jerk", with the paper's number; "(3h)" is the literal hand-crackle variant.
+std::string labelOf(Criterion criterion);
+/// The name with underscores, for columns.
+std::string columnOf(Criterion criterion);
+/// A condition's name as part of a file name: letters, digits and dashes.
+std::string fileNameOf(const std::string& condition);
+
+}  // namespace reachlab

@@ -1,0 +1,107 @@
+#include "sim/analyze/wording.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/analyze/tables.h"
+
+namespace reachlab {
+namespace {
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text;
+}
+
+std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+}  // namespace
+
+std::string shortNumber(double value) {
+  if (!std::isfinite(value)) return "–";
+  std::string text = fmt::format("{:.3g}", value);
+  if (text.front() == '-') text = "−" + text.substr(1);
+  return text;
+}
+
+std::vector<Criterion> criteriaOf(const ConditionResult& result) {
+  std::vector<Criterion> criteria;
+  for (const PredictedProfile& p : result.predictions) criteria.push_back(p.criterion);
+  return criteria;
+}
+
+std::string describeRanking(const Ranking& ranking, const std::vector<Criterion>& criteria) {
+  if (ranking.places.empty()) return "Nothing to rank: no successful trial, or no criterion that can be predicted here.";
+  const RankedCriterion& first = ranking.places.front();
+  const std::string name = labelOf(criteria[first.criterion]);
+  std::string text = fmt::format("{} is nearest: ε = {} m/s [{}, {}], from {} of {}.", name, shortNumber(first.epsilon),
+                                 shortNumber(first.interval.low), shortNumber(first.interval.high), plural(ranking.trials, "trial"),
+                                 plural(ranking.subjects, "subject"));
+  if (ranking.trials < 2) return text + " One trial has no scatter, so nothing can be told apart.";
+  std::vector<std::string> apart, equal;
+  for (std::size_t i = 1; i < ranking.places.size(); ++i) {
+    const RankedCriterion& p = ranking.places[i];
+    const std::string difference = fmt::format("{} (+{} [{}, {}])", labelOf(criteria[p.criterion]), shortNumber(p.difference),
+                                               shortNumber(p.differenceInterval.low), shortNumber(p.differenceInterval.high));
+    (p.apartFromFirst ? apart : equal).push_back(difference);
+  }
+  if (!equal.empty())
+    text += fmt::format(" It cannot be told apart from {}: the 95 % interval of the difference includes 0.", joined(equal));
+  if (!apart.empty()) text += fmt::format(" Farther away, with a difference whose 95 % interval excludes 0: {}.", joined(apart));
+  return text;
+}
+
+std::string describeMethods(const StudyOptions& options) {
+  const OnsetOptions& onset = options.measure.onset;
+  std::string rule;
+  switch (onset.rule) {
+    case OnsetRule::Percent: rule = fmt::format("where the hand's speed crosses {} % of the trial's own peak", shortNumber(onset.percent)); break;
+    case OnsetRule::Absolute: rule = fmt::format("where the hand's speed crosses {} m/s", shortNumber(onset.speed)); break;
+    case OnsetRule::Task: rule = "by the task's own window (from t = 0 to the end of the trial)"; break;
+  }
+  const std::string filter = options.measure.cutoff > 0
+                                 ? fmt::format("The hand's position was low-passed forwards and backwards (Butterworth, second order, {} Hz in each pass, so "
+                                               "no delay) and differentiated; the simulated masses were not filtered.",
+                                               shortNumber(options.measure.cutoff))
+                                 : std::string("The hand's position was differentiated without a filter.");
+  return fmt::format(
+      "{} Onset and offset are {}. Successful trials were time-scaled to the condition's mean duration, with velocities scaled so that "
+      "the distance is kept. Each prediction, made for {}, went through the same filter, onset rule and scaling. ε is the root of the "
+      "mean squared difference of velocity over all 101 samples of all trials. Intervals are 95 % percentiles of {} bootstrap "
+      "resamples (seed {}); differences between criteria are taken within a resample.",
+      filter, rule, options.predictMeanDuration ? "the duration that was moved" : "the task's duration T", options.ranking.resamples,
+      options.ranking.seed);
+}
+
+std::string describeCounts(const ConditionResult& r) {
+  const std::size_t attempts = r.counts.success + r.counts.failure;
+  std::string text = fmt::format("{} of {} succeeded", r.counts.success, plural(attempts, "trial"));
+  if (attempts > 0) {
+    const Interval i = computeWilsonInterval(r.counts.success, attempts);
+    text += fmt::format(" ({:.0f} % [{:.0f}, {:.0f}])", 100.0 * static_cast<double>(r.counts.success) / static_cast<double>(attempts), 100 * i.low,
+                        100 * i.high);
+  }
+  std::vector<std::string> rest;
+  if (r.counts.aborted > 0) rest.push_back(fmt::format("{} aborted", r.counts.aborted));
+  if (r.counts.interrupted > 0) rest.push_back(fmt::format("{} interrupted", r.counts.interrupted));
+  if (r.counts.practice > 0) rest.push_back(plural(r.counts.practice, "practice trial"));
+  if (r.counts.catchTrials > 0) rest.push_back(plural(r.counts.catchTrials, "catch trial"));
+  if (!rest.empty()) text += "; besides " + joined(rest);
+  std::vector<std::string> why;
+  for (const auto& [reason, n] : r.reasons) why.push_back(fmt::format("{} × {}", n, reason));
+  if (!why.empty()) text += ". Reasons: " + joined(why);
+  return text + fmt::format(". {} in profiles and errors.", plural(r.used, "trial"));
+}
+
+std::string describeDurations(const ConditionResult& r) {
+  if (r.used == 0 || r.unscaledDurations.empty()) return {};
+  const double ratio = r.duration.mean / r.unscaledDurations.front();
+  if (std::abs(ratio - 1) <= 0.1) return {};
+  return fmt::format("The movements last {:.0f} % of the first prediction's duration under the same onset rule ({:.3f} s against {:.3f} s); shapes are "
+                     "compared after scaling. --prediction-duration mean predicts for the duration that was moved.",
+                     100 * ratio, r.duration.mean, r.unscaledDurations.front());
+}
+
+}  // namespace reachlab

@@ -1,0 +1,28 @@
+#include "sim/analyze/write_analysis.h"
+
+#include "sim/analyze/tables.h"
+#include "sim/record/append_file.h"
+
+namespace reachlab {
+
+AnalysisFiles writeAnalysis(const StudyResult& study, const Dataset& dataset, const ReportHeader& header, const std::string& folder) {
+  AnalysisFiles files;
+  makeFolders(folder + "/figures");
+  for (const auto& [name, text] : makeTables(study)) {
+    files.tables.push_back(folder + "/" + name);
+    writeFileAtomically(files.tables.back(), text);
+  }
+  const std::vector<NamedFigure> figures = makeFigures(study);
+  for (const NamedFigure& figure : figures) {
+    const std::string path = folder + "/figures/" + figure.name;
+    writeFileAtomically(path + ".svg", renderSvg(figure.figure));
+    writeFileAtomically(path + ".pdf", renderPdf(figure.figure));
+    files.figures.push_back(path + ".svg");
+    files.figures.push_back(path + ".pdf");
+  }
+  files.report = folder + "/report.html";
+  writeFileAtomically(files.report, makeReport(header, study, figures, dataset.runs, dataset.notes));
+  return files;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,20 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/analyze/dataset.h"
+#include "sim/analyze/report.h"
+
+namespace reachlab {
+
+struct AnalysisFiles {
+  std::string report;
+  std::vector<std::string> tables, figures;
+};
+
+/// Writes tables (CSV), figures (SVG and PDF, in figures/) and report.html into `folder`; each file replaced in one step. The same study
+/// gives the same bytes. Throws ResourceError.
+AnalysisFiles writeAnalysis(const StudyResult& study, const Dataset& dataset, const ReportHeader& header, const std::string& folder);
+
+}  // namespace reachlab
