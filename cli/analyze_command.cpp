@@ -119,7 +119,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   const auto o = std::make_shared<AnalyzeOptions>();
   command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
   command->add_option("--out", o->out, "Folder to write to (default: DATASET/derivatives/reachlab)");
-  command->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)");
+  command->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")->allow_extra_args(false);
   command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
   command->add_option("--prediction-duration", o->duration, "Predict for the task's duration or for the mean duration moved")
