@@ -1,0 +1,149 @@
+#include "constraints/interval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace reachlab {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr Interval kEverything{-kInf, kInf};
+
+Interval hull(std::initializer_list<double> values) { return {std::min(values), std::max(values)}; }
+
+Interval product(Interval a, Interval b) {
+  const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
+  return hull({times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)});
+}
+
+bool contains(Interval a, double x) { return a.lo <= x && x <= a.hi; }
+
+// Powers of an interval with a whole exponent > 0.
+Interval wholePower(Interval a, double n) {
+  const double lo = std::pow(a.lo, n), hi = std::pow(a.hi, n);
+  if (std::fmod(n, 2) != 0) return {lo, hi};
+  return {contains(a, 0) ? 0.0 : std::min(lo, hi), std::max(lo, hi)};
+}
+
+// Sine and cosine change at most as fast as their argument.
+Interval waveAround(double (*f)(double), Interval a) {
+  const double half = (a.hi - a.lo) / 2;
+  if (!(half < 1)) return {-1, 1};
+  const double centre = f(a.lo + half);
+  return {std::max(-1.0, centre - half), std::min(1.0, centre + half)};
+}
+
+}  // namespace
+
+IntervalEvaluator::IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
+    : graph_(graph), roots_(roots.begin(), roots.end()), shape_(shape), bounds_(static_cast<std::size_t>(graph.size())) {
+  const std::vector<bool> needed = graph.reachableFrom(roots);
+  for (std::size_t id = 0; id < needed.size(); ++id)
+    if (needed[id]) order_.push_back(static_cast<int>(id));
+}
+
+IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const {
+  const int operands = operandCount(n.op);
+  const Bound none;
+  const Bound& left = operands >= 1 ? bounds_[static_cast<std::size_t>(n.a)] : none;
+  const Bound& right = operands == 2 ? bounds_[static_cast<std::size_t>(n.b)] : none;
+  const Interval a = left.range, b = right.range;
+  Finiteness f = std::max(left.finiteness, right.finiteness);
+  const auto raise = [&](Finiteness to) { f = std::max(f, to); };
+  const auto monotone = [&](double (*function)(double)) { return Interval{function(a.lo), function(a.hi)}; };
+  Interval r;
+  switch (n.op) {
+    case Op::Constant: r = {n.value, n.value}; break;
+    case Op::Variable: r = box[static_cast<std::size_t>(n.a)]; break;
+    case Op::Parameter: r = {shape_[n.a], shape_[n.a]}; break;
+    case Op::Add: r = {a.lo + b.lo, a.hi + b.hi}; break;
+    case Op::Sub: r = {a.lo - b.hi, a.hi - b.lo}; break;
+    case Op::Mul: r = product(a, b); break;
+    case Op::Neg: r = {-a.hi, -a.lo}; break;
+    case Op::Div:
+      if (contains(b, 0)) {
+        raise(b.lo == 0 && b.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
+        r = kEverything;
+      } else {
+        r = product(a, {1 / b.hi, 1 / b.lo});
+      }
+      break;
+    case Op::PowInt: r = wholePower(a, n.b); break;
+    case Op::Pow: {
+      const bool whole = b.lo == b.hi && b.lo == std::floor(b.lo);
+      if (a.lo > 0) {
+        r = hull({std::pow(a.lo, b.lo), std::pow(a.lo, b.hi), std::pow(a.hi, b.lo), std::pow(a.hi, b.hi)});
+      } else if (whole && b.lo == 0) {
+        r = {1, 1};
+      } else if (whole && b.lo > 0) {
+        r = wholePower(a, b.lo);
+      } else if (whole && a.hi < 0) {
+        r = hull({std::pow(a.lo, b.lo), std::pow(a.hi, b.lo)});
+      } else if (!whole && a.hi < 0) {
+        raise(Finiteness::Nowhere);
+        r = kEverything;
+      } else if (!whole && b.lo > 0) {
+        raise(a.lo < 0 ? Finiteness::Touching : Finiteness::Finite);
+        r = {0, std::max({1.0, std::pow(std::max(a.hi, 0.0), b.lo), std::pow(std::max(a.hi, 0.0), b.hi)})};
+      } else {
+        raise(a.lo == 0 && a.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
+        r = kEverything;
+      }
+      break;
+    }
+    case Op::Sin: r = waveAround(std::sin, a); break;
+    case Op::Cos: r = waveAround(std::cos, a); break;
+    case Op::Tan: {
+      const double k = std::floor(a.lo / std::numbers::pi + 0.5);
+      if (k != std::floor(a.hi / std::numbers::pi + 0.5)) {
+        raise(Finiteness::Unknown);
+        r = kEverything;
+      } else {
+        r = monotone(std::tan);
+      }
+      break;
+    }
+    case Op::Asin: case Op::Acos: {
+      if (a.lo > 1 || a.hi < -1) raise(Finiteness::Nowhere);
+      else if (a.lo < -1 || a.hi > 1) raise(Finiteness::Touching);
+      const double lo = std::clamp(a.lo, -1.0, 1.0), hi = std::clamp(a.hi, -1.0, 1.0);
+      r = n.op == Op::Asin ? Interval{std::asin(lo), std::asin(hi)} : Interval{std::acos(hi), std::acos(lo)};
+      break;
+    }
+    case Op::Atan: r = monotone(std::atan); break;
+    case Op::Atan2: r = {-std::numbers::pi, std::numbers::pi}; break;
+    case Op::Sinh: r = monotone(std::sinh); break;
+    case Op::Cosh: r = {contains(a, 0) ? 1.0 : std::min(std::cosh(a.lo), std::cosh(a.hi)), std::max(std::cosh(a.lo), std::cosh(a.hi))}; break;
+    case Op::Tanh: r = monotone(std::tanh); break;
+    case Op::Exp: r = monotone(std::exp); break;
+    case Op::Log:
+      if (a.hi <= 0) raise(Finiteness::Nowhere);
+      else if (a.lo <= 0) raise(Finiteness::Unknown);
+      r = a.lo > 0 ? monotone(std::log) : kEverything;
+      break;
+    case Op::Sqrt:
+      if (a.hi < 0) raise(Finiteness::Nowhere);
+      else if (a.lo < 0) raise(Finiteness::Touching);
+      r = {std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
+      break;
+    case Op::Abs: r = {contains(a, 0) ? 0.0 : std::min(std::abs(a.lo), std::abs(a.hi)), std::max(std::abs(a.lo), std::abs(a.hi))}; break;
+    case Op::Sign: r = {a.lo > 0 ? 1.0 : a.lo == 0 ? 0.0 : -1.0, a.hi < 0 ? -1.0 : a.hi == 0 ? 0.0 : 1.0}; break;
+  }
+  if (!(std::isfinite(r.lo) && std::isfinite(r.hi))) {
+    raise(Finiteness::Unknown);
+    if (std::isnan(r.lo) || std::isnan(r.hi)) r = kEverything;
+    if (r.lo == r.hi) raise(Finiteness::Nowhere);  // infinite for sure
+  }
+  return {r, f};
+}
+
+const std::vector<Finiteness>& IntervalEvaluator::evaluate(const std::array<Interval, 2>& box) {
+  for (const int id : order_) bounds_[static_cast<std::size_t>(id)] = boundOf(graph_.node(id), box);
+  result_.clear();
+  for (const int root : roots_) result_.push_back(bounds_[static_cast<std::size_t>(root)].finiteness);
+  return result_;
+}
+
+}  // namespace reachlab
