@@ -1,16 +1,37 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "constraints/definition.h"
+#include "constraints/error.h"
+#include "constraints/generated_catalogue.h"
+#include "constraints/names.h"
 
 namespace reachlab {
+namespace {
+
+struct Entry {
+  Definition definition;
+  GeneratedFunctions functions;
+};
+
+// Parsed once; immutable from then on.
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = [] {
+    std::vector<Entry> list;
+    for (const GeneratedEntry& e : generatedEntries()) list.push_back({parseDefinition(e.text, "catalogue"), {e.curve, e.surface}});
+    std::stable_sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.definition.kind < b.definition.kind; });
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace
 
 const std::vector<Definition>& catalogue() {
   static const std::vector<Definition> definitions = [] {
-    Definition line;
-    line.name = "line";
-    line.coordinates = {"length_m*(phi/(2*pi) - 1/2)", "0", "0"};
-    line.shape = {{"length_m", 0.2, 0.01, 1, "m", "distance from start to target"}};
-    line.start = {0};
-    line.target = {6.283185307179586};
-    return std::vector<Definition>{line};
+    std::vector<Definition> list;
+    for (const Entry& e : entries()) list.push_back(e.definition);
+    return list;
   }();
   return definitions;
 }
@@ -21,6 +42,27 @@ const Definition* findInCatalogue(const std::string& name) {
   return nullptr;
 }
 
-GeneratedFunctions generatedFunctions(const Definition&) { return {}; }
+Definition findDefinition(const std::string& name, const std::string& origin) {
+  if (const Definition* definition = findInCatalogue(name)) return *definition;
+  // A user's own, saved under its name; a name with a path in it is none.
+  const std::string file = userDefinitionFolder() + "/" + name + ".json";
+  std::error_code error;
+  if (!name.empty() && name.find_first_of("/\\.") == std::string::npos && std::filesystem::is_regular_file(file, error)) return readDefinition(file);
+  std::vector<std::string> known{"free"};
+  for (const Definition& definition : catalogue()) known.push_back(definition.name);
+  const std::string near = nearestName(name, known);
+  throw UsageError(origin + ": there is no constraint '" + name.substr(0, 60) + "'; allowed: free, or a name that `reach list constraints` tells" +
+                   (near.empty() ? "" : "; did you mean " + near + "?"));
+}
+
+GeneratedFunctions generatedFunctions(const Definition& definition) {
+  for (const Entry& e : entries())
+    if (e.definition.name == definition.name) {
+      const FormulaText ours = formulaOf(e.definition), theirs = formulaOf(definition);
+      const bool same = ours.kind == theirs.kind && ours.coordinates == theirs.coordinates && ours.parameters == theirs.parameters;
+      return same ? e.functions : GeneratedFunctions{};
+    }
+  return {};
+}
 
 }  // namespace reachlab

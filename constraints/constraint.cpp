@@ -1,22 +1,17 @@
 #include "constraints/constraint.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "constraints/definition.h"
+#include "constraints/analysis.h"
 #include "constraints/error.h"
+#include "constraints/names.h"
 
 namespace reachlab {
 namespace {
-
-std::string numberText(double value) {
-  std::string text = std::to_string(value);
-  while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
-    const bool point = text.back() == '.';
-    text.pop_back();
-    if (point) break;
-  }
-  return text;
-}
 
 Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::array<double, kMaxShapeParameters>& shape,
                     const GeneratedFunctions& generated) {
@@ -32,13 +27,15 @@ Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::a
   return c;
 }
 
-}  // namespace
-
-FormulaText formulaOf(const Definition& definition) {
-  FormulaText text{definition.kind, definition.coordinates, {}};
-  for (const ShapeParameter& p : definition.shape) text.parameters.push_back(p.name);
-  return text;
+void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, const std::string& origin) {
+  if (const std::string place = findNonFinite(c, range); !place.empty())
+    throw UsageError(origin + ": " + place + "; allowed: a formula that is finite, with its first and second derivatives, on its domain");
+  if (degeneratesEverywhere(c, range))
+    throw UsageError(origin + (c.kind == ConstraintKind::Curve ? ": degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi"
+                                                               : ": degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface"));
 }
+
+}  // namespace
 
 std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape, const std::string& origin) {
   std::array<double, kMaxShapeParameters> values{};
@@ -49,9 +46,9 @@ std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, co
     std::size_t i = 0;
     while (i < definition.shape.size() && definition.shape[i].name != key) ++i;
     if (i == definition.shape.size()) {
-      const std::string near = closestName(key, text.parameters);
+      const std::string near = nearestName(key, text.parameters);
       fault("shape." + key.substr(0, 40) + ": " + definition.name + " has no such parameter; allowed: " +
-            (text.parameters.empty() ? "none" : joinNames(text.parameters)) + (near.empty() ? "" : "; did you mean " + near + "?"));
+            (text.parameters.empty() ? "none" : listOf(text.parameters)) + (near.empty() ? "" : "; did you mean " + near + "?"));
     }
   }
   for (std::size_t i = 0; i < definition.shape.size() && i < kMaxShapeParameters; ++i) {
@@ -59,34 +56,11 @@ std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, co
     const auto given = shape.find(p.name);
     values[i] = given == shape.end() ? p.defaultValue : given->second;
     if (!(values[i] >= p.min && values[i] <= p.max))
-      fault("shape." + p.name + ": " + numberText(values[i]) + " is out of range; allowed: " + numberText(p.min) + " to " + numberText(p.max) +
+      fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is out of range; allowed: " + fmt::format("{}", p.min) + " to " + fmt::format("{}", p.max) +
             (p.unit == "1" ? "" : " " + p.unit));
   }
   if (!faults.empty()) throw UsageError(faults);
   return values;
-}
-
-double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
-                  const std::string& origin) {
-  ExpressionGraph graph;
-  const ParsedFormula parsed = parseFormula(expression, {{}, names.parameters}, graph);
-  if (parsed.fault) throw UsageError(origin + ", character " + std::to_string(parsed.fault->character) + ": " + parsed.fault->what);
-  const double value = evaluateNodes(graph, std::array{parsed.root}, shape.data(), nullptr)[0];
-  if (!std::isfinite(value)) throw UsageError(origin + ": is not finite; allowed: a finite number");
-  return value;
-}
-
-std::array<Domain, 2> domainOf(const Definition& definition, const std::array<double, kMaxShapeParameters>& shape) {
-  std::array<Domain, 2> domain;
-  const FormulaText names = formulaOf(definition);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const DomainText& text = definition.domain[k];
-    if (!text.lo.empty()) domain[k].lo = constantOf(text.lo, names, shape, definition.name + ": domain");
-    if (!text.hi.empty()) domain[k].hi = constantOf(text.hi, names, shape, definition.name + ": domain");
-    domain[k].periodic = text.periodic;
-    domain[k].atEnd = text.atEnd;
-  }
-  return domain;
 }
 
 Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape, const std::string& origin) {
@@ -94,10 +68,11 @@ Constraint makeConstraint(const Definition& definition, const std::map<std::stri
   Constraint c = assemble(compileFormula(formulaOf(definition), origin), values, generatedFunctions(definition));
   c.name = definition.name;
   c.domain = domainOf(definition, values);
+  requireUsable(c, boundedDomain(c), origin);
   return c;
 }
 
-Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin) {
+Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin, const std::array<Domain, 2>* inUse) {
   if (spec.curve.empty() && spec.surface.empty()) {
     if (spec.name == "free") {
       if (!spec.shape.empty()) throw UsageError(origin + ": shape: free has no shape; allowed: no shape");
@@ -105,12 +80,7 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
       c.name = "free";
       return c;
     }
-    if (const Definition* definition = findInCatalogue(spec.name)) return makeConstraint(*definition, spec.shape, origin);
-    std::vector<std::string> known{"free"};
-    for (const Definition& definition : catalogue()) known.push_back(definition.name);
-    const std::string near = closestName(spec.name, known);
-    throw UsageError(origin + ": there is no constraint '" + spec.name.substr(0, 60) + "'; allowed: the names that `reach list constraints` tells" +
-                     (near.empty() ? "" : "; did you mean " + near + "?"));
+    return makeConstraint(findDefinition(spec.name, origin), spec.shape, origin);
   }
   const std::vector<std::string>& lines = spec.curve.empty() ? spec.surface : spec.curve;
   if (lines.size() != 3) throw UsageError(origin + ": has " + std::to_string(lines.size()) + " formulas; allowed: three, one a coordinate");
@@ -127,6 +97,7 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
   if (!faults.empty()) throw UsageError(faults);
   Constraint c = assemble(compileFormula(text, origin), values, {});
   c.name = text.kind == ConstraintKind::Curve ? "curve" : "surface";
+  requireUsable(c, inUse == nullptr ? boundedDomain(c) : *inUse, origin);
   return c;
 }
 

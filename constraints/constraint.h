@@ -85,7 +85,8 @@ struct Constraint {
 
 /// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws UsageError (unknown name or shape key,
 /// value out of range, syntax with the character's place, degenerate everywhere, non-finite in the domain).
-/// `origin` ("FILE:LINE:COLUMN: constraint") stands before each message.
-Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin = "constraint");
+/// `origin` ("FILE:LINE:COLUMN: constraint") stands before each message. `inUse`: where a typed formula will be moved on (the hull of start
+/// and target); null: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1]. There it must be finite; the motion itself has no ends.
+Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin = "constraint", const std::array<Domain, 2>* inUse = nullptr);
 
 }  // namespace reachlab

@@ -37,10 +37,12 @@ struct Definition {
 
 /// The shipped definitions, curves first, each group by name. Compiled into the library.
 const std::vector<Definition>& catalogue();
-/// A definition of the catalogue, else of the user's folder; null when there is none.
+/// A definition of the catalogue; null when there is none.
 const Definition* findInCatalogue(const std::string& name);
+/// A definition of the catalogue, else NAME.json of the user's folder. Throws UsageError naming the nearest known one.
+Definition findDefinition(const std::string& name, const std::string& origin);
 
-/// Reads a definition file. Throws UsageError with every fault, one a line, `FILE: KEY: what is wrong; allowed: …`.
+/// Reads a definition file. Throws UsageError with every fault, one a line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Definition parseDefinition(const std::string& text, const std::string& file);
 Definition readDefinition(const std::string& file);
 /// The definition as a file that reads back equal.

@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "constraints/analysis.h"
 #include "constraints/formula.h"
@@ -18,13 +19,7 @@ struct Box {
 };
 
 std::string placeText(const Constraint& c, const std::array<double, 2>& q) {
-  char text[80];
-  if (c.kind == ConstraintKind::Curve) std::snprintf(text, sizeof text, "phi = %.9g", q[0]);
-  else std::snprintf(text, sizeof text, "u = %.9g, v = %.9g", q[0], q[1]);
-  std::string place = text;
-  // The locale may write a comma.
-  if (c.kind == ConstraintKind::Curve) std::replace(place.begin(), place.end(), ',', '.');
-  return place;
+  return c.kind == ConstraintKind::Curve ? fmt::format("phi = {:.9g}", q[0]) : fmt::format("u = {:.9g}, v = {:.9g}", q[0], q[1]);
 }
 
 // The members of CurvePoint and SurfacePoint, three roots each.

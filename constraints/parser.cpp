@@ -4,7 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "constraints/names.h"
 
 namespace reachlab {
 namespace {
@@ -167,11 +168,13 @@ class Parser {
   [[noreturn]] void unknown(std::size_t start, std::string_view word) {
     std::vector<std::string> known = names_.variables;
     known.insert(known.end(), names_.parameters.begin(), names_.parameters.end());
-    const std::string expected = joinNames(known) + ", pi, e or a function";
     known.insert(known.end(), {"pi", "e"});
+    std::vector<std::string> choices = known;
+    choices.emplace_back("a function");
+    const std::string expected = listOf(choices);
     const std::vector<std::string> functions = functionNames();
     known.insert(known.end(), functions.begin(), functions.end());
-    const std::string near = closestName(word, known);
+    const std::string near = nearestName(word, known);
     std::string shown(word.substr(0, 40));
     fail(start, "unknown name '" + shown + "'; expected " + expected + (near.empty() ? "" : "; did you mean " + near + "?"));
   }
@@ -215,36 +218,6 @@ std::string parameterNameFault(const std::string& name, const std::vector<std::s
   if (name == "pi" || name == "e") return "is the name of a constant; allowed: another name";
   if (functionNamed(name)) return "is the name of a function; allowed: another name";
   return {};
-}
-
-std::string closestName(std::string_view name, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t bestDistance = std::min<std::size_t>(3, name.size() / 2 + 1);
-  if (name.size() > 60) return best;
-  for (const std::string& candidate : known) {
-    std::vector<std::size_t> row(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= name.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t previous = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1)});
-        diagonal = previous;
-      }
-    }
-    if (row.back() < bestDistance) {
-      bestDistance = row.back();
-      best = candidate;
-    }
-  }
-  return best;
-}
-
-std::string joinNames(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 }  // namespace reachlab

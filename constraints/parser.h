@@ -39,9 +39,4 @@ ParsedFormula parseFormula(std::string_view text, const FormulaNames& names, Exp
 /// Why `name` can't name a shape parameter (clash with a variable, constant or function; not a name); empty when it can.
 std::string parameterNameFault(const std::string& name, const std::vector<std::string>& variables);
 
-/// The known name closest to `name`, or empty when none is near.
-std::string closestName(std::string_view name, const std::vector<std::string>& known);
-/// "a, b, c".
-std::string joinNames(const std::vector<std::string>& names);
-
 }  // namespace reachlab

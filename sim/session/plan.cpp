@@ -7,7 +7,7 @@
 
 #include "constraints/error.h"
 #include "sim/experiment/experiment.h"
-#include "sim/experiment/json_reader.h"
+#include "constraints/json_reader.h"
 
 namespace reachlab {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "constraints/error.h"
-#include "sim/experiment/json_tree.h"
+#include "constraints/json_tree.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"
 

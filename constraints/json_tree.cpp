@@ -1,4 +1,4 @@
-#include "sim/experiment/json_tree.h"
+#include "constraints/json_tree.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,54 @@
+// Build-time program: reads the catalogue's definitions and writes one C++ file with a function for each and the definitions' own text,
+// so that the library needs no file at run time. `reachlab_generate OUTPUT DEFINITION…`
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "constraints/cpp_writer.h"
+#include "constraints/definition.h"
+#include "constraints/error.h"
+#include "constraints/json_tree.h"
+
+namespace {
+
+using namespace reachlab;
+
+std::string generate(const std::vector<std::string>& files) {
+  std::string functions, table;
+  for (const std::string& file : files) {
+    const std::string text = readTextFile(file);
+    const Definition definition = parseDefinition(text, file);
+    if (fmt::format("/{}.json", definition.name) != file.substr(file.find_last_of('/')))
+      throw UsageError(fmt::format("{}: name: is {}; allowed: the file's name", file, definition.name));
+    const std::string function = "evaluate" + upperCamel(definition.name);
+    functions += writeEvaluator(*compileFormula(formulaOf(definition), file), function) + "\n";
+    const bool curve = definition.kind == ConstraintKind::Curve;
+    table += fmt::format("    {{R\"definition({})definition\",\n     {}, {}}},\n", text, curve ? function : "nullptr", curve ? "nullptr" : function);
+  }
+  return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
+         "#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab {\nnamespace {\n\n" +
+         functions + "constexpr GeneratedEntry kEntries[] = {\n" + table +
+         "};\n\n}  // namespace\n\nstd::span<const GeneratedEntry> generatedEntries() { return kEntries; }\n\n}  // namespace reachlab\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: reachlab_generate OUTPUT DEFINITION...\n");
+    return 2;
+  }
+  try {
+    std::vector<std::string> files(argv + 2, argv + argc);
+    std::sort(files.begin(), files.end());
+    const std::string code = generate(files);
+    std::ofstream out(argv[1], std::ios::binary);
+    if (!(out << code).flush()) throw ResourceError(fmt::format("{}: can't be written", argv[1]));
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,17 @@
+#pragma once
+#include <span>
+
+#include "constraints/constraint.h"
+
+namespace reachlab {
+
+/// One shipped definition: its file's text, and the function generated from it (the other null).
+struct GeneratedEntry {
+  const char* text;
+  CurveFunction curve;
+  SurfaceFunction surface;
+};
+/// Defined by the generated file in the build folder; by name.
+std::span<const GeneratedEntry> generatedEntries();
+
+}  // namespace reachlab

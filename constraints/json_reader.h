@@ -1,0 +1,75 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "constraints/json_tree.h"
+#include "constraints/names.h"
+
+namespace reachlab {
+
+/// Faults of one file, in the order found; each `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+class FaultList {
+ public:
+  explicit FaultList(std::string file) : file_(std::move(file)) {}
+  void add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed = {});
+  void addLine(std::string line) { faults_.push_back(std::move(line)); }
+  /// `FILE:LINE:COLUMN` of a node.
+  std::string place(const JsonNode& where) const;
+  const std::vector<std::string>& faults() const { return faults_; }
+  bool empty() const { return faults_.empty(); }
+  /// Throws UsageError with all faults, a line each, when there are any.
+  void throwIfAny() const;
+
+ private:
+  std::string file_;
+  std::vector<std::string> faults_;
+};
+
+/// Range of a number, with the words that a message uses.
+struct NumberRange {
+  double lo, hi;
+  bool loIncluded = true;
+  std::string allowed;
+};
+NumberRange anyNumber();
+NumberRange positive(const std::string& unit);
+NumberRange atLeastZero(const std::string& unit);
+NumberRange wholeNumber(double lo, double hi);
+
+/// Reads one JSON object key by key and remembers which keys were asked for: `finish` reports the others as unknown, with the nearest
+/// known name. Faults are collected; a faulty value reads as its default.
+class ObjectReader {
+ public:
+  ObjectReader(FaultList& faults, const JsonNode& node, std::string path);
+
+  const JsonNode* optional(const std::string& key);
+  const JsonNode* required(const std::string& key, const std::string& allowed);
+
+  void number(const std::string& key, const NumberRange& range, double& value);
+  bool requiredNumber(const std::string& key, const NumberRange& range, double& value);
+  void integer(const std::string& key, int lo, int hi, int& value);
+  void boolean(const std::string& key, bool& value);
+  void text(const std::string& key, std::string& value);
+  bool choice(const std::string& key, const std::vector<std::string>& names, std::string& value, bool isRequired);
+  /// Numbers; `length` < 0: any number of them.
+  bool numbers(const JsonNode& node, const std::string& key, int length, const NumberRange& range, std::vector<double>& values);
+  bool strings(const JsonNode& node, const std::string& key, int length, std::vector<std::string>& values);
+  void finish();
+
+  std::string keyPath(const std::string& key) const;
+  FaultList& faults() { return faults_; }
+  const JsonNode& node() const { return node_; }
+
+ private:
+  bool readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value);
+
+  FaultList& faults_;
+  const JsonNode& node_;
+  std::string path_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,38 @@
+#include "constraints/names.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace reachlab {
+
+std::string nearestName(std::string_view name, const std::vector<std::string>& known) {
+  std::string best;
+  if (name.empty() || name.size() > 60) return best;
+  std::size_t bestDistance = std::min(name.size() - 1, std::max<std::size_t>(2, name.size() / 3)) + 1;
+  for (const std::string& candidate : known) {
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t substituted = diagonal + (name[i - 1] != candidate[j - 1]);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+      }
+    }
+    if (row.back() < bestDistance) bestDistance = row.back(), best = candidate;
+  }
+  return best;
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    list += names[i];
+  }
+  return list;
+}
+
+}  // namespace reachlab

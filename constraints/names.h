@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reachlab {
+
+/// The known name closest to `name` by edit distance, or empty when none is close.
+std::string nearestName(std::string_view name, const std::vector<std::string>& known);
+/// "a, b or c".
+std::string listOf(const std::vector<std::string>& names);
+
+}  // namespace reachlab
