@@ -58,6 +58,8 @@ std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, co
     if (!(values[i] >= p.min && values[i] <= p.max))
       fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is out of range; allowed: " + fmt::format("{}", p.min) + " to " + fmt::format("{}", p.max) +
             (p.unit == "1" ? "" : " " + p.unit));
+    else if (p.whole && values[i] != std::floor(values[i]))
+      fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is not whole; allowed: a whole number");
   }
   if (!faults.empty()) throw UsageError(faults);
   return values;

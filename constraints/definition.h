@@ -14,6 +14,7 @@ struct ShapeParameter {
   double defaultValue = 0, min = 0, max = 0;
   std::string unit;     // "m", "rad", "1" …
   std::string meaning;  // a few words
+  bool whole = false;   // whole numbers only (numbers of cusps, turns …)
 };
 
 /// Where a parameter begins and ends, as constant expressions that may name shape parameters ("2*pi", "turns*2*pi"); empty: no end.

@@ -87,6 +87,7 @@ class DefinitionReader {
       reader.requiredNumber("max", anyNumber(), p.max);
       reader.text("unit", p.unit);
       reader.text("meaning", p.meaning);
+      reader.boolean("whole", p.whole);
       reader.finish();
       if (!(p.min <= p.defaultValue && p.defaultValue <= p.max))
         faults_.add(value, "shape." + key, fmt::format("default {} is not within min {} and max {}", p.defaultValue, p.min, p.max),

@@ -35,8 +35,10 @@ std::string toJson(const Definition& d) {
   j["kind"] = curve ? "curve" : "surface";
   j[curve ? "curve" : "surface"] = d.coordinates;
   j["shape"] = Json::object();
-  for (const ShapeParameter& p : d.shape)
+  for (const ShapeParameter& p : d.shape) {
     j["shape"][p.name] = {{"default", p.defaultValue}, {"min", p.min}, {"max", p.max}, {"unit", p.unit}, {"meaning", p.meaning}};
+    if (p.whole) j["shape"][p.name]["whole"] = true;
+  }
   if (curve) {
     j["domain"] = rangeJson(d.domain[0]);
     j["periodic"] = d.domain[0].periodic;

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "constraints/analysis.h"
+#include "constraints/definition.h"
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+TEST(Catalogue, HoldsTheNamedCurvesAndSurfacesAndMore) {
+  int curves = 0, surfaces = 0;
+  for (const Definition& d : catalogue()) ++(d.kind == ConstraintKind::Curve ? curves : surfaces);
+  EXPECT_GE(curves, 24);
+  EXPECT_GE(surfaces, 20);
+  for (const char* name :
+       {"line", "circle", "ellipse", "parabola", "cycloid", "epicycloid", "epitrochoid", "hypocycloid", "hypotrochoid", "deltoid", "astroid",
+        "cardioid", "nephroid", "limacon", "lissajous", "lemniscate", "rose", "catenary", "sine", "archimedean-spiral", "logarithmic-spiral",
+        "helix", "conical-helix", "trefoil", "torus-knot", "viviani", "spherical-spiral", "lissajous-3d", "plane", "cylinder", "cone", "sphere",
+        "ellipsoid", "torus", "paraboloid", "hyperbolic-paraboloid", "hyperboloid", "monkey-saddle", "helicoid", "catenoid", "moebius-strip",
+        "klein-bottle", "enneper", "pseudosphere", "dini", "egg-crate", "gaussian-hill", "whitney-umbrella", "cross-cap", "roman-surface",
+        "dupin-cyclide"})
+    EXPECT_NE(findInCatalogue(name), nullptr) << name;
+}
+
+TEST(Catalogue, EveryDefinitionIsUsableAndFitsAHand) {
+  for (const Definition& d : catalogue()) {
+    SCOPED_TRACE(d.name);
+    const Constraint c = makeConstraint(d);
+    EXPECT_FALSE(d.sentence.empty());
+    EXPECT_FALSE(d.source.empty());
+    EXPECT_EQ(generatedFunctions(d).curve != nullptr || generatedFunctions(d).surface != nullptr, true);
+    const auto place = [&](const std::vector<double>& q) {
+      return c.kind == ConstraintKind::Curve ? evaluate(c.curve, q[0]).r : evaluate(c.surface, q[0], q[1]).r;
+    };
+    const double reach = norm(place(d.target) - place(d.start));
+    EXPECT_GT(reach, 0.02) << "the reach is too short to be one";
+    EXPECT_LT(reach, 0.45) << "the reach is longer than a seated arm's comfortable one";
+  }
+}
+
+TEST(Catalogue, EveryDefinitionStandsTheEndsOfItsShape) {
+  for (const Definition& d : catalogue()) {
+    for (const ShapeParameter& p : d.shape)
+      for (const double value : {p.min, p.max}) EXPECT_NO_THROW(makeConstraint(d, {{p.name, value}})) << d.name << " " << p.name << " " << value;
+  }
+}
+
+TEST(Catalogue, EveryPeriodClosesInPlaceAndDirection) {
+  // Rounding of sines of up to 60 rad, scaled by derivatives up to 20 times the size.
+  constexpr double kClosed = 1e-13;
+  for (const Definition& d : catalogue()) {
+    SCOPED_TRACE(d.name);
+    const Constraint c = makeConstraint(d);
+    if (c.kind == ConstraintKind::Curve && c.domain[0].periodic) {
+      const CurvePoint a = evaluate(c.curve, c.domain[0].lo), b = evaluate(c.curve, c.domain[0].hi);
+      EXPECT_LT(norm(a.r - b.r), kClosed);
+      EXPECT_LT(norm(a.rPhi - b.rPhi), kClosed);
+    }
+    for (int k = 0; k < 2 && c.kind == ConstraintKind::Surface; ++k) {
+      const Domain& domain = c.domain[static_cast<std::size_t>(k)];
+      if (!domain.periodic) continue;
+      const double other = 0.37;
+      const SurfacePoint a = k == 0 ? evaluate(c.surface, domain.lo, other) : evaluate(c.surface, other, domain.lo);
+      const SurfacePoint b = k == 0 ? evaluate(c.surface, domain.hi, other) : evaluate(c.surface, other, domain.hi);
+      EXPECT_LT(norm(a.r - b.r) + norm(a.rU - b.rU) + norm(a.rV - b.rV), kClosed);
+    }
+  }
+}
+
+TEST(Catalogue, DefinitionReadsBackEqualFromItsJson) {
+  for (const Definition& d : catalogue()) EXPECT_EQ(toJson(parseDefinition(toJson(d), "again")), toJson(d)) << d.name;
+}
+
+TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
+  const auto message = [](const ConstraintSpec& spec) {
+    try {
+      makeConstraint(spec, "here");
+    } catch (const UsageError& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(message({.name = "elipse", .curve = {}, .surface = {}, .shape = {}}).find("did you mean ellipse?"), std::string::npos);
+  EXPECT_NE(message({.name = "torus", .curve = {}, .surface = {}, .shape = {{"mayor_m", 0.1}}}).find("did you mean major_m?"), std::string::npos);
+  EXPECT_NE(message({.name = "circle", .curve = {}, .surface = {}, .shape = {{"radius_m", -1}}}).find("allowed: 0.01 to 1000 m"), std::string::npos);
+  EXPECT_NE(message({.name = "torus-knot", .curve = {}, .surface = {}, .shape = {{"p", 1.5}}}).find("allowed: a whole number"), std::string::npos);
+  EXPECT_NE(message({.name = "../secret", .curve = {}, .surface = {}, .shape = {}}).find("there is no constraint"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reachlab
