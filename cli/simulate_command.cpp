@@ -1,11 +1,207 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <set>
+
 #include "cli/commands.h"
+#include "cli/hand_laws.h"
 #include "constraints/error.h"
+#include "sim/dynamics/plant.h"
 
 namespace reachlab {
+namespace {
+
+struct Request {
+  std::string experiment, hand, method, out;
+  double until = -1, every = 0.01, step = 0.001;
+  std::vector<double> at, rate, force;
+};
+
+/// A row of numbers with 17 significant digits, whatever the locale.
+class Table {
+ public:
+  explicit Table(const std::string& out) {
+    if (!out.empty()) {
+      file_.open(out, std::ios::binary | std::ios::trunc);
+      if (!file_) throw ResourceError(out + ": cannot be written; choose another --out");
+    }
+  }
+  void text(std::string_view text) { buffer_ += text; }
+  void number(double value) { fmt::format_to(std::back_inserter(buffer_), "{}{:.17g}", buffer_.empty() || buffer_.back() == '\n' ? "" : ",", value); }
+  void vector(const Vec3& v) { number(v.x), number(v.y), number(v.z); }
+  void endRow() {
+    buffer_ += '\n';
+    stream() << buffer_;
+    buffer_.clear();
+  }
+  void close() {
+    stream().flush();
+    if (!stream()) throw ResourceError("the rows could not be written: is the disk full?");
+  }
+
+ private:
+  std::ostream& stream() { return file_.is_open() ? static_cast<std::ostream&>(file_) : std::cout; }
+  std::ofstream file_;
+  std::string buffer_;
+};
+
+void writeHeader(Table& table, int masses, int parameters) {
+  table.text("time_s,hand_x_m,hand_y_m,hand_z_m");
+  for (int i = 1; i <= masses; ++i) {
+    if (parameters == 1) {
+      table.text(fmt::format(",mass{0}_q1,mass{0}_q1_per_s", i));
+    } else if (parameters == 2) {
+      table.text(fmt::format(",mass{0}_q1,mass{0}_q2,mass{0}_q1_per_s,mass{0}_q2_per_s", i));
+    }
+    for (const char* axis : {"x", "y", "z"}) table.text(fmt::format(",mass{}_{}_m", i, axis));
+    for (const char* axis : {"x", "y", "z"}) table.text(fmt::format(",mass{}_v{}_m_per_s", i, axis));
+  }
+  table.text(",force_x_n,force_y_n,force_z_n");
+  table.endRow();
+}
+
+void writeRow(Table& table, const Plant& plant, double time, const HandSample& hand, bool coupled, int parameters) {
+  std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));
+  plant.observe(hand, masses);
+  table.number(time);
+  table.vector(coupled ? hand.position : Vec3{});
+  for (const MassState& mass : masses) {
+    for (int k = 0; k < parameters; ++k) table.number(mass.q[k]);
+    for (int k = 0; k < parameters; ++k) table.number(mass.qRate[k]);
+    table.vector(mass.r);
+    table.vector(mass.v);
+  }
+  table.vector(coupled ? plant.couplingForce(hand) : Vec3{});
+  table.endRow();
+}
+
+/// Times at which a step must end: the rows, the end, and where the hand's law is not smooth. `rows` are those that are written.
+struct Schedule {
+  std::vector<double> stops;
+  std::set<double> rows;
+};
+
+Schedule makeSchedule(const Request& request, double until, const std::vector<double>& breaks) {
+  Schedule schedule;
+  const double nearly = 1e-9 * std::min(request.every, request.step);
+  for (std::size_t k = 1;; ++k) {
+    const double t = static_cast<double>(k) * request.every;
+    if (!(t < until - nearly)) break;
+    schedule.rows.insert(t);
+  }
+  if (until > 0) schedule.rows.insert(until);
+  std::vector<double> all(schedule.rows.begin(), schedule.rows.end());
+  for (const double t : breaks)
+    if (t > nearly && t < until - nearly) all.push_back(t);
+  std::sort(all.begin(), all.end());
+  for (const double t : all) {
+    if (!schedule.stops.empty() && t - schedule.stops.back() < nearly) {
+      if (schedule.rows.count(t)) schedule.stops.back() = t;  // the row's own time stands
+      continue;
+    }
+    schedule.stops.push_back(t);
+  }
+  return schedule;
+}
+
+void simulate(const Request& request) {
+  Experiment experiment = readExperiment(request.experiment);
+  const auto positive = [](double value, const char* option) {
+    if (!(value > 0) || !std::isfinite(value)) throw UsageError(fmt::format("{}: {} s; allowed: a positive number of seconds", option, value));
+  };
+  positive(request.every, "--every");
+  positive(request.step, "--step");
+  if (request.until < 0 && !experiment.task) throw UsageError("--until: is missing, and the experiment has no task.duration_s; allowed: seconds");
+  const double until = request.until >= 0 ? request.until : experiment.task->duration;
+  if (!std::isfinite(until)) throw UsageError("--until: is not finite; allowed: seconds");
+  if (until / request.every > 1e8 || until / request.step > 1e10) throw UsageError("--until: too many rows or steps; allowed: fewer than 1e8 rows");
+  if (!request.method.empty()) experiment.method = request.method;
+
+  const Constraint constraint = makeConstraint(experiment.constraint);
+  const int parameters = constraint.kind == ConstraintKind::Free ? 0 : constraint.parameterCount();
+  const std::size_t coordinates = parameters == 0 ? 3 : static_cast<std::size_t>(parameters);
+  if (!experiment.task && request.at.empty()) throw RefusedError("simulate needs a start: give task.start, or --at");
+  const HandLaw law = makeHandLaw(request.hand, experiment, constraint);
+  const std::vector<double> at = request.at.empty() ? experiment.task->start : request.at;
+  std::vector<double> rate = request.rate;
+  if (rate.empty()) rate.assign(coordinates, 0.0);
+  const auto requireCount = [&](const std::vector<double>& values, const char* option) {
+    if (values.size() != coordinates)
+      throw UsageError(fmt::format("{}: has {} numbers; allowed: {} here, separated by commas", option, values.size(), coordinates));
+  };
+  requireCount(at, "--at");
+  requireCount(rate, "--rate");
+  if (!request.force.empty() && request.force.size() != 3) throw UsageError("--force: allowed: three numbers X,Y,Z in N");
+  if (!experiment.task) experiment.task = Task{};
+  experiment.task->start = at;
+  if (experiment.task->target.empty()) experiment.task->target = at;
+
+  // The longest equal step that divides a row and is no longer than asked.
+  const double within = std::min(request.every, until > 0 ? until : request.every);
+  const double step = within / std::max(1.0, std::ceil(within / request.step * (1 - 1e-12)));
+  Scene scene = compileScene(experiment, {request.method, step, 0});
+  Plant& plant = *scene.plant;
+  const bool coupled = request.hand != "none";
+  if (!request.force.empty()) plant.setExtraForce({request.force[0], request.force[1], request.force[2]});
+  plant.setCoupled(coupled);
+  plant.place(at, rate);
+  for (const std::string& warning : scene.choice.warnings) std::cerr << "warning: " << warning << '\n';
+
+  Table table(request.out);
+  writeHeader(table, plant.massCount(), parameters);
+  writeRow(table, plant, 0, law.function(0), coupled, parameters);
+  double now = 0;
+  const Schedule schedule = makeSchedule(request, until, law.breaks);
+  for (const double stop : schedule.stops) {
+    const double steps = std::max(1.0, std::ceil((stop - now) / step * (1 - 1e-9)));
+    double dt = (stop - now) / steps;
+    if (std::abs(dt - step) < 1e-9 * step) dt = step;  // the compiled step, not its rounding
+    const double begin = now;
+    for (double k = 0; k < steps; ++k) {
+      const double t = begin + (stop - begin) * (k / steps);
+      const StepStatus status = plant.step(makeSegment(law.function, t, dt), dt);
+      if (status == StepStatus::Ok) continue;
+      const std::string reason = plant.stopReason();
+      if (status == StepStatus::AtEnd || status == StepStatus::NoContinuation) {
+        const double last = t + plant.lastStepFraction() * dt;
+        if (last > now || plant.lastStepFraction() > 0) writeRow(table, plant, last, law.function(last), coupled, parameters);
+        table.close();
+        std::cerr << fmt::format("stopped at {:.9g} s: {}\n", last, reason.empty() ? std::string(describe(status)) : reason);
+        return;
+      }
+      table.close();
+      throw RefusedError(fmt::format("at {:.9g} s the step failed ({}); try a smaller --step, or --method adaptive", t, describe(status)));
+    }
+    now = stop;
+    if (schedule.rows.count(stop)) writeRow(table, plant, stop, law.function(stop), coupled, parameters);
+  }
+  table.close();
+}
+
+}  // namespace
 
 void addSimulateCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("simulate", "");
-  command->callback([] { throw UsageError("simulate: not there yet"); });
+  CLI::App* command = app.add_subcommand("simulate", "Moves the object with a hand that is a function of time, and writes its states as CSV");
+  const auto request = std::make_shared<Request>();
+  command->add_option("experiment", request->experiment, "Experiment file, or the name of a shipped one")->required();
+  command->add_option("--hand", request->hand,
+                      "none (no coupling), hold (at the start), min-jerk (along the chord), min-jerk-along (along the curve),\n"
+                      "or a CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]")->required();
+  command->add_option("--until", request->until, "End of the simulation [s] (default: the task's duration_s)")->check(CLI::NonNegativeNumber);
+  command->add_option("--every", request->every, "Time between rows [s] (default 0.01)");
+  command->add_option("--method", request->method, "auto, rk4, exact, abm, adaptive, stiff (default: the experiment's)")
+      ->check(CLI::IsMember({"auto", "rk4", "exact", "abm", "adaptive", "stiff"}));
+  command->add_option("--step", request->step, "Longest step of the method [s] (default 0.001)");
+  command->add_option("--at", request->at, "Initial parameters of all masses: phi, or u,v; metres when free (default: the start)")->delimiter(',');
+  command->add_option("--rate", request->rate, "Initial rates of these parameters [1/s, free: m/s] (default 0)")->delimiter(',');
+  command->add_option("--force", request->force, "Constant extra force on mass 1, X,Y,Z [N]")->delimiter(',');
+  command->add_option("--out", request->out, "File for the rows (default: standard output)");
+  command->footer("Example: reach simulate chain-moderate --hand min-jerk --until 2 --every 0.01 --out chain.csv\n"
+                  "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.");
+  command->callback([request] { simulate(*request); });
 }
 
 }  // namespace reachlab

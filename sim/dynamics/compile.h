@@ -1,12 +1,29 @@
 #pragma once
 #include <memory>
+#include <string>
 
 #include "sim/dynamics/linear_plant.h"
+#include "sim/dynamics/quadric.h"
 
 namespace reachlab {
 
-/// The ways a scene can be computed, one function and one file each; the templates behind them are instantiated there only.
+struct MethodRequest {
+  std::string method;    // rk4 | abm | adaptive | stiff
+  double tolerance = 0;  // 0: default
+};
+
+// The ways a scene can be computed, one function and one file each: the templates behind them are instantiated there only.
+
 std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpace& space, double dt);
+std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request);
+std::unique_ptr<Plant> makeFreePlant(const ObjectModel& model, const MethodRequest& request);
+std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& object, const MethodRequest& request);
+/// `tangential`: speed along the curve as velocity, for curves that are hard somewhere.
+std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, bool tangential, const MethodRequest& request);
+std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const Constraint& constraint, const MethodRequest& request);
+/// `edges`: some end of the domain is an edge and not a pole.
+std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const Constraint& constraint, const Quadric& quadric, bool edges,
+                                        const MethodRequest& request);
 
 /// A straight scene's space: the line's axis, or free space when `constraint` is Free.
 LinearSpace linearSpace(const Constraint& constraint);

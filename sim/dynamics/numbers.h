@@ -16,7 +16,7 @@ struct Numbers {
   const double& operator[](int i) const noexcept { return values[i]; }
 };
 
-inline constexpr int kMostStates = 2 * kMaxMasses + 2;
+inline constexpr int kMostStates = 6 * kMaxMasses;
 
 template <>
 struct Numbers<0> {

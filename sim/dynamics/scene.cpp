@@ -2,28 +2,135 @@
 
 #include <cmath>
 
+#include "constraints/analysis.h"
 #include "constraints/error.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/plant.h"
 
 namespace reachlab {
 
+namespace {
+
+constexpr double kExplicitReach = 0.3;   // fastest mode times step up to which the multistep method is used
+constexpr double kHardSpeedRatio = 0.2;  // smallest to largest |r_phi| below which a curve is hard somewhere
+
+bool isLinear(const Constraint& constraint, const ObjectModel& model) {
+  if (model.kind == ObjectKind::Body) return false;
+  return constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
+}
+
+/// Smallest over largest |r_phi| on the domain (2 pi about the start where it has no end).
+double speedRatio(const Constraint& constraint, double start) {
+  const Domain d = boundedDomain(constraint)[0];
+  constexpr int kSamples = 720;
+  double least = 1e300, most = 0;
+  for (const double centre : {0.5 * (d.lo + d.hi), start})
+    for (int i = 0; i <= kSamples; ++i) {
+      double phi = centre + (d.hi - d.lo) * (static_cast<double>(i) / kSamples - 0.5);
+      phi = std::fmin(std::fmax(phi, constraint.domain[0].lo), constraint.domain[0].hi);
+      const double speed = norm(evaluate(constraint.curve, phi).rPhi);
+      if (!std::isfinite(speed)) continue;
+      least = std::min(least, speed);
+      most = std::max(most, speed);
+    }
+  return most > 0 ? least / most : 0;
+}
+
+/// True if an end of the domain is an edge of the surface: not a period's seam, and not a line that is one point (a pole).
+bool hasEdges(const Constraint& c) {
+  for (int k = 0; k < 2; ++k) {
+    const Domain& d = c.domain[k];
+    if (d.periodic) continue;
+    for (const double end : {d.lo, d.hi}) {
+      if (!std::isfinite(end)) continue;
+      const Domain other = boundedDomain(c)[1 - k];
+      const double along = other.lo + 0.37 * (other.hi - other.lo);
+      const SurfacePoint p = k == 0 ? evaluate(c.surface, end, along) : evaluate(c.surface, along, end);
+      const double still = norm(k == 0 ? p.rV : p.rU), moving = norm(k == 0 ? p.rU : p.rV);
+      if (still > 1e-9 * moving) return true;
+    }
+  }
+  return false;
+}
+
+void requireStart(const Constraint& c, const std::vector<double>& start) {
+  const std::size_t wanted = c.kind == ConstraintKind::Free ? 3 : static_cast<std::size_t>(c.parameterCount());
+  if (start.size() != wanted) throw RefusedError(fmt::format("the start has {} numbers where the constraint has {}", start.size(), wanted));
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    if (!std::isfinite(start[k])) throw RefusedError("the start is not finite");
+    if (c.kind != ConstraintKind::Free && !c.domain[k].periodic && (start[k] < c.domain[k].lo || start[k] > c.domain[k].hi))
+      throw RefusedError(fmt::format("the start {} lies outside the constraint's domain, {} to {}", start[k], c.domain[k].lo, c.domain[k].hi));
+  }
+}
+
+}  // namespace
+
 Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   Scene scene;
   scene.constraint = makeConstraint(experiment.constraint);
-  if (scene.constraint.kind == ConstraintKind::Surface || (scene.constraint.kind == ConstraintKind::Curve && !scene.constraint.straight))
-    throw RefusedError("dynamics on '" + scene.constraint.name + "' are not linear");
+  const Constraint& constraint = scene.constraint;
   const ObjectModel model = makeObjectModel(experiment);
   if (!(options.step > 0) || !std::isfinite(options.step)) throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
-  const LinearSpace space = linearSpace(scene.constraint);
-  if (space.axes == 1 && !(norm(space.tangent) > 0)) throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
-  scene.plant = makeExactPlant(model, space, options.step);
-  scene.choice.method = "exact";
-  scene.choice.form = fmt::format("line, {} states", 2 * model.count());
-  scene.choice.fastestMode = boundFastestMode(model);
-  scene.choice.predictedError = 1e-14;
-  scene.choice.reason = "linear with constant coefficients: the matrix exponential is exact for any stiffness and damping";
-  if (experiment.task && !experiment.task->start.empty()) scene.plant->placeAtRest(experiment.task->start);
+  const std::vector<double> start = experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == ConstraintKind::Free ? 3 : 2, 0.0);
+  if (experiment.task) requireStart(constraint, start);
+
+  MethodChoice& choice = scene.choice;
+  choice.fastestMode = boundFastestMode(model);
+  const double reach = choice.fastestMode * options.step;
+  const std::string asked = options.method.empty() ? experiment.method : options.method;
+  MethodRequest request{asked, options.tolerance};
+  const bool linear = isLinear(constraint, model);
+  choice.method = asked;
+  choice.reason = "asked for";
+  if (asked == "exact" && !linear) throw RefusedError("method exact is for linear scenes (a straight line, free space); here use auto, abm or adaptive");
+  if (asked == "auto") {
+    if (linear) {
+      choice.method = "exact";
+      choice.reason = "linear with constant coefficients: the matrix exponential is exact for any stiffness and damping";
+      choice.predictedError = 1e-14;
+    } else {
+      choice.method = reach <= kExplicitReach ? "abm" : "adaptive";
+      choice.reason = fmt::format("not linear; fastest mode times step is {:.3g}, {} {}", reach, reach <= kExplicitReach ? "within" : "beyond", kExplicitReach);
+      choice.predictedError = 1e-11;
+    }
+    request.method = choice.method;
+  }
+
+  if (linear) {
+    const LinearSpace space = linearSpace(constraint);
+    if (space.axes == 1 && !(norm(space.tangent) > 0)) throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
+    choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
+    const bool ends = space.axes == 1 && !space.domain.periodic && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
+    if (choice.method == "exact" && ends && space.domain.atEnd == AtEnd::Bounce && asked == "auto") {
+      choice.method = request.method = "adaptive";
+      choice.reason = "the line has elastic ends, which the exact propagator does not know";
+    }
+    if (choice.method == "exact")
+      scene.plant = makeExactPlant(model, space, options.step);
+    else
+      scene.plant = space.axes == 1 ? makeLinePlant(model, space, request) : makeFreePlant(model, request);
+  } else if (constraint.kind == ConstraintKind::Free) {
+    choice.form = "rigid body, 13 states";
+    scene.plant = makeBodyPlant(model, experiment.object, request);
+  } else if (constraint.kind == ConstraintKind::Curve) {
+    if (model.kind == ObjectKind::Body) throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
+    const double ratio = speedRatio(constraint, start[0]);
+    const bool tangential = ratio < kHardSpeedRatio;
+    choice.form = tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", ratio, 2 * model.count())
+                             : fmt::format("curve in phi, {} states", 2 * model.count());
+    scene.plant = makeCurvePlant(model, constraint, tangential, request);
+  } else {
+    if (model.count() != 1 || model.kind == ObjectKind::Body) throw RefusedError("on a surface only a point moves; use a curve, or one mass");
+    const auto quadric = fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]});
+    if (quadric) {
+      choice.form = "surface of second degree in world coordinates, 6 states";
+      scene.plant = makeQuadricPlant(model, constraint, *quadric, hasEdges(constraint), request);
+    } else {
+      choice.form = "surface in u and v, 4 states";
+      scene.plant = makeChartPlant(model, constraint, request);
+    }
+  }
+  if (experiment.task) scene.plant->placeAtRest(start);
   return scene;
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/dynamics/hand_function.h"
+#include "sim/experiment/experiment.h"
+
+namespace reachlab {
+
+/// The hand of `reach simulate`: hold, min-jerk, min-jerk-along, or the name of a CSV file with time_s, x_m, y_m, z_m. `breaks`: times at
+/// which the hand's law is not smooth, which a step should end at. Throws RefusedError (no task, zero chord) or UsageError (bad file).
+struct HandLaw {
+  HandFunction function;
+  std::vector<double> breaks;  // [s] increasing
+};
+HandLaw makeHandLaw(const std::string& name, const Experiment& experiment, const Constraint& constraint);
+
+}  // namespace reachlab

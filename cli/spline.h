@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+namespace reachlab {
+
+/// Cubic spline through (t_i, x_i) with two continuous derivatives and not-a-knot ends (fewer than four points: the polynomial through
+/// them); held beyond both ends with zero rate.
+class Spline {
+ public:
+  /// Times strictly increasing, as many values.
+  Spline(std::vector<double> times, std::vector<double> values);
+  struct Value {
+    double x = 0, rate = 0;
+  };
+  Value at(double t) const;
+
+ private:
+  std::vector<double> t_, x_, second_;  // second derivatives at the points
+};
+
+}  // namespace reachlab

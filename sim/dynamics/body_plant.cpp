@@ -1,0 +1,62 @@
+#include "sim/dynamics/body_system.h"
+
+#include <fmt/format.h>
+
+#include "constraints/error.h"
+#include "sim/dynamics/abm.h"
+#include "sim/dynamics/compile.h"
+#include "sim/dynamics/make_plant.h"
+
+namespace reachlab {
+namespace {
+
+/// Adds what a body has beyond a point: orientation, the force at the FP, energy of rotation.
+template <template <class> class Method>
+class BodyPlant final : public SystemPlant<BodySystem, Method> {
+ public:
+  using Base = SystemPlant<BodySystem, Method>;
+  using Base::Base;
+
+  Vec3 couplingForce(const HandSample& hand) const noexcept override { return this->system_.handForce(pose(), hand); }
+  double energy(const HandSample& hand) const noexcept override {
+    const auto p = pose();
+    const Vec3 stretch = hand.position - p.r - p.toWorld(this->system_.fpOffset);
+    return 0.5 * this->model_.mass[0] * dot(p.v, p.v) - this->model_.mass[0] * dot(this->model_.gravity, p.r) +
+           0.5 * dot(p.turn, times(this->system_.inertia, p.turn)) + 0.5 * this->system_.springs.handStiffness[0] * dot(stretch, stretch);
+  }
+  BodyState body() const noexcept override {
+    const auto p = pose();
+    return {{p.w, p.x, p.y, p.z}, p.toWorld(p.turn)};
+  }
+
+ private:
+  BodySystem::Pose pose() const noexcept { return BodySystem::pose(this->state()); }
+};
+
+}  // namespace
+
+BodySystem::BodySystem(const ObjectModel& model, const Object& object) : springs(model), inertia(object.inertia), fpOffset(object.fpOffset) {
+  const Matrix3& m = inertia;
+  const auto minor = [&](int i, int j) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+    return m[a][c] * m[b][d] - m[a][d] * m[b][c];
+  };
+  const double determinant = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
+  const double size = m[0][0] + m[1][1] + m[2][2];
+  bool symmetric = true;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) symmetric = symmetric && std::abs(m[i][j] - m[j][i]) <= 1e-12 * size;
+  if (!symmetric || !(m[0][0] > 0) || !(minor(2, 2) > 0) || !(determinant > 1e-12 * size * size * size / 27))
+    throw RefusedError("inertia_kg_m2 must be symmetric and positive definite, or the body has no equation of rotation");
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) inverseInertia[i][j] = minor(j, i) / determinant;
+}
+
+std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& object, const MethodRequest& request) {
+  const BodySystem system(model, object);
+  if (request.method == "rk4") return std::make_unique<BodyPlant<Rk4>>(model, system, request.tolerance);
+  if (request.method == "adaptive") return std::make_unique<BodyPlant<Adaptive>>(model, system, request.tolerance);
+  return std::make_unique<BodyPlant<Abm>>(model, system, request.tolerance);
+}
+
+}  // namespace reachlab

@@ -1,0 +1,20 @@
+#pragma once
+#include <memory>
+
+#include "sim/dynamics/abm.h"
+#include "sim/dynamics/adaptive.h"
+#include "sim/dynamics/compile.h"
+#include "sim/dynamics/rk4.h"
+#include "sim/dynamics/system_plant.h"
+
+namespace reachlab {
+
+/// The method's name to its type, for one system.
+template <class System>
+std::unique_ptr<Plant> makePlant(const ObjectModel& model, const System& system, const MethodRequest& request) {
+  if (request.method == "rk4") return std::make_unique<SystemPlant<System, Rk4>>(model, system, request.tolerance);
+  if (request.method == "adaptive") return std::make_unique<SystemPlant<System, Adaptive>>(model, system, request.tolerance);
+  return std::make_unique<SystemPlant<System, Abm>>(model, system, request.tolerance);
+}
+
+}  // namespace reachlab

@@ -1,0 +1,81 @@
+#pragma once
+#include "sim/dynamics/quadric.h"
+#include "sim/dynamics/system.h"
+
+namespace reachlab {
+
+/// A point on a surface of second degree in world coordinates, y = (r, v): r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and
+/// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for.
+struct QuadricSystem {
+  static constexpr int kStates = 6;
+  static constexpr bool kEnds = true;
+  using State = Numbers<6>;
+  using Hand = HandSample;
+
+  Springs<1, true> springs;
+  Quadric quadric;
+  Surface surface;
+  std::array<Domain, 2> domain;
+  bool edges = false;                          // the domain has an edge that is not a pole: parameters are followed
+  mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
+
+  QuadricSystem(const ObjectModel& model, const Constraint& constraint, const Quadric& q)
+      : springs(model), quadric(q), surface(constraint.surface), domain(constraint.domain) {}
+  static constexpr int states() noexcept { return 6; }
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    const Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
+    const Vec3 force = springs.handStiffness[0] * (hand.position - r) + springs.handDamping[0] * (hand.velocity - v) + springs.extraForce;
+    const Vec3 f = springs.inverseMass[0] * (force - springs.viscosity * v) + springs.gravity;
+    const Vec3 n = quadric.gradient(r);
+    const Vec3 a = f - ((dot(n, f) + 2 * dot(v, quadric.times(v))) / dot(n, n)) * n;
+    dy.values = {v.x, v.y, v.z, a.x, a.y, a.z};
+  }
+  double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
+
+  /// Back onto the surface: rounding's drift of one step, far below what a multistep history notices.
+  void settle(State& y) const noexcept {
+    Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
+    const Vec3 n = quadric.gradient(r);
+    const double square = 1 / dot(n, n);
+    r -= (quadric.value(r) * square) * n;
+    v -= (dot(n, v) * square) * n;
+    y.values = {r.x, r.y, r.z, v.x, v.y, v.z};
+  }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+    const SurfacePoint p = evaluate(surface, q[0], q[1]);
+    const Vec3 v = qRate[0] * p.rU + qRate[1] * p.rV;
+    y.values = {p.r.x, p.r.y, p.r.z, v.x, v.y, v.z};
+    parameters = {q[0], q[1]};
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    masses[0].r = {y[0], y[1], y[2]};
+    masses[0].v = {y[3], y[4], y[5]};
+    follow(masses[0].r);
+    masses[0].q = parameters;
+    const SurfacePoint p = evaluate(surface, parameters[0], parameters[1]);
+    masses[0].qRate = solve(p, masses[0].v);
+  }
+  void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept { masses[0].a = {dy[3], dy[4], dy[5]}; }
+
+  bool bounded() const noexcept { return edges; }
+  bool bounces() const noexcept { return domain[0].atEnd == AtEnd::Bounce || domain[1].atEnd == AtEnd::Bounce; }
+  bool inside(const State& y) const noexcept {
+    follow({y[0], y[1], y[2]});
+    for (int k = 0; k < 2; ++k)
+      if (!domain[k].periodic && !(parameters[k] >= domain[k].lo && parameters[k] <= domain[k].hi)) return false;
+    return true;
+  }
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept;
+
+  /// Follows the parameters to r by Gauss-Newton from where they were; far off, from the nearest of a grid.
+  void follow(const Vec3& r) const noexcept;
+  /// Least-squares (u', v') of a velocity.
+  static std::array<double, 2> solve(const SurfacePoint& p, const Vec3& v) noexcept;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,36 @@
+#pragma once
+#include "sim/dynamics/hand_segment.h"
+#include "sim/dynamics/step_report.h"
+
+namespace reachlab {
+
+/// The paper's method: classic fourth-order Runge-Kutta, one step a tick.
+template <class System>
+class Rk4 {
+ public:
+  using State = typename System::State;
+  Rk4(const System&, double /*tolerance*/) {}
+  void restart() noexcept {}
+
+  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
+    const int n = system.states();
+    State k1(n), k2(n), k3(n), k4(n), at(n);
+    const auto begin = system.handAt(hand, 0), middle = system.handAt(hand, 0.5), end = system.handAt(hand, 1);
+    system.rate(begin, y, k1);
+    for (int i = 0; i < n; ++i) at[i] = y[i] + 0.5 * dt * k1[i];
+    system.rate(middle, at, k2);
+    for (int i = 0; i < n; ++i) at[i] = y[i] + 0.5 * dt * k2[i];
+    system.rate(middle, at, k3);
+    for (int i = 0; i < n; ++i) at[i] = y[i] + dt * k3[i];
+    system.rate(end, at, k4);
+    double check = 0;
+    for (int i = 0; i < n; ++i) {
+      next[i] = y[i] + dt / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
+      check += next[i] * 0.0;
+    }
+    report.rhs += 4;
+    return check == 0 ? StepStatus::Ok : StepStatus::NotFinite;
+  }
+};
+
+}  // namespace reachlab

@@ -1,0 +1,80 @@
+#pragma once
+#include "sim/dynamics/system.h"
+
+namespace reachlab {
+
+/// A point on a surface in its own parameters, y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
+struct SurfaceSystem {
+  static constexpr int kStates = 4;
+  static constexpr bool kEnds = true;
+  using State = Numbers<4>;
+  using Hand = HandSample;
+
+  Springs<1, true> springs;
+  Surface surface;
+  std::array<Domain, 2> domain;
+
+  SurfaceSystem(const ObjectModel& model, const Constraint& constraint)
+      : springs(model), surface(constraint.surface), domain(constraint.domain) {}
+  static constexpr int states() noexcept { return 4; }
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    SurfacePoint p;
+    surface.function(surface.program, surface.shape.data(), y[0], y[1], p);
+    const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
+    const Vec3 velocity = du * p.rU + dv * p.rV;
+    const Vec3 bend = (du * du) * p.rUu + (2 * du * dv) * p.rUv + (dv * dv) * p.rVv;
+    const Vec3 force = springs.handStiffness[0] * (hand.position - p.r) + springs.handDamping[0] * (hand.velocity - velocity) + springs.extraForce;
+    const Vec3 drive = springs.inverseMass[0] * force + springs.gravity - bend;
+    const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), determinant = e * g - f * f;
+    const double a = dot(p.rU, drive), b = dot(p.rV, drive), inverse = 1 / determinant;
+    dy[0] = du;
+    dy[1] = dv;
+    dy[2] = (g * a - f * b) * inverse - drag * du;
+    dy[3] = (e * b - f * a) * inverse - drag * dv;
+  }
+  double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+    y.values = {q[0], q[1], qRate[0], qRate[1]};
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    const SurfacePoint p = evaluate(surface, y[0], y[1]);
+    masses[0].q = {y[0], y[1]};
+    masses[0].qRate = {y[2], y[3]};
+    masses[0].r = p.r;
+    masses[0].v = y[2] * p.rU + y[3] * p.rV;
+  }
+  void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
+    const SurfacePoint p = evaluate(surface, y[0], y[1]);
+    masses[0].a = dy[2] * p.rU + dy[3] * p.rV + (y[2] * y[2]) * p.rUu + (2 * y[2] * y[3]) * p.rUv + (y[3] * y[3]) * p.rVv;
+  }
+
+  static bool ends(const Domain& d) noexcept { return !d.periodic && (std::isfinite(d.lo) || std::isfinite(d.hi)); }
+  bool bounded() const noexcept { return ends(domain[0]) || ends(domain[1]); }
+  bool bounces() const noexcept { return (ends(domain[0]) ? domain[0] : domain[1]).atEnd == AtEnd::Bounce; }
+  bool inside(const State& y) const noexcept {
+    for (int k = 0; k < 2; ++k)
+      if (!domain[k].periodic && !(y[k] >= domain[k].lo && y[k] <= domain[k].hi)) return false;
+    return true;
+  }
+  /// An elastic edge turns the velocity's part across it, which is not the parameter's rate where the lines are oblique.
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
+    for (int k = 0; k < 2; ++k) {
+      const bool low = beyond[k] < domain[k].lo;
+      if (domain[k].periodic || (!low && !(beyond[k] > domain[k].hi))) continue;
+      y[k] = low ? domain[k].lo : domain[k].hi;
+      if (!bounce) continue;
+      const SurfacePoint p = evaluate(surface, y[0], y[1]);
+      const Vec3 along = k == 0 ? p.rV : p.rU, through = k == 0 ? p.rU : p.rV;
+      const double oblique = dot(along, through) / dot(along, along), rate = y[2 + k];
+      y[2 + k] = low ? std::abs(rate) : -std::abs(rate);
+      y[2 + (1 - k)] += oblique * (rate - y[2 + k]);
+    }
+  }
+};
+
+}  // namespace reachlab

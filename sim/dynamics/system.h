@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "sim/dynamics/numbers.h"
+#include "sim/dynamics/object_model.h"
+#include "sim/dynamics/plant.h"
+
+// A System is what a method integrates: a state of kStates numbers (0: known when compiled), the hand as it enters, and
+//   rate(hand, y, dy)            the equations of motion (7)
+//   scale(i)                     the size below which an error of number i counts as absolute
+//   place, locate, accelerate    between the state and the masses' places
+//   inside(y), reflect(y)        ends of the constraint (kEnds)
+// Sizes are template parameters and forces plain members, so that a step has no virtual call and no branch on configuration.
+
+namespace reachlab {
+
+template <int N>
+inline constexpr int kMostMasses = N > 0 ? N : kMaxMasses;
+
+/// Springs and masses as the step wants them; N = 0: as many as the model has. `Parallel`: every mass has its own spring to the hand and
+/// no neighbours.
+template <int N, bool Parallel>
+struct Springs {
+  static constexpr int kMost = kMostMasses<N>;
+  int count = N;
+  std::array<double, kMost> inverseMass{}, handStiffness{}, handDamping{};
+  std::array<double, kMost> stiffness{}, damping{};  // to the next mass
+  double viscosity = 0;
+  Vec3 gravity, extraForce;
+
+  explicit Springs(const ObjectModel& model) : count(model.count()), viscosity(model.viscosity), gravity(model.gravity) {
+    for (int i = 0; i < count; ++i) {
+      inverseMass[i] = 1 / model.mass[i];
+      if (i < static_cast<int>(model.stiffness.size())) {
+        stiffness[i] = model.stiffness[i];
+        damping[i] = model.damping[i];
+      }
+    }
+    setCoupled(model, true);
+  }
+  void setCoupled(const ObjectModel& model, bool coupled) noexcept {
+    for (int i = 0; i < count; ++i) {
+      handStiffness[i] = coupled ? model.handStiffness[i] : 0;
+      handDamping[i] = coupled ? model.handDamping[i] : 0;
+    }
+  }
+  constexpr int n() const noexcept {
+    if constexpr (N > 0) return N;
+    return count;
+  }
+
+  /// Forces of hand and neighbours, for places and velocities of any vector type (Vec3, or double on a line).
+  template <class V, class Place>
+  void push(const V& hand, const V& handVelocity, const Place& r, const Place& v, Place& force) const noexcept {
+    if constexpr (Parallel) {
+      for (int i = 0; i < n(); ++i) force[i] = handStiffness[i] * (hand - r[i]) + handDamping[i] * (handVelocity - v[i]);
+    } else {
+      V before = handStiffness[0] * (hand - r[0]) + handDamping[0] * (handVelocity - v[0]);
+      for (int i = 0; i + 1 < n(); ++i) {
+        const V after = stiffness[i] * (r[i + 1] - r[i]) + damping[i] * (v[i + 1] - v[i]);
+        force[i] = before + after;
+        before = V{} - after;
+      }
+      force[n() - 1] = before;
+    }
+  }
+};
+
+}  // namespace reachlab

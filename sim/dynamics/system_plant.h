@@ -1,0 +1,135 @@
+#pragma once
+#include <string>
+
+#include "sim/dynamics/adaptive.h"
+#include "sim/dynamics/plant_base.h"
+#include "sim/dynamics/system.h"
+
+namespace reachlab {
+
+/// A System stepped by a Method: the plant of every scene that has no exact propagator, or for which another method was asked.
+template <class System, template <class> class Method>
+class SystemPlant : public PlantBase {
+ public:
+  using State = typename System::State;
+
+  SystemPlant(const ObjectModel& model, System system, double tolerance)
+      : PlantBase(model), system_(std::move(system)), method_(system_, tolerance), locator_(system_, tolerance), y_(system_.states()),
+        next_(system_.states()) {
+    for (int i = 0; i < system_.states(); ++i) y_[i] = 0;
+  }
+
+  void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
+    system_.place(q, qRate, y_);
+    method_.restart();
+    stopped_ = StepStatus::Ok;
+    fraction_ = 1;
+    error_ = 0;
+  }
+  void setExtraForce(const Vec3& force) noexcept override {
+    extra_ = force;
+    system_.setExtraForce(force);
+    method_.restart();
+  }
+  void setCoupled(bool coupled) noexcept override {
+    if (coupled == coupled_) return;
+    coupled_ = coupled;
+    system_.springs.setCoupled(model_, coupled);
+    method_.restart();
+  }
+  void restart() noexcept override { method_.restart(); }
+
+  StepStatus step(const HandSegment& hand, double dt) noexcept override {
+    StepReport report;
+    fraction_ = 1;
+    StepStatus status = method_.step(system_, hand, dt, y_, next_, report);
+    if constexpr (System::kEnds)
+      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next_))) status = meetEnds(hand, dt, status, report);
+    if (status == StepStatus::Ok) {
+      if constexpr (requires(const System& s, State& y) { s.settle(y); }) system_.settle(next_);
+      y_ = next_;
+    }
+    if constexpr (requires(const System& s, const State& y) { s.lost(y); })
+      if (status != StepStatus::Ok && status != StepStatus::AtEnd && system_.lost(y_)) status = StepStatus::NoContinuation;
+    if (status == StepStatus::NoContinuation) fraction_ = 0;
+    stopped_ = status;
+    error_ = report.error * 0.1;
+    rhs_ += report.rhs;
+    return status;
+  }
+
+  void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
+    const auto used = masses.first(static_cast<std::size_t>(model_.count()));
+    system_.locate(y_, used);
+    State dy(system_.states());
+    system_.rate(system_.handOf(hand), y_, dy);
+    system_.accelerate(y_, dy, used);
+  }
+  double errorEstimate() const noexcept override { return error_; }
+  std::string stopReason() const override {
+    if (stopped_ == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
+    if (stopped_ == StepStatus::NoContinuation) return "the constraint has no unique continuation here";
+    return {};
+  }
+
+ protected:
+  const State& state() const noexcept { return y_; }
+  void locate(std::span<MassState> masses) const noexcept override { system_.locate(y_, masses); }
+
+  System system_;
+
+ private:
+  static constexpr int kMostBounces = 64;  // in one tick
+
+  /// The largest part of the tick after which every mass is still on the constraint, and the state then; at an elastic end the rest of
+  /// the tick follows.
+  StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
+    State at = y_, beyond = y_;
+    double begun = 0;
+    HandSegment rest = hand;
+    for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+      const double left = (1 - begun) * dt;
+      double inside = 0, outside = 1;
+      State good = y_;
+      bool crossed = false;
+      for (int round = 0; round < 60 && outside - inside > 1e-15; ++round) {
+        const double middle = round == 0 ? 1.0 : 0.5 * (inside + outside);
+        locator_.restart();
+        status = locator_.advance(system_, rest, left, middle, y_, at, report);
+        const bool finite = status == StepStatus::Ok;
+        if (finite && system_.inside(at)) {
+          inside = middle;
+          good = at;
+          if (round == 0) break;
+        } else {
+          outside = middle;
+          if (finite) beyond = at, crossed = true;
+        }
+      }
+      if (inside == 1) {
+        next_ = good;
+        method_.restart();
+        return StepStatus::Ok;
+      }
+      if (!crossed) return status;  // not an end: the method itself failed
+      begun += inside * (1 - begun);
+      system_.meetEnd(beyond, good, system_.bounces());
+      y_ = good;
+      if (!system_.bounces()) {
+        fraction_ = begun;
+        method_.restart();
+        return StepStatus::AtEnd;
+      }
+      rest = part(hand, begun, 1);
+    }
+    return StepStatus::Capped;
+  }
+
+  Method<System> method_;
+  Adaptive<System> locator_;
+  State y_, next_;
+  double error_ = 0;
+  StepStatus stopped_ = StepStatus::Ok;
+};
+
+}  // namespace reachlab
