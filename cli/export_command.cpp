@@ -1,11 +1,74 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "cli/commands.h"
 #include "constraints/error.h"
+#include "sim/record/bids.h"
+#include "sim/record/run_log.h"
+#include "sim/record/tidy_csv.h"
 
 namespace reachlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string what, format, out;
+};
+
+// The dataset that a log lies in (…/sourcedata/x_log.reach), else the log's own folder.
+fs::path datasetOf(const std::string& log) {
+  const fs::path folder = fs::absolute(log).lexically_normal().parent_path();
+  return folder.filename() == "sourcedata" ? folder.parent_path() : folder;
+}
+
+std::vector<RunLog> openAll(const std::string& what) {
+  std::vector<RunLog> runs;
+  std::string faults;
+  for (const std::string& path : findLogs(what)) {
+    try {
+      runs.push_back(RunLog::open(path));
+      const RunLog& run = runs.back();
+      if (run.goodBytes() < run.fileBytes())
+        fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(), run.fileBytes(),
+                   run.trials().size());
+    } catch (const UsageError& error) {
+      faults += (faults.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (runs.empty()) throw UsageError(faults);
+  if (!faults.empty()) fmt::print(stderr, "{}\n", faults);
+  return runs;
+}
+
+void exportLogs(const Options& options) {
+  const std::vector<RunLog> runs = openAll(options.what);
+  const fs::path dataset = datasetOf(runs.front().path());
+  std::vector<std::string> written;
+  if (options.format == "bids") written = writeBids(runs, options.out.empty() ? dataset.string() : options.out);
+  else written = writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
+  for (const std::string& path : written) fmt::print("{}\n", path);
+}
+
+}  // namespace
 
 void addExportCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("export", "");
-  command->callback([] { throw UsageError("export: not there yet"); });
+  CLI::App* command = app.add_subcommand("export", "Writes recorded runs as Motion-BIDS or tidy CSV");
+  const auto options = std::make_shared<Options>();
+  command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")->required();
+  command->add_option("--format", options->format, "bids: the dataset's motion, channels and events files; csv: trials.csv and samples")
+      ->required()
+      ->check(CLI::IsMember({"bids", "csv"}));
+  command->add_option("--out", options->out, "Folder to write into; default: the dataset itself (bids), its derivatives/csv (csv)");
+  command->footer(
+      "Columns carry their units (movement_time_s, mass1_x_m, …); docs/recording.md lists them. A damaged log is read up to the damage.\n"
+      "The files written are named on stdout.\n\n"
+      "Examples:\n"
+      "  reach export data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --format csv --out tables\n"
+      "  reach export data/sub-01/ses-01 --format csv --out tables\n"
+      "  reach export data --format bids");
+  command->callback([options] { exportLogs(*options); });
 }
 
 }  // namespace reachlab

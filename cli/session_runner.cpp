@@ -1,0 +1,132 @@
+#include "cli/session_runner.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include "cli/success_table.h"
+#include "constraints/error.h"
+#include "devices/make_device.h"
+#include "sim/haptics/run_conductor.h"
+#include "sim/record/bids.h"
+#include "sim/record/recorder.h"
+
+namespace reachlab {
+namespace {
+
+std::atomic<bool> stopAsked{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+void askToStop(int) { stopAsked = true; }
+
+std::string utcNow() {
+  const auto now = std::chrono::system_clock::now();
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+  const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min,
+                     utc.tm_sec, milliseconds);
+}
+
+std::string computerName() {
+  utsname system{};
+  ::uname(&system);
+  return fmt::format("{} {} {}", system.sysname, system.release, system.machine);
+}
+
+void complete(RunConfiguration& configuration, const BlockToRun& block, const RunConductor& run, bool fast) {
+  const DeviceInfo device = run.device();
+  const TickEngine& engine = run.engine();
+  configuration.deviceName = device.name;
+  configuration.deviceVersion = device.version;
+  configuration.deviceMaxForce = device.maxForce;
+  configuration.virtualHand = device.virtualHand;
+  configuration.method = engine.choice().method;
+  configuration.methodReason = engine.choice().reason;
+  configuration.softwareVersion = "reachlab " REACHLAB_VERSION;
+  configuration.buildDescription = "g++ " __VERSION__;
+  configuration.computer = computerName();
+  configuration.startedUtc = utcNow();
+  configuration.clock = fast ? "virtual" : "monotonic";
+  configuration.table = makeChannelTable(block.experiment, engine.constraint().parameterCount());
+}
+
+// The pause between trials; the haptic loop goes on meanwhile.
+void pauseFor(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!stopAsked && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+void printReport(const LoopReport& report) {
+  fmt::print(stderr,
+             "loop: {:.2f} ticks/s over {:.2f} s ({}); lateness p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; late {}, missed {}, longest gap {:.3f} "
+             "ms; dropped {}, clamped {}\n",
+             report.rate, report.seconds, report.mode, report.latenessP50, report.latenessP99, report.latenessMax, report.faults.lateTicks,
+             report.faults.missedTicks, static_cast<double>(report.faults.longestGapNs) * 1e-6, report.faults.droppedRecords,
+             report.faults.clampedTicks);
+}
+
+// True when it was done to its end.
+bool runBlock(const BlockToRun& block, const SessionRequest& request, SuccessTable& table) {
+  std::unique_ptr<Recorder> recorder;  // outlives the run
+  RunConductor run(block.experiment, makeDevice(request.device, block.experiment, block.configuration.seed), block.trials,
+                   LoopOptions{.virtualClock = request.fast});
+  if (request.fast && !run.device().virtualHand)
+    throw UsageError(fmt::format("--fast: device {} moves in real time; allowed: simulated, replay", request.device));
+  RunConfiguration configuration = block.configuration;
+  complete(configuration, block, run, request.fast);
+  recorder = std::make_unique<Recorder>(block.logPath, configuration, RecorderOptions{.threaded = !request.fast});
+  fmt::print(stderr, "run {}: {}, {} trials{}, {}; recording to {}\n", configuration.run, configuration.condition, block.trials.size(),
+             configuration.practice ? " of practice" : "", configuration.methodReason, block.logPath);
+  run.start(recorder.get());
+  bool interrupted = false;
+  std::size_t conducted = 0;
+  while (!interrupted) {
+    const std::optional<ConductedTrial> trial = run.runTrial(stopAsked);
+    if (!trial) break;
+    fmt::print("{}\n", trialLine(recorder->lastTrial().trial, trial->result));
+    std::fflush(stdout);
+    table.add(configuration.condition + (trial->planned.catchTrial ? " (catch)" : ""), trial->result);
+    interrupted = trial->result.outcome == Outcome::Interrupted;
+    const bool isRepeat = ++conducted > block.trials.size();
+    if (trial->result.outcome == Outcome::Aborted && configuration.repeatAborted && !isRepeat) run.append(trial->planned);
+    if (!request.fast && run.trialsLeft() > 0) pauseFor(configuration.pauseSeconds);
+    interrupted = interrupted || stopAsked;
+  }
+  run.finish();
+  if (!request.fast) printReport(run.report());
+  const RunLog log = RunLog::open(block.logPath);
+  writeBidsRun(log, request.place.data);
+  writeBidsTables({log.configuration()}, request.place.data);
+  return !interrupted;
+}
+
+}  // namespace
+
+int runSession(const SessionRequest& request) {
+  const SessionToRun session = planSession(request);
+  if (!session.hint.empty()) fmt::print(stderr, "{}\n", session.hint);
+  if (session.seedDrawn) fmt::print("seed={}\n", session.seed);
+  if (session.blocks.empty()) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
+  std::fflush(stdout);
+  stopAsked = false;
+  std::signal(SIGINT, askToStop);
+  std::signal(SIGTERM, askToStop);
+  SuccessTable table;
+  bool done = true;
+  for (const BlockToRun& block : session.blocks) {
+    done = runBlock(block, request, table);
+    if (!done) break;
+  }
+  fmt::print("{}", table.text());
+  std::fflush(stdout);
+  return done ? 0 : 130;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,30 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/trial/outcome.h"
+
+namespace reachlab {
+
+/// Counts of a run, as printed at its end; the exported trials.csv gives the same.
+struct OutcomeCounts {
+  int trials = 0, success = 0, failure = 0, aborted = 0, interrupted = 0;
+  std::map<std::string, int> reasons;  // of what was no success
+};
+
+/// Outcomes by condition, in the order in which the conditions came.
+class SuccessTable {
+ public:
+  void add(const std::string& condition, const TrialResult& result);
+  /// Columns: condition, trials, success, failure, aborted, interrupted, success_percent, reasons. Empty without trials.
+  std::string text() const;
+
+ private:
+  std::vector<std::pair<std::string, OutcomeCounts>> rows_;
+};
+
+/// `trial=3 outcome=failure reason=velocity mass=5 by=0.004 time_s=1.31`; what does not apply is left out.
+std::string trialLine(int trial, const TrialResult& result);
+
+}  // namespace reachlab

@@ -1,0 +1,102 @@
+#include "sim/record/replay.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <memory>
+
+#include "constraints/error.h"
+#include "sim/haptics/tick_engine.h"
+#include "sim/record/trial_tracker.h"
+
+namespace reachlab {
+namespace {
+
+constexpr std::size_t kMeasuredTime = 1;  // the one column that is the computer's and not the simulation's
+
+bool sameBits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+bool sameResult(const TrialResult& a, const TrialResult& b) {
+  return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) && sameBits(a.movementTime, b.movementTime) &&
+         a.onsetTick == b.onsetTick && a.endTick == b.endTick;
+}
+
+// Holds simulated rows against the recorded ones, in step.
+class RowCheck {
+ public:
+  explicit RowCheck(const RunLog& log)
+      : table_(log.configuration().table), firstTrial_(log.configuration().firstTrial), recorded_(log.allRows()), row_(table_.size()) {}
+
+  void look(const TickState& state, Replay& replay) {
+    if (next_ >= recorded_.size() || recorded_.ticks[next_] != state.tick) return;
+    fillRow(table_, state, row_.data());
+    numberTrial(table_, firstTrial_, row_.data());
+    ++replay.rows;
+    for (std::size_t column = 0; column < table_.size(); ++column) {
+      const double recorded = recorded_.at(next_, column);
+      if (column == kMeasuredTime || sameBits(recorded, row_[column])) continue;
+      if (replay.firstDifference.empty())
+        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick, table_.channels[column].name, recorded,
+                                             row_[column]);
+      ++replay.rowsThatDiffer;
+      break;
+    }
+    ++next_;
+  }
+
+ private:
+  const ChannelTable& table_;
+  int firstTrial_;
+  SampleRows recorded_;
+  std::vector<double> row_;
+  std::size_t next_ = 0;
+};
+
+void compareTrials(const RunLog& log, Replay& replay) {
+  std::size_t simulated = 0;
+  for (const RecordedTrial& recorded : log.trials()) {
+    if (!recorded.complete || recorded.result.reason == Reason::Program) continue;  // broken off: there is no result to compare
+    if (simulated < replay.trials.size() && sameResult(recorded.result, replay.trials[simulated].result)) {
+      ++simulated;
+      continue;
+    }
+    ++simulated;
+    ++replay.trialsThatDiffer;
+    if (replay.firstDifference.empty()) replay.firstDifference = fmt::format("trial {}: the result differs", recorded.trial);
+  }
+}
+
+}  // namespace
+
+Replay replayRun(const RunLog& log) {
+  const RunConfiguration& c = log.configuration();
+  const Experiment experiment = parseExperiment(c.experimentText, c.experimentName);
+  TickEngine engine(experiment, EngineOptions{c.deviceMaxForce, c.virtualHand});
+  const std::vector<TrialSetup> setups = log.setups();
+  RowCheck rows(log);
+  TrialTracker tracker(c.firstTrial);
+  std::vector<RecordedEvent> events;
+  Replay replay;
+  std::size_t setup = 0;
+  std::uint64_t expected = 0;
+  for (const RecordedTick& tick : log.ticks()) {
+    TickInput input{tick.device, tick.command, {}, tick.missedTicks, tick.measuredNs};
+    if (tick.command == Command::NextTrial && setup < setups.size()) {
+      tracker.announce(setups[setup]);
+      input.planned = setups[setup++].planned;
+    }
+    engine.tick(input);
+    const TickState& state = engine.state();
+    if (replay.ticks == 0) expected = tick.tick;
+    if (tick.tick != expected || state.tick != tick.tick)
+      throw UsageError(fmt::format("{}: tick {} is missing (dropped while recording), so the run cannot be simulated past it", log.path(), expected));
+    ++expected;
+    ++replay.ticks;
+    rows.look(state, replay);
+    if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
+  }
+  compareTrials(log, replay);
+  return replay;
+}
+
+}  // namespace reachlab
