@@ -1,0 +1,55 @@
+#include "sim/haptics/tick_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/haptics/os.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kEndless = 1e6;  // [s]
+
+Experiment withoutEnd(Experiment experiment) {
+  if (experiment.task) experiment.task->duration = kEndless;
+  return experiment;
+}
+
+double percentile(std::vector<std::int64_t>& sorted, double share) {
+  const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size()))) - 1;
+  return static_cast<double>(sorted[std::min(at, sorted.size() - 1)]);
+}
+
+}  // namespace
+
+TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks) {
+  TickEngine engine(withoutEnd(experiment), {});
+  const Vec3 start = engine.protocol().start, chord = engine.protocol().target - start;
+  constexpr double kShare = 0.1, kLeast = 0.01, kOmega = 2 * std::numbers::pi;
+  const Vec3 swing = norm(chord) > 0 ? kShare * chord : Vec3{kLeast, 0, 0};
+
+  std::vector<std::int64_t> costs(std::max<std::uint64_t>(ticks, 1)), looks(1001);
+  for (auto& look : looks) {
+    const std::int64_t before = os::now();
+    look = os::now() - before;
+  }
+  TickInput input;
+  std::uint64_t since = 0;  // ticks of this trial; a trial that ends all the same (an edge was met) is put up again
+  for (auto& cost : costs) {
+    const Phase phase = engine.state().phase;
+    const bool over = phase == Phase::Idle || phase == Phase::Done;
+    input.command = over ? Command::NextTrial : Command::None;
+    since = over || phase == Phase::Waiting ? 0 : since + 1;
+    input.device.position = start + std::sin(kOmega * kTickSeconds * static_cast<double>(since)) * swing;
+    const std::int64_t before = os::now();
+    engine.tick(input);
+    cost = os::now() - before;
+  }
+  std::sort(costs.begin(), costs.end());
+  std::sort(looks.begin(), looks.end());
+  return {costs.size(), percentile(costs, 0.5), percentile(costs, 0.99), percentile(costs, 0.999), static_cast<double>(costs.back()),
+          static_cast<double>(looks[looks.size() / 2])};
+}
+
+}  // namespace reachlab

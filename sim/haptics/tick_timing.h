@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+
+#include "sim/haptics/tick_engine.h"
+
+namespace reachlab {
+
+/// What one tick costs, from the device's sample to the force for the device, without the device itself, as the monotonic clock sees it
+/// (one look at the clock, some 20 ns, is in each). Wall-clock numbers of this machine: to be reported, never judged.
+struct TickTiming {
+  std::uint64_t ticks = 0;
+  double p50 = 0, p99 = 0, p999 = 0, max = 0;  // [ns]
+  double clock = 0;                            // [ns] median of two looks at the clock with nothing between
+};
+
+/// Runs `ticks` ticks of a trial that does not end, with a hand that swings about the start along the way to the target, 10 % of the
+/// chord at 1 Hz (1 cm where start and target are one place). Throws what TickEngine's constructor throws. Not real time: ticks follow
+/// one another at once.
+TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks = 1'000'000);
+
+}  // namespace reachlab

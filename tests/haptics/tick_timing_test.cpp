@@ -1,0 +1,28 @@
+#include "sim/haptics/tick_timing.h"
+
+#include <gtest/gtest.h>
+
+#include "constraints/error.h"
+
+namespace reachlab {
+namespace {
+
+TEST(TickTiming, MeasuresEveryShippedExperiment) {
+  for (const std::string& name : shippedExperiments()) {
+    const TickTiming timing = measureTicks(readExperiment(name), 2000);
+    EXPECT_EQ(timing.ticks, 2000u) << name;
+    EXPECT_GT(timing.p50, 0) << name;
+    EXPECT_LE(timing.p50, timing.p99) << name;
+    EXPECT_LE(timing.p99, timing.p999) << name;
+    EXPECT_LE(timing.p999, timing.max) << name;
+  }
+}
+
+TEST(TickTiming, RefusesAnExperimentWithoutATask) {
+  Experiment experiment = readExperiment("dingwell");
+  experiment.task.reset();
+  EXPECT_THROW(measureTicks(experiment, 10), UsageError);
+}
+
+}  // namespace
+}  // namespace reachlab
