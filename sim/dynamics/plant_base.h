@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <vector>
 
 #include "sim/dynamics/forces.h"
 #include "sim/dynamics/plant.h"
@@ -9,7 +10,7 @@ namespace reachlab {
 /// What every plant has in common: the object, its surroundings, forces and energy from the masses' places, and counters.
 class PlantBase : public Plant {
  public:
-  explicit PlantBase(ObjectModel model) : model_(std::move(model)) {}
+  explicit PlantBase(ObjectModel model) : model_(std::move(model)), located_(static_cast<std::size_t>(model_.count())) {}
 
   int massCount() const noexcept override { return model_.count(); }
   void placeAtRest(std::span<const double> q) noexcept override {
@@ -17,17 +18,16 @@ class PlantBase : public Plant {
     place(q, std::span(rest).first(q.size()));
   }
   Vec3 couplingForce(const HandSample& hand) const noexcept override {
-    std::array<MassState, kMaxMasses> masses;
     const int count = model_.kind == ObjectKind::Parallel ? model_.count() : 1;
-    locate({masses.data(), static_cast<std::size_t>(count)});
+    const std::span<MassState> masses{located_.data(), static_cast<std::size_t>(count)};
+    locate(masses);
     Vec3 force;
     for (int i = 0; i < count; ++i) force += handForce(model_, {hand, coupled_, extra_}, masses[i], i);
     return force;
   }
   double energy(const HandSample& hand) const noexcept override {
-    std::array<MassState, kMaxMasses> masses;
-    locate({masses.data(), static_cast<std::size_t>(model_.count())});
-    return computeEnergy(model_, {hand, coupled_, extra_}, masses);
+    locate(located_);
+    return computeEnergy(model_, {hand, coupled_, extra_}, located_);
   }
   std::uint64_t rhsEvaluations() const noexcept override { return rhs_; }
   double lastStepFraction() const noexcept override { return fraction_; }
@@ -41,6 +41,9 @@ class PlantBase : public Plant {
   Vec3 extra_;
   std::uint64_t rhs_ = 0;
   double fraction_ = 1;
+
+ private:
+  mutable std::vector<MassState> located_;  // room of the scene's size: clearing room for the most masses took most of a tick
 };
 
 }  // namespace reachlab
