@@ -8,8 +8,8 @@ namespace reachlab {
 
 /// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): two right-hand sides and one hand sample
 /// a tick. Predictor of order 8, corrector of order 9: y = p + dt gamma_8 nabla^8 f(p). The correction estimates the error; where it is
-/// too large, and in the first ticks after a start or a break, the tick is done by the adaptive pair instead, and f at the ticks keeps
-/// its place in the history.
+/// too large, and in the first ticks after a start or a break, the tick is done by `Fallback` instead (the adaptive pair), and f at the
+/// ticks keeps its place in the history.
 namespace adams {
 inline constexpr int kHistory = 8;
 inline constexpr double kGamma[kHistory + 1] = {1.0, 1.0 / 2, 5.0 / 12, 3.0 / 8, 251.0 / 720, 95.0 / 288, 19087.0 / 60480, 5257.0 / 17280,
@@ -41,15 +41,15 @@ constexpr std::array<Weights, kHistory> computeWeights() {
 inline constexpr std::array<Weights, kHistory> kWeights = computeWeights();
 }  // namespace adams
 
-template <class System>
-class Abm {
+template <class System, template <class> class Fallback>
+class AbmWith {
  public:
   using State = typename System::State;
-  Abm(const System& system, double tolerance)
-      : adaptive_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 10), slopes_(system.states()) {}
+  AbmWith(const System& system, double tolerance)
+      : fallback_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 10), slopes_(system.states()) {}
   void restart() noexcept {
     count_ = 0;
-    adaptive_.restart();
+    fallback_.restart();
   }
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
@@ -92,7 +92,7 @@ class Abm {
       good = worst == 0;
     }
     if (!good) {
-      const StepStatus status = adaptive_.step(system, hand, dt, y, next, report);
+      const StepStatus status = fallback_.step(system, hand, dt, y, next, report);
       if (status != StepStatus::Ok) {
         restart();
         return status;
@@ -123,11 +123,14 @@ class Abm {
     for (int i = 0; i < n; ++i) slopes_.values[i * adams::kHistory + newest_] = f[i];
   }
 
-  Adaptive<System> adaptive_;
+  Fallback<System> fallback_;
   double limit_;
   double dt_ = 0;
   int count_ = 0, newest_ = 0;
   Slopes slopes_;
 };
+
+template <class System>
+using Abm = AbmWith<System, Adaptive>;
 
 }  // namespace reachlab

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "sim/dynamics/hand_segment.h"
+#include "sim/dynamics/numbers.h"
 #include "sim/dynamics/step_report.h"
 
 namespace reachlab {
@@ -36,6 +39,55 @@ inline constexpr double kError3[kStages] = {-0.18980075407240762, 0, 0, 0, 0, 4.
                                             -0.4226823213237919, -0.1521609496625161, 0.20136540080403034, 0.02265179219836082};
 inline constexpr double kError5[kStages] = {0.01312004499419488, 0, 0, 0, 0, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864,
                                             -0.35032884874997366, 0.3341791187130175, 0.08192320648511571, -0.022355307863886294};
+
+template <int S>
+using Stages = std::array<Numbers<S>, kStages>;
+template <int S, std::size_t... I>
+Stages<S> makeStages(int n, std::index_sequence<I...>) noexcept {
+  return {((void)I, Numbers<S>(n))...};
+}
+template <int S>
+Stages<S> makeStages(int n) noexcept {
+  return makeStages<S>(n, std::make_index_sequence<kStages>());
+}
+
+/// One trial of h from y at t: k[0] holds the rate there. Returns the estimated error over `unit(i, y_i)`, 1 being the most allowed;
+/// infinite when the result is not finite. Eleven right-hand sides.
+template <int S, class Rate, class Unit>
+double attempt(const Rate& rate, const Unit& unit, double t, double h, const Numbers<S>& y, Stages<S>& k, Numbers<S>& next) noexcept {
+  const int n = y.size();
+  Numbers<S> at(n);
+  for (int stage = 1; stage < kStages; ++stage) {
+    for (int i = 0; i < n; ++i) {
+      double sum = 0;
+      for (int j = 0; j < stage; ++j) sum += kA[stage][j] * k[j][i];
+      at[i] = y[i] + h * sum;
+    }
+    rate(t + kC[stage] * h, at, k[stage]);
+  }
+  double fifth = 0, third = 0;
+  for (int i = 0; i < n; ++i) {
+    double sum = 0, e3 = 0, e5 = 0;
+    for (int j = 0; j < kStages; ++j) {
+      sum += kB[j] * k[j][i];
+      e3 += kError3[j] * k[j][i];
+      e5 += kError5[j] * k[j][i];
+    }
+    next[i] = y[i] + h * sum;
+    const double size = unit(i, y[i]);
+    fifth += e5 / size * (e5 / size) + next[i] * 0.0;
+    third += e3 / size * (e3 / size);
+  }
+  if (fifth == 0) return 0;
+  const double error = h * fifth / std::sqrt((fifth + 0.01 * third) * n);
+  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+}
+
+/// The next step's size over this one's, for an estimated error of order 8.
+inline double growth(double error, double most) noexcept {
+  if (!std::isfinite(error)) return 0.1;
+  return std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.125), 0.2, most);
+}
 }  // namespace dop853
 
 inline constexpr double kDefaultTolerance = 1e-13;  // per sub-step, relative to each number's scale
@@ -55,80 +107,55 @@ class Adaptive {
   /// The part of the tick from 0 to `fraction` of dt.
   StepStatus advance(const System& system, const HandSegment& hand, double dt, double fraction, const State& y0, State& y,
                      StepReport& report) noexcept {
-    using namespace dop853;
     const int n = system.states();
-    std::array<State, kStages> k = makeStages(n, std::make_index_sequence<kStages>());
-    State at(n), next(n);
+    auto k = dop853::makeStages<System::kStates>(n);
+    State trial(n);
+    const auto rate = [&](double t, const State& at, State& slope) { system.rate(system.handAt(hand, t / dt), at, slope); };
+    const auto unit = [&](int i, double value) { return tolerance_ * (system.scale(i) + std::abs(value)); };
     y = y0;
+    rate(0, y, k[0]);
     int rhs = 1;
-    system.rate(system.handAt(hand, 0), y, k[0]);
     const double end = fraction * dt;
-    double t = 0, h = last_ > 0 ? std::min(1.5 * last_, end) : end;
+    double t = 0, h = last_ > 0 ? std::min(last_, end) : end;
+    double most = 5;  // growth allowed: none right after a rejection
     report.error = 0;
-    bool rejected = false;
+    StepStatus status = StepStatus::Ok;
     while (t < end) {
-      if (t + 1.01 * h >= end) h = end - t;
-      const bool lastPart = t + h >= end;
-      for (int stage = 1; stage < kStages; ++stage) {
-        for (int i = 0; i < n; ++i) {
-          double sum = 0;
-          for (int j = 0; j < stage; ++j) sum += kA[stage][j] * k[j][i];
-          at[i] = y[i] + h * sum;
-        }
-        system.rate(system.handAt(hand, (t + kC[stage] * h) / dt), at, k[stage]);
-      }
-      rhs += kStages - 1;
-      double fifth = 0, third = 0, check = 0;
-      for (int i = 0; i < n; ++i) {
-        double sum = 0, e3 = 0, e5 = 0;
-        for (int j = 0; j < kStages; ++j) {
-          sum += kB[j] * k[j][i];
-          e3 += kError3[j] * k[j][i];
-          e5 += kError5[j] * k[j][i];
-        }
-        next[i] = y[i] + h * sum;
-        check += next[i] * 0.0;
-        const double unit = tolerance_ * (system.scale(i) + std::abs(y[i]));
-        fifth += e5 / unit * (e5 / unit);
-        third += e3 / unit * (e3 / unit);
-      }
-      const bool finite = check == 0 && std::isfinite(fifth) && std::isfinite(third);
-      const double error = finite ? (fifth > 0 ? h * fifth / std::sqrt((fifth + 0.01 * third) * n) : 0.0) : 1e9;
-      const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.125), 0.2, rejected ? 1.0 : 5.0);
+      const bool lastPart = t + 1.01 * h >= end;
+      if (lastPart) h = end - t;
+      const double error = dop853::attempt<System::kStates>(rate, unit, t, h, y, k, trial);
+      rhs += dop853::kStages - 1;
+      const double factor = dop853::growth(error, most);
+      most = error <= 1 ? 5 : 1;
       if (error <= 1) {
         report.error += tolerance_ * error;
         t = lastPart ? end : t + h;
-        y = next;
-        if (!lastPart || last_ == 0 || factor < 1) last_ = h;
-        if (lastPart) last_ = std::max(last_, h * std::min(factor, 2.0));
-        rejected = false;
+        y = trial;
+        last_ = lastPart ? std::max(last_, h * factor) : h * factor;
         if (!lastPart) {
-          system.rate(system.handAt(hand, t / dt), y, k[0]);
+          rate(t, y, k[0]);
           ++rhs;
         }
       } else {
-        rejected = true;
-        last_ = 0;
+        last_ = h * factor;
+        status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
+        if (t + h * factor == t) break;
       }
-      h *= finite ? factor : 0.1;
-      if (error > 1 && (rhs + kStages > kMostRhsPerTick || t + h == t)) {
-        report.rhs += static_cast<std::uint64_t>(rhs);
-        return finite ? StepStatus::Capped : StepStatus::NotFinite;
-      }
-      if (t < end && rhs + kStages > kMostRhsPerTick) {
-        report.rhs += static_cast<std::uint64_t>(rhs);
-        return StepStatus::Capped;
+      h *= factor;
+      if (t < end && rhs + dop853::kStages > kMostRhsPerTick) {
+        status = status == StepStatus::NotFinite && error > 1 ? status : StepStatus::Capped;
+        break;
       }
     }
     report.rhs += static_cast<std::uint64_t>(rhs);
+    if (t < end) {
+      last_ = 0;
+      return status;
+    }
     return StepStatus::Ok;
   }
 
  private:
-  template <std::size_t... I>
-  static std::array<State, sizeof...(I)> makeStages(int n, std::index_sequence<I...>) noexcept {
-    return {((void)I, State(n))...};
-  }
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step
 };

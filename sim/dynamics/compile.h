@@ -18,8 +18,12 @@ std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpac
 std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request);
 std::unique_ptr<Plant> makeFreePlant(const ObjectModel& model, const MethodRequest& request);
 std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& object, const MethodRequest& request);
-/// `tangential`: speed along the curve as velocity, for curves that are hard somewhere.
-std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, bool tangential, const MethodRequest& request);
+/// Of a curve's equations: `tangential` is the speed along the curve as velocity, for curves that are hard somewhere.
+struct CurveForm {
+  bool tangential = false;
+  double largestSpeed = 1;  // [m] |r_phi|
+};
+std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form, const MethodRequest& request);
 std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const Constraint& constraint, const MethodRequest& request);
 /// `edges`: some end of the domain is an edge and not a pole.
 std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const Constraint& constraint, const Quadric& quadric, bool edges,

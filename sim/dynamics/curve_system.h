@@ -21,6 +21,7 @@ struct CurveSystem {
 
   CurveSystem(const ObjectModel& model, const Constraint& constraint)
       : springs(model), curve(constraint.curve), domain(constraint.domain[0]) {}
+  double speedAt(double phi) const noexcept { return norm(evaluate(curve, phi).rPhi); }
   int n() const noexcept { return springs.n(); }
   int states() const noexcept { return 2 * n(); }
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
@@ -41,7 +42,7 @@ struct CurveSystem {
       const double square = dot(p.rPhi, p.rPhi);
       r[i] = p.r;
       if constexpr (Tangential) {
-        measure[i] = 1 / std::sqrt(square);
+        measure[i] = 1 / std::fmax(std::sqrt(square), 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it
         tangent[i] = measure[i] * p.rPhi;
       } else {
         measure[i] = 1 / square;
@@ -77,7 +78,7 @@ struct CurveSystem {
     for (std::size_t k = 0; k < masses.size(); ++k) {
       const int i = static_cast<int>(k);
       const CurvePoint p = evaluate(curve, y[i]);
-      const double speed = norm(p.rPhi);
+      const double speed = std::fmax(norm(p.rPhi), 1e-290);
       masses[k].q = {y[i], 0};
       masses[k].qRate = {Tangential ? y[n() + i] / speed : y[n() + i], 0};
       masses[k].r = p.r;
@@ -90,7 +91,7 @@ struct CurveSystem {
       const CurvePoint p = evaluate(curve, y[i]);
       if constexpr (Tangential) {
         // a = v' T + v^2 times the curvature vector, whose tangential part is left out
-        const double square = dot(p.rPhi, p.rPhi);
+        const double square = std::fmax(dot(p.rPhi, p.rPhi), 1e-290);
         const Vec3 curvature = (p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square;
         masses[k].a = dy[n() + i] / std::sqrt(square) * p.rPhi + y[n() + i] * y[n() + i] * curvature;
       } else {

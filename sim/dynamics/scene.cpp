@@ -19,21 +19,38 @@ bool isLinear(const Constraint& constraint, const ObjectModel& model) {
   return constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
 }
 
-/// Smallest over largest |r_phi| on the domain (2 pi about the start where it has no end).
-double speedRatio(const Constraint& constraint, double start) {
+struct SpeedRange {
+  double least = 0, most = 0;  // [m] |r_phi|
+};
+/// On the domain, or over 2 pi about the start where it has no end; a dip between samples is followed to its bottom.
+SpeedRange findSpeedRange(const Constraint& constraint, double start) {
   const Domain d = boundedDomain(constraint)[0];
-  constexpr int kSamples = 720;
-  double least = 1e300, most = 0;
-  for (const double centre : {0.5 * (d.lo + d.hi), start})
+  constexpr int kSamples = 1440;
+  SpeedRange range{1e300, 0};
+  for (const double centre : {0.5 * (d.lo + d.hi), start}) {
+    double before = 1e300, last = 1e300;
     for (int i = 0; i <= kSamples; ++i) {
-      double phi = centre + (d.hi - d.lo) * (static_cast<double>(i) / kSamples - 0.5);
-      phi = std::fmin(std::fmax(phi, constraint.domain[0].lo), constraint.domain[0].hi);
-      const double speed = norm(evaluate(constraint.curve, phi).rPhi);
+      const auto phiAt = [&](double k) {
+        return std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
+      };
+      const double speed = norm(evaluate(constraint.curve, phiAt(i)).rPhi);
       if (!std::isfinite(speed)) continue;
-      least = std::min(least, speed);
-      most = std::max(most, speed);
+      range.least = std::min(range.least, speed);
+      range.most = std::max(range.most, speed);
+      if (last < before && last <= speed) {
+        double lo = i - 2, hi = i;
+        for (int round = 0; round < 60; ++round) {
+          const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+          const double atA = norm(evaluate(constraint.curve, phiAt(a)).rPhi), atB = norm(evaluate(constraint.curve, phiAt(b)).rPhi);
+          (atA < atB ? hi : lo) = atA < atB ? b : a;
+        }
+        range.least = std::min(range.least, norm(evaluate(constraint.curve, phiAt(lo)).rPhi));
+      }
+      before = last;
+      last = speed;
     }
-  return most > 0 ? least / most : 0;
+  }
+  return range;
 }
 
 /// True if an end of the domain is an edge of the surface: not a period's seam, and not a line that is one point (a pole).
@@ -114,11 +131,14 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
     scene.plant = makeBodyPlant(model, experiment.object, request);
   } else if (constraint.kind == ConstraintKind::Curve) {
     if (model.kind == ObjectKind::Body) throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
-    const double ratio = speedRatio(constraint, start[0]);
-    const bool tangential = ratio < kHardSpeedRatio;
-    choice.form = tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", ratio, 2 * model.count())
+    const SpeedRange speeds = findSpeedRange(constraint, start[0]);
+    const double ratio = speeds.most > 0 ? speeds.least / speeds.most : 0;
+    const CurveForm form{ratio < kHardSpeedRatio, speeds.most};
+    if (!(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
+      throw RefusedError(fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
+    choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", ratio, 2 * model.count())
                              : fmt::format("curve in phi, {} states", 2 * model.count());
-    scene.plant = makeCurvePlant(model, constraint, tangential, request);
+    scene.plant = makeCurvePlant(model, constraint, form, request);
   } else {
     if (model.count() != 1 || model.kind == ObjectKind::Body) throw RefusedError("on a surface only a point moves; use a curve, or one mass");
     const auto quadric = fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]});

@@ -49,8 +49,6 @@ class SystemPlant : public PlantBase {
       if constexpr (requires(const System& s, State& y) { s.settle(y); }) system_.settle(next_);
       y_ = next_;
     }
-    if constexpr (requires(const System& s, const State& y) { s.lost(y); })
-      if (status != StepStatus::Ok && status != StepStatus::AtEnd && system_.lost(y_)) status = StepStatus::NoContinuation;
     if (status == StepStatus::NoContinuation) fraction_ = 0;
     stopped_ = status;
     error_ = report.error * 0.1;

@@ -1,0 +1,199 @@
+#pragma once
+#include "sim/dynamics/abm.h"
+#include "sim/dynamics/adaptive.h"
+#include "sim/dynamics/curve_system.h"
+
+namespace reachlab {
+
+/// Ticks near and through cusps, for curves in their tangential form. Where |r_phi| is small the independent variable becomes a
+/// fictitious time tau with dt = |r_phi|/c dtau (Sundman's transformation; |r_phi| of the mass nearest its cusp): then
+///   phi' = v/c,   v' = |r_phi|/c dv/dt,   t' = |r_phi|/c
+/// and nothing is divided by |r_phi|. A true cusp (|r_phi| = 0, found where r_phi.r_phiphi changes sign) ends a sub-step exactly there:
+/// arc length and speed run on, only the tangent turns, so the bead passes with its energy and the methods see smooth pieces.
+template <class System>
+class CuspAdaptive {
+ public:
+  using State = typename System::State;
+  CuspAdaptive(const System& system, double tolerance)
+      : regular_(system, tolerance), tolerance_(tolerance > 0 ? tolerance : kDefaultTolerance) {}
+  void restart() noexcept {
+    regular_.restart();
+    last_ = 0;
+  }
+
+  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
+    if (nearest(system, y).speed > kFar * system.speedScale) {
+      StepReport tried;
+      const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
+      if (status == StepStatus::Ok && tried.rhs < kSuspicious) {
+        report.rhs += tried.rhs;
+        report.error = tried.error;
+        return status;
+      }
+      report.rhs += tried.rhs;
+    }
+    return pass(system, hand, dt, y, next, report);
+  }
+
+ private:
+  static constexpr double kFar = 0.25;               // of the largest |r_phi|: nothing hard within a tick, mostly
+  static constexpr std::uint64_t kSuspicious = 100;  // right-hand sides of a tick that was not regular after all
+  static constexpr double kCusp = 1e-9;              // |r_phi| over c below which a minimum is a true cusp
+  static constexpr int kSize = System::kStates > 0 ? System::kStates + 1 : 0;
+  using Extended = Numbers<kSize>;  // y and t
+
+  struct Lead {
+    int mass = 0;
+    double speed = 0;  // [m] |r_phi|
+  };
+  static Lead nearest(const System& system, const State& y) noexcept {
+    Lead lead{0, system.speedAt(y[0])};
+    for (int i = 1; i < system.n(); ++i)
+      if (const double speed = system.speedAt(y[i]); speed < lead.speed) lead = {i, speed};
+    return lead;
+  }
+  static double slope(const System& system, double phi) noexcept {
+    const CurvePoint p = evaluate(system.curve, phi);
+    return dot(p.rPhi, p.rPhiPhi);
+  }
+
+  StepStatus pass(const System& system, const HandSegment& hand, double dt, const State& y0, State& next, StepReport& report) noexcept {
+    const int n = system.states();
+    const double c = system.speedScale;
+    Extended y(n + 1), trial(n + 1);
+    for (int i = 0; i < n; ++i) y[i] = y0[i];
+    y[n] = 0;
+    Lead lead{};
+    State plain(n), rates(n);
+    const auto rate = [&](double, const Extended& at, Extended& d) {
+      for (int i = 0; i < n; ++i) plain[i] = at[i];
+      system.rate(system.handAt(hand, at[n] / dt), plain, rates);
+      const double factor = system.speedAt(at[lead.mass]) / c;
+      for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
+      d[lead.mass] = at[system.n() + lead.mass] / c;
+      d[n] = factor;
+    };
+    const auto unit = [&](int i, double value) {
+      return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_;
+    };
+    auto k = dop853::makeStages<kSize>(n + 1);
+    int rhs = 0;
+    StepStatus status = StepStatus::Ok;
+    double h = last_ > 0 ? last_ : dt, most = 5;
+    bool onCusp = false;  // the last sub-step ended there
+    for (bool fresh = true; y[n] < dt;) {
+      if (fresh) {
+        for (int i = 0; i < n; ++i) plain[i] = y[i];
+        lead = nearest(system, plain);
+        const double speed = std::abs(y[system.n() + lead.mass]);
+        if (lead.speed <= 1e-13 * c && speed <= 1e-14) return StepStatus::NoContinuation;  // at rest on a cusp: which way?
+        rate(0, y, k[0]);
+        ++rhs;
+        h = std::min(h, 0.3 * c / std::max(speed, 1e-300));  // no more than 0.3 in phi, so that a minimum is not stepped over
+        fresh = false;
+      }
+      double error = dop853::attempt<kSize>(rate, unit, 0, h, y, k, trial);
+      rhs += dop853::kStages - 1;
+      // A true cusp inside: end there.
+      const double from = y[lead.mass], to = trial[lead.mass];
+      bool cuspEnd = false;
+      if (std::isfinite(error) && from != to) {
+        const double direction = to > from ? 1 : -1;
+        const bool falling = onCusp ? false : direction * slope(system, from) < 0;
+        if (falling && direction * slope(system, to) > 0) {
+          double phi = 0;
+          if (findCusp(system, from, to, phi)) {
+            double tau = h * (phi - from) / (to - from);
+            for (int round = 0; round < 12; ++round) {
+              error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
+              rhs += dop853::kStages - 1;
+              const double miss = phi - trial[lead.mass];
+              const double speed = trial[system.n() + lead.mass] / c;
+              if (std::abs(miss) <= 4e-16 * (1 + std::abs(phi)) || speed == 0) break;
+              tau += miss / speed;
+              if (!(tau > 0 && tau <= h)) break;
+            }
+            if (std::abs(phi - trial[lead.mass]) < 1e-12 * (1 + std::abs(phi))) {
+              trial[lead.mass] = phi;
+              cuspEnd = true;
+              h = tau;
+            }
+          }
+        }
+      }
+      // Past the tick: shorten until t meets its end.
+      bool finished = false;
+      if (error <= 1 && trial[n] >= dt) {
+        double low = 0, high = h, tau = h;
+        for (int round = 0; round < 40 && std::abs(trial[n] - dt) > 2e-16 * dt; ++round) {
+          (trial[n] > dt ? high : low) = tau;
+          const double factor = system.speedAt(trial[lead.mass]) / c;
+          double better = tau - (trial[n] - dt) / std::max(factor, 1e-300);
+          if (!(better > low && better < high)) better = 0.5 * (low + high);
+          if (better == tau) break;
+          tau = better;
+          error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
+          rhs += dop853::kStages - 1;
+        }
+        finished = true;
+        cuspEnd = false;
+      }
+      const double factor = dop853::growth(error, most);
+      most = error <= 1 ? 5 : 1;
+      if (error <= 1) {
+        report.error += tolerance_ * error;
+        if (!finished && !(trial[n] > y[n]) && !cuspEnd) {
+          status = StepStatus::Capped;
+          break;
+        }
+        y = trial;
+        onCusp = cuspEnd;
+        fresh = true;
+        if (finished) {
+          y[n] = dt;
+          last_ = h;
+        }
+      } else {
+        status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
+      }
+      h *= cuspEnd ? 1.0 : factor;
+      if (y[n] < dt && rhs + 2 * dop853::kStages > kMostRhsPerTick) {
+        status = StepStatus::Capped;
+        break;
+      }
+    }
+    report.rhs += static_cast<std::uint64_t>(rhs);
+    if (y[n] < dt) {
+      last_ = 0;
+      return status == StepStatus::Ok ? StepStatus::Capped : status;
+    }
+    for (int i = 0; i < n; ++i) next[i] = y[i];
+    return StepStatus::Ok;
+  }
+
+  /// The minimum of |r_phi| between two places where it falls and rises; true if it is a cusp. Gauss-Newton on r_phi = 0.
+  static bool findCusp(const System& system, double from, double to, double& phi) noexcept {
+    double low = std::min(from, to), high = std::max(from, to);
+    phi = 0.5 * (low + high);
+    for (int round = 0; round < 80 && high - low > 1e-16 * (std::abs(low) + std::abs(high)); ++round) {
+      const CurvePoint p = evaluate(system.curve, phi);
+      const double s = dot(p.rPhi, p.rPhiPhi);
+      if (s == 0) break;
+      (s > 0 ? high : low) = phi;
+      double better = phi - s / dot(p.rPhiPhi, p.rPhiPhi);
+      if (!(better > low && better < high)) better = 0.5 * (low + high);
+      if (better == phi) break;
+      phi = better;
+    }
+    return system.speedAt(phi) < kCusp * system.speedScale;
+  }
+
+  Adaptive<System> regular_;
+  double tolerance_;
+  double last_ = 0;  // size of the last sub-step in tau
+};
+
+template <class System>
+using CuspAbm = AbmWith<System, CuspAdaptive>;
+
+}  // namespace reachlab
