@@ -1,0 +1,209 @@
+// What the theory says about every prediction, whatever its numbers (criteria.md 3.1, 4, 5).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "constraints/error.h"
+#include "sim/predict/modes.h"
+#include "sim/predict/predict.h"
+#include "tests/predict/objects.h"
+
+namespace reachlab {
+namespace {
+
+using enum Criterion;
+
+// Two closed forms of the same number, each right to a few units in the twelfth digit.
+constexpr double kSame = 1e-11;
+// Values that criteria.md prints with five digits, and end jumps with two or three.
+constexpr double kFiveDigits = 2e-5, kTwoDigits = 0.03;
+
+std::unique_ptr<Prediction> predictWith(const Experiment& e, Criterion criterion, double handMass, double handDamping = 0) {
+  PredictOptions options;
+  options.handMass = handMass;
+  options.handDamping = handDamping;
+  return predict(e, criterion, options);
+}
+
+// Largest difference of two velocities on [0, T], of the first's peak.
+double difference(double duration, const std::function<double(double)>& a, const std::function<double(double)>& b) {
+  double peak = 0, most = 0;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = duration * i / 100;
+    peak = std::max(peak, std::abs(a(t)));
+    most = std::max(most, std::abs(a(t) - b(t)));
+  }
+  return most / peak;
+}
+
+std::function<double(double)> handOf(const Prediction& p) {
+  return [&p](double t) { return p.handAt(t).velocity; };
+}
+
+double massVelocity(const Prediction& p, int mass, double t) {
+  std::vector<double> x(p.massCount()), v(p.massCount());
+  p.massesAt(t, x, v);
+  return v[mass];
+}
+
+double centreVelocity(const Prediction& p, const Experiment& e, double t) {
+  std::vector<double> x(p.massCount()), v(p.massCount());
+  p.massesAt(t, x, v);
+  double sum = e.handMass * p.handAt(t).velocity, mass = e.handMass;
+  for (int i = 0; i < p.massCount(); ++i) sum += e.object.masses[i] * v[i], mass += e.object.masses[i];
+  return sum / mass;
+}
+
+// A parallel object with given clamped frequencies.
+Experiment makeParallelWith(const Eigen::VectorXd& frequency, double duration) {
+  std::vector<double> masses, springs;
+  for (const double w : frequency) masses.push_back(1.5), springs.push_back(1.5 * w * w);
+  return makeParallel(masses, springs, duration);
+}
+
+double minimumJerk(double distance, double T, double t) { return 30 * distance / T * std::pow(t / T, 2) * std::pow(1 - t / T, 2); }
+
+TEST(Laws, HandJerkDependsOnClampedFrequenciesAlone) {
+  const Experiment chain = makeChain(3, 0.7, 400, 1.1);
+  const Experiment parallel = makeParallelWith(computeClampedModes(makeLineObject(chain, 0, 0)).frequency, 1.1);
+  const auto a = predict(chain, MinHandJerk), b = predict(parallel, MinHandJerk);
+  EXPECT_LT(difference(1.1, handOf(*a), handOf(*b)), kSame);
+  EXPECT_NEAR(a->cost / b->cost, 1, kSame);
+}
+
+TEST(Laws, ForceChangeIsHandJerkWithFreeFrequenciesAndTheCentreOfMass) {
+  for (const double handMass : {0.0, 1.0}) {
+    Experiment chain = chainModerate();
+    chain.handMass = handMass;
+    const auto force = predict(chain, MinHandForceChange);
+    const LineObject object = makeLineObject(chain, handMass, 0);
+    const auto jerk = predict(makeParallelWith(computeFreeModes(object).frequency, 1.35), MinHandJerk);
+    EXPECT_LT(difference(1.35, handOf(*jerk), [&](double t) { return centreVelocity(*force, chain, t); }), kSame);
+    EXPECT_NEAR(force->cost / (object.totalMass() * object.totalMass() * jerk->cost), 1, kSame);
+  }
+}
+
+TEST(Laws, UndampedProfilesAreSymmetricAboutTheMiddle) {
+  for (const Experiment& e : {chainModerate(), parallelPair(), dingwell()})
+    for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
+      const auto p = predictWith(e, c, 0.5);
+      const double T = p->duration;
+      EXPECT_NEAR(p->handAt(T / 2).position, 0.1, 0.1 * kSame);
+      EXPECT_LT(difference(T, handOf(*p), [&](double t) { return p->handAt(T - t).velocity; }), kSame);
+      for (int m = 0; m < p->massCount(); ++m)
+        EXPECT_LT(difference(T, [&](double t) { return massVelocity(*p, m, t); }, [&](double t) { return massVelocity(*p, m, T - t); }), kSame);
+    }
+}
+
+TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
+  const auto handDamped = predictWith(chainModerate(), MinHandForceChange, 1, 5);
+  EXPECT_LT(difference(1.35, handOf(*handDamped), [&](double t) { return handDamped->handAt(1.35 - t).velocity; }), kSame);
+
+  Experiment damped = chainModerate();
+  for (double& b : damped.object.damping) b = 2;
+  damped.coupling->damping = 5;
+  const auto skewed = predict(damped, MinHandJerk);
+  EXPECT_NEAR(skewed->handPeakTime, 0.641, 0.001);  // 0.675 without damping
+}
+
+TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
+  // The lag behind a spring is a (w T)^-2 part of the profile: 1e9 N/m leaves 1e-8.
+  const Experiment stiff = makeChain(2, 0.5, 1e9, 1);
+  const auto jerk = predict(stiff, MinHandJerk);
+  EXPECT_LT(difference(1, [](double t) { return minimumJerk(0.2, 1, t); }, handOf(*jerk)), 1e-6);
+  EXPECT_NEAR(jerk->cost / (720 * 0.04), 1, 1e-6);
+  EXPECT_NEAR(predict(stiff, MinComAcceleration)->cost / (12 * 0.04), 1, 1e-6);
+}
+
+TEST(Laws, OneMassUnderForceChangeMovesWithMinimumJerkItself) {
+  const auto p = predict(dingwell(), MinHandForceChange);
+  EXPECT_NEAR(p->cost / (9 * 720 * 0.04 / std::pow(1.35, 5)), 1, kSame);
+  EXPECT_LT(difference(1.35, [](double t) { return minimumJerk(0.2, 1.35, t); }, [&](double t) { return massVelocity(*p, 0, t); }), kSame);
+}
+
+TEST(Laws, CentreOfMassAndForceDifferByTheMassSquaredAlone) {
+  for (const double handMass : {0.0, 1.0}) {
+    const auto force = predictWith(parallelPair(), MinHandForce, handMass), centre = predictWith(parallelPair(), MinComAcceleration, handMass);
+    EXPECT_NEAR(force->cost / (std::pow(6 + handMass, 2) * centre->cost), 1, kSame);
+    EXPECT_LT(difference(2.5, handOf(*force), handOf(*centre)), kSame);
+  }
+}
+
+TEST(Laws, HeavyHandTurnsForceChangeIntoHandJerk) {
+  constexpr double kHeavy = 1e7;  // [kg] against 3: leaves 3e-7
+  const auto force = predictWith(chainModerate(), MinHandForceChange, kHeavy), jerk = predict(chainModerate(), MinHandJerk);
+  EXPECT_NEAR(force->cost / (kHeavy * kHeavy * jerk->cost), 1, 1e-5);
+  EXPECT_LT(difference(1.35, handOf(*jerk), handOf(*force)), 1e-5);
+}
+
+TEST(Laws, DistanceScalesProfilesAndCosts) {
+  Experiment twice = chainModerate();
+  twice.constraint.shape["length_m"] = 0.4;
+  const auto one = predict(chainModerate(), MinHandJerk), two = predict(twice, MinHandJerk);
+  EXPECT_NEAR(two->cost / one->cost, 4, 4 * kSame);
+  EXPECT_NEAR(two->handPeak / one->handPeak, 2, 2 * kSame);
+}
+
+TEST(EndJumps, AreThePublishedNumbers) {
+  EXPECT_NEAR(*predict(chainModerate(), MinHandForce)->handJump, 3.6e-3, kTwoDigits * 3.6e-3);
+  EXPECT_NEAR(*predict(dingwell(), MinHandForce)->handJump, 16.5e-3, kTwoDigits * 16.5e-3);
+  EXPECT_NEAR(*predict(parallelPair(), MinHandForce)->handJump, 4.7e-3, kTwoDigits * 4.7e-3);
+  EXPECT_FALSE(predict(dingwell(), MinHandForce)->handVelocityJump.has_value());
+  Experiment pair = parallelPair();
+  EXPECT_NEAR(*predict(chainModerate(), MinHandForceChange)->handVelocityJump, 0.0228, kTwoDigits * 0.0228);
+  EXPECT_NEAR(*predict(dingwell(), MinHandForceChange)->handVelocityJump, 0.122, kTwoDigits * 0.122);
+  EXPECT_NEAR(*predict(pair, MinHandForceChange)->handVelocityJump, 0.0140, kTwoDigits * 0.0140);
+  EXPECT_EQ(*predict(pair, MinHandForceChange)->handJump, 0);
+  EXPECT_EQ(*predictWith(pair, MinHandForceChange, 1)->handVelocityJump, 0);
+}
+
+TEST(EqualFrequencies, AreMergedAndSaidSo) {
+  const auto merged = predict(makeParallel({3, 3}, {50, 50}, 2.5), MinHandJerk);
+  EXPECT_NEAR(merged->cost, 0.34971, kFiveDigits);
+  EXPECT_NEAR(merged->handPeak, 0.13407, kFiveDigits);
+  ASSERT_EQ(merged->warnings.size(), 1u);
+  EXPECT_NE(merged->warnings[0].find("equal frequencies"), std::string::npos);
+  EXPECT_EQ(massVelocity(*merged, 0, 1.0), massVelocity(*merged, 1, 1.0));
+}
+
+TEST(EqualFrequencies, AreNotMergedWhenTheyOnlyComeClose) {
+  const auto near = predict(makeParallel({3, 3}, {50, 50.0005}, 2.5), MinHandJerk);
+  EXPECT_NEAR(near->cost, 5.5645, 5.5645 * kFiveDigits);
+  EXPECT_NEAR(near->handPeak, 0.15810, kFiveDigits);
+}
+
+TEST(Refusals, SayWhyNothingCanBeComputed) {
+  EXPECT_THROW(predict(makeChain(20, 0.15, 60, 1.35), MinHandJerk), RefusedError);
+  EXPECT_THROW(predict(makeChain(400, 0.6, 600, 1.35), MinHandJerk), RefusedError);
+  EXPECT_THROW(predict(makeChain(400, 0.6, 600, 1.35), MinCrackle), RefusedError);
+  EXPECT_THROW(predict(makeChain(5, 0.6, 0, 1.35), MinHandForce), RefusedError);
+  EXPECT_THROW(predict(makeParallel({3, 3}, {50, 0}, 2.5), MinHandJerk), RefusedError);
+  Experiment stiff = chainModerate();
+  for (double& b : stiff.object.damping) b = 1e9;
+  EXPECT_THROW(predict(stiff, MinHandJerk), RefusedError);
+  Experiment body = dingwell();
+  body.object.kind = ObjectKind::Body;
+  EXPECT_THROW(predict(body, MinHandJerk), UsageError);
+  Experiment nowhere = dingwell();
+  nowhere.task->target = nowhere.task->start;
+  EXPECT_THROW(predict(nowhere, MinHandJerk), UsageError);
+}
+
+TEST(Warnings, NameTravelTimeAndCondition) {
+  const auto hurried = predict(makeChain(10, 0.3, 60, 1.35), MinHandJerk);
+  ASSERT_EQ(hurried->warnings.size(), 2u);
+  EXPECT_NEAR(*hurried->travelTime, 2 * 10 * std::sqrt(0.3 / 60), 1e-12);
+  EXPECT_NEAR(std::abs(hurried->handPeak), 3268, 1);  // criteria.md 5
+  EXPECT_TRUE(predict(chainModerate(), MinHandJerk)->warnings.empty());
+  EXPECT_NEAR(*predict(chainModerate(), MinHandJerk)->travelTime, 0.316, 0.0005);
+  EXPECT_FALSE(predict(parallelPair(), MinHandJerk)->travelTime.has_value());
+}
+
+TEST(Names, AreReadBack) {
+  for (int i = 0; i < kCriterionCount; ++i) EXPECT_EQ(criterionFromName(nameOf(static_cast<Criterion>(i))), static_cast<Criterion>(i));
+  EXPECT_FALSE(criterionFromName("min-effort").has_value());
+}
+
+}  // namespace
+}  // namespace reachlab
