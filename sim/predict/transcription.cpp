@@ -152,7 +152,7 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
 
 TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
   if (unknowns > 0) return solveTranscription(problem, unknowns, guess);
-  constexpr int kFirst = 16, kMost = 160;
+  constexpr int kFirst = 16, kMost = 300;
   TranscribedMotion motion = solveTranscription(problem, kFirst, guess);
   for (int n = kFirst + kFirst / 2; n <= kMost; n += n / 2) {
     std::vector<std::vector<double>> warm;

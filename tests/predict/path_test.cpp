@@ -1,0 +1,138 @@
+// Least hand jerk along curves and on surfaces: the straight line as oracle, the formula in curvature and torsion, and optimality.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "constraints/error.h"
+#include "sim/predict/gauss_legendre.h"
+#include "sim/predict/predict.h"
+#include "tests/predict/objects.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
+
+Experiment makeCurveExperiment(std::vector<std::string> formula, double from, double to, double duration) {
+  Experiment e = makeChain(1, 1, 600, duration);
+  e.constraint = {};
+  e.constraint.name.clear();
+  e.constraint.curve = std::move(formula);
+  e.task->start = {from};
+  e.task->target = {to};
+  return e;
+}
+
+Experiment makeSurfaceExperiment(std::vector<std::string> formula, std::vector<double> from, std::vector<double> to, double duration) {
+  Experiment e = makeCurveExperiment({}, 0, 1, duration);
+  e.constraint.surface = std::move(formula);
+  e.task->start = std::move(from);
+  e.task->target = std::move(to);
+  return e;
+}
+
+void expectMinimumJerk(const Prediction& p, double length) {
+  const double T = p.duration;
+  EXPECT_NEAR(p.distance, length, kProfile * length);
+  EXPECT_NEAR(p.cost / (720 * length * length / std::pow(T, 5)), 1, kProfile);
+  for (int i = 0; i <= 50; ++i) {
+    const double s = i / 50.0;
+    EXPECT_NEAR(p.handAt(s * T).velocity, 30 * length / T * s * s * (1 - s) * (1 - s), kProfile * p.handPeak);
+    EXPECT_NEAR(p.handAt(s * T).position, length * s * s * s * (10 - 15 * s + 6 * s * s), kProfile * length);
+  }
+}
+
+TEST(CurveJerk, OnAStraightLineUnevenlyRunIsTheMinimumJerk) {
+  expectMinimumJerk(*predict(makeCurveExperiment({"0.05*(phi + 0.3*sin(phi))", "0", "0.02*(phi + 0.3*sin(phi))"}, 0.5, 4, 1.2), Criterion::MinHandJerk),
+                    std::hypot(0.05, 0.02) * (3.5 + 0.3 * (std::sin(4) - std::sin(0.5))));
+}
+
+TEST(SurfaceJerk, OnAPlaneUnevenlyCoveredIsTheMinimumJerkAlongTheChord) {
+  const auto p = predict(makeSurfaceExperiment({"0.1*(u + u^3/5)", "0.1*v + 0.02*(u + u^3/5)", "0.05*v"}, {-0.8, 0.1}, {0.7, 0.9}, 0.9), Criterion::MinHandJerk);
+  const double x = 0.1 * (1.5 + (0.343 + 0.512) / 5), y = 0.1 * 0.8 + 0.2 * x, z = 0.05 * 0.8;
+  expectMinimumJerk(*p, std::sqrt(x * x + y * y + z * z));
+}
+
+// Cost of an arc length s(t) on a curve of constant curvature and torsion (criteria.md 7), by Gauss-Legendre.
+struct Motion {
+  double rate, acceleration, jerk;
+};
+double computeCost(double curvature, double torsion, double T, const std::function<Motion(double)>& motion) {
+  const GaussRule<double> rule = makeGaussRule<double>(80);
+  double sum = 0;
+  for (size_t i = 0; i < rule.node.size(); ++i) {
+    const Motion m = motion(T * (rule.node[i] + 1) / 2);
+    const double cube = m.rate * m.rate * m.rate;
+    sum += rule.weight[i] * T / 2 *
+           (std::pow(m.jerk - curvature * curvature * cube, 2) + std::pow(3 * curvature * m.rate * m.acceleration, 2) + std::pow(curvature * torsion * cube, 2));
+  }
+  return sum;
+}
+
+// The helix (R cos, R sin, p phi): curvature R / (R^2 + p^2), torsion p / (R^2 + p^2); p = 0 is the circle.
+class Helix : public testing::TestWithParam<double> {};
+
+TEST_P(Helix, CostIsTheFormulaInCurvatureAndTorsionAndNoneIsLower) {
+  constexpr double kRadius = 0.1, kTurn = 3;
+  const double pitch = GetParam(), square = kRadius * kRadius + pitch * pitch, curvature = kRadius / square, torsion = pitch / square;
+  const Experiment e = makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", std::to_string(pitch) + "*phi"}, 0, kTurn, 1);
+  const auto p = predict(e, Criterion::MinHandJerk);
+  EXPECT_NEAR(p->distance, kTurn * std::sqrt(square), 1e-12);
+  const auto predicted = [&](double t, double bend, int waves) {
+    constexpr double kStep = 1e-3;
+    const PredictedHand h = p->handAt(t);
+    // Jerk of the predicted motion by fourth-order differences of its acceleration, one-sided at the ends by symmetry of the stencil's range.
+    const double c = std::clamp(t, 2 * kStep, 1 - 2 * kStep);
+    const auto a = [&](double s) { return p->handAt(s).acceleration; };
+    double jerk = (8 * (a(c + kStep) - a(c - kStep)) - (a(c + 2 * kStep) - a(c - 2 * kStep))) / (12 * kStep);
+    if (c != t) jerk += (t - c) * (a(c + kStep) - 2 * a(c) + a(c - kStep)) / (kStep * kStep);
+    // Perturbation bend sin^4(waves pi t): zero with three derivatives at both ends.
+    const double w = waves * M_PI, s1 = std::sin(w * t), c1 = std::cos(w * t);
+    const double rate = 4 * w * s1 * s1 * s1 * c1, acceleration = w * w * (12 * s1 * s1 * c1 * c1 - 4 * std::pow(s1, 4)),
+                 third = w * w * w * (24 * s1 * std::pow(c1, 3) - 40 * std::pow(s1, 3) * c1);
+    return Motion{h.velocity + bend * rate, h.acceleration + bend * acceleration, jerk + bend * third};
+  };
+  constexpr double kDifferences = 5e-6;  // the jerk extrapolated at the ends limits this, not the prediction
+  EXPECT_NEAR(computeCost(curvature, torsion, 1, [&](double t) { return predicted(t, 0, 1); }) / p->cost, 1, kDifferences);
+
+  // Minimum jerk in arc length is not optimal on a bent curve.
+  const double length = p->distance;
+  EXPECT_GT(computeCost(curvature, torsion, 1,
+                        [&](double t) {
+                          return Motion{30 * length * t * t * (1 - t) * (1 - t), 60 * length * t * (1 - t) * (1 - 2 * t), 60 * length * (1 - 6 * t + 6 * t * t)};
+                        }),
+            p->cost * 1.0001);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> bend(0.003, 0.01);
+  for (int trial = 0; trial < 12; ++trial) {
+    const double size = (trial % 2 ? 1 : -1) * bend(random) * length;
+    EXPECT_GT(computeCost(curvature, torsion, 1, [&](double t) { return predicted(t, size, 1 + trial % 3); }), p->cost);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Pitches, Helix, testing::Values(0.0, 0.05));
+
+TEST(CurveJerk, ProfileIsKnownTo1e8) {
+  const Experiment e = makeCurveExperiment({"0.08*cos(phi) - 0.01*cos(4*phi)", "0.08*sin(phi) - 0.01*sin(4*phi)", "0"}, 1, 3, 1.5);
+  PredictOptions many;
+  many.unknowns = 220;
+  const auto chosen = predict(e, Criterion::MinHandJerk), fine = predict(e, Criterion::MinHandJerk, many);
+  for (int i = 0; i <= 60; ++i)
+    EXPECT_NEAR(chosen->handAt(1.5 * i / 60).velocity, fine->handAt(1.5 * i / 60).velocity, kProfile * fine->handPeak);
+}
+
+TEST(SurfaceJerk, OnACylinderCostsNoMoreThanAlongTheHelixBetweenTheSamePoints) {
+  const auto free = predict(makeSurfaceExperiment({"0.1*cos(u)", "0.1*sin(u)", "0.1*v"}, {0, 0}, {1.5, 1}, 1), Criterion::MinHandJerk);
+  const auto helix = predict(makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", "0.1*phi/1.5"}, 0, 1.5, 1), Criterion::MinHandJerk);
+  EXPECT_LT(free->cost, helix->cost * (1 - 1e-6));
+  EXPECT_GT(free->cost, 720 * (std::pow(2 * 0.1 * std::sin(0.75), 2) + 0.01));  // of the chord, which leaves the cylinder
+}
+
+TEST(CurveJerk, IsRefusedWhereItHasNoMeaning) {
+  EXPECT_THROW(predict(makeCurveExperiment({"0.1*phi^3", "0.1*phi^2", "0"}, -1, 1, 1), Criterion::MinHandJerk), RefusedError);
+  EXPECT_THROW(predict(makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1, 1), Criterion::MinHandForce), RefusedError);
+}
+
+}  // namespace
+}  // namespace reachlab
