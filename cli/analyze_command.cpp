@@ -128,7 +128,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")->check(CLI::IsMember({"percent", "absolute", "task"}))->capture_default_str();
   command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();
   command->add_option("--onset-speed", o->speed, "Speed for --onset absolute [m/s]")->capture_default_str();
-  command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's position [Hz], 0: none")->capture_default_str();
+  command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")->capture_default_str();
   command->add_option("--resamples", o->resamples, "Bootstrap resamples")->capture_default_str();
   command->add_option("--seed", o->seed, "Seed of the bootstrap")->capture_default_str();
   command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();

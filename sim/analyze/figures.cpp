@@ -39,7 +39,7 @@ CriterionLook lookOf(Criterion criterion) {
 Series predictionSeries(const PredictedProfile& p, double duration, bool object) {
   const CriterionLook look = lookOf(p.criterion);
   Series s;
-  s.label = labelOf(p.criterion);
+  s.label = numberedName(p.criterion);
   s.x = timeAxis(duration);
   s.y = object ? p.object : p.hand;
   s.color = look.color;
@@ -109,7 +109,7 @@ Panel rankingPanel(const std::string& title, const Ranking& ranking, const std::
   for (std::size_t i = 0; i < ranking.places.size(); ++i) {
     const RankedCriterion& p = ranking.places[i];
     const double y = n - static_cast<double>(i);
-    panel.y.ticks.emplace_back(y, labelOf(criteria[p.criterion]));
+    panel.y.ticks.emplace_back(y, numberedName(criteria[p.criterion]));
     Series s;
     s.x = {p.epsilon};
     s.y = {y};

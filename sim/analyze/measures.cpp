@@ -17,7 +17,9 @@ std::vector<Vec3> filteredVelocity(const std::vector<Vec3>& position, double rat
   std::vector<double> x(position.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = component(position[i], axis);
-    const std::vector<double> v = differentiate(lowPass(x, rate, cutoff), rate);
+    // The velocity is filtered, not the position: a trial ends while the hand still moves, and the filter continues a signal beyond its
+    // end by turning it about the end point, which keeps the slope of a velocity but would flatten that of a position.
+    const std::vector<double> v = lowPass(differentiate(x, rate), rate, cutoff);
     for (std::size_t i = 0; i < x.size(); ++i) (axis == 0 ? velocity[i].x : axis == 1 ? velocity[i].y : velocity[i].z) = v[i];
   }
   return velocity;
@@ -44,6 +46,22 @@ double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3
   return farthest;
 }
 
+/// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it.
+Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, TrialSignals& signals) {
+  if (!std::isfinite(trial.taskEnd))
+    return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
+  // Rows are 10 ms apart, the trial ends between two of them; where the next was never taken it is continued in a straight line.
+  const auto last = static_cast<std::size_t>(std::max(0.0, std::ceil(trial.taskEnd * trial.rate - 1e-9)));
+  for (auto* signal : {&signals.speed, &signals.handVelocity, &signals.objectVelocity})
+    if (signal->size() == last && last >= 2) signal->push_back(2 * signal->back() - (*signal)[last - 2]);
+  if (!signals.speed.empty()) signals.speed.back() = std::max(0.0, signals.speed.back());
+  if (options.rule == OnsetRule::Task) return movementWithin(signals.speed, trial.rate, trial.taskOnset, trial.taskEnd);
+  const std::span<const double> inside(signals.speed.data(), std::min(signals.speed.size(), last + 1));
+  Movement movement = findMovement(inside, trial.rate, options);
+  movement.offset = std::min(movement.offset, trial.taskEnd);
+  return movement;
+}
+
 }  // namespace
 
 TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options) {
@@ -55,9 +73,7 @@ TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& option
   }
   for (std::size_t i = 0; i < trial.objectVelocity.size(); ++i)
     signals.objectVelocity.push_back(alongPath(trial, trial.objectVelocity[i], i));
-  signals.movement = options.onset.rule == OnsetRule::Task
-                         ? movementWithin(signals.speed, trial.rate, trial.taskOnset, trial.taskEnd)
-                         : findMovement(signals.speed, trial.rate, options.onset);
+  signals.movement = findWithinTrial(trial, options.onset, signals);
   return signals;
 }
 
@@ -88,7 +104,7 @@ TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signal
   for (std::size_t i = first; i < last; ++i) m.pathLength += 0.5 * (signals.speed[i] + signals.speed[i + 1]) / trial.rate;
 
   const Vec3 asked = trial.target - trial.start;
-  m.handEndpointError = norm(trial.hand[last] - trial.hand.front() - asked);
+  m.handEndpointError = norm(trial.hand[std::min(last, trial.hand.size() - 1)] - trial.hand.front() - asked);
   if (!trial.object.empty()) {
     const std::size_t end = std::isfinite(trial.taskEnd) ? sampleAt(trial, trial.taskEnd, trial.object.size()) : trial.object.size() - 1;
     m.objectEndpointError = norm(trial.object[end] - trial.target);

@@ -6,7 +6,7 @@ namespace reachlab {
 
 struct MeasureOptions {
   OnsetOptions onset;
-  double cutoff = 10;  // [Hz] of the zero-lag Butterworth on the hand's position; 0: none
+  double cutoff = 10;  // [Hz] of the zero-lag Butterworth on the hand's velocity; 0: none
 };
 
 /// Everything that docs/analysis.md defines for one trial; NaN where it does not exist (no movement, no go signal …).
@@ -30,7 +30,7 @@ struct TrialMeasures {
 
 /// A trial's filtered signals; what profiles and errors are made of.
 struct TrialSignals {
-  Movement movement;                   // of the hand
+  Movement movement;                   // of the hand; ends with the trial at the latest
   std::vector<double> speed;           // [m/s] of the hand, >= 0
   std::vector<double> handVelocity;    // [m/s] along the path, signed where the path has a direction
   std::vector<double> objectVelocity;  // [m/s] the same of the last mass

@@ -7,36 +7,54 @@
 
 namespace reachlab {
 
-PredictedProfile sampleProfile(const Prediction& prediction, const MeasureOptions& options, double taskOnset) {
+PredictedSignal recordPrediction(const Prediction& prediction, const MeasureOptions& options, const Task& task) {
   constexpr double kRate = 1000;      // [Hz] fine enough that its own interpolation does not show (1e-6 of the peak)
   constexpr std::size_t kRest = 300;  // samples of rest on either side, in which the filter dies out
   const double T = prediction.duration;
   const auto steps = static_cast<std::size_t>(std::max(2.0, std::ceil(T * kRate)));
-  const double rate = static_cast<double>(steps) / T, rest = static_cast<double>(kRest) / rate;
 
-  std::vector<double> hand(steps + 1 + 2 * kRest, 0.0), object = hand;
+  PredictedSignal signal;
+  signal.criterion = prediction.criterion;
+  signal.taskDuration = T;
+  signal.warnings = prediction.warnings;
+  signal.rate = static_cast<double>(steps) / T;
+  signal.hand.assign(steps + 1 + 2 * kRest, 0.0);
+  signal.object = signal.hand;
   std::vector<double> position(static_cast<std::size_t>(prediction.massCount())), velocity(position.size());
-  double movedAt = T;
+  std::size_t moved = steps;
   for (std::size_t i = steps + 1; i-- > 0;) {
-    const double t = std::min(T, static_cast<double>(i) / rate);
+    const double t = std::min(T, static_cast<double>(i) / signal.rate);
     const PredictedHand at = prediction.handAt(t);
     prediction.massesAt(t, position, velocity);
-    hand[i + kRest] = at.velocity;
-    object[i + kRest] = velocity.empty() ? 0 : velocity.back();
-    if (std::abs(at.position) > taskOnset) movedAt = t;
+    signal.hand[i + kRest] = at.velocity;
+    signal.object[i + kRest] = velocity.empty() ? 0 : velocity.back();
+    if (std::abs(at.position) > task.onset) moved = i;
   }
-  hand = lowPass(hand, rate, options.cutoff);
-  std::vector<double> speed(hand.size());
-  for (std::size_t i = 0; i < hand.size(); ++i) speed[i] = std::abs(hand[i]);
-  const Movement movement = options.onset.rule == OnsetRule::Task ? movementWithin(speed, rate, rest + movedAt, rest + T)
-                                                                  : findMovement(speed, rate, options.onset);
+  signal.hand = lowPass(signal.hand, signal.rate, options.cutoff);
+  std::vector<double> speed = signal.hand;
+  for (double& v : speed) v = std::abs(v);
+  signal.peak = *std::max_element(speed.begin(), speed.end());
+  signal.onset = options.onset.rule == OnsetRule::Task ? static_cast<double>(moved + kRest) / signal.rate
+                                                       : findMovement(speed, signal.rate, options.onset).onset;
+  return signal;
+}
+
+PredictedProfile profileUntil(const PredictedSignal& signal, double endLevel) {
+  const double threshold = std::clamp(endLevel, 0.0, 0.999) * signal.peak;
+  std::size_t last = signal.hand.size() - 1;
+  while (last > 0 && std::abs(signal.hand[last]) <= threshold) --last;
+  double end = static_cast<double>(last) / signal.rate;
+  if (last + 1 < signal.hand.size()) {
+    const double above = std::abs(signal.hand[last]), below = std::abs(signal.hand[last + 1]);
+    if (above > below) end += (above - threshold) / (above - below) / signal.rate;
+  }
   PredictedProfile profile;
-  profile.criterion = prediction.criterion;
-  profile.taskDuration = T;
-  profile.duration = movement.duration();
-  profile.warnings = prediction.warnings;
-  profile.hand = normaliseTime(hand, rate, movement.onset, movement.offset);
-  profile.object = normaliseTime(object, rate, movement.onset, movement.offset);
+  profile.criterion = signal.criterion;
+  profile.taskDuration = signal.taskDuration;
+  profile.warnings = signal.warnings;
+  profile.duration = std::max(end - signal.onset, 1 / signal.rate);
+  profile.hand = normaliseTime(signal.hand, signal.rate, signal.onset, signal.onset + profile.duration);
+  profile.object = normaliseTime(signal.object, signal.rate, signal.onset, signal.onset + profile.duration);
   return profile;
 }
 

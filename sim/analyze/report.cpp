@@ -92,7 +92,7 @@ void addRankingTable(Html& html, const Ranking& ranking, const std::vector<Crite
   const auto mm = [](double v) { return fmt::format("{:.2f}", 1e3 * v); };
   for (std::size_t i = 0; i < ranking.places.size(); ++i) {
     const RankedCriterion& p = ranking.places[i];
-    html.add(fmt::format("<tr{}><td>{}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "", escaped(labelOf(criteria[p.criterion])),
+    html.add(fmt::format("<tr{}><td>{}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "", escaped(numberedName(criteria[p.criterion])),
                          mm(p.epsilon), mm(p.interval.low), mm(p.interval.high)));
     if (i == 0) html.add("<td></td><td></td><td class=\"text\"></td></tr>");
     else
@@ -168,7 +168,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   }
   std::set<std::string> warnings;
   for (const PredictedProfile& p : r.predictions)
-    for (const std::string& w : p.warnings) warnings.insert(labelOf(p.criterion) + ": " + w);
+    for (const std::string& w : p.warnings) warnings.insert(numberedName(p.criterion) + ": " + w);
   for (const std::string& w : warnings) html.paragraph(w, "warning");
   addMeasures(html, study, c);
 }

@@ -37,6 +37,7 @@ StudyTrial measureTrial(TrialData& data, std::size_t condition, const StudyOptio
   if (signals.movement.found) {
     trial.hand = normaliseTime(signals.handVelocity, data.rate, signals.movement.onset, signals.movement.offset);
     trial.object = normaliseTime(signals.objectVelocity, data.rate, signals.movement.onset, signals.movement.offset);
+    trial.endLevel = valueAt(signals.speed, data.rate, signals.movement.offset) / signals.movement.peak;
   }
   return trial;
 }
@@ -67,16 +68,17 @@ std::vector<Criterion> wantedCriteria(const StudyOptions& options) {
 }
 
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
-PredictedProfile profileLasting(const Experiment& experiment, Criterion criterion, PredictOptions how, const MeasureOptions& measure,
-                                double measured) {
-  how.duration = experiment.task->duration;
-  PredictedProfile profile;
+PredictedSignal signalLasting(const StudyCondition& condition, Criterion criterion, PredictOptions how, const StudyOptions& options,
+                              const ConditionResult& result) {
+  how.duration = condition.experiment.task->duration;
+  PredictedSignal signal;
   for (int step = 0; step < 8; ++step) {
-    profile = sampleProfile(*predict(experiment, criterion, how), measure, experiment.task->onset);
-    if (std::abs(profile.duration / measured - 1) < 1e-6) break;
-    how.duration *= measured / profile.duration;
+    signal = recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task);
+    const double ratio = result.duration.mean / profileUntil(signal, result.endLevel).duration;
+    if (std::abs(ratio - 1) < 1e-6) break;
+    how.duration *= ratio;
   }
-  return profile;
+  return signal;
 }
 
 void addPredictions(const StudyCondition& condition, const StudyOptions& options, ConditionResult& result) {
@@ -89,11 +91,13 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
   how.handDamping = options.handDamping;
   for (const Criterion criterion : wantedCriteria(options)) {
     try {
-      PredictedProfile profile = options.predictMeanDuration && result.used > 0
-                                     ? profileLasting(condition.experiment, criterion, how, options.measure, result.duration.mean)
-                                     : sampleProfile(*predict(condition.experiment, criterion, how), options.measure, condition.experiment.task->onset);
+      PredictedSignal signal = options.predictMeanDuration && result.used > 0
+                                   ? signalLasting(condition, criterion, how, options, result)
+                                   : recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task);
+      PredictedProfile profile = profileUntil(signal, result.endLevel);
       result.unscaledDurations.push_back(profile.duration);
       result.predictions.push_back(result.used > 0 ? scaledTo(std::move(profile), result.duration.mean) : std::move(profile));
+      result.signals.push_back(std::move(signal));
     } catch (const Error& error) {
       result.refusals.push_back(fmt::format("{}: {}", nameOf(criterion), error.what()));
     }
@@ -104,7 +108,8 @@ void addErrors(StudyTrial& trial, const ConditionResult& result) {
   if (!trial.used()) return;
   const std::vector<double> hand = timeScaled(trial.hand, trial.measures.duration, result.duration.mean);
   const std::vector<double> object = timeScaled(trial.object, trial.measures.duration, result.duration.mean);
-  for (const PredictedProfile& prediction : result.predictions) {
+  for (const PredictedSignal& signal : result.signals) {
+    const PredictedProfile prediction = scaledTo(profileUntil(signal, trial.endLevel), result.duration.mean);
     trial.handError.push_back(computeRmsError(prediction.hand, hand));
     trial.objectError.push_back(computeRmsError(prediction.object, object));
   }
@@ -118,10 +123,15 @@ TrialErrors squaresOf(const StudyTrial& trial, const std::vector<double>& errors
 
 void summarise(const std::vector<StudyTrial>& trials, std::size_t condition, const StudyCondition& what, const StudyOptions& options,
                ConditionResult& result) {
-  std::vector<double> durations, times;
-  for (const StudyTrial& trial : trials)
-    if (trial.condition == condition && trial.used()) durations.push_back(trial.measures.duration), times.push_back(trial.measures.movementTime);
+  std::vector<double> durations, times, levels;
+  for (const StudyTrial& trial : trials) {
+    if (trial.condition != condition || !trial.used()) continue;
+    durations.push_back(trial.measures.duration);
+    times.push_back(trial.measures.movementTime);
+    levels.push_back(trial.endLevel);
+  }
   result.used = durations.size();
+  result.endLevel = levels.empty() ? options.measure.onset.percent / 100 : computeMeanSd(levels).mean;
   result.duration = computeMeanSd(durations);
   result.movementTime = computeMeanSd(times);
   std::vector<std::vector<double>> hand, object;

@@ -46,6 +46,7 @@ struct StudyTrial {
   bool counted = false;               // success or failure of a proper trial: it counts for success rates
   TrialMeasures measures;
   std::vector<double> hand, object;   // [m/s] 101 points over its own duration; empty without a movement
+  double endLevel = 0;                // the hand's speed at its end, as a part of its peak
   std::vector<double> handError, objectError;  // [m/s] epsilon against each criterion of its condition; empty if excluded
   bool used() const { return exclusion.empty(); }
 };
@@ -66,7 +67,9 @@ struct ConditionResult {
   std::size_t used = 0;
   MeanSd duration, movementTime;               // [s] over the used trials: by the onset rule, by the task
   MeanProfile hand, object;
-  std::vector<PredictedProfile> predictions;   // already scaled to duration.mean
+  double endLevel = 0;                         // mean of the used trials
+  std::vector<PredictedSignal> signals;        // one a prediction
+  std::vector<PredictedProfile> predictions;   // until endLevel, scaled to duration.mean
   std::vector<double> unscaledDurations;       // [s] of each prediction before scaling
   std::vector<std::string> refusals;           // criteria that cannot be predicted here, and why
   Ranking handRanking, objectRanking;          // over trials

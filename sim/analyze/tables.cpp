@@ -207,7 +207,7 @@ std::map<std::string, std::string> makeTables(const StudyResult& study) {
           {"conditions.csv", conditionsTable(study)}};
 }
 
-std::string labelOf(Criterion criterion) {
+std::string numberedName(Criterion criterion) {
   static constexpr std::array<const char*, kCriterionCount> kNumbers{"(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(3h)"};
   return std::string(kNumbers[static_cast<std::size_t>(criterion)]) + " " + std::string(nameOf(criterion));
 }

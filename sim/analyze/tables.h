@@ -11,7 +11,7 @@ namespace reachlab {
 std::map<std::string, std::string> makeTables(const StudyResult& study);
 
 /// "(1) min-hand-jerk", with the paper's number; "(3h)" is the literal hand-crackle variant.
-std::string labelOf(Criterion criterion);
+std::string numberedName(Criterion criterion);
 /// The name with underscores, for columns.
 std::string columnOf(Criterion criterion);
 /// A condition's name as part of a file name: letters, digits and dashes.

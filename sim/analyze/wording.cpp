@@ -35,7 +35,7 @@ std::vector<Criterion> criteriaOf(const ConditionResult& result) {
 std::string describeRanking(const Ranking& ranking, const std::vector<Criterion>& criteria) {
   if (ranking.places.empty()) return "Nothing to rank: no successful trial, or no criterion that can be predicted here.";
   const RankedCriterion& first = ranking.places.front();
-  const std::string name = labelOf(criteria[first.criterion]);
+  const std::string name = numberedName(criteria[first.criterion]);
   std::string text = fmt::format("{} is nearest: ε = {} m/s [{}, {}], from {} of {}.", name, shortNumber(first.epsilon),
                                  shortNumber(first.interval.low), shortNumber(first.interval.high), plural(ranking.trials, "trial"),
                                  plural(ranking.subjects, "subject"));
@@ -43,7 +43,7 @@ std::string describeRanking(const Ranking& ranking, const std::vector<Criterion>
   std::vector<std::string> apart, equal;
   for (std::size_t i = 1; i < ranking.places.size(); ++i) {
     const RankedCriterion& p = ranking.places[i];
-    const std::string difference = fmt::format("{} (+{} [{}, {}])", labelOf(criteria[p.criterion]), shortNumber(p.difference),
+    const std::string difference = fmt::format("{} (+{} [{}, {}])", numberedName(criteria[p.criterion]), shortNumber(p.difference),
                                                shortNumber(p.differenceInterval.low), shortNumber(p.differenceInterval.high));
     (p.apartFromFirst ? apart : equal).push_back(difference);
   }
@@ -62,13 +62,13 @@ std::string describeMethods(const StudyOptions& options) {
     case OnsetRule::Task: rule = "by the task's own window (from t = 0 to the end of the trial)"; break;
   }
   const std::string filter = options.measure.cutoff > 0
-                                 ? fmt::format("The hand's position was low-passed forwards and backwards (Butterworth, second order, {} Hz in each pass, so "
-                                               "no delay) and differentiated; the simulated masses were not filtered.",
+                                 ? fmt::format("The hand's position was differentiated and its velocity low-passed forwards and backwards (Butterworth, second order, {} Hz "
+                                               "in each pass, so no delay); the simulated masses were not filtered.",
                                                shortNumber(options.measure.cutoff))
                                  : std::string("The hand's position was differentiated without a filter.");
   return fmt::format(
-      "{} Onset and offset are {}. Successful trials were time-scaled to the condition's mean duration, with velocities scaled so that "
-      "the distance is kept. Each prediction, made for {}, went through the same filter, onset rule and scaling. ε is the root of the "
+      "{} Onset and offset are {}; a movement ends with its trial at the latest, that is when every mass was inside the tolerances. Successful trials were time-scaled to the condition's mean duration, with velocities scaled so that "
+      "the distance is kept. Each prediction, made for {}, went through the same filter, onset rule and scaling, and was cut where its speed had fallen to the trial's own at the end. ε is the root of the "
       "mean squared difference of velocity over all 101 samples of all trials. Intervals are 95 % percentiles of {} bootstrap "
       "resamples (seed {}); differences between criteria are taken within a resample.",
       filter, rule, options.predictMeanDuration ? "the duration that was moved" : "the task's duration T", options.ranking.resamples,

@@ -1,0 +1,150 @@
+#include "sim/analyze/dataset.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "constraints/error.h"
+#include "sim/analyze/write_analysis.h"
+#include "sim/analyze/wording.h"
+#include "sim/record/append_file.h"
+#include "sim/record/bids.h"
+#include "tests/analyze/recorded.h"
+
+namespace reachlab {
+namespace {
+
+constexpr const char* kQuiet = "simulated:noise=0";
+
+StudyOptions quick() {
+  StudyOptions options;
+  options.ranking.resamples = 200;
+  options.criteria = {Criterion::MinHandJerk, Criterion::MinCrackle};
+  return options;
+}
+
+TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 4});
+  recordRun(folder.path(), {.experiment = "chain-moderate", .session = "02", .trials = 2, .practice = true});
+  recordRun(folder.path(), {.experiment = "chain-fast", .device = kQuiet, .subject = "02", .trials = 1});
+  const Dataset dataset = openDataset(folder.path());
+  ASSERT_EQ(dataset.runs.size(), 3u);
+  ASSERT_EQ(dataset.input.trials.size(), 7u);
+  EXPECT_EQ(dataset.input.conditions.size(), 2u);
+  EXPECT_TRUE(dataset.notes.empty());
+  std::size_t i = 0;
+  for (const char* file : {"sub-01_ses-01_task-chainmoderate_run-01", "sub-01_ses-02_task-chainmoderate_run-01", "sub-02_ses-01_task-chainfast_run-01"}) {
+    const RunLog log = RunLog::open(folder.path() + "/sourcedata/" + file + "_log.reach");
+    for (const RecordedTrial& trial : log.trials()) {
+      EXPECT_EQ(dataset.input.trials[i].result.outcome, trial.result.outcome);
+      EXPECT_EQ(dataset.input.trials[i].key.trial, trial.trial);
+      EXPECT_NEAR(dataset.input.trials[i].taskEnd - dataset.input.trials[i].taskOnset, trial.result.movementTime, 1.5e-3);
+      ++i;
+    }
+  }
+  EXPECT_EQ(dataset.input.trials[0].key.day, 1);
+  EXPECT_EQ(dataset.input.trials[4].key.day, 2);
+  EXPECT_TRUE(dataset.input.trials[4].practice);
+}
+
+TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .device = kQuiet, .trials = 2});
+  const StudyResult study = analyzeStudy(openDataset(folder.path()).input, quick());
+  const ConditionResult& r = study.results[0];
+  ASSERT_EQ(r.used, 2u);
+  ASSERT_EQ(r.handRanking.places.front().criterion, 0u);
+  EXPECT_LT(r.handRanking.places[0].epsilon, 0.1 * r.handRanking.places[1].epsilon);
+}
+
+TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
+  const TemporaryFolder folder;
+  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 4});
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(log));
+  writeBids(runs, folder.path());
+  const StudyResult fromLog = analyzeStudy(openDataset(folder.path()).input, quick());
+  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  const Dataset dataset = openDataset(folder.path());
+  EXPECT_EQ(dataset.notes.size(), 1u);  // says so
+  const StudyResult fromBids = analyzeStudy(dataset.input, quick());
+  ASSERT_EQ(fromBids.trials.size(), fromLog.trials.size());
+  for (std::size_t i = 0; i < fromLog.trials.size(); ++i) {
+    EXPECT_EQ(fromBids.trials[i].result.outcome, fromLog.trials[i].result.outcome);
+    EXPECT_EQ(fromBids.trials[i].used(), fromLog.trials[i].used());
+    // Arming lies at most one sample (10 ms) later in the rows than in the log, which may move the grid of samples.
+    if (fromLog.trials[i].used()) EXPECT_NEAR(fromBids.trials[i].measures.duration, fromLog.trials[i].measures.duration, 0.002);
+  }
+}
+
+TEST(Dataset, ThatIsNoneIsRefusedInOneSentence) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(openDataset(folder.path()), UsageError);
+  EXPECT_THROW(openDataset(folder.path() + "/nowhere"), UsageError);
+}
+
+TEST(Dataset, WithADamagedLogKeepsWhatIsGoodAndSaysSo) {
+  const TemporaryFolder folder;
+  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 4});
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
+  const Dataset dataset = openDataset(folder.path());
+  EXPECT_FALSE(dataset.input.trials.empty());
+  EXPECT_EQ(dataset.notes.size(), 1u);
+  EXPECT_NO_THROW(analyzeStudy(dataset.input, quick()));
+}
+
+TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 5, .seed = 3});
+  Dataset dataset = openDataset(folder.path());
+  const StudyResult study = analyzeStudy(dataset.input, quick());
+  const ReportHeader header{"dataset", "0.1.0", "reach analyze dataset"};
+  const AnalysisFiles first = writeAnalysis(study, dataset, header, folder.path() + "/one");
+  const AnalysisFiles second = writeAnalysis(study, dataset, header, folder.path() + "/two");
+  ASSERT_EQ(first.tables.size(), second.tables.size());
+  for (std::size_t i = 0; i < first.tables.size(); ++i) EXPECT_EQ(readWholeFile(first.tables[i]), readWholeFile(second.tables[i]));
+  for (std::size_t i = 0; i < first.figures.size(); ++i) EXPECT_EQ(readWholeFile(first.figures[i]), readWholeFile(second.figures[i]));
+  const std::string report = readWholeFile(first.report);
+  EXPECT_EQ(report, readWholeFile(second.report));
+
+  // Self-contained, ids unique, numbers finite, text escaped.
+  EXPECT_EQ(report.find("<script"), std::string::npos);
+  EXPECT_EQ(report.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(report.find(">nan"), std::string::npos);
+  std::set<std::string> ids;
+  const std::regex id(" id=\"([^\"]+)\"");
+  for (auto it = std::sregex_iterator(report.begin(), report.end(), id); it != std::sregex_iterator(); ++it)
+    EXPECT_TRUE(ids.insert((*it)[1]).second) << (*it)[1];
+
+  const std::string profiles = readWholeFile(folder.path() + "/one/profiles.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(profiles.begin(), profiles.end(), '\n')), 1 + 101 * study.results[0].used);
+}
+
+TEST(Analysis, OfNoSuccessIsStillAReport) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .device = "replay:" + resourceFolder() + "/reaches", .trials = 2});
+  Dataset dataset = openDataset(folder.path());
+  for (TrialData& trial : dataset.input.trials) trial.result.outcome = Outcome::Failure;
+  const StudyResult study = analyzeStudy(dataset.input, quick());
+  const AnalysisFiles files = writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out");
+  EXPECT_NE(readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
+}
+
+TEST(Wording, SaysWhatCannotBeToldApart) {
+  Ranking ranking;
+  ranking.trials = 12;
+  ranking.subjects = 2;
+  ranking.places = {{1, 0.01, {0.009, 0.011}, 0, {0, 0}, 0.7, false}, {0, 0.0101, {0.009, 0.0112}, 0.0001, {-0.0002, 0.0004}, 0.3, false}};
+  const std::string text = describeRanking(ranking, {Criterion::MinHandJerk, Criterion::MinCrackle});
+  EXPECT_NE(text.find("(3) min-crackle is nearest"), std::string::npos);
+  EXPECT_NE(text.find("cannot be told apart from (1) min-hand-jerk"), std::string::npos);
+  EXPECT_NE(describeRanking({}, {}).find("Nothing to rank"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reachlab
