@@ -18,7 +18,8 @@ struct TimedPlan {
 };
 using MakePlan = std::function<TimedPlan(double duration)>;
 
-constexpr double kLook = 0.001;  // [s]
+constexpr double kLook = 0.001;                         // [s]
+constexpr double kShortestLine = 0.01, kLongestLine = 1;  // [m] of the catalogue's line
 
 // From the first time that `hasLeft` to the first one from there on that `isThere`.
 template <typename HasLeft, typename IsThere>
@@ -44,7 +45,7 @@ ReachPlan timeForTask(const Task& task, const MakePlan& makePlan) {
   return timed.plan;
 }
 
-// The same object on a straight line of this length: what the criteria are defined for.
+// The same object on a straight line: what the criteria are defined for.
 Experiment onLine(const Experiment& experiment, double length) {
   Experiment line = experiment;
   line.constraint = {};
@@ -56,8 +57,12 @@ Experiment onLine(const Experiment& experiment, double length) {
   return line;
 }
 
-// What the criterion predicts, timed; `place` lays a distance from the start into the world.
-ReachPlan planByPrediction(const Experiment& line, Criterion criterion, std::optional<double> handMass, std::function<Vec3(double)> place) {
+// What the criterion predicts for a way of this length, timed; `place` lays a distance from the start into the world.
+ReachPlan planByPrediction(const Experiment& experiment, double length, Criterion criterion, std::optional<double> handMass,
+                           std::function<Vec3(double)> place) {
+  // Ways that no line has are predicted on the nearest one: the reaches of an object on springs scale with the distance.
+  const double lineLength = std::clamp(length, kShortestLine, kLongestLine), scale = length / lineLength;
+  const Experiment line = onLine(experiment, lineLength);
   const Task& task = *line.task;
   return timeForTask(task, [&](double duration) {
     PredictOptions options;
@@ -65,14 +70,15 @@ ReachPlan planByPrediction(const Experiment& line, Criterion criterion, std::opt
     options.duration = duration;
     const std::shared_ptr<const Prediction> prediction = predict(line, criterion, options);
     std::vector<double> x(line.object.masses.size()), v(x.size());
-    const auto hasLeft = [&](double t) { return std::abs(prediction->handAt(t).position) > task.onset; };
+    const auto hasLeft = [&](double t) { return scale * std::abs(prediction->handAt(t).position) > task.onset; };
     const auto isThere = [&](double t) {
       prediction->massesAt(t, x, v);
       for (std::size_t i = 0; i < x.size(); ++i)
-        if (std::abs(x[i] - prediction->distance) > task.tolerance.position || std::abs(v[i]) > task.tolerance.velocity) return false;
+        if (scale * std::abs(x[i] - lineLength) > task.tolerance.position || scale * std::abs(v[i]) > task.tolerance.velocity) return false;
       return true;
     };
-    return TimedPlan{{duration, [=](double t) { return place(prediction->handAt(t).position); }}, computeArrival(duration, hasLeft, isThere)};
+    return TimedPlan{{duration, [=](double t) { return place(scale * prediction->handAt(t).position); }},
+                     computeArrival(duration, hasLeft, isThere)};
   });
 }
 
@@ -80,7 +86,7 @@ ReachPlan planAlongChord(const Experiment& experiment, const Vec3& start, const 
                          std::optional<double> handMass) {
   const double length = norm(target - start);
   const Vec3 direction = (target - start) / length;
-  return planByPrediction(onLine(experiment, length), criterion, handMass, [=](double s) { return start + s * direction; });
+  return planByPrediction(experiment, length, criterion, handMass, [=](double s) { return start + s * direction; });
 }
 
 // phi as a function of arc length from `from`, by Simpson's rule on equal parts of phi; beyond `to` the last part's slope goes on.
@@ -110,7 +116,7 @@ class ArcTable {
 ReachPlan planAlongCurve(const Experiment& experiment, const Constraint& constraint, Criterion criterion, std::optional<double> handMass) {
   const ArcTable table(constraint.curve, experiment.task->start[0], experiment.task->target[0]);
   if (!(table.length() > 0)) throw UsageError("task: start and target are the same place");
-  return planByPrediction(onLine(experiment, table.length()), criterion, handMass,
+  return planByPrediction(experiment, table.length(), criterion, handMass,
                           [=](double s) { return evaluate(constraint.curve, table.phiAt(s)).r; });
 }
 
