@@ -1,0 +1,203 @@
+// kill -9 at seeded random moments. A few here; `tests/long/kill.sh` sets REACHLAB_KILLS to 200.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "sim/record/recover.h"
+#include "sim/record/replay.h"
+#include "sim/session/session_folder.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab {
+namespace {
+
+using Clock = std::chrono::system_clock;  // what a file's time of writing is told in
+
+int killCount() {
+  const char* asked = std::getenv("REACHLAB_KILLS");
+  return asked != nullptr ? std::atoi(asked) : 6;
+}
+
+struct Ending {
+  int status = 0;
+  std::string out;
+  Clock::time_point killed;
+};
+
+// Runs `reach`, and kills it `seconds` after it has printed so many lines; a negative time lets it end by itself.
+Ending runAndKill(std::vector<std::string> arguments, double seconds, int afterLines = 0) {
+  int pipeEnds[2];
+  if (::pipe(pipeEnds) != 0) throw std::runtime_error("pipe");
+  arguments.insert(arguments.begin(), REACH_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(pipeEnds[1], 1);
+    ::dup2(::open("/dev/null", O_WRONLY), 2);
+    ::close(pipeEnds[0]);
+    ::close(pipeEnds[1]);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ::close(pipeEnds[1]);
+  Ending ending;
+  std::atomic<int> lines{0};
+  std::atomic<bool> ended{false};
+  std::jthread reader([&] {
+    char buffer[4096];
+    for (ssize_t count = 0; (count = ::read(pipeEnds[0], buffer, sizeof buffer)) > 0;) {
+      ending.out.append(buffer, static_cast<std::size_t>(count));
+      lines += static_cast<int>(std::count(buffer, buffer + count, '\n'));
+    }
+    ended = true;
+  });
+  if (seconds >= 0) {
+    while (lines < afterLines && !ended) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    ending.killed = Clock::now();
+    ::kill(child, SIGKILL);
+  }
+  ::waitpid(child, &ending.status, 0);
+  reader.join();
+  ::close(pipeEnds[0]);
+  return ending;
+}
+
+// The whole lines that announce a trial, without the last one when it was cut.
+std::map<int, std::string> announced(const std::string& out) {
+  std::map<int, std::string> trials;
+  for (std::size_t from = 0, end = 0; (end = out.find('\n', from)) != std::string::npos; from = end + 1) {
+    const std::string line = out.substr(from, end - from);
+    if (line.starts_with("trial=")) trials[std::atoi(line.c_str() + 6)] = line;
+  }
+  return trials;
+}
+
+bool sameResult(const TrialResult& a, const TrialResult& b) {
+  return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && a.by == b.by && a.movementTime == b.movementTime;
+}
+
+std::vector<std::string> runArguments(const std::string& data, bool resume) {
+  std::vector<std::string> arguments{"run", "chain-moderate", "--device", "simulated", "--trials", "30", "--seed", "11", "--fast", "--data", data};
+  if (resume) arguments.push_back("--resume");
+  return arguments;
+}
+
+TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
+  const TemporaryFolder folder("kill");
+  const std::string whole = folder / "whole";
+  ASSERT_EQ(runAndKill(runArguments(whole, false), -1).status, 0);
+  const RunLog good = RunLog::open(recordedRuns({whole}).at(0).path);
+  ASSERT_EQ(good.trials().size(), 30u);
+
+  std::mt19937_64 random(6);
+  std::vector<double> silences;  // [ms] from the last write to the kill
+  int midTrial = 0;
+  for (int k = 0; k < killCount(); ++k) {
+    const std::string data = folder / ("kill" + std::to_string(k));
+    const int after = static_cast<int>(random() % 30);
+    const double moment = static_cast<double>(random() % 8000) * 1e-6;  // a trial takes a few milliseconds on the virtual clock
+    const Ending killed = runAndKill(runArguments(data, false), moment, after);
+    const auto lines = announced(killed.out);
+    const std::vector<RecordedRun> runs = recordedRuns({data});
+    if (runs.empty()) {
+      EXPECT_TRUE(lines.empty());
+      continue;
+    }
+    if (std::filesystem::file_size(runs[0].path) < 1000) {  // before the configuration was on the disk
+      EXPECT_TRUE(lines.empty());
+      std::filesystem::remove(runs[0].path);
+      continue;
+    }
+    const RunLog log = RunLog::open(runs[0].path);
+    std::size_t finished = 0;
+    for (const RecordedTrial& trial : log.trials()) {
+      if (trial.complete) {
+        EXPECT_TRUE(sameResult(trial.result, good.trials()[finished].result)) << "kill " << k << ", trial " << trial.trial;
+        ++finished;
+      } else {
+        ++midTrial;
+        EXPECT_EQ(trial.result.outcome, Outcome::Interrupted);
+      }
+    }
+    EXPECT_GE(finished, lines.size()) << "kill " << k;
+    if (finished > 0 && finished < 30) {
+      struct stat status {};
+      ::stat(runs[0].path.c_str(), &status);
+      const auto written = std::chrono::seconds(status.st_mtim.tv_sec) + std::chrono::nanoseconds(status.st_mtim.tv_nsec);
+      silences.push_back(std::chrono::duration<double, std::milli>(killed.killed.time_since_epoch() - written).count());
+    }
+    EXPECT_TRUE(replayRun(log).identical()) << "kill " << k << ": " << replayRun(log).firstDifference;
+
+    // What is left of the order is done by --resume, with the results that the unbroken run has.
+    ASSERT_EQ(runAndKill(runArguments(data, true), -1).status, 0);
+    std::map<int, TrialResult> done;
+    for (const RecordedRun& run : recordedRuns({data})) {
+      const RunLog part = RunLog::open(run.path);
+      for (const RecordedTrial& trial : part.trials())
+        if (trial.result.outcome != Outcome::Interrupted) {
+          EXPECT_FALSE(done.contains(trial.trial)) << "trial " << trial.trial << " was done twice";
+          done[trial.trial] = trial.result;
+        }
+    }
+    ASSERT_EQ(done.size(), 30u) << "kill " << k;
+    for (const RecordedTrial& trial : good.trials()) EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
+
+    EXPECT_NO_THROW(recoverLog(runs[0].path));
+    const RunLog mended = RunLog::open(runs[0].path);
+    EXPECT_TRUE(mended.healthy());
+    EXPECT_EQ(mended.trials().size(), log.trials().size());
+    std::filesystem::remove_all(data);
+    if (HasFailure()) return;
+  }
+  std::sort(silences.begin(), silences.end());
+  if (!silences.empty())
+    std::printf("%zu kills within a run, %d within a trial; last write before the kill: median %.1f ms, longest %.1f ms\n", silences.size(), midTrial,
+                silences[silences.size() / 2], silences.back());
+}
+
+TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
+  const TemporaryFolder folder("killexport");
+  const std::string data = folder / "data", out = folder / "out";
+  ASSERT_EQ(runAndKill(runArguments(data, false), -1).status, 0);
+  const std::string log = recordedRuns({data}).at(0).path;
+  const std::string bytes = readWholeFile(log);
+  const std::vector<std::string> arguments{"export", log, "--format", "csv", "--out", out};
+  const auto start = Clock::now();
+  ASSERT_EQ(runAndKill(arguments, -1).status, 0);
+  const double length = std::chrono::duration<double>(Clock::now() - start).count();
+  std::map<std::string, std::string> whole;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) whole[entry.path().filename().string()] = readWholeFile(entry.path().string());
+  ASSERT_EQ(whole.size(), 2u);
+  std::mt19937_64 random(7);
+  for (int k = 0; k < killCount(); ++k) {
+    std::filesystem::remove_all(out);
+    runAndKill(arguments, length * static_cast<double>(random() % 1000) / 1000);
+    EXPECT_EQ(readWholeFile(log), bytes);
+    if (!std::filesystem::exists(out)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(out)) {
+      const std::string name = entry.path().filename().string();
+      if (name.ends_with(".tmp")) continue;  // under its own name a file is whole or not there
+      EXPECT_EQ(readWholeFile(entry.path().string()), whole[name]) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reachlab
