@@ -14,7 +14,7 @@ namespace reachlab {
 namespace {
 
 struct AnalyzeOptions {
-  std::string dataset, out, experiment, onset = "percent", duration = "task";
+  std::string dataset, out, experiment, onset = "percent", duration = "mean";
   std::vector<std::string> criteria;
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
   int resamples = 2000, bin = 10;
@@ -52,7 +52,11 @@ nlohmann::ordered_json jsonOf(const Ranking& ranking, const std::vector<Criterio
                       {"difference_m_per_s", p.difference},
                       {"difference_interval_m_per_s", {p.differenceInterval.low, p.differenceInterval.high}},
                       {"apart_from_first", p.apartFromFirst}});
-  return {{"decided", ranking.decided()}, {"trials", ranking.trials}, {"subjects", ranking.subjects}, {"places", places}};
+  auto ties = nlohmann::ordered_json::array();
+  for (const auto& [i, j] : ranking.ties)
+    ties.push_back({nameOf(criteria[ranking.places[i].criterion]), nameOf(criteria[ranking.places[j].criterion])});
+  return {{"decided", ranking.decided()}, {"trials", ranking.trials}, {"subjects", ranking.subjects}, {"places", places},
+          {"not_told_apart", ties}};
 }
 
 std::string summaryJson(const StudyResult& study, const Dataset& dataset, const AnalysisFiles& files) {
@@ -122,7 +126,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")->allow_extra_args(false);
   command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
-  command->add_option("--prediction-duration", o->duration, "Predict for the task's duration or for the mean duration moved")
+  command->add_option("--prediction-duration", o->duration, "Predict for the mean duration that was moved, or for the task's")
       ->check(CLI::IsMember({"task", "mean"}))
       ->capture_default_str();
   command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")->check(CLI::IsMember({"percent", "absolute", "task"}))->capture_default_str();

@@ -75,6 +75,12 @@ Ranking rank(std::span<const TrialErrors> trials, const RankingOptions& options,
     place.apartFromFirst = c != first && trials.size() > 1 && place.differenceInterval.low > 0;
     ranking.places.push_back(place);
   }
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      std::vector<double> difference = epsilons[order[j]];
+      for (std::size_t r = 0; r < difference.size(); ++r) difference[r] -= epsilons[order[i]][r];
+      if (trials.size() < 2 || !(centralInterval(std::move(difference), options.level).low > 0)) ranking.ties.emplace_back(i, j);
+    }
   return ranking;
 }
 

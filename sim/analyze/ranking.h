@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/analyze/statistics.h"
@@ -40,6 +41,8 @@ struct RankedCriterion {
 
 struct Ranking {
   std::vector<RankedCriterion> places;  // best first
+  /// Pairs of places (better first) that cannot be told apart: the interval of their difference includes 0.
+  std::vector<std::pair<std::size_t, std::size_t>> ties;
   std::size_t trials = 0, subjects = 0;
   /// The first place is held alone: every other criterion's difference excludes 0.
   bool decided() const;

@@ -85,15 +85,17 @@ void addSuccessTable(Html& html, const StudyResult& study) {
                  "quiet");
 }
 
-void addRankingTable(Html& html, const Ranking& ranking, const std::vector<Criterion>& criteria) {
+void addRankingTable(Html& html, const ConditionResult& result) {
+  const Ranking& ranking = result.handRanking;
   if (ranking.places.empty()) return;
-  html.add("<table><thead><tr><th>Criterion</th><th>ε (mm/s)</th><th>95 % interval</th><th>farther than the first by (mm/s)</th><th>95 % interval</th>"
+  html.add("<table><thead><tr><th>Criterion</th><th>predicted for T (s)</th><th>ε (mm/s)</th><th>95 % interval</th><th>farther than the first by (mm/s)</th><th>95 % interval</th>"
            "<th class=\"text\">told apart</th></tr></thead><tbody>");
   const auto mm = [](double v) { return fmt::format("{:.2f}", 1e3 * v); };
   for (std::size_t i = 0; i < ranking.places.size(); ++i) {
     const RankedCriterion& p = ranking.places[i];
-    html.add(fmt::format("<tr{}><td>{}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "", escaped(numberedName(criteria[p.criterion])),
-                         mm(p.epsilon), mm(p.interval.low), mm(p.interval.high)));
+    const PredictedProfile& predicted = result.predictions[p.criterion];
+    html.add(fmt::format("<tr{}><td>{}</td><td>{:.3f}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "",
+                         escaped(numberedName(predicted.criterion)), predicted.taskDuration, mm(p.epsilon), mm(p.interval.low), mm(p.interval.high)));
     if (i == 0) html.add("<td></td><td></td><td class=\"text\"></td></tr>");
     else
       html.add(fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td></tr>", mm(p.difference), mm(p.differenceInterval.low),
@@ -157,7 +159,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   if (r.used > 0) {
     html.paragraph("Hand velocity, over trials: " + describeRanking(r.handRanking, criteriaOf(r)), "finding");
     if (r.handOverSubjects) html.paragraph("Over subjects: " + describeRanking(*r.handOverSubjects, criteriaOf(r)));
-    addRankingTable(html, r.handRanking, criteriaOf(r));
+    addRankingTable(html, r);
     html.paragraph("Object velocity, over trials: " + describeRanking(r.objectRanking, criteriaOf(r)));
   }
   addFigure(html, figures, "predictions_" + file);

@@ -18,7 +18,7 @@ struct StudyOptions {
   std::vector<Criterion> criteria;      // empty: all that are defined for the object
   std::optional<double> handMass;       // [kg] of the predictions; nullopt: the experiment's
   double handDamping = 0;               // [N s/m]
-  bool predictMeanDuration = false;     // predict for the duration that was moved, not for the task's
+  bool predictMeanDuration = true;      // predict for the duration that was moved (as the paper does), not for the task's
   RankingOptions ranking;
   int learningBin = 10;                 // trials a point of the learning curve
 };

@@ -113,6 +113,13 @@ void addRanking(TableText& table, const std::string& condition, const char* sign
     table.number(p.interval.low).number(p.interval.high).number(p.difference).number(p.differenceInterval.low);
     table.number(p.differenceInterval.high).number(p.firstShare);
     table.cell(place == 1 ? "" : p.apartFromFirst ? "yes" : "no");
+    std::string equals;
+    for (const auto& [i, j] : ranking.ties) {
+      const auto self = static_cast<std::size_t>(place - 1);
+      if (i != self && j != self) continue;
+      equals += (equals.empty() ? "" : ";") + std::string(nameOf(criteria[ranking.places[i == self ? j : i].criterion]));
+    }
+    table.cell(equals);
     count(table, ranking.trials);
     count(table, ranking.subjects).endRow();
   }
@@ -121,7 +128,7 @@ void addRanking(TableText& table, const std::string& condition, const char* sign
 std::string rankingTable(const StudyResult& study) {
   TableText table = csv({"condition", "signal", "bootstrap_over", "rank", "criterion", "epsilon_m_per_s", "epsilon_low_m_per_s",
                          "epsilon_high_m_per_s", "difference_m_per_s", "difference_low_m_per_s", "difference_high_m_per_s",
-                         "share_of_resamples_first", "apart_from_first", "trials", "subjects"});
+                         "share_of_resamples_first", "apart_from_first", "not_told_apart_from", "trials", "subjects"});
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
     std::vector<Criterion> criteria;

@@ -50,6 +50,10 @@ std::string describeRanking(const Ranking& ranking, const std::vector<Criterion>
   if (!equal.empty())
     text += fmt::format(" It cannot be told apart from {}: the 95 % interval of the difference includes 0.", joined(equal));
   if (!apart.empty()) text += fmt::format(" Farther away, with a difference whose 95 % interval excludes 0: {}.", joined(apart));
+  std::vector<std::string> pairs;
+  for (const auto& [i, j] : ranking.ties)
+    if (i > 0) pairs.push_back(numberedName(criteria[ranking.places[i].criterion]) + " from " + numberedName(criteria[ranking.places[j].criterion]));
+  if (!pairs.empty()) text += fmt::format(" Behind the first, these cannot be told apart: {}.", joined(pairs));
   return text;
 }
 
@@ -100,7 +104,8 @@ std::string describeDurations(const ConditionResult& r) {
   const double ratio = r.duration.mean / r.unscaledDurations.front();
   if (std::abs(ratio - 1) <= 0.1) return {};
   return fmt::format("The movements last {:.0f} % of the first prediction's duration under the same onset rule ({:.3f} s against {:.3f} s); shapes are "
-                     "compared after scaling. --prediction-duration mean predicts for the duration that was moved.",
+                     "compared after scaling, which an object with its own frequencies does not quite allow. --prediction-duration mean predicts for "
+                     "the duration that was moved.",
                      100 * ratio, r.duration.mean, r.unscaledDurations.front());
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "constraints/error.h"
+#include "sim/analyze/wording.h"
 #include "tests/analyze/synthetic.h"
 
 namespace reachlab {
@@ -46,13 +47,19 @@ TEST(Study, PlannedByForceChangeWithAHandMassRanksThatFirst) {
   EXPECT_TRUE(study.overall.decided());
 }
 
-TEST(Study, OfOneMassAndNoHandMassCannotTellForceFromCentreOfMass) {
+TEST(Study, OfTheParallelObjectSaysWhichCriteriaCannotBeToldApart) {
   // Without a hand mass criteria (4) and (6) are one prediction: their costs differ by the factor M^2 alone.
   const std::vector<StudyCondition> parallel{{"parallel", parallelExperiment(2.5)}};
   const StudyResult study = analyzeStudy(simulatedStudy(parallel, Criterion::MinComAcceleration, 0, 2, 1, 10, 3), quickOptions());
   const Ranking& ranking = study.results[0].handRanking;
   EXPECT_FALSE(ranking.decided());
   EXPECT_FALSE(ranking.places[1].apartFromFirst);
+  EXPECT_NE(describeRanking(ranking, criteriaOf(study.results[0])).find("cannot be told apart from"), std::string::npos);
+
+  const StudyResult jerk = analyzeStudy(simulatedStudy(parallel, Criterion::MinHandJerk, 0, 2, 1, 10, 3), quickOptions());
+  const Ranking& behind = jerk.results[0].handRanking;
+  EXPECT_EQ(firstOf(behind, jerk.results[0]), static_cast<std::size_t>(Criterion::MinHandJerk));
+  EXPECT_NE(describeRanking(behind, criteriaOf(jerk.results[0])).find("these cannot be told apart"), std::string::npos);
 }
 
 TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
