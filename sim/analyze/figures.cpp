@@ -57,7 +57,10 @@ void addTrials(Panel& panel, const StudyResult& study, std::size_t condition, bo
   for (std::size_t i = 0; i < shown; ++i) {
     const StudyTrial& trial = *used[i * used.size() / shown];
     Series s;
-    if (i == 0) s.label = shown == used.size() ? fmt::format("{} trial{}", shown, shown == 1 ? "" : "s") : fmt::format("{} of {} trials", shown, used.size());
+    if (i == 0) {
+      const std::string what = fmt::format("{}trial{}", r.onlyFailures ? "failed " : "", used.size() == 1 ? "" : "s");
+      s.label = shown == used.size() ? fmt::format("{} {}", shown, what) : fmt::format("{} of {} {}", shown, used.size(), what);
+    }
     s.x = timeAxis(r.duration.mean);
     for (const double v : object ? trial.object : trial.hand) s.y.push_back(v * trial.measures.duration / r.duration.mean);
     s.color = palette::faded(palette::kGrey, 0.45);
@@ -143,9 +146,9 @@ NamedFigure velocityFigure(const StudyResult& study, std::size_t condition) {
   }
   out.figure.columns = 2;
   out.figure.panels = {hand, object};
-  out.caption = r.used > 0 ? fmt::format("{}: velocity of hand and object, {} successful trial{} time-scaled to their mean duration of {:.3f} s.",
-                                         study.conditions[condition].name, r.used, r.used == 1 ? "" : "s", r.duration.mean)
-                           : fmt::format("{}: no successful trial to show; predictions only.", study.conditions[condition].name);
+  out.caption = r.used > 0 ? fmt::format("{}: velocity of hand and object, {} {} trial{} time-scaled to their mean duration of {:.3f} s.",
+                                         study.conditions[condition].name, r.used, r.onlyFailures ? "failed" : "successful", r.used == 1 ? "" : "s", r.duration.mean)
+                           : fmt::format("{}: no movement to show; predictions only.", study.conditions[condition].name);
   return out;
 }
 

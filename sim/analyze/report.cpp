@@ -151,13 +151,14 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   const std::string file = fileNameOf(study.conditions[c].name);
   html.heading(2, study.conditions[c].name);
   html.paragraph(describeCounts(r));
-  if (r.used == 0 && r.counts.failure > 0)
-    html.paragraph("No trial succeeded, so there are no mean profiles, errors or ranking; the measures of the failed trials are below.", "warning");
+  if (r.onlyFailures)
+    html.paragraph("No trial succeeded. Profiles, errors and ranking below are of the failed trials, for description only; the paper's error is of successful ones.",
+                   "warning");
   const std::string durations = describeDurations(r);
   if (!durations.empty()) html.paragraph(durations, "warning");
   addFigure(html, figures, "velocity_" + file);
   if (r.used > 0) {
-    html.paragraph("Hand velocity, over trials: " + describeRanking(r.handRanking, criteriaOf(r)), "finding");
+    html.paragraph("Hand velocity, over trials: " + describeRanking(r.handRanking, criteriaOf(r)), r.onlyFailures ? "" : "finding");
     if (r.handOverSubjects) html.paragraph("Over subjects: " + describeRanking(*r.handOverSubjects, criteriaOf(r)));
     addRankingTable(html, r);
     html.paragraph("Object velocity, over trials: " + describeRanking(r.objectRanking, criteriaOf(r)));

@@ -42,6 +42,21 @@ StudyTrial measureTrial(TrialData& data, std::size_t condition, const StudyOptio
   return trial;
 }
 
+/// Where nothing succeeded, the failed movements are still worth looking at; they are shown as such and left out of the overall ranking.
+void useFailuresWhereNothingSucceeded(StudyResult& study) {
+  for (std::size_t c = 0; c < study.results.size(); ++c) {
+    const auto ofCondition = [&](const StudyTrial& t) { return t.condition == c; };
+    if (std::any_of(study.trials.begin(), study.trials.end(), [&](const StudyTrial& t) { return ofCondition(t) && t.used(); })) continue;
+    for (StudyTrial& trial : study.trials) {
+      if (!ofCondition(trial) || !trial.counted || trial.hand.empty()) continue;
+      --study.results[c].exclusions[trial.exclusion];
+      trial.exclusion.clear();
+      study.results[c].onlyFailures = true;
+    }
+    std::erase_if(study.results[c].exclusions, [](const auto& entry) { return entry.second == 0; });
+  }
+}
+
 std::vector<double> timeScaled(const std::vector<double>& profile, double from, double to) {
   std::vector<double> out = profile;
   for (double& v : out) v *= from / to;
@@ -162,7 +177,7 @@ void rankTogether(StudyResult& study) {
   // Only criteria that every condition with trials has can be compared over all of them.
   bool first = true;
   for (const ConditionResult& result : study.results) {
-    if (result.used == 0) continue;
+    if (result.used == 0 || result.onlyFailures) continue;
     std::vector<Criterion> here;
     for (const PredictedProfile& p : result.predictions) here.push_back(p.criterion);
     if (first) study.common = here;
@@ -171,7 +186,7 @@ void rankTogether(StudyResult& study) {
   }
   std::vector<TrialErrors> all;
   for (const StudyTrial& trial : study.trials) {
-    if (!trial.used()) continue;
+    if (!trial.used() || study.results[trial.condition].onlyFailures) continue;
     const auto& predictions = study.results[trial.condition].predictions;
     std::vector<double> errors;
     for (const Criterion c : study.common)
@@ -234,6 +249,7 @@ StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const St
     if (progress) progress(i + 1, input.trials.size());
   }
   study.results.resize(study.conditions.size());
+  useFailuresWhereNothingSucceeded(study);
   std::stable_sort(study.trials.begin(), study.trials.end(), [](const StudyTrial& a, const StudyTrial& b) { return orderOf(a) < orderOf(b); });
   for (std::size_t c = 0; c < study.conditions.size(); ++c) summarise(study.trials, c, study.conditions[c], options, study.results[c]);
   for (StudyTrial& trial : study.trials) addErrors(trial, study.results[trial.condition]);

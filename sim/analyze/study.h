@@ -65,6 +65,7 @@ struct ConditionResult {
   std::map<std::string, std::size_t> reasons;  // of failures and aborts, by machine-readable name
   std::map<std::string, std::size_t> exclusions;
   std::size_t used = 0;
+  bool onlyFailures = false;                   // no trial succeeded: what is used are the failed ones, for description
   MeanSd duration, movementTime;               // [s] over the used trials: by the onset rule, by the task
   MeanProfile hand, object;
   double endLevel = 0;                         // mean of the used trials
@@ -107,7 +108,7 @@ struct StudyResult {
   std::vector<SuccessCell> success;
   std::vector<LearningPoint> learning;
   std::vector<Criterion> common;         // criteria predicted in every condition that has used trials
-  Ranking overall;                       // hand, all conditions together, places index `common`
+  Ranking overall;                       // hand, all conditions with successes together, places index `common`
   std::optional<Ranking> overallOverSubjects;
   std::vector<std::string> subjects;
 };

@@ -183,7 +183,7 @@ std::string learningTable(const StudyResult& study) {
 
 std::string conditionsTable(const StudyResult& study) {
   const StudyOptions& o = study.options;
-  TableText table = csv({"condition", "experiment", "task_duration_s", "success", "failure", "aborted", "interrupted", "practice", "catch", "used",
+  TableText table = csv({"condition", "experiment", "task_duration_s", "success", "failure", "aborted", "interrupted", "practice", "catch", "used", "used_outcome",
                          "mean_duration_s", "sd_duration_s", "mean_movement_time_s", "sd_movement_time_s", "onset_rule", "onset_percent",
                          "onset_speed_m_per_s", "cutoff_hz", "hand_mass_kg", "resamples", "bootstrap_seed"});
   for (std::size_t c = 0; c < study.results.size(); ++c) {
@@ -193,7 +193,7 @@ std::string conditionsTable(const StudyResult& study) {
     for (const std::size_t n : {r.counts.success, r.counts.failure, r.counts.aborted, r.counts.interrupted, r.counts.practice,
                                 r.counts.catchTrials, r.used})
       count(table, n);
-    table.number(r.duration.mean).number(r.duration.sd).number(r.movementTime.mean).number(r.movementTime.sd);
+    table.cell(r.used == 0 ? "" : r.onlyFailures ? "failure" : "success").number(r.duration.mean).number(r.duration.sd).number(r.movementTime.mean).number(r.movementTime.sd);
     table.cell(nameOf(o.measure.onset.rule)).number(o.measure.onset.percent).number(o.measure.onset.speed).number(o.measure.cutoff);
     table.number(o.handMass.value_or(e.handMass)).whole(o.ranking.resamples).whole(static_cast<long long>(o.ranking.seed)).endRow();
   }

@@ -96,7 +96,7 @@ std::string describeCounts(const ConditionResult& r) {
   std::vector<std::string> why;
   for (const auto& [reason, n] : r.reasons) why.push_back(fmt::format("{} × {}", n, reason));
   if (!why.empty()) text += ". Reasons: " + joined(why);
-  return text + fmt::format(". {} in profiles and errors.", plural(r.used, "trial"));
+  return text + fmt::format(". {} in profiles and errors.", plural(r.used, r.onlyFailures ? "failed trial" : "trial"));
 }
 
 std::string describeDurations(const ConditionResult& r) {

@@ -116,12 +116,17 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
 
   EXPECT_EQ(analyzeStudy(one, quickOptions()).results[0].used, 1u);
   EXPECT_FALSE(analyzeStudy(one, quickOptions()).overall.decided());
-  for (StudyInput* input : {&failed, &empty, &still}) {
+  for (StudyInput* input : {&empty, &still}) {
     const StudyResult study = analyzeStudy(*input, quickOptions());
     EXPECT_EQ(study.results[0].used, 0u);
     EXPECT_TRUE(study.overall.places.empty());
     EXPECT_FALSE(study.results[0].predictions.empty());
   }
+  // Failures alone are described, but decide nothing over all.
+  const StudyResult study = analyzeStudy(failed, quickOptions());
+  EXPECT_TRUE(study.results[0].onlyFailures);
+  EXPECT_EQ(study.results[0].used, 1u);
+  EXPECT_TRUE(study.overall.places.empty());
 }
 
 TEST(Study, RefusesOptionsOutOfRange) {
