@@ -55,6 +55,7 @@ BodySystem::BodySystem(const ObjectModel& model, const Object& object) : springs
 std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& object, const MethodRequest& request) {
   const BodySystem system(model, object);
   if (request.method == "rk4") return std::make_unique<BodyPlant<Rk4>>(model, system, request.tolerance);
+  if (request.method == "stiff") return std::make_unique<BodyPlant<Stiff>>(model, system, request.tolerance);
   if (request.method == "adaptive") return std::make_unique<BodyPlant<Adaptive>>(model, system, request.tolerance);
   return std::make_unique<BodyPlant<Abm>>(model, system, request.tolerance);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
 namespace reachlab {
@@ -14,6 +15,7 @@ inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
 struct BodySystem {
   static constexpr int kStates = 13;
   static constexpr bool kEnds = false;
+  static constexpr const char* kNoContinuation = "there is no continuation here";
   using State = Numbers<13>;
   using Hand = HandSample;
 
@@ -63,9 +65,10 @@ struct BodySystem {
                  spin.x, spin.y, spin.z};
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
-  void settle(State& s) const noexcept {
+  Settled settle(const State&, State& s) const noexcept {
     const double length = 1 / std::sqrt(s[6] * s[6] + s[7] * s[7] + s[8] * s[8] + s[9] * s[9]);
     for (int i = 6; i < 10; ++i) s[i] *= length;
+    return Settled::Same;
   }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& s) const noexcept {

@@ -8,6 +8,7 @@ namespace {
 template <class System>
 std::unique_ptr<Plant> makeHard(const ObjectModel& model, const System& system, const MethodRequest& request) {
   if (request.method == "rk4") return std::make_unique<SystemPlant<System, Rk4>>(model, system, request.tolerance);
+  if (request.method == "stiff") return std::make_unique<SystemPlant<System, Stiff>>(model, system, request.tolerance);
   if (request.method == "adaptive") return std::make_unique<SystemPlant<System, CuspAdaptive>>(model, system, request.tolerance);
   return std::make_unique<SystemPlant<System, CuspAbm>>(model, system, request.tolerance);
 }

@@ -11,6 +11,7 @@ template <int N, bool Parallel, bool Tangential>
 struct CurveSystem {
   static constexpr int kStates = 2 * N;
   static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation = "the mass rests on a cusp of the curve: which way it would leave is not determined";
   using State = Numbers<kStates>;
   using Hand = HandSample;
 

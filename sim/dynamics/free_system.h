@@ -8,6 +8,7 @@ template <int N, bool Parallel>
 struct FreeSystem {
   static constexpr int kStates = 6 * N;
   static constexpr bool kEnds = false;
+  static constexpr const char* kNoContinuation = "there is no continuation here";
   using State = Numbers<kStates>;
   using Hand = HandSample;
 

@@ -10,6 +10,7 @@ template <int N, bool Parallel>
 struct LineSystem {
   static constexpr int kStates = 2 * N;
   static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation = "the line has no continuation here";
   using State = Numbers<kStates>;
   struct Hand {
     double r, v;

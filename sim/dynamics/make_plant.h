@@ -5,6 +5,7 @@
 #include "sim/dynamics/adaptive.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/rk4.h"
+#include "sim/dynamics/stiff.h"
 #include "sim/dynamics/system_plant.h"
 
 namespace reachlab {
@@ -13,6 +14,7 @@ namespace reachlab {
 template <class System>
 std::unique_ptr<Plant> makePlant(const ObjectModel& model, const System& system, const MethodRequest& request) {
   if (request.method == "rk4") return std::make_unique<SystemPlant<System, Rk4>>(model, system, request.tolerance);
+  if (request.method == "stiff") return std::make_unique<SystemPlant<System, Stiff>>(model, system, request.tolerance);
   if (request.method == "adaptive") return std::make_unique<SystemPlant<System, Adaptive>>(model, system, request.tolerance);
   return std::make_unique<SystemPlant<System, Abm>>(model, system, request.tolerance);
 }

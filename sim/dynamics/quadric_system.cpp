@@ -4,19 +4,11 @@
 
 namespace reachlab {
 
-std::array<double, 2> QuadricSystem::solve(const SurfacePoint& p, const Vec3& v) noexcept {
-  const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), a = dot(p.rU, v), b = dot(p.rV, v);
-  const double determinant = e * g - f * f;
-  if (determinant > 1e-24 * e * g) return {(g * a - f * b) / determinant, (e * b - f * a) / determinant};
-  // On a pole itself one parameter means nothing; the other carries the velocity.
-  return e > g ? std::array{a / e, 0.0} : std::array{0.0, g > 0 ? b / g : 0.0};
-}
-
 void QuadricSystem::follow(const Vec3& r) const noexcept {
   const auto newton = [&](std::array<double, 2> q) {
     for (int round = 0; round < 20; ++round) {
       const SurfacePoint p = evaluate(surface, q[0], q[1]);
-      const std::array<double, 2> step = solve(p, r - p.r);
+      const std::array<double, 2> step = solveRates(p, r - p.r);
       const double limit = std::min(1.0, 0.5 / std::max(std::abs(step[0]), std::abs(step[1])));
       q[0] += limit * step[0];
       q[1] += limit * step[1];

@@ -1,5 +1,6 @@
 #pragma once
 #include "sim/dynamics/quadric.h"
+#include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
 namespace reachlab {
@@ -9,6 +10,7 @@ namespace reachlab {
 struct QuadricSystem {
   static constexpr int kStates = 6;
   static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation = "the surface has no tangent plane here (a cone's apex): there is no unique continuation";
   using State = Numbers<6>;
   using Hand = HandSample;
 
@@ -36,15 +38,20 @@ struct QuadricSystem {
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
 
-  /// Back onto the surface: rounding's drift of one step, far below what a multistep history notices.
-  void settle(State& y) const noexcept {
+  /// Back onto the surface: rounding's drift of one step, far below what a multistep history notices. Lost where the normal turned
+  /// round within the step: a cone's apex, beyond which nothing says where to go.
+  Settled settle(const State& before, State& y) const noexcept {
     Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
     const Vec3 n = quadric.gradient(r);
+    if (dot(n, quadric.gradient({before[0], before[1], before[2]})) < 0 && lost(before)) return Settled::Lost;
     const double square = 1 / dot(n, n);
     r -= (quadric.value(r) * square) * n;
     v -= (dot(n, v) * square) * n;
     y.values = {r.x, r.y, r.z, v.x, v.y, v.z};
+    return Settled::Same;
   }
+  /// Beside a place without a normal (the gradient is of order one elsewhere).
+  bool lost(const State& y) const noexcept { return norm(quadric.gradient({y[0], y[1], y[2]})) < 0.1; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
     const SurfacePoint p = evaluate(surface, q[0], q[1]);
@@ -58,7 +65,7 @@ struct QuadricSystem {
     follow(masses[0].r);
     masses[0].q = parameters;
     const SurfacePoint p = evaluate(surface, parameters[0], parameters[1]);
-    masses[0].qRate = solve(p, masses[0].v);
+    masses[0].qRate = solveRates(p, masses[0].v);
   }
   void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept { masses[0].a = {dy[3], dy[4], dy[5]}; }
 
@@ -74,8 +81,6 @@ struct QuadricSystem {
 
   /// Follows the parameters to r by Gauss-Newton from where they were; far off, from the nearest of a grid.
   void follow(const Vec3& r) const noexcept;
-  /// Least-squares (u', v') of a velocity.
-  static std::array<double, 2> solve(const SurfacePoint& p, const Vec3& v) noexcept;
 };
 
 }  // namespace reachlab

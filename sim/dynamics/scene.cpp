@@ -4,6 +4,7 @@
 
 #include "constraints/analysis.h"
 #include "constraints/error.h"
+#include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/plant.h"
 
@@ -11,7 +12,6 @@ namespace reachlab {
 
 namespace {
 
-constexpr double kExplicitReach = 0.3;   // fastest mode times step up to which the multistep method is used
 constexpr double kHardSpeedRatio = 0.2;  // smallest to largest |r_phi| below which a curve is hard somewhere
 
 bool isLinear(const Constraint& constraint, const ObjectModel& model) {
@@ -91,37 +91,31 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   const std::vector<double> start = experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == ConstraintKind::Free ? 3 : 2, 0.0);
   if (experiment.task) requireStart(constraint, start);
 
-  MethodChoice& choice = scene.choice;
-  choice.fastestMode = boundFastestMode(model);
-  const double reach = choice.fastestMode * options.step;
-  const std::string asked = options.method.empty() ? experiment.method : options.method;
-  MethodRequest request{asked, options.tolerance};
   const bool linear = isLinear(constraint, model);
-  choice.method = asked;
-  choice.reason = "asked for";
-  if (asked == "exact" && !linear) throw RefusedError("method exact is for linear scenes (a straight line, free space); here use auto, abm or adaptive");
-  if (asked == "auto") {
-    if (linear) {
-      choice.method = "exact";
-      choice.reason = "linear with constant coefficients: the matrix exponential is exact for any stiffness and damping";
-      choice.predictedError = 1e-14;
-    } else {
-      choice.method = reach <= kExplicitReach ? "abm" : "adaptive";
-      choice.reason = fmt::format("not linear; fastest mode times step is {:.3g}, {} {}", reach, reach <= kExplicitReach ? "within" : "beyond", kExplicitReach);
-      choice.predictedError = 1e-11;
-    }
-    request.method = choice.method;
-  }
-
+  SceneFacts facts{.linear = linear, .step = options.step};
+  if (experiment.task) facts.duration = experiment.task->duration;
+  CurveForm form;
+  double speedRatio = 1;
   if (linear) {
     const LinearSpace space = linearSpace(constraint);
     if (space.axes == 1 && !(norm(space.tangent) > 0)) throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
+    facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == AtEnd::Bounce &&
+                        (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
+  } else if (constraint.kind == ConstraintKind::Curve) {
+    const SpeedRange speeds = findSpeedRange(constraint, start[0]);
+    speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
+    form = {speedRatio < kHardSpeedRatio, speeds.most};
+    facts.hardCurve = form.tangential;
+    if (!(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
+      throw RefusedError(fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
+  }
+  scene.choice = chooseMethod(options.method.empty() ? experiment.method : options.method, model, facts);
+  MethodChoice& choice = scene.choice;
+  const MethodRequest request{choice.method, options.tolerance};
+
+  if (linear) {
+    const LinearSpace space = linearSpace(constraint);
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
-    const bool ends = space.axes == 1 && !space.domain.periodic && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
-    if (choice.method == "exact" && ends && space.domain.atEnd == AtEnd::Bounce && asked == "auto") {
-      choice.method = request.method = "adaptive";
-      choice.reason = "the line has elastic ends, which the exact propagator does not know";
-    }
     if (choice.method == "exact")
       scene.plant = makeExactPlant(model, space, options.step);
     else
@@ -131,12 +125,7 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
     scene.plant = makeBodyPlant(model, experiment.object, request);
   } else if (constraint.kind == ConstraintKind::Curve) {
     if (model.kind == ObjectKind::Body) throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
-    const SpeedRange speeds = findSpeedRange(constraint, start[0]);
-    const double ratio = speeds.most > 0 ? speeds.least / speeds.most : 0;
-    const CurveForm form{ratio < kHardSpeedRatio, speeds.most};
-    if (!(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
-      throw RefusedError(fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
-    choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", ratio, 2 * model.count())
+    choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", speedRatio, 2 * model.count())
                              : fmt::format("curve in phi, {} states", 2 * model.count());
     scene.plant = makeCurvePlant(model, constraint, form, request);
   } else {

@@ -1,21 +1,29 @@
 #pragma once
+#include "sim/dynamics/polar_chart.h"
+#include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
 namespace reachlab {
 
-/// A point on a surface in its own parameters, y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
+/// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
 struct SurfaceSystem {
   static constexpr int kStates = 4;
   static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation = "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   using State = Numbers<4>;
   using Hand = HandSample;
 
   Springs<1, true> springs;
-  Surface surface;
+  Surface surface;   // as defined
+  Surface active;    // what the state's parameters are: `surface`, or `polar` while `inPolar`
   std::array<Domain, 2> domain;
+  PolarChart polar;
+  bool inPolar = false;
+  int ticks = 0, waiting = 0;                 // between looks for a pole
+  double largestU = 0, largestV = 0, largestArea = 0;  // [m], [m], [m^2] |r_u|, |r_v|, |r_u x r_v| seen so far
 
   SurfaceSystem(const ObjectModel& model, const Constraint& constraint)
-      : springs(model), surface(constraint.surface), domain(constraint.domain) {}
+      : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
   static constexpr int states() noexcept { return 4; }
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
   Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
@@ -23,7 +31,7 @@ struct SurfaceSystem {
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     SurfacePoint p;
-    surface.function(surface.program, surface.shape.data(), y[0], y[1], p);
+    active.function(active.program, active.shape.data(), y[0], y[1], p);
     const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
     const Vec3 velocity = du * p.rU + dv * p.rV;
     const Vec3 bend = (du * du) * p.rUu + (2 * du * dv) * p.rUv + (dv * dv) * p.rVv;
@@ -38,18 +46,42 @@ struct SurfaceSystem {
   }
   double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
 
-  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     y.values = {q[0], q[1], qRate[0], qRate[1]};
+    active = surface;
+    inPolar = false;
+    ticks = waiting = 0;
+    for (int i = 0; i < 16; ++i) look(evaluate(surface, q[0] + 0.4 * (i % 4), q[1] + 0.4 * (i / 4)));
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
-    const SurfacePoint p = evaluate(surface, y[0], y[1]);
-    masses[0].q = {y[0], y[1]};
-    masses[0].qRate = {y[2], y[3]};
+    const SurfacePoint p = evaluate(active, y[0], y[1]);
     masses[0].r = p.r;
     masses[0].v = y[2] * p.rU + y[3] * p.rV;
+    masses[0].q = {y[0], y[1]};
+    masses[0].qRate = {y[2], y[3]};
+    if (!inPolar) return;
+    masses[0].q = polar.toBase(y[0], y[1]);
+    masses[0].qRate = solveRates(evaluate(surface, masses[0].q[0], masses[0].q[1]), masses[0].v);
   }
+
+  /// Every few ticks: is a pole near, or has it been left?
+  Settled settle(const State& before, State& y) noexcept;
+  /// Beside a place where r_u and r_v do not span a plane.
+  bool lost(const State& y) const noexcept {
+    const SurfacePoint p = evaluate(active, y[0], y[1]);
+    return norm(cross(p.rU, p.rV)) < 0.1 * largestArea;
+  }
+  void look(const SurfacePoint& p) noexcept {
+    if (!isFinite(p.rU) || !isFinite(p.rV)) return;
+    largestU = std::fmax(largestU, norm(p.rU));
+    largestV = std::fmax(largestV, norm(p.rV));
+    largestArea = std::fmax(largestArea, norm(cross(p.rU, p.rV)));
+  }
+  /// The pole ahead where the lines of parameter `fixed` = const collapse, if there is one: Newton on r_(other) = 0 along it, then a look
+  /// round the whole line.
+  bool findPole(const State& y, int fixed) noexcept;
   void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
-    const SurfacePoint p = evaluate(surface, y[0], y[1]);
+    const SurfacePoint p = evaluate(active, y[0], y[1]);
     masses[0].a = dy[2] * p.rU + dy[3] * p.rV + (y[2] * y[2]) * p.rUu + (2 * y[2] * y[3]) * p.rUv + (y[3] * y[3]) * p.rVv;
   }
 
@@ -57,6 +89,7 @@ struct SurfaceSystem {
   bool bounded() const noexcept { return ends(domain[0]) || ends(domain[1]); }
   bool bounces() const noexcept { return (ends(domain[0]) ? domain[0] : domain[1]).atEnd == AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {
+    if (inPolar) return true;  // left long before another end comes near
     for (int k = 0; k < 2; ++k)
       if (!domain[k].periodic && !(y[k] >= domain[k].lo && y[k] <= domain[k].hi)) return false;
     return true;

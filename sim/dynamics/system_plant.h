@@ -3,6 +3,7 @@
 
 #include "sim/dynamics/adaptive.h"
 #include "sim/dynamics/plant_base.h"
+#include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
 namespace reachlab {
@@ -45,10 +46,15 @@ class SystemPlant : public PlantBase {
     StepStatus status = method_.step(system_, hand, dt, y_, next_, report);
     if constexpr (System::kEnds)
       if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next_))) status = meetEnds(hand, dt, status, report);
-    if (status == StepStatus::Ok) {
-      if constexpr (requires(const System& s, State& y) { s.settle(y); }) system_.settle(next_);
-      y_ = next_;
-    }
+    if constexpr (requires(System& s, State& y) { s.settle(y, y); })
+      if (status == StepStatus::Ok) {
+        const Settled settled = system_.settle(y_, next_);
+        if (settled != Settled::Same) method_.restart();
+        if (settled == Settled::Lost) status = StepStatus::NoContinuation;
+      }
+    if constexpr (requires(const System& s, const State& y) { s.lost(y); })
+      if ((status == StepStatus::Capped || status == StepStatus::NotFinite) && system_.lost(y_)) status = StepStatus::NoContinuation;
+    if (status == StepStatus::Ok) y_ = next_;
     if (status == StepStatus::NoContinuation) fraction_ = 0;
     stopped_ = status;
     error_ = report.error * 0.1;
@@ -66,7 +72,7 @@ class SystemPlant : public PlantBase {
   double errorEstimate() const noexcept override { return error_; }
   std::string stopReason() const override {
     if (stopped_ == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
-    if (stopped_ == StepStatus::NoContinuation) return "the constraint has no unique continuation here";
+    if (stopped_ == StepStatus::NoContinuation) return System::kNoContinuation;
     return {};
   }
 
