@@ -106,7 +106,7 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
     speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
     form = {speedRatio < kHardSpeedRatio, speeds.most};
     facts.hardCurve = form.tangential;
-    if (!(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
+    if (experiment.task && !(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
       throw RefusedError(fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
   }
   scene.choice = chooseMethod(options.method.empty() ? experiment.method : options.method, model, facts);

@@ -20,7 +20,7 @@ std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model) {
     a(n + i, n + i) -= (model.handDamping[i] + model.viscosity) / model.mass[i];
   }
   for (int i = 0; i < static_cast<int>(model.stiffness.size()); ++i)
-    for (const auto [row, other] : {std::pair{i, i + 1}, std::pair{i + 1, i}}) {
+    for (const auto& [row, other] : {std::pair{i, i + 1}, std::pair{i + 1, i}}) {
       a(n + row, row) -= model.stiffness[i] / model.mass[row];
       a(n + row, other) += model.stiffness[i] / model.mass[row];
       a(n + row, n + row) -= model.damping[i] / model.mass[row];

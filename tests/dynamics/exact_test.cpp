@@ -1,38 +1,15 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "sim/dynamics/hand_function.h"
-#include "sim/dynamics/hand_path.h"
-#include "sim/dynamics/plant.h"
+#include "tests/dynamics/make_experiment.h"
 
 namespace reachlab {
 namespace {
 
-Experiment chain(int n, double mass, double stiffness, double damping, Coupling coupling) {
-  Experiment e;
-  e.object.kind = ObjectKind::Chain;
-  e.object.masses.assign(n, mass);
-  e.object.stiffness.assign(n - 1, stiffness);
-  e.object.damping.assign(n - 1, damping);
-  e.coupling = coupling;
-  e.task = Task{};
-  e.task->start = {0};
-  e.task->target = {6.283185307179586};
-  return e;
-}
-
-HandSample reachAt(double t) {
-  const MinJerk law = minJerk(t / 1.35);
-  return {{-0.1 + 0.2 * law.s, 0, 0}, {0.2 * law.rate / 1.35, 0, 0}, true};
-}
-
 /// One mass at the end of a spring whose hand moves with constant velocity from rest at the mass: x - h = -(v/w) sin w t.
 TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
   const double k = 600, m = 2, speed = 0.1, w = std::sqrt(k / m);
-  Experiment e = chain(1, m, 0, 0, {k, 0});
-  e.object.kind = ObjectKind::Point;
-  const Scene scene = compileScene(e);
+  const Scene scene = compileScene(makeExperiment(ObjectKind::Point, {m}, {}, {k, 0}));
+  scene.plant->placeAtRest(std::array{0.0});
   for (int i = 0; i < 1000; ++i) {
     const HandSegment hand = makeSegment([&](double t) { return HandSample{{-0.1 + speed * t, 0, 0}, {speed, 0, 0}, true}; }, i * 1e-3, 1e-3);
     ASSERT_EQ(scene.plant->step(hand, 1e-3), StepStatus::Ok);
@@ -44,8 +21,10 @@ TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
 }
 
 TEST(ExactPlant, TwoHalfStepsEqualOneWholeStepForAStiffDampedChain) {
-  const Experiment e = chain(5, 0.01, 1e8, 50, {600, 5});
+  Experiment e = makeChain(5, 0.01, 1e8, {600, 5});
+  e.object.damping.assign(4, 50);
   const Scene whole = compileScene(e), half = compileScene(e, {"", 5e-4, 0});
+  for (const Scene* scene : {&whole, &half}) scene->plant->placeAtRest(std::array{0.0});
   std::vector<MassState> a(5), b(5);
   for (int i = 0; i < 1350; ++i) {
     ASSERT_EQ(whole.plant->step(makeSegment(reachAt, i * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
@@ -56,20 +35,53 @@ TEST(ExactPlant, TwoHalfStepsEqualOneWholeStepForAStiffDampedChain) {
   }
 }
 
+// The same object twice: twenty equal masses go by modes; a mass that differs by its last bit in damping goes by the matrix.
 TEST(ExactPlant, ModesAndMatrixAgree) {
-  Experiment e = chain(20, 0.15, 600, 0, {600, 0});
-  const Scene modal = compileScene(e);
-  e.object.damping[0] = 1e-300;  // not proportional in form, nothing in effect: but small enough to stay modal
-  std::vector<MassState> a(20), b(20);
-  e.object.damping.assign(19, 0.3);  // b = k / 2000: proportional but for the hand's spring
-  const Scene damped = compileScene(e), halved = compileScene(e, {"", 5e-4, 0});
-  for (int i = 0; i < 500; ++i) {
-    ASSERT_EQ(damped.plant->step(makeSegment(reachAt, i * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
-    for (int j = 0; j < 2; ++j) ASSERT_EQ(halved.plant->step(makeSegment(reachAt, i * 1e-3 + j * 5e-4, 5e-4), 5e-4), StepStatus::Ok);
+  Experiment modal = makeChain(20, 0.15, 600), matrix = modal;
+  matrix.object.damping.assign(19, 0.0);
+  matrix.object.damping[3] = 1e-9;  // too little to see, enough to couple the modes
+  const Scene a = compileScene(modal), b = compileScene(matrix);
+  for (const Scene* scene : {&a, &b}) {
+    scene->plant->placeAtRest(std::array{0.0});
+    ASSERT_EQ(run(*scene->plant, reachAt, 1), StepStatus::Ok);
   }
-  damped.plant->observe(reachAt(0.5), a);
-  halved.plant->observe(reachAt(0.5), b);
-  for (int m = 0; m < 20; ++m) EXPECT_NEAR(a[m].r.x, b[m].r.x, 1e-13);
+  const auto ma = observed(*a.plant, reachAt(1)), mb = observed(*b.plant, reachAt(1));
+  const double tolerance = 1e-11;  // [m] what that damper does in a second
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(ma[i].r.x, mb[i].r.x, tolerance);
+}
+
+TEST(ExactPlant, AnHourOfTheUndampedChainKeepsItsEnergy) {
+  const Scene scene = compileScene(makeChain(5, 0.6, 600));
+  scene.plant->place(std::array{0.0}, std::array{10.0});
+  const HandSample hand{{-0.1, 0, 0}, {}, true};
+  const double before = scene.plant->energy(hand);
+  const HandSegment held = heldSegment(hand.position);
+  for (int i = 0; i < 3600000; ++i) ASSERT_EQ(scene.plant->step(held, 1e-3), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy(hand) / before, 1, 1e-9) << "3.6 million roundings of 1e-16";
+}
+
+TEST(ExactPlant, AChainThatNobodyHoldsKeepsItsMomentum) {
+  Experiment e = makeChain(3, 0.5, 400);
+  e.object.masses = {0.5, 2, 0.1};
+  const Scene scene = freeScene(e, {1.0}, {2.0});
+  const auto momentum = [&] {
+    double sum = 0;
+    const auto masses = observed(*scene.plant);
+    for (int i = 0; i < 3; ++i) sum += e.object.masses[i] * masses[i].v.x;
+    return sum;
+  };
+  scene.plant->setExtraForce({1, 0, 0});
+  const double before = momentum();
+  ASSERT_EQ(run(*scene.plant, noHand, 1), StepStatus::Ok);
+  EXPECT_NEAR(momentum() - before, 1.0, 1e-13) << "1 N for 1 s";
+}
+
+TEST(ExactPlant, ObjectForceIsTheMassesAccelerations) {
+  const Scene scene = compileScene(makeExperiment(ObjectKind::Parallel, {3, 3}, {50, 250}));
+  scene.plant->placeAtRest(std::array{0.0});
+  ASSERT_EQ(run(*scene.plant, reachAt, 0.7), StepStatus::Ok);
+  const auto masses = observed(*scene.plant, reachAt(0.7));
+  EXPECT_NEAR(scene.plant->couplingForce(reachAt(0.7)).x, 3 * masses[0].a.x + 3 * masses[1].a.x, 1e-13);
 }
 
 }  // namespace

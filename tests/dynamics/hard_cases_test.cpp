@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "constraints/error.h"
+#include "sim/dynamics/hand_path.h"
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab {
+namespace {
+
+TEST(HardCases, AHandThatJumpsTenCentimetresLeavesAFiniteState) {
+  for (const bool curved : {false, true}) {
+    Experiment e = makeChain(5, 0.6, 600);
+    if (curved) e = onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
+    const Scene scene = compileScene(e);
+    scene.plant->placeAtRest(std::array{0.5});
+    HandPath path;
+    for (int i = 0; i < 200; ++i) {
+      if (!path.push({{i < 100 ? 0.0 : 0.1, 0, 0}, {}, true})) scene.plant->restart();
+      ASSERT_EQ(scene.plant->step(path.segment(), 1e-3), StepStatus::Ok);
+    }
+    for (const MassState& mass : observed(*scene.plant)) EXPECT_TRUE(isFinite(mass.r) && norm(mass.r) < 1);
+  }
+}
+
+TEST(HardCases, ANumberThatIsNoneEndsTheStepAndNotTheState) {
+  for (const char* method : {"auto", "rk4", "abm", "adaptive", "stiff"})
+    for (const bool curved : {false, true}) {
+      Experiment e = makeChain(2, 0.6, 600);
+      if (curved) e = onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
+      const Scene scene = compileScene(e, {method, 1e-3, 0});
+      scene.plant->placeAtRest(std::array{0.5});
+      HandSegment broken = heldSegment({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+      const auto before = observed(*scene.plant);
+      EXPECT_EQ(scene.plant->step(broken, 1e-3), StepStatus::NotFinite) << method << curved;
+      EXPECT_EQ(observed(*scene.plant)[1].r, before[1].r) << method << curved;
+      EXPECT_EQ(scene.plant->step(heldSegment({}), 1e-3), StepStatus::Ok) << method << curved;
+    }
+}
+
+TEST(HardCases, AGapOf125MillisecondsIsCrossedInOneSegment) {
+  const Scene scene = compileScene(makeChain(5, 0.6, 600));
+  scene.plant->placeAtRest(std::array{0.0});
+  HandPath path;
+  for (int i = 0; i < 300; ++i) {
+    if (i == 100) {
+      path.reset();
+      scene.plant->restart();
+    }
+    path.push(reachAt((i < 100 ? i : i + 125) * 1e-3));
+    ASSERT_EQ(scene.plant->step(path.segment(), 1e-3), StepStatus::Ok);
+  }
+  for (const MassState& mass : observed(*scene.plant)) EXPECT_LT(norm(mass.v), 2) << "no burst";
+}
+
+TEST(HardCases, AMassRatioOfAMillionKeepsItsEnergy) {
+  const Scene scene = compileScene(makeExperiment(ObjectKind::Chain, {1e-3, 1e3}, {600}));
+  scene.plant->place(std::array{0.0}, std::array{5.0});
+  const HandSample hand{{-0.1, 0, 0}, {}, true};
+  const double before = scene.plant->energy(hand);
+  ASSERT_EQ(run(*scene.plant, [&](double) { return hand; }, 10), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy(hand) / before, 1, 1e-10) << "ten thousand roundings of 1000 kg beside 1 g";
+}
+
+TEST(HardCases, FiveHundredMassesMoveOnACurve) {
+  const Experiment e = onCurve(makeChain(500, 0.006, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const Scene scene = compileScene(e);
+  scene.plant->place(std::array{0.5}, std::array{1.0});
+  const HandSample hand{{0.1 * std::cos(0.5), 0.06 * std::sin(0.5), 0}, {}, true};
+  const double before = scene.plant->energy(hand);
+  ASSERT_EQ(run(*scene.plant, [&](double) { return hand; }, 0.1), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy(hand) / before, 1, 1e-9);
+}
+
+TEST(HardCases, WhatHasNoMotionIsRefusedInWords) {
+  EXPECT_THROW((void)compileScene(makeChain(2, 0, 600)), RefusedError);
+  EXPECT_THROW((void)compileScene(makeChain(2, std::numeric_limits<double>::quiet_NaN(), 600)), RefusedError);
+  Experiment e = onCurve(makeExperiment(ObjectKind::Point, {1}, {}), "0", "0", "0.1*phi");
+  EXPECT_THROW((void)compileScene(e, {"exact", 0, 0}), RefusedError) << "a step of nothing";
+  e = makeChain(2, 0.6, 600);
+  e.constraint.shape["length_m"] = 0;
+  EXPECT_THROW((void)compileScene(e), Error) << "a line without length";
+  Experiment wrong = makeExperiment(ObjectKind::Chain, {1, 1}, {});
+  EXPECT_THROW((void)compileScene(wrong), RefusedError) << "a spring is missing";
+}
+
+TEST(HardCases, SpringsOfNoStiffnessLeaveMassesAlone) {
+  const Scene scene = compileScene(makeExperiment(ObjectKind::Chain, {1, 1}, {0}));
+  scene.plant->place(std::array{0.0}, std::array{1.0});
+  const double speed = observed(*scene.plant)[1].v.x;
+  ASSERT_EQ(run(*scene.plant, reachAt, 1), StepStatus::Ok);
+  EXPECT_NEAR(observed(*scene.plant)[1].r.x, -0.1 + speed, 1e-13);
+}
+
+// 4b/m = 20000/s: RK4's limit at 1 ms is 2785. On a curve the stiff method takes it.
+TEST(HardCases, DampersThatBreakRk4AreTakenByAuto) {
+  Experiment e = makeChain(3, 0.01, 2e4, {600, 5});
+  e.object.damping.assign(2, 5000);
+  e = onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  EXPECT_THROW((void)compileScene(e, {"rk4", 1e-3, 0}), RefusedError);
+  const Scene scene = compileScene(e), fine = compileScene(e, {"adaptive", 1e-4, 0});
+  EXPECT_EQ(scene.choice.method, "stiff");
+  const auto hand = [](double t) {
+    const double s = 0.3 + minJerk(t / 1.35).s, rate = minJerk(t / 1.35).rate / 1.35;
+    return HandSample{{0.1 * std::cos(s), 0.06 * std::sin(s), 0}, {-0.1 * std::sin(s) * rate, 0.06 * std::cos(s) * rate, 0}, true};
+  };
+  for (const Scene* s : {&scene, &fine}) s->plant->placeAtRest(std::array{0.3});
+  ASSERT_EQ(run(*scene.plant, hand, 0.3), StepStatus::Ok);
+  ASSERT_EQ(run(*fine.plant, hand, 0.3, 1e-4), StepStatus::Ok);
+  const auto a = observed(*scene.plant, hand(0.3)), b = observed(*fine.plant, hand(0.3));
+  for (int i = 0; i < 3; ++i) EXPECT_LT(norm(a[i].r - b[i].r), 1e-9) << "Radau against the explicit pair";
+}
+
+// Near-cusps (1 % and 0.1 %) and an ellipse of 0.1 x 1e-4: free motion keeps its energy, and no tick passes the cap.
+TEST(HardCases, NearCuspsAreFollowedWithinTheCap) {
+  struct Case {
+    const char *x, *y;
+    double phi, rate;
+  };
+  for (const Case& c : {Case{"0.08*cos(phi)-0.0198*cos(4*phi)", "0.08*sin(phi)-0.0198*sin(4*phi)", 1.047, 9},
+                        Case{"0.08*cos(phi)-0.01998*cos(4*phi)", "0.08*sin(phi)-0.01998*sin(4*phi)", 1.047, 9},
+                        Case{"0.1*cos(phi)", "0.0001*sin(phi)", 0.8, 8}}) {
+    const Scene scene = freeScene(onCurve(makeExperiment(ObjectKind::Point, {1}, {}), c.x, c.y, "0"), {c.phi}, {c.rate});
+    const double before = scene.plant->energy({});
+    std::uint64_t worst = 0, seen = 0;
+    for (int i = 0; i < 2000; ++i) {
+      ASSERT_EQ(scene.plant->step(heldSegment({}), 1e-3), StepStatus::Ok) << c.x;
+      worst = std::max(worst, scene.plant->rhsEvaluations() - seen);
+      seen = scene.plant->rhsEvaluations();
+    }
+    EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10) << c.x;
+    EXPECT_LE(worst, 1000u) << c.x;
+  }
+}
+
+}  // namespace
+}  // namespace reachlab

@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include "constraints/error.h"
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kEnergyDrift = 1e-10;  // relative, over 10 s without friction
+
+Experiment bead() { return makeExperiment(ObjectKind::Point, {1}, {}); }
+
+// RK4's global error is O(dt^4): half the step leaves a sixteenth. Bead on a circle pulled by a spring.
+TEST(Rk4, ErrorFallsSixteenfoldWhenTheStepIsHalved) {
+  const Experiment e = onCurve(makeExperiment(ObjectKind::Point, {0.2}, {}, {600, 0}), "0.1*cos(phi)", "0.1*sin(phi)", "0");
+  const auto at = [&](const char* method, double dt) {
+    const Scene scene = compileScene(e, {method, dt, 0});
+    scene.plant->place(std::array{0.3}, std::array{1.0});
+    EXPECT_EQ(run(*scene.plant, [](double) { return HandSample{{0.1, 0, 0}, {}, true}; }, 0.2, dt), StepStatus::Ok);
+    const MassState mass = observed(*scene.plant)[0];
+    return std::array{mass.q[0], mass.qRate[0]};
+  };
+  const auto truth = at("adaptive", 1e-3);
+  const auto error = [&](double dt) {
+    const auto y = at("rk4", dt);
+    return std::hypot(y[0] - truth[0], (y[1] - truth[1]) / std::sqrt(3000.0));
+  };
+  EXPECT_NEAR(error(2e-3) / error(1e-3), 16.0, 0.5) << "the next order is still seen at 2 ms";
+}
+
+TEST(Laws, GeodesicsKeepTheirEnergy) {
+  struct Case {
+    const char *x, *y, *z;
+    std::vector<double> q, rate;
+  };
+  for (const Case& c : {Case{"(0.1+0.04*cos(v))*cos(u)", "(0.1+0.04*cos(v))*sin(u)", "0.04*sin(v)", {0, 0.5}, {2, 3}},
+                        Case{"0.1*cos(u)*cos(v)", "0.08*sin(u)*cos(v)", "0.06*sin(v)", {0.5, 0.3}, {3, 2}},
+                        Case{"u", "v", "0.05*cos(20*u)*cos(20*v)", {0.01, 0.02}, {0.3, 0.1}}}) {
+    const Scene scene = freeScene(onSurface(c.x, c.y, c.z), c.q, c.rate);
+    const double before = scene.plant->energy({});
+    ASSERT_EQ(run(*scene.plant, noHand, 10), StepStatus::Ok) << c.z;
+    EXPECT_NEAR(scene.plant->energy({}) / before, 1, kEnergyDrift) << c.z;
+  }
+}
+
+// Clairaut: on a surface of revolution the moment of momentum about its axis stays.
+TEST(Laws, ClairautHoldsOnSurfacesOfRevolution) {
+  struct Case {
+    const char *x, *y, *z;
+    double v, rate;
+  };
+  for (const Case& c : {Case{"(0.1+0.04*cos(v))*cos(u)", "(0.1+0.04*cos(v))*sin(u)", "0.04*sin(v)", 0.5, 3},
+                        Case{"0.1*cosh(v)*cos(u)", "0.1*cosh(v)*sin(u)", "0.1*v", -0.4, 0.5},
+                        Case{"(0.1+0.02*sin(3*v))*cos(v)*cos(u)", "(0.1+0.02*sin(3*v))*cos(v)*sin(u)", "0.1*sin(v)", 0.2, 4}}) {
+    const Scene scene = freeScene(onSurface(c.x, c.y, c.z), {0.1, c.v}, {2, c.rate});
+    const auto moment = [&] {
+      const MassState mass = observed(*scene.plant)[0];
+      return mass.r.x * mass.v.y - mass.r.y * mass.v.x;
+    };
+    const double before = moment();
+    ASSERT_EQ(run(*scene.plant, noHand, 3), StepStatus::Ok) << c.x;
+    EXPECT_NEAR(moment() / before, 1, 1e-11) << c.x;
+  }
+}
+
+// Poles: a great circle tilted from a meridian passes beside the pole (0.1 m sphere, 2 rad/s), at any tilt.
+TEST(Poles, GreatCirclesPassThem) {
+  for (const double tilt : {1e-3, 1e-6, 0.0}) {
+    const Scene scene = freeScene(onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)"), {0, kPi / 2 - 1.35}, {0, 2});
+    const double a = 1.35;  // latitude of the start
+    scene.plant->place(std::array{0.0, kPi / 2 - a}, std::array{2 * std::sin(tilt) / std::cos(kPi / 2 - a), 2 * std::cos(tilt)});
+    const MassState begin = observed(*scene.plant)[0];
+    ASSERT_EQ(run(*scene.plant, noHand, 1.35), StepStatus::Ok);
+    const double angle = 2 * 1.35;
+    const Vec3 expected = std::cos(angle) * begin.r + (std::sin(angle) / 2) * begin.v;
+    EXPECT_LT(norm(observed(*scene.plant)[0].r - expected), 1e-10) << "tilt " << tilt;
+  }
+}
+
+// The same body of revolution by a formula that is no quadric: near the pole it is followed in a polar chart.
+TEST(Poles, AreFoundOnTheWayOnSurfacesOfAnyShape) {
+  const char* radius = "(0.1+0.02*cos(2*v))";
+  const std::string r = radius;
+  for (const double sideways : {1e-2, 1e-5, 0.0}) {
+    const Scene scene = freeScene(onSurface(r + "*cos(v)*cos(u)", r + "*cos(v)*sin(u)", r + "*sin(v)"), {0.3, 0.4}, {sideways, 2});
+    const double before = scene.plant->energy({});
+    const auto moment = [&] {
+      const MassState mass = observed(*scene.plant)[0];
+      return mass.r.x * mass.v.y - mass.r.y * mass.v.x;
+    };
+    const double momentBefore = moment();
+    ASSERT_EQ(run(*scene.plant, noHand, 4), StepStatus::Ok) << sideways;
+    EXPECT_NEAR(scene.plant->energy({}) / before, 1, kEnergyDrift) << sideways;
+    EXPECT_NEAR(moment(), momentBefore, 1e-12) << sideways;
+  }
+}
+
+TEST(Poles, AConesApexAndAPinchHaveNoContinuation) {
+  const Scene cone = freeScene(onSurface("v*cos(u)", "v*sin(u)", "v"), {0.4, 0.5}, {0, -1});
+  EXPECT_EQ(run(*cone.plant, noHand, 1), StepStatus::NoContinuation);
+  EXPECT_FALSE(cone.plant->stopReason().empty());
+  EXPECT_NEAR(norm(observed(*cone.plant)[0].r), 0, 2e-3) << "within a tick of the apex";
+}
+
+TEST(Cusps, AnAstroidIsPassedWithoutGainingEnergy) {
+  const Scene scene = freeScene(onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"), {0.7}, {2});
+  const MassState begin = observed(*scene.plant)[0];
+  const double before = scene.plant->energy({}), speed = norm(begin.v);
+  // Arc length from phi to the next cusp is 0.15 cos(phi)^2; three more quarters of 0.15 follow.
+  const double toCusp = 0.15 * std::cos(0.7) * std::cos(0.7), seconds = (toCusp + 0.45 + 0.15 * std::sin(0.7) * std::sin(0.7)) / speed;
+  const int steps = 2000;
+  ASSERT_EQ(run(*scene.plant, noHand, seconds, seconds / steps), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy({}) / before, 1, kEnergyDrift);
+  EXPECT_LT(norm(observed(*scene.plant)[0].r - begin.r), 1e-10) << "once round, by arc length";
+  EXPECT_NEAR(observed(*scene.plant)[0].q[0], 0.7 + 2 * kPi, 1e-8);
+}
+
+TEST(Cusps, AStartAtRestOnOneIsRefused) {
+  Experiment e = onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0");
+  e.task = Task{};
+  e.task->start = {0};
+  e.task->target = {1};
+  EXPECT_THROW((void)compileScene(e), RefusedError);
+}
+
+// Huygens: on a cycloid hanging down the period is 4 pi sqrt(a/g) for any amplitude.
+TEST(Laws, TheCycloidIsATautochrone) {
+  const double a = 0.05, g = 9.81, quarter = kPi * std::sqrt(a / g);
+  for (const double amplitude : {0.1, 1.0, 2.0}) {
+    Experiment e = onCurve(bead(), "0.05*(phi+sin(phi))", "-0.05*cos(phi)", "0");
+    e.object.gravity = {0, -g, 0};
+    const int steps = 1000;
+    const Scene scene = freeScene(e, {amplitude}, {0});
+    ASSERT_EQ(run(*scene.plant, noHand, 5 * quarter, 5 * quarter / (5 * steps)), StepStatus::Ok);
+    const MassState mass = observed(*scene.plant)[0];
+    EXPECT_NEAR(mass.r.x, 0, 1e-9 * norm(mass.v) * quarter) << "period to 1e-9, amplitude " << amplitude;
+  }
+}
+
+// A pendulum's quarter period is sqrt(l/g) K(sin(amplitude/2)).
+TEST(Laws, ThePendulumsPeriodIsTheEllipticIntegral) {
+  const double l = 0.1, g = 9.81, amplitude = 2.5;
+  Experiment e = onCurve(bead(), "0.1*sin(phi)", "-0.1*cos(phi)", "0");
+  e.object.gravity = {0, -g, 0};
+  const double quarter = std::sqrt(l / g) * std::comp_ellint_1(std::sin(amplitude / 2));
+  const Scene scene = freeScene(e, {amplitude}, {0});
+  ASSERT_EQ(run(*scene.plant, noHand, 9 * quarter, quarter / 200), StepStatus::Ok);
+  const MassState mass = observed(*scene.plant)[0];
+  EXPECT_NEAR(mass.r.x, 0, 1e-9 * norm(mass.v) * quarter);
+}
+
+// On a circle of radius R = 1 km a reach of L = 0.2 m differs from the line's by the order of (L/R)^2 of it, and of rounding on 1 km.
+TEST(Laws, AChainOnAHugeCircleAgreesWithTheLine) {
+  const double radius = 1000;
+  Experiment line = makeChain(5, 0.6, 600);
+  Experiment circle = onCurve(line, "1000*sin(phi/1000)", "1000*(cos(phi/1000)-1)", "0");
+  const Scene straight = compileScene(line), bent = compileScene(circle);
+  straight.plant->placeAtRest(std::array{0.0});
+  bent.plant->placeAtRest(std::array{-0.1});
+  ASSERT_EQ(run(*straight.plant, reachAt, 1), StepStatus::Ok);
+  ASSERT_EQ(run(*bent.plant, [&](double t) {
+              const HandSample h = reachAt(t);
+              const double s = h.position.x / radius;
+              return HandSample{{radius * std::sin(s), radius * (std::cos(s) - 1), 0}, {h.velocity.x * std::cos(s), -h.velocity.x * std::sin(s), 0}, true};
+            }, 1), StepStatus::Ok);
+  const auto a = observed(*straight.plant), b = observed(*bent.plant);
+  const double tolerance = 0.2 * (0.2 / radius) * (0.2 / radius) + 1e-11;
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(a[i].r.x, b[i].q[0], tolerance);
+}
+
+TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
+  Experiment e = makeExperiment(ObjectKind::Point, {1}, {});
+  e.constraint.name = "catenary";
+  Scene scene = freeScene(e, {0.2}, {3});
+  const Domain domain = scene.constraint.domain[0];
+  ASSERT_TRUE(std::isfinite(domain.hi));
+  const double before = scene.plant->energy({});
+  const StepStatus status = run(*scene.plant, noHand, 5);
+  if (domain.atEnd == AtEnd::Stop) {
+    EXPECT_EQ(status, StepStatus::AtEnd);
+    EXPECT_EQ(observed(*scene.plant)[0].q[0], domain.hi);
+  } else {
+    EXPECT_EQ(status, StepStatus::Ok);
+  }
+  EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10);
+}
+
+TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
+  Experiment e = makeExperiment(ObjectKind::Body, {2}, {}, {600, 0});
+  e.constraint.name = "free";
+  e.object.inertia = {{{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.025}}};
+  e.object.fpOffset = {0.05, 0.02, 0};
+  const Scene scene = compileScene(e);
+  scene.plant->placeAtRest(std::array{0.0, 0.0, 0.0});
+  const HandSample hand{{0.1, 0.05, 0.02}, {}, true};
+  const double before = scene.plant->energy(hand);
+  ASSERT_EQ(run(*scene.plant, [&](double) { return hand; }, 5), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy(hand) / before, 1, kEnergyDrift) << "the spring turns and moves it, and takes nothing";
+  EXPECT_GT(norm(scene.plant->body().angularVelocity), 0.1) << "the force has a moment about the centre";
+}
+
+}  // namespace
+}  // namespace reachlab

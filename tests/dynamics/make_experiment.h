@@ -1,0 +1,62 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "sim/dynamics/hand_function.h"
+#include "sim/dynamics/plant.h"
+
+namespace reachlab {
+
+inline Experiment makeExperiment(ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness, Coupling coupling = {600, 0}) {
+  Experiment e;
+  e.object.kind = kind;
+  e.object.masses = std::move(masses);
+  e.object.stiffness = std::move(stiffness);
+  if (kind != ObjectKind::Parallel) e.coupling = coupling;
+  return e;
+}
+inline Experiment makeChain(int n, double mass, double stiffness, Coupling coupling = {600, 0}) {
+  return makeExperiment(ObjectKind::Chain, std::vector<double>(n, mass), std::vector<double>(n - 1, stiffness), coupling);
+}
+inline Experiment onCurve(Experiment e, const std::string& x, const std::string& y, const std::string& z) {
+  e.constraint.curve = {x, y, z};
+  return e;
+}
+inline Experiment onSurface(const std::string& x, const std::string& y, const std::string& z) {
+  Experiment e = makeExperiment(ObjectKind::Point, {1}, {});
+  e.constraint.surface = {x, y, z};
+  return e;
+}
+
+/// 0.2 m along x in 1.35 s from the line's start, then held.
+inline HandSample reachAt(double t) {
+  const MinJerk law = minJerk(t / 1.35);
+  return {{-0.1 + 0.2 * law.s, 0, 0}, {0.2 * law.rate / 1.35, 0, 0}, true};
+}
+
+/// Steps of 1 ms with a hand given as a function; the first status that is not Ok, or Ok.
+inline StepStatus run(Plant& plant, const HandFunction& hand, double seconds, double dt = 1e-3) {
+  const int steps = static_cast<int>(std::lround(seconds / dt));
+  for (int i = 0; i < steps; ++i)
+    if (const StepStatus status = plant.step(makeSegment(hand, i * dt, dt), dt); status != StepStatus::Ok) return status;
+  return StepStatus::Ok;
+}
+inline HandSample noHand(double) { return {}; }
+
+inline std::vector<MassState> observed(const Plant& plant, const HandSample& hand = {}) {
+  std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));
+  plant.observe(hand, masses);
+  return masses;
+}
+
+/// A scene that nobody holds, set going.
+inline Scene freeScene(const Experiment& e, const std::vector<double>& q, const std::vector<double>& rate, const std::string& method = {}) {
+  Scene scene = compileScene(e, {method, 1e-3, 0});
+  scene.plant->setCoupled(false);
+  scene.plant->place(q, rate);
+  return scene;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,92 @@
+#include "sim/dynamics/stability.h"
+
+#include <gtest/gtest.h>
+
+#include "constraints/error.h"
+#include "sim/dynamics/compile.h"
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kStep = 1e-3;
+constexpr double kWithin = 0.01;  // the analysis is asked to be this near to where RK4 really breaks
+
+struct Limit {
+  const char* name;
+  std::function<Experiment(double)> experiment;
+  double stable, unstable, expected;
+};
+
+std::vector<Limit> limits() {
+  const auto damped = [](double b, double bh) {
+    Experiment e = makeChain(5, 0.6, 600, {600, bh});
+    e.object.damping.assign(4, b);
+    return e;
+  };
+  return {{"k, k_h = 600", [](double k) { return makeChain(5, 0.6, k, {600, 0}); }, 1e5, 1e7, 1.327e6},
+          {"k = k_h", [](double k) { return makeChain(5, 0.6, k, {k, 0}); }, 1e5, 1e7, 1.303e6},
+          {"m", [](double m) { return makeChain(5, m, 600); }, 0.6, 1e-5, 0.276e-3},
+          {"b, b_h = 0", [=](double b) { return damped(b, 0); }, 1, 1e4, 462},
+          {"b = b_h", [=](double b) { return damped(b, b); }, 1, 1e4, 454}};
+}
+
+/// RK4 itself, on both sides of what the analysis says: the energy of a pushed chain grows on one and not on the other.
+double energyGrowth(const Experiment& e) {
+  const ObjectModel model = makeObjectModel(e);
+  const LinearSpace space{1, {-0.1, 0, 0}, {0.2 / (2 * std::numbers::pi), 0, 0}, {}};
+  const auto plant = makeLinePlant(model, space, {"rk4", 0});
+  plant->placeAtRest(std::array{0.0});
+  plant->setExtraForce({1, 0, 0});
+  const HandSample hand{{-0.1, 0, 0}, {}, true};
+  const HandSegment held = heldSegment(hand.position);
+  double early = 0;
+  for (int i = 0; i < 20000; ++i) {
+    if (plant->step(held, kStep) != StepStatus::Ok) return std::numeric_limits<double>::infinity();
+    if (i == 1000) early = plant->energy(hand);
+  }
+  const double growth = plant->energy(hand) / early;
+  return std::isfinite(growth) ? growth : std::numeric_limits<double>::infinity();
+}
+
+TEST(Stability, Rk4ReallyBreaksWhereTheAnalysisSays) {
+  for (const Limit& limit : limits()) {
+    const double found = findRk4Limit([&](double x) { return makeObjectModel(limit.experiment(x)); }, kStep, limit.stable, limit.unstable);
+    const double outwards = limit.unstable > limit.stable ? 1 + kWithin : 1 - kWithin;
+    EXPECT_LT(energyGrowth(limit.experiment(found / outwards)), 3) << limit.name << ": inside the limit";
+    EXPECT_GT(energyGrowth(limit.experiment(found * outwards)), 1e3) << limit.name << ": beyond it";
+  }
+}
+
+TEST(Stability, LimitsOfTheChainAreThoseKnown) {
+  for (const Limit& limit : limits()) {
+    const double found = findRk4Limit([&](double x) { return makeObjectModel(limit.experiment(x)); }, kStep, limit.stable, limit.unstable);
+    EXPECT_NEAR(found / limit.expected, 1, 0.002) << limit.name << ": known to three or four digits";
+  }
+}
+
+TEST(Stability, AmplificationIsOneAtTheLimits) {
+  EXPECT_NEAR(rk4Amplification({0, kRk4ImaginaryLimit}), 1, 1e-12);
+  EXPECT_NEAR(rk4Amplification({-kRk4RealLimit, 0}), 1, 1e-12);
+}
+
+TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
+  Experiment e = makeChain(5, 0.6, 1.34e6);
+  try {
+    (void)compileScene(e, {"rk4", kStep, 0});
+    FAIL() << "RK4 grows here";
+  } catch (const RefusedError& refused) {
+    const std::string text = refused.what();
+    EXPECT_NE(text.find("2.828"), std::string::npos) << text;
+    EXPECT_NE(text.find("use method auto"), std::string::npos) << text;
+  }
+  e.object.stiffness.assign(4, 1.31e6);
+  EXPECT_NO_THROW((void)compileScene(e, {"rk4", kStep, 0}));
+}
+
+TEST(Stability, AutoTakesTheExactPropagatorForAnyLinearScene) {
+  EXPECT_EQ(compileScene(makeChain(5, 0.01, 1e8)).choice.method, "exact");
+}
+
+}  // namespace
+}  // namespace reachlab
