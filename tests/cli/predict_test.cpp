@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Case {
+  const char* arguments;
+  double cost, handPeak, handPeakTime, objectPeak;
+};
+// Published digits (criteria.md 9): ten significant figures of J and of the hand's peak, seven of the object's.
+const Case kCases[] = {
+    {"dingwell --criterion min-hand-jerk", 16.5196433594, 0.2096247949, 0.444958, 0.3792369},
+    {"dingwell --criterion min-crackle", 68220.8533855, 0.2045467535, 0.675, 0.3645833},
+    {"dingwell --criterion min-hand-force-change", 57.8050997194, 0.2168114617, 0.675, 0.2777778},
+    {"chain-moderate --criterion min-hand-jerk", 6.76284544993, 0.2881958938, 0.675, 0.4106285},
+    {"parallel --criterion min-hand-jerk", 0.378717793518, 0.1315335137, 1.18458, 0.1419976},
+};
+
+}  // namespace
+
+TEST(Predict, GivesThePublishedNumbers) {
+  for (const Case& c : kCases) {
+    const Ended ended = reach(std::string("predict ") + c.arguments + " --json");
+    ASSERT_EQ(ended.exitCode, 0) << c.arguments << ended.err;
+    const Json json = Json::parse(ended.out);
+    EXPECT_NEAR(json.at("cost").get<double>() / c.cost, 1, 1e-11) << c.arguments;
+    EXPECT_NEAR(json.at("hand_peak_m_per_s").get<double>(), c.handPeak, 1e-10) << c.arguments;
+    EXPECT_NEAR(json.at("hand_peak_s").get<double>(), c.handPeakTime, 1e-5) << c.arguments;
+    EXPECT_NEAR(json.at("object_peak_m_per_s").get<double>(), c.objectPeak, 1e-7) << c.arguments;
+    for (const char* key : {"criterion", "hand_jump_m", "hand_jump_m_per_s", "condition", "travel_time_s"})
+      EXPECT_TRUE(json.contains(key)) << key;
+  }
+}
+
+TEST(Predict, WritesEquallySpacedRowsFromRestToRest) {
+  const Ended ended = reach("predict chain-moderate --criterion min-hand-jerk");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Table table = parseCsv(ended.out);
+  ASSERT_EQ(table.rows.size(), 201u);
+  EXPECT_EQ(table.header[0], "time_s");
+  EXPECT_EQ(table.header[1], "hand_m");
+  EXPECT_EQ(table.header[4], "mass1_m");
+  EXPECT_NEAR(table.at(0, "hand_m"), 0, 1e-12);
+  EXPECT_NEAR(table.at(200, "hand_m"), 0.2, 1e-12);
+  EXPECT_NEAR(table.at(200, "mass5_m"), 0.2, 1e-12);
+  EXPECT_NEAR(table.at(200, "time_s"), 1.35, 1e-15);
+}
+
+TEST(Predict, TravelTimeIsNullForParallel) {
+  EXPECT_TRUE(Json::parse(reach("predict parallel --criterion min-hand-jerk --json").out).at("travel_time_s").is_null());
+  EXPECT_NEAR(Json::parse(reach("predict chain-fast --criterion min-hand-jerk --json").out).at("travel_time_s").get<double>(),
+              2 * 5 * std::sqrt(0.6 / 600), 1e-12);
+}
+
+TEST(Predict, SweepsOneKey) {
+  const Ended ended = reach("predict chain-moderate --criterion min-hand-jerk --sweep duration_s=0.5:1.5:0.25");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(parseCsv(ended.out).rows.size(), 5u);
+}

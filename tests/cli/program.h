@@ -1,0 +1,102 @@
+#pragma once
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace reachlab::test {
+
+struct Ended {
+  int exitCode = -1;
+  std::string out, err;
+};
+
+inline std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return std::move(text).str();
+}
+
+/// A folder of its own that goes away with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "reach-test-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  std::string string() const { return path_.string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Runs `reach ARGUMENTS` in a shell; `environment` stands before it.
+inline Ended reach(const std::string& arguments, const std::string& environment = "") {
+  const Folder folder;
+  const std::string command = environment + " \"" REACH_PROGRAM "\" " + arguments + " > \"" + (folder / "out").string() + "\" 2> \"" +
+                              (folder / "err").string() + "\" < /dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+}
+
+inline std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(line);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  if (!line.empty() && line.back() == separator) parts.emplace_back();
+  return parts;
+}
+
+/// A CSV with its header; cells as written.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  std::size_t column(const std::string& name) const {
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (header[i] == name) return i;
+    throw std::out_of_range("no column " + name);
+  }
+  double at(std::size_t row, const std::string& name) const { return std::strtod(rows.at(row).at(column(name)).c_str(), nullptr); }
+};
+inline Table parseCsv(const std::string& text) {
+  Table table;
+  std::istringstream in(text);
+  std::string line;
+  if (std::getline(in, line)) table.header = split(line, ',');
+  while (std::getline(in, line)) table.rows.push_back(split(line, ','));
+  return table;
+}
+
+/// The lines `trial=… outcome=…` of a run, each as its key=value pairs.
+inline std::vector<std::map<std::string, std::string>> trialLines(const std::string& out) {
+  std::vector<std::map<std::string, std::string>> trials;
+  std::istringstream in(out);
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("trial=", 0) != 0) continue;
+    auto& trial = trials.emplace_back();
+    for (const std::string& word : split(line, ' '))
+      if (const auto equals = word.find('='); equals != std::string::npos) trial[word.substr(0, equals)] = word.substr(equals + 1);
+  }
+  return trials;
+}
+
+}  // namespace reachlab::test

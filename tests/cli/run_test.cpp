@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kReaches = REACHLAB_SOURCE_DIR "/resources/reaches";
+
+std::string logOf(const Folder& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "sourcedata"))
+    if (entry.path().extension() == ".reach") return entry.path().string();
+  return {};
+}
+
+}  // namespace
+
+TEST(Run, TheSimulatedSubjectIsReproducibleAndHuman) {
+  const Folder one, two;
+  const std::string arguments = "run chain-moderate --device simulated --trials 20 --seed 1 --fast --data ";
+  const Ended first = reach(arguments + one.string()), second = reach(arguments + two.string());
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  EXPECT_EQ(first.out, second.out);
+  const auto trials = trialLines(first.out);
+  ASSERT_EQ(trials.size(), 20u);
+  int successes = 0;
+  std::set<std::string> reasons;
+  for (const auto& trial : trials) {
+    if (trial.at("outcome") == "success") ++successes;
+    else reasons.insert(trial.at("reason"));
+  }
+  EXPECT_GE(successes, 6);
+  EXPECT_LE(successes, 18);
+  EXPECT_GE(reasons.size(), 2u);
+}
+
+TEST(Run, WithoutNoiseEveryTrialSucceeds) {
+  const Folder folder;
+  const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data " + folder.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  for (const auto& trial : trialLines(ended.out)) EXPECT_EQ(trial.at("outcome"), "success");
+}
+
+TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
+  const Folder folder, out;
+  const Ended ended = reach("run chain-moderate --device replay:" + kReaches + " --trials 19 --fast --data " + folder.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const auto trials = trialLines(ended.out);
+  ASSERT_EQ(trials.size(), 19u);
+  const Ended exported = reach("export " + logOf(folder) + " --format csv --out " + out.string());
+  ASSERT_EQ(exported.exitCode, 0) << exported.err;
+  const Table table = parseCsv(contentOf(out / "trials.csv"));
+  ASSERT_EQ(table.rows.size(), 19u);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    EXPECT_EQ(table.rows[i][table.column("outcome")], trials[i].at("outcome"));
+    EXPECT_EQ(table.at(i, "trial"), static_cast<double>(i + 1));
+    if (trials[i].at("outcome") == "failure") EXPECT_EQ(table.rows[i][table.column("reason")], trials[i].at("reason"));
+  }
+  EXPECT_EQ(reach("replay --check " + logOf(folder)).exitCode, 0);
+}
+
+TEST(Run, TakesTheNextFreeRunAndRefusesOneThatExists) {
+  const Folder folder;
+  const std::string arguments = "run dingwell --device simulated --trials 1 --seed 3 --fast --data " + folder.string();
+  ASSERT_EQ(reach(arguments).exitCode, 0);
+  ASSERT_EQ(reach(arguments).exitCode, 0);
+  int logs = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "sourcedata")) logs += entry.path().extension() == ".reach";
+  EXPECT_EQ(logs, 2);
+  const Ended refused = reach(arguments + " --run 1");
+  EXPECT_NE(refused.exitCode, 0);
+  EXPECT_FALSE(refused.err.empty());
+}
+
+TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {
+  const Folder folder;
+  const Ended ended = reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.string());
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+}

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::string onePoint(const std::string& constraint, const std::string& more, const std::string& task) {
+  return R"({"schema_version": 1, "constraint": )" + constraint + R"(, "object": {"kind": "point", "masses_kg": [1])" + more +
+         R"(}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5})" + task + "}";
+}
+const std::string kLineTask = R"(, "task": {"start": [0], "target": [6.283185307179586], "duration_s": 1.35,
+  "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
+
+}  // namespace
+
+TEST(Simulate, RowsFollowTheContract) {
+  const Ended ended = reach("simulate chain-moderate --hand min-jerk --until 0.505 --every 0.1");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Table table = parseCsv(ended.out);
+  ASSERT_EQ(table.rows.size(), 7u);  // 0, 0.1 … 0.5 and exactly 0.505
+  EXPECT_EQ(table.at(6, "time_s"), 0.505);
+  EXPECT_EQ(table.at(0, "mass1_x_m"), -0.1);
+  EXPECT_EQ(table.header.front(), "time_s");
+  EXPECT_EQ(table.header.back(), "force_z_n");
+  EXPECT_EQ(table.header.size(), 1u + 3 + 5 * 8 + 3);
+  EXPECT_EQ(table.header[4], "mass1_q1");
+  EXPECT_EQ(table.header[5], "mass1_q1_per_s");
+  EXPECT_EQ(table.header[6], "mass1_x_m");
+  // phi runs from 0 to 2 pi over 0.2 m, on the line too.
+  EXPECT_NEAR(table.at(6, "mass5_q1"), (table.at(6, "mass5_x_m") + 0.1) / 0.2 * 2 * kPi, 1e-12);
+}
+
+TEST(Simulate, ARowAtUntilIsNotWrittenTwice) {
+  const Table table = parseCsv(reach("simulate chain-moderate --hand hold --until 0.3 --every 0.1").out);
+  EXPECT_EQ(table.rows.size(), 4u);
+}
+
+TEST(Simulate, AFallingPointFollowsTheClosedForm) {
+  const Folder folder;
+  const std::string file = folder.write("fall.json", onePoint(R"({"name": "free"})", R"(, "gravity_m_per_s2": [0, -9.81, 0])", ""));
+  const Ended ended = reach("simulate " + file + " --hand none --until 1 --at 0.1,0.2,0.3 --rate 1,0,0");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Table table = parseCsv(ended.out);
+  const std::size_t last = table.rows.size() - 1;
+  EXPECT_NEAR(table.at(last, "mass1_y_m"), 0.2 - 9.81 / 2, 1e-11);
+  EXPECT_NEAR(table.at(last, "mass1_x_m"), 1.1, 1e-11);
+  EXPECT_EQ(table.at(last, "force_x_n"), 0);
+  EXPECT_EQ(table.at(last, "hand_x_m"), 0);
+}
+
+TEST(Simulate, ADampedSpringFollowsTheClosedForm) {
+  const Folder folder;
+  const std::string file = folder.write("spring.json", onePoint(R"({"name": "line", "shape": {"length_m": 0.2}})", "", kLineTask));
+  // The hand holds at phi = 0 (x = -0.1); the mass starts 0.1 m to its right: m x'' + 5 x' + 600 x = 0.
+  const Table table = parseCsv(reach("simulate " + file + " --hand hold --at 3.141592653589793 --until 2 --every 0.5").out);
+  const double decay = 2.5, omega = std::sqrt(600 - decay * decay);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const double t = table.at(i, "time_s");
+    const double expected = -0.1 + 0.1 * std::exp(-decay * t) * (std::cos(omega * t) + decay / omega * std::sin(omega * t));
+    EXPECT_NEAR(table.at(i, "mass1_x_m"), expected, 1e-12) << t;
+  }
+}
+
+TEST(Simulate, ATypedFormulaEqualsItsCatalogueTwin) {
+  const Folder folder;
+  const std::string task = R"(, "task": {"start": [0.3], "target": [2], "duration_s": 1,
+    "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
+  const std::string typed = folder.write(
+      "typed.json", onePoint(R"j({"curve": ["0", "a*cos(phi)", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j", "", task));
+  const Ended ended = reach("simulate " + typed + " --hand min-jerk");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Table table = parseCsv(ended.out);
+  const std::size_t last = table.rows.size() - 1;
+  EXPECT_NEAR(std::pow(table.at(last, "mass1_y_m") / 0.1, 2) + std::pow(table.at(last, "mass1_z_m") / 0.06, 2), 1, 1e-12);
+}
+
+TEST(Simulate, RefusesWhatCannotBeCarriedOut) {
+  const Folder folder;
+  const std::string noChord = folder.write("closed.json", onePoint(R"j({"curve": ["cos(phi)", "sin(phi)", "0"]})j", "",
+                                                                   R"(, "task": {"start": [0], "target": [0], "duration_s": 1,
+    "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})"));
+  EXPECT_EQ(reach("simulate " + noChord + " --hand hold --until 0.1").exitCode, 0);
+  const Ended refused = reach("simulate " + noChord + " --hand min-jerk");
+  EXPECT_TRUE(refused.exitCode == 2 || refused.exitCode == 4) << refused.exitCode;
+  EXPECT_FALSE(refused.err.empty());
+}
+
+TEST(Simulate, AHandFromAFileIsInterpolatedAndHeld) {
+  const Folder folder;
+  std::string text = "time_s,x_m,y_m,z_m\n";
+  for (int i = 0; i <= 20; ++i) text += std::to_string(0.05 * i) + "," + std::to_string(-0.1 + 0.01 * std::sin(0.05 * i)) + ",0,0\n";
+  const std::string file = folder.write("hand.csv", text);
+  const Ended ended = reach("simulate chain-moderate --hand " + file + " --until 1.5 --every 0.5");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Table table = parseCsv(ended.out);
+  EXPECT_NEAR(table.at(1, "hand_x_m"), -0.1 + 0.01 * std::sin(0.5), 1e-6);
+  EXPECT_NEAR(table.at(3, "hand_x_m"), -0.1 + 0.01 * std::sin(1.0), 1e-6);
+}
+
+TEST(Simulate, WritesTheSameBytesUnderAGermanLocale) {
+  const Ended plain = reach("simulate parallel --hand min-jerk --until 0.5");
+  const Ended german = reach("simulate parallel --hand min-jerk --until 0.5", "LC_ALL=de_DE.UTF-8");
+  EXPECT_EQ(plain.out, german.out);
+  EXPECT_FALSE(plain.out.empty());
+}
