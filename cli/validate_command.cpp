@@ -1,11 +1,47 @@
+#include <fmt/format.h>
+
 #include "cli/commands.h"
+#include "constraints/definition.h"
 #include "constraints/error.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/json_reader.h"
+#include "sim/session/plan.h"
 
 namespace reachlab {
+namespace {
 
-void addValidateCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("validate", "");
-  command->callback([] { throw UsageError("validate: not there yet"); });
+// What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing.
+void validateFile(const std::string& file) {
+  const std::string text = readTextFile(file);
+  const JsonNode tree = parseJson(text, file);
+  if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
+    parsePlan(text, file);
+  } else if (tree.find("object") == nullptr && tree.find("task") == nullptr && tree.find("parameters") == nullptr &&
+             (tree.find("formula") != nullptr || tree.find("domain") != nullptr || tree.find("kind") != nullptr)) {
+    parseDefinition(text, file);
+  } else {
+    parseExperiment(text, file);
+  }
+}
+
+}  // namespace
+
+void addValidateCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions and session plans");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  command->add_option("files", *files, "files to check; every fault of every file is named at once")->required();
+  command->footer("Examples:\n  reach validate my-experiment.json\n  reach validate *.json");
+  command->callback([files, &exitCode] {
+    for (const std::string& file : *files) {
+      try {
+        validateFile(file);
+        fmt::print("{}: fine\n", file);
+      } catch (const UsageError& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        exitCode = 2;
+      }
+    }
+  });
 }
 
 }  // namespace reachlab

@@ -1,6 +1,7 @@
 # One INTERFACE target holds what every target of ours is compiled with.
 add_library(reachlab_warnings INTERFACE)
-target_compile_options(reachlab_warnings INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast)
+target_compile_options(reachlab_warnings INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Wno-maybe-uninitialized)  # g++ 12 reports its own AVX-512 intrinsics (GCC bug 105593)
 if(REACHLAB_NATIVE)
   add_compile_options(-march=native)
 endif()
