@@ -82,7 +82,8 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     const std::size_t end = offset();
     std::string what = e.what();
     if (const auto colon = what.find("] "); colon != std::string::npos) what.erase(0, colon + 2);
-    if (e.id == 406) what = "this number is beyond the range of a double; allowed: finite numbers";
+    if (e.id == 406)
+      throw UsageError(fmt::format("{}: this number is beyond the range of a double; allowed: finite numbers", place(tokenStart())));
     if (const auto at = what.find("column "); at != std::string::npos)
       if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
     throw UsageError(fmt::format("{}: {}", place(end > 0 ? end - 1 : 0), what));

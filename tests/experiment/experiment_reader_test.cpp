@@ -71,12 +71,12 @@ TEST_P(ExperimentReaderFaults, AreNamedWithPlaceKeyAndWhatIsAllowed) {
 INSTANTIATE_TEST_SUITE_P(
     Each, ExperimentReaderFaults,
     testing::Values(
-        Fault{"\"duration_s\"", "\"duration\"", "x.json:7:62: task.duration: is not known here; did you mean duration_s?"},
-        Fault{"\"duration_s\": 1.35", "\"duration_s\": \"long\"", "x.json:7:76: task.duration_s: is a string; allowed: more than 0 s"},
+        Fault{"\"duration_s\"", "\"duration\"", "x.json:7:58: task.duration: is not known here; did you mean duration_s?"},
+        Fault{"\"duration_s\": 1.35", "\"duration_s\": \"long\"", "x.json:7:72: task.duration_s: is a string; allowed: more than 0 s"},
         Fault{"[0.6, 0.6]", "[0.6, -1]", "x.json:5:51: object.masses_kg[1]: is -1; allowed: more than 0 kg"},
         Fault{"[600]", "[600, 600]", "object.stiffness_n_per_m: has 2 elements; allowed: an array of 1 number"},
         Fault{"\"stiffness_n_per_m\": [600]", "\"viscosity_n_s_per_m\": 0", "object.stiffness_n_per_m: is missing"},
-        Fault{"1.35", "1e999", "x.json:7:80: this number is beyond the range of a double"},
+        Fault{"1.35", "1e999", "x.json:7:72: this number is beyond the range of a double"},
         Fault{"1.35", "NaN", "x.json:7:"},
         Fault{"\"schema_version\": 1", "\"schema_version\": 2", "x.json:2:21: schema_version: is 2; allowed: 1"},
         Fault{"\"schema_version\": 1,", "", "schema_version: is missing"},
