@@ -16,8 +16,7 @@ void validateFile(const std::string& file) {
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
     parsePlan(text, file);
-  } else if (tree.find("object") == nullptr && tree.find("task") == nullptr && tree.find("parameters") == nullptr &&
-             (tree.find("formula") != nullptr || tree.find("domain") != nullptr || tree.find("kind") != nullptr)) {
+  } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     parseDefinition(text, file);
   } else {
     parseExperiment(text, file);
