@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "constraints/constraint.h"
+
+/// A constraint as points and lines to draw: computed from the same functions that the simulation moves on, and known to no graphics
+/// library. Sampling follows curvature and is bounded, so a wild formula costs no more than a tame one.
+namespace reachlab {
+
+struct MeshOptions {
+  double chordError = 5e-4;     // of the drawn size: how far a straight piece may leave the curve
+  double turn = 0.12;           // [rad] between neighbouring pieces
+  std::size_t maxPoints = 3000; // of a curve
+  std::size_t maxLines = 120;   // of a surface, each way
+  std::size_t parameterLines = 16;
+};
+
+/// The stretch of each parameter that is drawn: the domain where it ends; [0, 2 pi] or [-1, 1] where it does not, widened so that start
+/// and target lie inside with a margin.
+std::array<Domain, 2> drawnDomain(const Constraint& constraint, std::span<const double> start, std::span<const double> target);
+
+/// Pieces of a curve; a new piece begins where the formula is not finite. [m]
+struct CurveMesh {
+  std::vector<std::vector<Vec3>> pieces;
+  std::size_t pointCount() const;
+};
+CurveMesh sampleCurve(const Curve& curve, double from, double to, const MeshOptions& options = {});
+
+/// A surface as a grid of quads over parameter lines that lie closer where it bends, and the lines that are drawn on it. [m]
+struct SurfaceMesh {
+  std::vector<Vec3> points, normals;
+  std::vector<std::array<std::uint32_t, 4>> quads;  // counter-clockwise about the normal
+  std::vector<std::vector<Vec3>> parameterLines;
+};
+SurfaceMesh sampleSurface(const Surface& surface, const std::array<Domain, 2>& domain, const MeshOptions& options = {});
+
+/// Smallest box around points; empty (valid() false) for none that is finite.
+struct Box {
+  Vec3 low{1, 1, 1}, high{-1, -1, -1};
+  bool valid() const { return low.x <= high.x; }
+  Vec3 centre() const { return 0.5 * (low + high); }
+  double diagonal() const { return valid() ? norm(high - low) : 0; }
+  void add(const Vec3& p);
+};
+Box boxOf(const CurveMesh& mesh);
+Box boxOf(const SurfaceMesh& mesh);
+
+}  // namespace reachlab

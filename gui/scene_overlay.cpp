@@ -1,0 +1,126 @@
+#include "gui/scene_overlay.h"
+
+#include <QPainter>
+#include <QPainterPath>
+#include <cmath>
+
+#include "gui/theme.h"
+
+namespace reachlab {
+namespace {
+
+QString lengthText(double metres) {
+  if (metres >= 1) return QStringLiteral("%1 m").arg(metres);
+  if (metres >= 0.01) return QStringLiteral("%1 cm").arg(std::round(metres * 100));
+  return QStringLiteral("%1 mm").arg(metres * 1000);
+}
+
+}  // namespace
+
+double roundLength(double most) {
+  if (!(most > 0) || !std::isfinite(most)) return 0;
+  const double decade = std::pow(10.0, std::floor(std::log10(most)));
+  const double share = most / decade;
+  return (share >= 5 ? 5 : share >= 2 ? 2 : 1) * decade;
+}
+
+SceneOverlay::SceneOverlay(QWidget* parent) : QWidget(parent) {
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setAttribute(Qt::WA_NoSystemBackground);
+}
+
+void SceneOverlay::setState(const OverlayState& state) {
+  if (state == state_) return;
+  state_ = state;
+  update();
+}
+
+void SceneOverlay::setView(const std::array<QPointF, 3>& axes, double metresPerPixel) {
+  if (axes == axes_ && metresPerPixel == metresPerPixel_) return;
+  axes_ = axes;
+  metresPerPixel_ = metresPerPixel;
+  update();
+}
+
+void SceneOverlay::setTextScale(double scale) {
+  textScale_ = scale;
+  update();
+}
+
+QColor SceneOverlay::colourOf(Semaphore semaphore) {
+  switch (semaphore) {
+    case Semaphore::Green: return toQColor(colours::kGreen);
+    case Semaphore::Red: return toQColor(colours::kRed);
+    case Semaphore::Neutral: break;
+  }
+  return toQColor(colours::kNeutral);
+}
+
+void SceneOverlay::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const double s = textScale_;
+  const QRectF square(20 * s, 18 * s, 58 * s, 58 * s);
+  double left = 20 * s;
+  if (state_.semaphoreShown) {
+    const QColor lamp = colourOf(state_.semaphore);
+    painter.setPen(QPen(lamp.lighter(135), 2 * s));
+    painter.setBrush(lamp);
+    painter.drawRoundedRect(square, 6 * s, 6 * s);
+    left = square.right() + 18 * s;
+  }
+  QFont font = painter.font();
+  font.setPointSizeF(10.5 * s);
+  painter.setFont(font);
+  painter.setPen(toQColor(colours::kFaintText));
+  const double room = width() - left - 12;
+  painter.drawText(QRectF(left, 14 * s, room, 20 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.counter);
+  font.setPointSizeF(19 * s);
+  font.setWeight(QFont::DemiBold);
+  painter.setFont(font);
+  const Colour tone = state_.tone == OverlayState::Tone::Good  ? colours::kGreen
+                      : state_.tone == OverlayState::Tone::Bad ? Colour{1.0, 0.62, 0.55}
+                                                               : colours::kText;
+  painter.setPen(toQColor(tone));
+  const QString line = painter.fontMetrics().elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
+  painter.drawText(QRectF(left, 33 * s, room, 32 * s), Qt::AlignLeft | Qt::AlignVCenter, line);
+  font.setPointSizeF(11 * s);
+  font.setWeight(QFont::Normal);
+  painter.setFont(font);
+  painter.setPen(toQColor(colours::kFaintText));
+  painter.drawText(QRectF(left, 65 * s, room, 22 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.detail);
+  paintScale(painter);
+  paintAxes(painter);
+}
+
+void SceneOverlay::paintScale(QPainter& painter) const {
+  const double length = roundLength(0.22 * width() * metresPerPixel_);
+  if (length <= 0) return;
+  const double pixels = length / metresPerPixel_, right = width() - 22, y = height() - 22;
+  painter.setPen(QPen(toQColor(colours::kFaintText), 1.6));
+  painter.drawLine(QPointF(right - pixels, y), QPointF(right, y));
+  painter.drawLine(QPointF(right - pixels, y - 5), QPointF(right - pixels, y + 5));
+  painter.drawLine(QPointF(right, y - 5), QPointF(right, y + 5));
+  QFont font = painter.font();
+  font.setPointSizeF(9.5);
+  painter.setFont(font);
+  painter.drawText(QRectF(right - pixels, y - 24, pixels, 18), Qt::AlignCenter, lengthText(length));
+}
+
+void SceneOverlay::paintAxes(QPainter& painter) const {
+  const QPointF origin(46, height() - 44);
+  const double arm = 26;
+  const std::array<QColor, 3> ink{QColor(235, 110, 100), QColor(120, 210, 120), QColor(110, 165, 250)};
+  const std::array<QString, 3> names{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
+  QFont font = painter.font();
+  font.setPointSizeF(9);
+  painter.setFont(font);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const QPointF tip = origin + arm * axes_[i];
+    painter.setPen(QPen(ink[i], 2));
+    painter.drawLine(origin, tip);
+    painter.drawText(QRectF(origin.x() + 1.36 * arm * axes_[i].x() - 8, origin.y() + 1.36 * arm * axes_[i].y() - 8, 16, 16), Qt::AlignCenter, names[i]);
+  }
+}
+
+}  // namespace reachlab

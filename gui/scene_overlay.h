@@ -1,0 +1,50 @@
+#pragma once
+#include <QString>
+#include <QWidget>
+#include <array>
+
+#include "sim/trial/outcome.h"
+
+namespace reachlab {
+
+/// What is written over the scene.
+struct OverlayState {
+  Semaphore semaphore = Semaphore::Neutral;
+  bool semaphoreShown = true;
+  QString counter;      // "Trial 3 of 20"
+  QString instruction;  // what the subject is to do
+  QString detail;       // how the last trial ended
+  enum class Tone { Plain, Good, Bad } tone = Tone::Plain;
+  bool operator==(const OverlayState&) const = default;
+};
+
+/// Semaphore, trial counter, instruction, scale and axes over the scene; lets the pointer through.
+class SceneOverlay : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SceneOverlay(QWidget* parent);
+  void setState(const OverlayState& state);
+  const OverlayState& state() const { return state_; }
+  /// Screen directions of x, y, z (length at most 1, y down) and metres a pixel in the plane through the scene's centre.
+  void setView(const std::array<QPointF, 3>& axes, double metresPerPixel);
+  void setTextScale(double scale);
+  /// The square's colour at this moment, for tests.
+  static QColor colourOf(Semaphore semaphore);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void paintScale(QPainter& painter) const;
+  void paintAxes(QPainter& painter) const;
+
+  OverlayState state_;
+  std::array<QPointF, 3> axes_{QPointF{1, 0}, QPointF{0, -1}, QPointF{0, 0}};
+  double metresPerPixel_ = 0;
+  double textScale_ = 1;
+};
+
+/// A round length (1, 2 or 5 times a power of ten) not above `most`. [same unit]
+double roundLength(double most);
+
+}  // namespace reachlab
