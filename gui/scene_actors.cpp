@@ -47,7 +47,7 @@ vtkSmartPointer<vtkPolyData> linesOf(const std::vector<std::vector<Vec3>>& piece
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   for (const auto& piece : pieces) {
-    lines->InsertNextCell(static_cast<vtkIdType>(piece.size()));
+    lines->InsertNextCell(static_cast<int>(piece.size()));
     for (const Vec3& p : piece) lines->InsertCellPoint(points->InsertNextPoint(p.x, p.y, p.z));
   }
   const auto data = vtkSmartPointer<vtkPolyData>::New();

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/colours.h"
+
 namespace reachlab {
 namespace {
 

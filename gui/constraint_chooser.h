@@ -1,0 +1,66 @@
+#pragma once
+#include <QDialog>
+#include <optional>
+#include <vector>
+
+#include "constraints/definition.h"
+#include "sim/experiment/experiment.h"
+
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+
+namespace reachlab {
+
+class FormulaEditor;
+class SceneView;
+class ShapeSliders;
+
+/// A choice made: what an experiment needs to use it.
+struct ConstraintChoice {
+  ConstraintSpec spec;
+  std::vector<double> start, target;
+};
+
+/// Choose a constraint from a searchable list with thumbnails and move its sliders, or type a formula; both with a live picture. A typed
+/// formula can be saved as a definition. "Use" reaches on it at once, without a restart.
+class ConstraintChooser : public QDialog {
+  Q_OBJECT
+ public:
+  explicit ConstraintChooser(QWidget* parent = nullptr);
+  ~ConstraintChooser() override;
+  /// Shows what is in use.
+  void setCurrent(const Experiment& experiment);
+  /// What would be used now; nullopt while it cannot be.
+  std::optional<ConstraintChoice> choice() const { return choice_; }
+  SceneView* preview() { return preview_; }
+  int shownCount() const;
+
+ Q_SIGNALS:
+  void used(const reachlab::ConstraintChoice& choice);
+
+ private:
+  void fillList();
+  void filter(const QString& words);
+  void show(const Definition& definition, const std::map<std::string, double>& shape);
+  void formulaChanged();
+  void rebuild(bool resetCamera);
+  void save();
+  Definition typedDefinition() const;
+  bool isTyped() const;
+
+  std::vector<Definition> definitions_;
+  Definition current_;
+  Experiment probe_;   // one mass on the constraint, for the picture
+  std::optional<ConstraintChoice> choice_;
+  QLineEdit *search_, *name_;
+  QListWidget* list_;
+  SceneView* preview_;
+  ShapeSliders* sliders_;
+  FormulaEditor* formula_;
+  QLabel *title_, *sentence_, *saved_;
+  QPushButton *use_, *save_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,42 @@
+#include "gui/coupling_dock.h"
+
+#include <QFormLayout>
+#include <QLabel>
+
+#include "gui/unit_spin_box.h"
+
+namespace reachlab {
+
+CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupling of hand and object"), parent) {
+  setObjectName(QStringLiteral("couplingDock"));
+  auto* body = new QWidget;
+  auto* form = new QFormLayout(body);
+  stiffness_ = new UnitSpinBox(0, 1e6, QStringLiteral("N/m"));
+  stiffness_->setObjectName(QStringLiteral("couplingStiffness"));
+  damping_ = new UnitSpinBox(0, 1e5, QStringLiteral("N s/m"));
+  form->addRow(QStringLiteral("stiffness"), stiffness_);
+  form->addRow(QStringLiteral("damping"), damping_);
+  faults_ = new QLabel;
+  faults_->setProperty("role", "fault");
+  faults_->setWordWrap(true);
+  faults_->hide();
+  form->addRow(faults_);
+  setWidget(body);
+  const auto tell = [this] { Q_EMIT edited({stiffness_->value(), damping_->value()}); };
+  connect(stiffness_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, tell);
+  connect(damping_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, tell);
+}
+
+void CouplingDock::setCoupling(const std::optional<Coupling>& coupling) {
+  widget()->setEnabled(coupling.has_value());
+  widget()->setToolTip(coupling ? QString() : QStringLiteral("the springs of a parallel object are the hand's own"));
+  stiffness_->show(coupling ? coupling->stiffness : 0);
+  damping_->show(coupling ? coupling->damping : 0);
+}
+
+void CouplingDock::setFaults(const QStringList& faults) {
+  faults_->setText(faults.join(QLatin1Char('\n')));
+  faults_->setVisible(!faults.isEmpty());
+}
+
+}  // namespace reachlab

@@ -1,0 +1,30 @@
+#pragma once
+#include <QDockWidget>
+#include <optional>
+
+#include "sim/experiment/experiment.h"
+
+class QLabel;
+
+namespace reachlab {
+
+class UnitSpinBox;
+
+/// Edits the coupling (8) between hand and driven mass. Knows widgets and Coupling, not the simulator.
+class CouplingDock : public QDockWidget {
+  Q_OBJECT
+ public:
+  explicit CouplingDock(QWidget* parent = nullptr);
+  /// nullopt: a parallel object, whose springs are the hand's own.
+  void setCoupling(const std::optional<Coupling>& coupling);
+  void setFaults(const QStringList& faults);
+
+ Q_SIGNALS:
+  void edited(const reachlab::Coupling& coupling);
+
+ private:
+  UnitSpinBox *stiffness_, *damping_;
+  QLabel* faults_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,14 @@
+#pragma once
+#include <QColor>
+#include <QString>
+
+#include "sim/predict/predict.h"
+
+namespace reachlab {
+
+/// A criterion's colour in plot and list: legible on dark, and none like the hand's or the object's.
+QColor colourOf(Criterion criterion);
+/// "min. hand jerk" …
+QString titleOf(Criterion criterion);
+
+}  // namespace reachlab

@@ -1,0 +1,116 @@
+#include "gui/formula_editor.h"
+
+#include <QComboBox>
+#include <QFontDatabase>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QRegularExpression>
+#include <QSignalBlocker>
+#include <algorithm>
+#include <set>
+
+#include "constraints/formula.h"
+
+namespace reachlab {
+
+std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
+  static const std::set<std::string> known{"pi", "e", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs", "sign"};
+  static const QRegularExpression name(QStringLiteral("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*(?!\\s*\\()"));
+  const std::vector<std::string> variables = variablesOf(kind);
+  std::vector<std::string> names;
+  for (const std::string& line : coordinates) {
+    auto matches = name.globalMatch(QString::fromStdString(line));
+    while (matches.hasNext()) {
+      const std::string found = matches.next().captured(0).toStdString();
+      const auto in = [&](const auto& list) { return std::find(list.begin(), list.end(), found) != list.end(); };
+      if (!in(known) && !in(variables) && !in(names) && names.size() < kMaxShapeParameters) names.push_back(found);
+    }
+  }
+  return names;
+}
+
+FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(2);
+  kind_ = new QComboBox;
+  kind_->setObjectName(QStringLiteral("formulaKind"));
+  kind_->addItems({QStringLiteral("curve in phi"), QStringLiteral("surface in u, v")});
+  grid->addWidget(kind_, 0, 0, 1, 2);
+  const QString names[] = {QStringLiteral("x ="), QStringLiteral("y ="), QStringLiteral("z =")};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int row = 1 + 2 * static_cast<int>(i);
+    lines_[i] = new QLineEdit;
+    lines_[i]->setObjectName(QStringLiteral("formula_%1").arg(QLatin1Char("xyz"[i])));
+    lines_[i]->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+    lines_[i]->setMaxLength(10000);
+    faults_[i] = new QLabel;
+    faults_[i]->setObjectName(QStringLiteral("fault_%1").arg(QLatin1Char("xyz"[i])));
+    faults_[i]->setProperty("role", "fault");
+    faults_[i]->setWordWrap(true);
+    faults_[i]->setTextFormat(Qt::PlainText);
+    faults_[i]->hide();
+    grid->addWidget(new QLabel(names[i]), row, 0);
+    grid->addWidget(lines_[i], row, 1);
+    grid->addWidget(faults_[i], row + 1, 1);
+    connect(lines_[i], &QLineEdit::textChanged, this, [this] { check(), Q_EMIT changed(); });
+  }
+  fault_ = new QLabel;
+  fault_->setObjectName(QStringLiteral("fault"));
+  fault_->setProperty("role", "fault");
+  fault_->setWordWrap(true);
+  fault_->setTextFormat(Qt::PlainText);
+  fault_->hide();
+  grid->addWidget(fault_, 7, 0, 1, 2);
+  auto* help = new QLabel(QStringLiteral("metres; + − * / ^ ( ) pi e, sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign; "
+                                         "any other name becomes a slider"));
+  help->setProperty("role", "quiet");
+  help->setWordWrap(true);
+  grid->addWidget(help, 8, 0, 1, 2);
+  connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] { check(), Q_EMIT changed(); });
+}
+
+void FormulaEditor::setFormula(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
+  {
+    const QSignalBlocker quietKind(kind_);
+    kind_->setCurrentIndex(kind == ConstraintKind::Surface ? 1 : 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const QSignalBlocker quiet(lines_[i]);
+      lines_[i]->setText(QString::fromStdString(coordinates[i]));
+      lines_[i]->setCursorPosition(0);
+    }
+  }
+  check();
+}
+
+ConstraintKind FormulaEditor::kind() const { return kind_->currentIndex() == 1 ? ConstraintKind::Surface : ConstraintKind::Curve; }
+
+std::array<std::string, 3> FormulaEditor::coordinates() const {
+  return {lines_[0]->text().toStdString(), lines_[1]->text().toStdString(), lines_[2]->text().toStdString()};
+}
+
+void FormulaEditor::setFault(const QString& fault) {
+  fault_->setText(fault);
+  fault_->setVisible(!fault.isEmpty());
+}
+
+void FormulaEditor::check() {
+  const auto text = coordinates();
+  const std::vector<FormulaFault> found = formulaFaults({kind(), text, parameterNames(kind(), text)});
+  fine_ = found.empty();
+  std::array<QString, 3> messages;
+  for (const FormulaFault& fault : found) {
+    QString& message = messages[static_cast<std::size_t>(std::clamp(fault.coordinate, 0, 2))];
+    if (!message.isEmpty()) continue;  // the first says most
+    message = QStringLiteral("character %1: %2").arg(fault.character).arg(QString::fromStdString(fault.what));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    faults_[i]->setText(messages[i]);
+    faults_[i]->setVisible(!messages[i].isEmpty());
+    lines_[i]->setStyleSheet(messages[i].isEmpty() ? QString() : QStringLiteral("border: 1px solid #c0564a;"));
+  }
+  if (!fine_) setFault({});
+}
+
+}  // namespace reachlab

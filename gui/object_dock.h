@@ -1,0 +1,37 @@
+#pragma once
+#include <QDockWidget>
+#include <array>
+
+#include "sim/experiment/experiment.h"
+
+class QComboBox;
+class QLabel;
+
+namespace reachlab {
+
+class NumberListEdit;
+class UnitSpinBox;
+
+/// Edits the object: kind, masses, springs, dampers, viscosity, gravity. Knows widgets and Object, not the simulator.
+class ObjectDock : public QDockWidget {
+  Q_OBJECT
+ public:
+  explicit ObjectDock(QWidget* parent = nullptr);
+  void setObject(const Object& object);          // displays; emits nothing
+  void setFaults(const QStringList& faults);
+
+ Q_SIGNALS:
+  void edited(const reachlab::Object& object);   // the user changed something; may be faulty
+
+ private:
+  void tell();
+
+  Object object_;
+  QComboBox* kind_;
+  NumberListEdit *masses_, *stiffness_, *damping_;
+  UnitSpinBox* viscosity_;
+  std::array<UnitSpinBox*, 3> gravity_{};
+  QLabel* faults_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,197 @@
+#include "gui/session_dock.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QLocale>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "devices/make_device.h"
+#include "gui/unit_spin_box.h"
+
+namespace reachlab {
+
+SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"), parent) {
+  setObjectName(QStringLiteral("sessionDock"));
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+
+  who_ = new QWidget;
+  auto* form = new QFormLayout(who_);
+  form->setContentsMargins(0, 0, 0, 0);
+  subject_ = new QLineEdit;
+  subject_->setObjectName(QStringLiteral("subject"));
+  session_ = new QLineEdit;
+  session_->setObjectName(QStringLiteral("session"));
+  day_ = new QSpinBox;
+  day_->setRange(0, 999);
+  day_->setSpecialValueText(QStringLiteral("–"));
+  auto* ids = new QHBoxLayout;
+  ids->addWidget(subject_);
+  ids->addWidget(new QLabel(QStringLiteral("session")));
+  ids->addWidget(session_);
+  ids->addWidget(new QLabel(QStringLiteral("day")));
+  ids->addWidget(day_);
+  form->addRow(QStringLiteral("subject"), ids);
+  age_ = new QLineEdit;
+  age_->setPlaceholderText(QStringLiteral("age"));
+  age_->setMaximumWidth(54);
+  sex_ = new QComboBox;
+  sex_->addItems({QStringLiteral("sex"), QStringLiteral("F"), QStringLiteral("M"), QStringLiteral("O")});
+  hand_ = new QComboBox;
+  hand_->addItems({QStringLiteral("hand"), QStringLiteral("R"), QStringLiteral("L"), QStringLiteral("A")});
+  auto* person = new QHBoxLayout;
+  person->addWidget(age_);
+  person->addWidget(sex_);
+  person->addWidget(hand_);
+  form->addRow(QStringLiteral("person"), person);
+  device_ = new QComboBox;
+  device_->setObjectName(QStringLiteral("device"));
+  device_->setEditable(true);
+  device_->addItems({QStringLiteral("mouse"), QStringLiteral("simulated"), QStringLiteral("simulated:noise=0"), QStringLiteral("replay:")});
+  trials_ = new QSpinBox;
+  trials_->setRange(1, 100000);
+  auto* hands = new QHBoxLayout;
+  hands->addWidget(device_, 1);
+  hands->addWidget(new QLabel(QStringLiteral("trials")));
+  hands->addWidget(trials_);
+  form->addRow(QStringLiteral("device"), hands);
+  data_ = new QLineEdit;
+  data_->setObjectName(QStringLiteral("data"));
+  form->addRow(QStringLiteral("data in"), data_);
+  QString devices;
+  for (const DeviceDescription& d : knownDevices()) devices += QString::fromStdString(d.name + ": " + d.description + "\n");
+  device_->setToolTip(devices.trimmed());
+  layout->addWidget(who_);
+
+  run_ = new QLabel;
+  run_->setProperty("role", "quiet");
+  run_->setWordWrap(true);
+  layout->addWidget(run_);
+
+  next_ = new QPushButton(QStringLiteral("Start  (Space)"));
+  next_->setObjectName(QStringLiteral("next"));
+  next_->setProperty("role", "go");
+  abort_ = new QPushButton(QStringLiteral("Abort  (Esc)"));
+  abort_->setObjectName(QStringLiteral("abort"));
+  repeat_ = new QPushButton(QStringLiteral("Repeat  (R)"));
+  repeat_->setObjectName(QStringLiteral("repeat"));
+  repeat_->setToolTip(QStringLiteral("puts the last trial up once more, at the end of the run"));
+  end_ = new QPushButton(QStringLiteral("End run  (Ctrl+E)"));
+  end_->setObjectName(QStringLiteral("end"));
+  auto* buttons = new QGridLayout;
+  buttons->addWidget(next_, 0, 0);
+  buttons->addWidget(abort_, 0, 1);
+  buttons->addWidget(repeat_, 1, 0);
+  buttons->addWidget(end_, 1, 1);
+  layout->addLayout(buttons);
+  for (auto* button : {next_, abort_, repeat_, end_}) button->setFocusPolicy(Qt::NoFocus);
+
+  automatic_ = new QCheckBox(QStringLiteral("next trial by itself after"));
+  pause_ = new UnitSpinBox(0, 600, QStringLiteral("s"));
+  pause_->show(1);
+  auto* pausing = new QHBoxLayout;
+  pausing->addWidget(automatic_);
+  pausing->addWidget(pause_);
+  pausing->addStretch();
+  layout->addLayout(pausing);
+
+  tally_ = new QLabel;
+  tally_->setObjectName(QStringLiteral("tally"));
+  tally_->setWordWrap(true);
+  layout->addWidget(tally_);
+  note_ = new QLineEdit;
+  note_->setObjectName(QStringLiteral("note"));
+  note_->setPlaceholderText(QStringLiteral("note for the record, Enter to keep it"));
+  layout->addWidget(note_);
+  layout->addStretch();
+  setWidget(body);
+
+  connect(next_, &QPushButton::clicked, this, &SessionDock::nextRequested);
+  connect(abort_, &QPushButton::clicked, this, &SessionDock::abortRequested);
+  connect(repeat_, &QPushButton::clicked, this, &SessionDock::repeatRequested);
+  connect(end_, &QPushButton::clicked, this, &SessionDock::endRequested);
+  connect(device_, &QComboBox::currentTextChanged, this, &SessionDock::deviceChanged);
+  connect(note_, &QLineEdit::returnPressed, this, [this] {
+    if (note_->text().trimmed().isEmpty()) return;
+    Q_EMIT noteWritten(note_->text().trimmed());
+    note_->clear();
+  });
+  clearTally();
+  setStage(Stage::Closed);
+}
+
+void SessionDock::setRequest(const SessionRequest& request) {
+  request_ = request;
+  subject_->setText(QString::fromStdString(request.place.subject));
+  session_->setText(QString::fromStdString(request.place.session));
+  data_->setText(QString::fromStdString(request.place.data));
+  day_->setValue(request.day.value_or(0));
+  device_->setCurrentText(QString::fromStdString(request.device));
+  trials_->setValue(request.trials.value_or(20));
+  trials_->setEnabled(request.trials.has_value());
+  if (request.participant.age) age_->setText(QString::number(*request.participant.age));
+}
+
+SessionRequest SessionDock::request() const {
+  SessionRequest r = request_;
+  r.place.subject = subject_->text().trimmed().toStdString();
+  r.place.session = session_->text().trimmed().toStdString();
+  r.place.data = data_->text().trimmed().toStdString();
+  if (day_->value() > 0) r.day = day_->value();
+  if (request_.trials) r.trials = trials_->value();
+  r.device = device();
+  bool fine = false;
+  const double age = QLocale::c().toDouble(age_->text(), &fine);
+  if (fine) r.participant.age = age;
+  if (sex_->currentIndex() > 0) r.participant.sex = sex_->currentText().toStdString();
+  if (hand_->currentIndex() > 0) r.participant.handedness = hand_->currentText().toStdString();
+  return r;
+}
+
+std::string SessionDock::device() const { return device_->currentText().trimmed().toStdString(); }
+bool SessionDock::repeatsByItself() const { return automatic_->isChecked(); }
+double SessionDock::pauseSeconds() const { return pause_->value(); }
+
+void SessionDock::setStage(Stage stage) {
+  who_->setEnabled(stage == Stage::Closed);
+  next_->setText(stage == Stage::Closed ? QStringLiteral("Start  (Space)") : QStringLiteral("Next trial  (Space)"));
+  next_->setEnabled(stage == Stage::Closed || stage == Stage::BetweenTrials);
+  abort_->setEnabled(stage == Stage::UnderWay);
+  repeat_->setEnabled(stage == Stage::BetweenTrials || stage == Stage::Finished);
+  end_->setEnabled(stage == Stage::BetweenTrials || stage == Stage::Finished);
+  note_->setEnabled(stage != Stage::Closed);
+}
+
+void SessionDock::setRun(const QString& text) { run_->setText(text); }
+
+void SessionDock::clearTally() {
+  successes_ = failures_ = others_ = 0;
+  reasons_.clear();
+  tally_->setText(QStringLiteral("no trials yet"));
+}
+
+void SessionDock::count(const TrialResult& result) {
+  if (result.outcome == Outcome::Success) ++successes_;
+  else if (result.outcome == Outcome::Failure) ++failures_;
+  else ++others_;
+  if (result.outcome != Outcome::Success) ++reasons_[std::string(nameOf(result.reason))];
+  const int judged = successes_ + failures_;
+  QString text = judged > 0 ? QStringLiteral("<b>%1 of %2 succeeded (%3 %)</b>").arg(successes_).arg(judged).arg(100.0 * successes_ / judged, 0, 'f', 0)
+                            : QStringLiteral("<b>none judged yet</b>");
+  if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
+  QStringList why;
+  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(QString::fromStdString(reason).replace(QLatin1Char('_'), QLatin1Char(' ')));
+  if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
+  tally_->setText(text);
+}
+
+QString SessionDock::tallyText() const { return tally_->text(); }
+
+}  // namespace reachlab

@@ -1,0 +1,64 @@
+#pragma once
+#include <QDockWidget>
+#include <map>
+#include <string>
+
+#include "sim/haptics/run_conductor.h"
+#include "sim/session/session.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPlainTextEdit;
+class QPushButton;
+class QSpinBox;
+
+namespace reachlab {
+
+class UnitSpinBox;
+
+/// Who, when, with which hand, and how it goes: subject, session, run, day, device, the trial buttons, the tally, notes.
+class SessionDock : public QDockWidget {
+  Q_OBJECT
+ public:
+  explicit SessionDock(QWidget* parent = nullptr);
+
+  void setRequest(const SessionRequest& request);
+  /// What is typed; `what`, `fast` and the like as they came.
+  SessionRequest request() const;
+  std::string device() const;
+  bool repeatsByItself() const;      // next trial without a key
+  double pauseSeconds() const;       // [s] before it
+
+  /// While a run is open its who and where stand still.
+  enum class Stage { Closed, BetweenTrials, UnderWay, Finished };
+  void setStage(Stage stage);
+  void setRun(const QString& text);
+  void clearTally();
+  void count(const TrialResult& result);
+  QString tallyText() const;
+
+ Q_SIGNALS:
+  void nextRequested();
+  void abortRequested();
+  void repeatRequested();
+  void endRequested();
+  void noteWritten(const QString& text);
+  void deviceChanged();
+
+ private:
+  SessionRequest request_;
+  QLineEdit *subject_, *session_, *data_, *note_, *age_;
+  QComboBox *device_, *sex_, *hand_;
+  QSpinBox *trials_, *day_;
+  QCheckBox* automatic_;
+  UnitSpinBox* pause_;
+  QWidget* who_;
+  QLabel *run_, *tally_;
+  QPushButton *next_, *abort_, *repeat_, *end_;
+  int successes_ = 0, failures_ = 0, others_ = 0;
+  std::map<std::string, int> reasons_;
+};
+
+}  // namespace reachlab

@@ -1,0 +1,41 @@
+#pragma once
+#include <QWidget>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "constraints/definition.h"
+
+class QFormLayout;
+class QSlider;
+
+namespace reachlab {
+
+class UnitSpinBox;
+
+/// A slider and a number for each shape parameter of a definition.
+class ShapeSliders : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ShapeSliders(QWidget* parent = nullptr);
+  /// Rows for these; values not given stand at their defaults.
+  void setParameters(const std::vector<ShapeParameter>& parameters, const std::map<std::string, double>& values = {});
+  std::map<std::string, double> values() const;
+
+ Q_SIGNALS:
+  void moved();
+
+ private:
+  struct Row {
+    ShapeParameter parameter;
+    QSlider* slider = nullptr;
+    UnitSpinBox* box = nullptr;
+  };
+  void addRow(const ShapeParameter& parameter, double value);
+
+  std::vector<Row> rows_;
+  QWidget* body_ = nullptr;
+  QFormLayout* form_ = nullptr;
+};
+
+}  // namespace reachlab

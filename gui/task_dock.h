@@ -1,0 +1,31 @@
+#pragma once
+#include <QDockWidget>
+
+#include "sim/experiment/experiment.h"
+
+class QLabel;
+
+namespace reachlab {
+
+class NumberListEdit;
+class UnitSpinBox;
+
+/// Edits the task: where from, where to, how long, how exactly. Knows widgets and Task, not the simulator.
+class TaskDock : public QDockWidget {
+  Q_OBJECT
+ public:
+  explicit TaskDock(QWidget* parent = nullptr);
+  void setTask(const Task& task);
+  void setFaults(const QStringList& faults);
+
+ Q_SIGNALS:
+  void edited(const reachlab::Task& task);
+
+ private:
+  Task task_;
+  NumberListEdit *start_, *target_;
+  UnitSpinBox *duration_, *time_, *position_, *velocity_;
+  QLabel* faults_;
+};
+
+}  // namespace reachlab

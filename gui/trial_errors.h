@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gui/trial_trace.h"
+#include "sim/experiment/experiment.h"
+#include "sim/predict/predict.h"
+
+/// Theory beside the trial: each criterion's prediction for an experiment, and how far a hand was from it. No widget here.
+namespace reachlab {
+
+/// One criterion's prediction, or why there is none.
+struct CriterionForecast {
+  Criterion criterion{};
+  std::shared_ptr<const Prediction> prediction;  // shared: computed on another thread, looked at by plot and list
+  std::string refusal;
+};
+/// All seven, in Table 1's order; may take a second on curved constraints: not for the window's thread.
+std::vector<CriterionForecast> forecastAll(const Experiment& experiment);
+
+/// Direction of positive velocity: along the chord when straight, along rising phi towards the target on a curve; on a surface or in free
+/// space there is none, and speed is taken. World frame.
+class PathDirection {
+ public:
+  PathDirection() = default;
+  PathDirection(const Experiment& experiment, const Constraint& constraint);
+  /// Signed velocity along the path of something at parameter `q`. [m/s]
+  double along(const Vec3& velocity, double q) const;
+  /// Unit direction; zero where only speed makes sense.
+  Vec3 at(double q) const;
+  bool straight() const { return straight_; }
+  const Vec3& start() const { return start_; }
+  const Vec3& target() const { return target_; }
+
+ private:
+  Constraint constraint_;
+  Vec3 chord_, start_, target_;
+  double sign_ = 1;
+  bool straight_ = false;
+};
+
+/// RMS difference between the measured hand velocity and each forecast, both from onset to offset by the 5 % rule and time-scaled to the
+/// measured duration: the paper's error for one trial. nullopt where there is no prediction or no movement. [m/s]
+std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
+                                                     const std::vector<CriterionForecast>& forecasts, double taskOnset);
+
+}  // namespace reachlab

@@ -1,0 +1,61 @@
+#include "gui/trial_texts.h"
+
+namespace reachlab {
+namespace {
+
+QString number(double value, int digits) { return QString::number(value, 'f', digits); }
+
+QString massName(int mass) { return mass > 0 ? QStringLiteral("mass %1").arg(mass) : QStringLiteral("the object"); }
+
+}  // namespace
+
+QString outcomeText(const TrialResult& result) {
+  switch (result.reason) {
+    case Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
+    case Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
+    case Reason::Position: return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
+    case Reason::Velocity: return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
+    case Reason::ForceLimit: return QStringLiteral("The force went over its limit");
+    case Reason::DeviceLost: return QStringLiteral("The device was lost");
+    case Reason::NoOnset: return QStringLiteral("No movement began");
+    case Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");
+    case Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
+    case Reason::Computation: return QStringLiteral("The simulation could not go on");
+    case Reason::Program: return QStringLiteral("Interrupted");
+    case Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
+    case Reason::None: break;
+  }
+  if (result.outcome == Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
+  return {};
+}
+
+OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlanned, bool mouse) {
+  OverlayState o;
+  o.semaphore = state.semaphore;
+  o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned) : QStringLiteral("%1 trials").arg(trialsPlanned);
+  o.detail = QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2));
+  switch (state.phase) {
+    case Phase::Idle: o.instruction = QStringLiteral("Wait"); break;
+    case Phase::Waiting:
+      o.instruction = mouse ? QStringLiteral("Drag the hand to the grey sphere") : QStringLiteral("Move the hand to the grey sphere");
+      break;
+    case Phase::Armed: o.instruction = QStringLiteral("Move to the small yellow sphere, and stop there"); break;
+    case Phase::Moving: o.instruction = QStringLiteral("%1 s").arg(number(state.trialTime, 2)); break;
+    case Phase::Done:
+      o.instruction = outcomeText(state.result);
+      o.tone = state.result.outcome == Outcome::Success ? OverlayState::Tone::Good : OverlayState::Tone::Bad;
+      o.detail = QStringLiteral("Space: next trial");
+      break;
+  }
+  return o;
+}
+
+OverlayState restingOverlay(const QString& experiment, bool mouse) {
+  OverlayState o;
+  o.counter = experiment;
+  o.instruction = QStringLiteral("Press Space to begin");
+  o.detail = mouse ? QStringLiteral("then drag with the left button to reach") : QString();
+  return o;
+}
+
+}  // namespace reachlab

@@ -1,0 +1,15 @@
+#pragma once
+#include "gui/scene_overlay.h"
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_state.h"
+
+namespace reachlab {
+
+/// What stands over the scene: what the subject is to do now, and how the last trial ended. Pure.
+OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlanned, bool mouse);
+/// Before a run.
+OverlayState restingOverlay(const QString& experiment, bool mouse);
+/// How a trial ended, for the subject: "Too fast by 0.12 s", "Mass 5 still moved too fast: 0.004 m/s over".
+QString outcomeText(const TrialResult& result);
+
+}  // namespace reachlab

@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+
+#include "constraints/vec3.h"
+#include "sim/haptics/run_sink.h"
+#include "sim/haptics/spsc_queue.h"
+#include "sim/record/recorder.h"
+
+namespace reachlab {
+
+/// What the plot needs of a tick. World frame, SI.
+struct TracePoint {
+  std::uint64_t tick = 0;
+  std::int32_t trial = 0;
+  Phase phase = Phase::Idle;
+  double trialTime = 0;                // [s] since onset
+  Vec3 hand, handVelocity;             // [m], [m/s]
+  Vec3 last, lastVelocity;             // of the last mass
+  double firstQ = 0, lastQ = 0;        // curve parameter of the first and last mass
+  double force = 0;                    // [N]
+};
+
+/// A run's ticks go two ways: all of them to the recorder (if there is one), and every fifth to the window's plot. Neither waits.
+class TraceSink final : public RunSink {
+ public:
+  static constexpr std::uint64_t kEvery = 5;                     // ticks a point
+  static constexpr double kRate = 1000.0 / static_cast<double>(kEvery);  // [Hz]
+
+  /// `recorder` may be null and outlives this.
+  explicit TraceSink(Recorder* recorder) : recorder_(recorder) {}
+
+  bool onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept override;
+  void announce(std::int32_t trial, const PlannedTrial& planned) override;
+  void awaitTrial(std::int32_t trial) override;
+  void close() override;
+
+  /// Window's thread: the oldest point not yet taken. Points that the window was too slow for are lost to the plot, not to the record.
+  bool tryTake(TracePoint& point) noexcept { return points_.tryPop(point); }
+
+ private:
+  Recorder* recorder_;
+  SpscQueue<TracePoint, 4096> points_;
+};
+
+}  // namespace reachlab

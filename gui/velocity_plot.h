@@ -1,0 +1,40 @@
+#pragma once
+#include <QColor>
+#include <QString>
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+namespace reachlab {
+
+/// Velocity against time since onset: hand and last mass of the trial under way, the last trial's faintly behind, the window T ± dT as a
+/// band, chosen predictions dashed. [s], [m/s]
+class VelocityPlot : public QWidget {
+  Q_OBJECT
+ public:
+  explicit VelocityPlot(QWidget* parent = nullptr);
+  ~VelocityPlot() override;
+
+  void setTask(double duration, double tolerance);
+  /// A new trial: the curves of the one before stay as thin lines.
+  void beginTrial();
+  /// Appends; drawn at the next `refresh`.
+  void add(double time, double hand, double last);
+  void refresh();
+
+  struct Line {
+    QString title;
+    QColor colour;
+    std::vector<double> time, velocity;  // [s], [m/s]
+  };
+  void setPredictions(const std::vector<Line>& lines);
+  std::size_t pointCount() const;
+  QSize sizeHint() const override { return {900, 260}; }
+  QSize minimumSizeHint() const override { return {300, 150}; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab
