@@ -1,6 +1,7 @@
 #include "gui/scene_view.h"
 
 #include <QMouseEvent>
+#include <QSurfaceFormat>
 #include <QVTKOpenGLNativeWidget.h>
 #include <QVBoxLayout>
 #include <QWheelEvent>
@@ -35,6 +36,8 @@ void addLights(vtkRenderer& renderer) {
 }
 
 }  // namespace
+
+void applySurfaceFormat() { QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); }
 
 struct SceneView::Impl {
   QVTKOpenGLNativeWidget* widget = nullptr;

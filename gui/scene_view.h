@@ -10,6 +10,9 @@
 namespace reachlab {
 
 
+/// The OpenGL format that the scene needs; before the QApplication is made.
+void applySurfaceFormat();
+
 /// The scene in three dimensions. Left drag moves the hand (handDragged), right drag turns, middle drag (or shift) pans, the wheel zooms.
 class SceneView : public QWidget {
   Q_OBJECT

@@ -8,11 +8,11 @@ bool TraceSink::onTick(const TickState& state, Command command, std::uint32_t mi
     (void)points_.tryPush({state.tick, state.trial, state.phase, state.trialTime, state.hand.position, state.hand.velocity, last.r, last.v,
                            first.q[0], last.q[0], norm(state.couplingForce)});
   }
-  return recorder_ == nullptr || recorder_->tryPush(state, command, missedTicks);
+  return recorder_ == nullptr || recorder_->onTick(state, command, missedTicks);
 }
 
 void TraceSink::announce(std::int32_t trial, const PlannedTrial& planned) {
-  if (recorder_ != nullptr) recorder_->announce({trial, planned});
+  if (recorder_ != nullptr) recorder_->announce(trial, planned);
 }
 
 void TraceSink::awaitTrial(std::int32_t trial) {

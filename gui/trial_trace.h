@@ -4,7 +4,6 @@
 #include "constraints/vec3.h"
 #include "sim/haptics/run_sink.h"
 #include "sim/haptics/spsc_queue.h"
-#include "sim/record/recorder.h"
 
 namespace reachlab {
 
@@ -27,7 +26,7 @@ class TraceSink final : public RunSink {
   static constexpr double kRate = 1000.0 / static_cast<double>(kEvery);  // [Hz]
 
   /// `recorder` may be null and outlives this.
-  explicit TraceSink(Recorder* recorder) : recorder_(recorder) {}
+  explicit TraceSink(RunSink* recorder) : recorder_(recorder) {}
 
   bool onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept override;
   void announce(std::int32_t trial, const PlannedTrial& planned) override;
@@ -38,7 +37,7 @@ class TraceSink final : public RunSink {
   bool tryTake(TracePoint& point) noexcept { return points_.tryPop(point); }
 
  private:
-  Recorder* recorder_;
+  RunSink* recorder_;
   SpscQueue<TracePoint, 4096> points_;
 };
 

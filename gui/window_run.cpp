@@ -1,36 +1,28 @@
 #include "gui/window_run.h"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-
+#include <QDateTime>
 #include <QString>
 #include <QSysInfo>
-#include <chrono>
 
 #include "devices/make_device.h"
 #include "devices/mouse_device.h"
+#include "sim/record/bids.h"
 #include "sim/record/channels.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab {
 namespace {
 
-std::string nowUtc() {
-  const auto now = std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)), (now - seconds).count());
-}
+std::string nowUtc() { return QDateTime::currentDateTimeUtc().toString(Qt::ISODateWithMs).toStdString(); }
 
-std::vector<PlannedTrial> plannedOf(const std::vector<TrialSetup>& setups) {
-  std::vector<PlannedTrial> planned;
-  for (const TrialSetup& setup : setups) planned.push_back(setup.planned);
-  return planned;
+std::string computerName() {
+  return (QSysInfo::kernelType() + QLatin1Char(' ') + QSysInfo::kernelVersion() + QLatin1Char(' ') + QSysInfo::currentCpuArchitecture()).toStdString();
 }
 
 }  // namespace
 
-WindowRun::WindowRun(const BlockToRun& block, const std::string& deviceSpec)
-    : configuration_(block.configuration), logPath_(block.logPath), trialCount_(block.trials.size()) {
+WindowRun::WindowRun(const BlockToRun& block, const std::string& deviceSpec, const std::string& dataFolder)
+    : configuration_(block.configuration), logPath_(block.logPath), dataFolder_(dataFolder), trialCount_(block.trials.size()) {
   std::unique_ptr<HapticDevice> device;
   if (deviceSpec == "mouse") {
     const ProtocolSettings task = makeProtocolSettings(block.experiment, makeConstraint(block.experiment.constraint));
@@ -41,21 +33,22 @@ WindowRun::WindowRun(const BlockToRun& block, const std::string& deviceSpec)
     device = makeDevice(deviceSpec, block.experiment, configuration_.seed);
   }
   const DeviceInfo info = device->info();
-  conductor_ = std::make_unique<RunConductor>(block.experiment, std::move(device), plannedOf(block.trials));
+  conductor_ = std::make_unique<RunConductor>(block.experiment, std::move(device), block.trials);
   choice_ = conductor_->engine().choice();
 
   RunConfiguration& c = configuration_;
   c.device = deviceSpec;
   c.deviceName = info.name;
   c.deviceVersion = info.version;
-  c.deviceMaxForce = block.experiment.forceLimit.value_or(info.maxForce);
+  c.deviceMaxForce = info.maxForce;
+  c.virtualHand = info.virtualHand;
   c.method = choice_.method;
   c.methodReason = choice_.reason;
-  c.softwareVersion = REACHLAB_VERSION;
-  c.buildDescription = "reachlab, window";
-  c.computer = QSysInfo::prettyProductName().toStdString() + ", " + QSysInfo::currentCpuArchitecture().toStdString();
+  c.softwareVersion = "reachlab " REACHLAB_VERSION;
+  c.buildDescription = "g++ " __VERSION__;
+  c.computer = computerName();
   c.startedUtc = nowUtc();
-  c.clock = "steady";
+  c.clock = "monotonic";
   c.table = makeChannelTable(block.experiment, conductor_->engine().constraint().parameterCount());
   if (!logPath_.empty()) recorder_ = std::make_unique<Recorder>(logPath_, c);
   sink_ = std::make_unique<TraceSink>(recorder_.get());
@@ -82,6 +75,14 @@ void WindowRun::pointTo(const Vec3& hand) {
   if (mouse_ != nullptr) mouse_->setTarget(hand);
 }
 
-void WindowRun::finish() { conductor_->finish(); }
+void WindowRun::finish() {
+  if (finished_) return;
+  finished_ = true;
+  conductor_->finish();
+  if (logPath_.empty()) return;
+  const RunLog log = RunLog::open(logPath_);
+  writeBidsRun(log, dataFolder_);
+  writeBidsTables({log.configuration()}, dataFolder_);
+}
 
 }  // namespace reachlab

@@ -5,6 +5,7 @@
 
 #include "gui/trial_trace.h"
 #include "sim/haptics/run_conductor.h"
+#include "sim/record/recorder.h"
 #include "sim/session/session.h"
 
 namespace reachlab {
@@ -17,7 +18,7 @@ class WindowRun {
  public:
   /// Makes the device ("mouse" here, all others by makeDevice), compiles the scene, opens the log (none if block.logPath is empty) and
   /// starts the loop.
-  WindowRun(const BlockToRun& block, const std::string& device);
+  WindowRun(const BlockToRun& block, const std::string& device, const std::string& dataFolder);
   ~WindowRun();
   WindowRun(const WindowRun&) = delete;
   WindowRun& operator=(const WindowRun&) = delete;
@@ -33,7 +34,7 @@ class WindowRun {
   void note(const std::string& text);
   /// The mouse's hand; other devices ignore it.
   void pointTo(const Vec3& hand);
-  /// Stops the loop with zero force and closes the log. Idempotent.
+  /// Stops the loop with zero force, closes the log and writes the run into the dataset. Idempotent.
   void finish();
 
   const TickState& latest() const { return conductor_->latest(); }
@@ -42,12 +43,14 @@ class WindowRun {
   const MethodChoice& choice() const { return choice_; }
   const RunConfiguration& configuration() const { return configuration_; }
   const std::string& logPath() const { return logPath_; }
+  int firstTrial() const { return configuration_.firstTrial; }
   std::size_t trialCount() const { return trialCount_; }
   bool usesMouse() const { return mouse_ != nullptr; }
 
  private:
   RunConfiguration configuration_;
-  std::string logPath_;
+  std::string logPath_, dataFolder_;
+  bool finished_ = false;
   MethodChoice choice_;
   std::size_t trialCount_ = 0;
   MouseDevice* mouse_ = nullptr;  // inside the conductor

@@ -1,0 +1,83 @@
+#include "gui/constraint_dock.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <QVariant>
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/definition.h"
+#include "gui/shape_sliders.h"
+
+namespace reachlab {
+namespace {
+
+// A typed formula's own names: a slider from minus twice to twice what they are.
+std::vector<ShapeParameter> parametersOf(const ConstraintSpec& spec) {
+  if (spec.curve.empty() && spec.surface.empty()) {
+    if (const Definition* definition = findInCatalogue(spec.name)) return definition->shape;
+    return {};
+  }
+  std::vector<ShapeParameter> parameters;
+  for (const auto& [name, value] : spec.shape) {
+    const double reach = std::max(2 * std::abs(value), 0.1);
+    parameters.push_back({name, value, -reach, reach, "1", "typed"});
+  }
+  return parameters;
+}
+
+bool sameFormula(const ConstraintSpec& a, const ConstraintSpec& b) { return a.name == b.name && a.curve == b.curve && a.surface == b.surface; }
+
+}  // namespace
+
+ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Constraint"), parent) {
+  setObjectName(QStringLiteral("constraintDock"));
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  name_ = new QLabel;
+  formula_ = new QLabel;
+  formula_->setProperty("role", "quiet");
+  formula_->setWordWrap(true);
+  sliders_ = new ShapeSliders;
+  faults_ = new QLabel;
+  faults_->setProperty("role", "fault");
+  faults_->setWordWrap(true);
+  faults_->hide();
+  auto* choose = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
+  choose->setObjectName(QStringLiteral("choose"));
+  choose->setFocusPolicy(Qt::NoFocus);
+  layout->addWidget(name_);
+  layout->addWidget(formula_);
+  layout->addWidget(sliders_);
+  layout->addWidget(faults_);
+  layout->addWidget(choose);
+  layout->addStretch();
+  setWidget(body);
+  connect(sliders_, &ShapeSliders::moved, this, [this] {
+    shown_.shape = sliders_->values();
+    Q_EMIT shapeMoved(shown_.shape);
+  });
+  connect(choose, &QPushButton::clicked, this, &ConstraintDock::chooseRequested);
+}
+
+void ConstraintDock::setConstraint(const ConstraintSpec& spec, const Constraint& constraint) {
+  const char* kind = constraint.kind == ConstraintKind::Surface ? "surface" : constraint.kind == ConstraintKind::Curve ? "curve" : "no constraint";
+  name_->setText(QStringLiteral("<b>%1</b>  (%2)").arg(QString::fromStdString(spec.name), QLatin1String(kind)));
+  QString formula;
+  for (const auto& line : spec.curve.empty() ? spec.surface : spec.curve) formula += QString::fromStdString(line) + QLatin1Char('\n');
+  if (const Definition* d = findInCatalogue(spec.name); d != nullptr && formula.isEmpty()) formula = QString::fromStdString(d->sentence);
+  formula_->setText(formula.trimmed());
+  formula_->setVisible(!formula.isEmpty());
+  // While a slider is being moved its row must stand still.
+  if (!sameFormula(spec, shown_) || spec.shape != sliders_->values()) sliders_->setParameters(parametersOf(spec), spec.shape);
+  shown_ = spec;
+  faults_->hide();
+}
+
+void ConstraintDock::setFaults(const QStringList& faults) {
+  faults_->setText(faults.join(QLatin1Char('\n')));
+  faults_->setVisible(!faults.isEmpty());
+}
+
+}  // namespace reachlab

@@ -1,0 +1,32 @@
+#pragma once
+#include <QDockWidget>
+#include <map>
+#include <string>
+
+#include "constraints/constraint.h"
+
+class QLabel;
+
+namespace reachlab {
+
+class ShapeSliders;
+
+/// The constraint in use: its name, its shape's sliders, and the way to another. Knows definitions, not the simulator.
+class ConstraintDock : public QDockWidget {
+  Q_OBJECT
+ public:
+  explicit ConstraintDock(QWidget* parent = nullptr);
+  void setConstraint(const ConstraintSpec& spec, const Constraint& constraint);
+  void setFaults(const QStringList& faults);
+
+ Q_SIGNALS:
+  void shapeMoved(const std::map<std::string, double>& shape);
+  void chooseRequested();
+
+ private:
+  QLabel *name_, *formula_, *faults_;
+  ShapeSliders* sliders_;
+  ConstraintSpec shown_;
+};
+
+}  // namespace reachlab

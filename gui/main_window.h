@@ -1,0 +1,51 @@
+#pragma once
+#include <QMainWindow>
+#include <memory>
+
+#include "sim/session/session.h"
+
+namespace reachlab {
+
+class ConstraintChooser;
+class SceneView;
+class SessionController;
+class SessionDock;
+class VelocityPlot;
+class PredictionDock;
+struct OverlayState;
+
+/// The window of `reachlab`: the scene in the middle, docks around it, the live plot below. It wires docks to the session and owns no
+/// logic of either.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  /// Throws UsageError when the experiment cannot be read.
+  explicit MainWindow(const SessionRequest& request, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  SessionController& session();
+  SceneView& view();
+  VelocityPlot& plot();
+  PredictionDock& predictions();
+  SessionDock& sessionDock();
+  ConstraintChooser& chooser();       // made when first asked for
+  OverlayState overlay() const;
+  /// The sentence in the bar at the top, empty when there is none.
+  QString message() const;
+  /// Waits for nothing; true once the criteria have been computed for the experiment as it is.
+  bool predictionsReady() const;
+
+ public Q_SLOTS:
+  void nextTrial();
+  void chooseConstraint();
+  void toggleSubjectWindow();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab

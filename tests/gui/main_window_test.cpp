@@ -1,0 +1,225 @@
+#include "gui/main_window.h"
+
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSet>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QUndoStack>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "gui/prediction_dock.h"
+#include "gui/scene_view.h"
+#include "gui/session_controller.h"
+#include "gui/session_dock.h"
+#include "gui/velocity_plot.h"
+#include "sim/record/run_log.h"
+
+namespace reachlab {
+namespace {
+
+// An object that a steady pointer brings to rest: well damped, and a wide window in time, so that a stall of the machine spoils nothing.
+constexpr const char* kEasy = R"({ "schema_version": 1, "name": "easy", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  "object": { "kind": "chain", "masses_kg": [0.2, 0.2], "stiffness_n_per_m": [900], "damping_n_s_per_m": [12] },
+  "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 25 },
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 10.2, "timeout_s": 60,
+            "tolerance": { "position_m": 0.012, "velocity_m_per_s": 0.03, "time_s": 9.9 } } })";
+
+class Window : public ::testing::Test {
+ protected:
+  Window() {
+    request_.what = (folder_.path() + QStringLiteral("/easy.json")).toStdString();
+    std::ofstream(request_.what) << kEasy;
+    request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
+    request_.device = "mouse";
+    request_.trials = 3;
+    request_.seed = 1;
+  }
+  MainWindow& open() {
+    window_ = std::make_unique<MainWindow>(request_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    return *window_;
+  }
+  template <typename T>
+  T* find(const char* name) const {
+    T* found = window_->findChild<T*>(QLatin1String(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  // The widget of the scene that the pointer is over.
+  QWidget* canvas() const { return window_->view().findChild<QWidget*>(QString(), Qt::FindDirectChildrenOnly); }
+  bool waitForPhase(Phase phase) const {
+    return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
+  }
+
+  QTemporaryDir folder_;
+  SessionRequest request_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(Window, StartsWithItsDocksAndAPicture) {
+  MainWindow& window = open();
+  std::set<QString> titles;
+  for (const auto* dock : window.findChildren<QDockWidget*>()) {
+    EXPECT_TRUE(dock->isVisible()) << dock->windowTitle().toStdString();
+    titles.insert(dock->windowTitle());
+  }
+  EXPECT_EQ(titles.size(), 7u);
+  const QImage picture = window.view().grabScene();
+  QSet<QRgb> inks;
+  for (int y = 0; y < picture.height(); y += 3)
+    for (int x = 0; x < picture.width(); x += 3) inks.insert(picture.pixel(x, y));
+  EXPECT_GT(inks.size(), 100);  // an empty picture has one, the background alone some dozens
+  EXPECT_FALSE(window.view().rendererName().isEmpty());
+  EXPECT_EQ(window.session().run(), nullptr);
+}
+
+TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
+  MainWindow& window = open();
+  QTest::keyClick(&window, Qt::Key_Space);
+  ASSERT_EQ(window.message().toStdString(), "");
+  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  SceneView& view = window.view();
+  const QPoint from = view.pixelOf(view.plan().start).toPoint(), to = view.pixelOf(view.plan().target).toPoint();
+  std::set<Semaphore> seen{window.overlay().semaphore};
+  QTest::mousePress(canvas(), Qt::LeftButton, {}, from);
+  constexpr int kMoves = 60;
+  for (int i = 1; i <= kMoves; ++i) {
+    const double s = static_cast<double>(i) / kMoves, share = s * s * s * (10 - 15 * s + 6 * s * s);
+    QTest::mouseMove(canvas(), from + (QPointF(to - from) * share).toPoint());
+    QTest::qWait(12);
+    seen.insert(window.overlay().semaphore);
+  }
+  ASSERT_TRUE(waitForPhase(Phase::Done));
+  QTest::mouseRelease(canvas(), Qt::LeftButton, {}, to);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  const TrialResult result = window.session().lastTrial()->result;
+  EXPECT_EQ(result.outcome, Outcome::Success) << nameOf(result.reason) << " by " << result.by;
+  EXPECT_TRUE(seen.contains(Semaphore::Neutral));
+  EXPECT_TRUE(seen.contains(Semaphore::Green));
+  EXPECT_GT(window.plot().pointCount(), 20u);
+  EXPECT_TRUE(window.sessionDock().tallyText().contains(QStringLiteral("1 of 1")));
+
+  // What the screen shows is what the record holds.
+  const std::string log = window.session().run()->logPath();
+  window.session().note(QStringLiteral("ärgerlich laut"));
+  window.session().endRun();
+  EXPECT_EQ(window.message().toStdString(), "");
+  const RunLog read = RunLog::open(log);
+  EXPECT_TRUE(read.healthy());
+  ASSERT_EQ(read.trials().size(), 1u);
+  EXPECT_EQ(read.trials()[0].result.outcome, result.outcome);
+  EXPECT_EQ(read.trials()[0].result.movementTime, result.movementTime);
+  EXPECT_EQ(read.configuration().experimentText, kEasy);
+  bool noted = false;
+  for (const RecordedEvent& event : read.events()) noted = noted || event.text == "ärgerlich laut";
+  EXPECT_TRUE(noted);
+}
+
+TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
+  MainWindow& window = open();
+  const Camera before = window.view().camera();
+  const Vec3 hand = window.view().frame().hand;
+  QTest::mousePress(canvas(), Qt::RightButton, {}, {200, 200});
+  QTest::mouseMove(canvas(), {260, 180});
+  QTest::mouseRelease(canvas(), Qt::RightButton, {}, {260, 180});
+  EXPECT_GT(norm(window.view().camera().position - before.position), 1e-3);
+  EXPECT_EQ(window.view().frame().hand, hand);
+}
+
+TEST_F(Window, AbortAndRepeatPutTheSameTrialUpAgain) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  QTest::keyClick(&window, Qt::Key_Escape);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, Outcome::Aborted);
+  QTest::keyClick(&window, Qt::Key_R);
+  EXPECT_EQ(window.session().run()->trialCount(), 4u);
+}
+
+TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
+  MainWindow& window = open();
+  auto* masses = find<QLineEdit>("masses");
+  const auto type = [&](const char* text) {
+    masses->setFocus();
+    masses->selectAll();
+    QTest::keyClicks(masses, QLatin1String(text));
+    QTest::keyClick(masses, Qt::Key_Return);
+  };
+  type("0.4 -1");
+  EXPECT_TRUE(find<QLabel>("objectFaults")->isVisible());
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+  type("0.4 0.1 0.1");
+  EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.4, 0.1, 0.1}));
+  EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
+  EXPECT_EQ(masses->text(), QStringLiteral("0.4 0.1 0.1"));  // a point, also for a German user
+  window.findChild<QUndoStack*>()->undo();
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+}
+
+TEST_F(Window, AGermanUsersExperimentHasTheSameBytes) {
+  MainWindow& window = open();
+  auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
+  stiffness->setValue(612.5);
+  EXPECT_TRUE(stiffness->text().startsWith(QStringLiteral("612.5")));
+  const std::string text = toJson(window.session().experiment());
+  EXPECT_NE(text.find("612.5"), std::string::npos);
+  EXPECT_EQ(parseExperiment(text, "edited").coupling->stiffness, 612.5);
+}
+
+TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
+  request_.what = "dingwell";
+  request_.device = "simulated:noise=0";
+  MainWindow& window = open();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 20000));
+  window.predictions().setChosen({Criterion::MinHandJerk, Criterion::MinHandForceChange});
+  window.nextTrial();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, Outcome::Success);
+  QTest::qWait(100);
+  auto* table = window.predictions().findChild<QTableWidget*>();
+  ASSERT_NE(table, nullptr);
+  // The simulated subject plans least hand jerk: that row's error is the smallest.
+  const double jerk = table->item(0, 2)->text().toDouble(), forceChange = table->item(4, 2)->text().toDouble();
+  EXPECT_GT(jerk, 0);
+  EXPECT_LT(jerk, forceChange);
+}
+
+TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {
+  request_.place.data = "/dev/null/data";
+  MainWindow& window = open();
+  window.nextTrial();
+  EXPECT_TRUE(window.message().contains(QStringLiteral("/dev/null/data"))) << window.message().toStdString();
+  EXPECT_EQ(window.session().run(), nullptr);
+  find<QLineEdit>("data")->setText(folder_.path() + QStringLiteral("/good"));
+  window.nextTrial();
+  EXPECT_EQ(window.message().toStdString(), "");
+  EXPECT_NE(window.session().run(), nullptr);
+}
+
+TEST_F(Window, TheSubjectsScreenShowsTheSceneAlone) {
+  MainWindow& window = open();
+  window.toggleSubjectWindow();
+  QTest::qWait(50);
+  QWidget* subject = nullptr;
+  for (QWidget* top : QApplication::topLevelWidgets())
+    if (top->windowTitle().contains(QStringLiteral("subject"))) subject = top;
+  ASSERT_NE(subject, nullptr);
+  EXPECT_TRUE(subject->isFullScreen());
+  window.toggleSubjectWindow();
+  QTest::qWait(50);
+}
+
+}  // namespace
+}  // namespace reachlab

@@ -1,0 +1,81 @@
+#include "gui/scene_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "gui/number_list_edit.h"
+#include "gui/scene_overlay.h"
+#include "gui/trial_texts.h"
+
+namespace reachlab {
+namespace {
+
+ScenePlan planOf(const char* experiment, ViewOptions::SideBySide wish = ViewOptions::SideBySide::Auto) {
+  const Experiment e = readExperiment(experiment);
+  return planScene(e, makeConstraint(e.constraint), {wish});
+}
+
+TEST(ScenePlan, ParallelMassesAreShiftedForTheEyeAndAChainsAreNot) {
+  const ScenePlan parallel = planOf("parallel"), chain = planOf("chain-moderate");
+  Vec3 sum;
+  for (const Vec3& shift : parallel.massShift) {
+    EXPECT_GT(norm(shift), 0);
+    sum += shift;
+  }
+  EXPECT_LT(norm(sum), 1e-15);  // rounding of two halves
+  for (const Vec3& shift : chain.massShift) EXPECT_EQ(norm(shift), 0);
+}
+
+TEST(ScenePlan, TheFirstMassIsDrivenAndEverySpringHasItsCoil) {
+  const ScenePlan plan = planOf("chain-moderate");
+  ASSERT_EQ(plan.massRole.size(), 5u);
+  EXPECT_EQ(plan.massRole.front(), MassRole::Driven);
+  EXPECT_EQ(plan.massRole.back(), MassRole::Last);
+  ASSERT_EQ(plan.springs.size(), 5u);  // the coupling and four of the chain
+  EXPECT_TRUE(plan.springs[0].coupling);
+}
+
+TEST(ScenePlan, MarksAreSmallerThanMasses) {
+  const ScenePlan plan = planOf("dingwell");
+  EXPECT_LT(plan.markRadius, plan.massRadius[0]);
+  EXPECT_NEAR(norm(plan.target - plan.start), 0.2, 1e-12);
+}
+
+TEST(TrialTexts, SayWhatTheSubjectCanUse) {
+  TrialResult result;
+  result.outcome = Outcome::Failure;
+  result.reason = Reason::TimeShort;
+  result.by = 0.12;
+  EXPECT_EQ(outcomeText(result), QStringLiteral("Too fast by 0.12 s"));
+  result.reason = Reason::Velocity;
+  result.mass = 5;
+  result.by = 0.004;
+  EXPECT_EQ(outcomeText(result), QStringLiteral("Time is up: mass 5 still moves 4.0 mm/s too fast"));
+}
+
+TEST(TrialTexts, TheSemaphoreIsTheStates) {
+  TickState state;
+  state.phase = Phase::Moving;
+  state.semaphore = Semaphore::Green;
+  EXPECT_EQ(overlayOf(state, Task{}, 20, true).semaphore, Semaphore::Green);
+  EXPECT_NE(SceneOverlay::colourOf(Semaphore::Green), SceneOverlay::colourOf(Semaphore::Red));
+  EXPECT_NE(SceneOverlay::colourOf(Semaphore::Green), SceneOverlay::colourOf(Semaphore::Neutral));
+}
+
+TEST(NumberList, ReadsBackWhatItShows) {
+  for (const std::vector<double>& numbers : {std::vector<double>{0.6, 0.6, 0.6}, {1, 2.5e-7}, {600}, {}, {0.1 + 0.2, -3}}) EXPECT_EQ(numbersOf(textOf(numbers)), numbers);
+  EXPECT_EQ(textOf({0.6, 0.6, 0.6, 0.6, 0.6}), QStringLiteral("5 x 0.6"));
+}
+
+TEST(NumberList, RefusesWhatIsNoNumber) {
+  for (const char* text : {"0,6", "abc", "1 nan", "inf", "3 x", "999999 x 1"}) EXPECT_FALSE(numbersOf(QString::fromLatin1(text)).has_value()) << text;
+}
+
+TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
+  EXPECT_DOUBLE_EQ(roundLength(0.237), 0.2);
+  EXPECT_DOUBLE_EQ(roundLength(0.099), 0.05);
+  EXPECT_DOUBLE_EQ(roundLength(1.0), 1.0);
+  EXPECT_EQ(roundLength(-1), 0);
+}
+
+}  // namespace
+}  // namespace reachlab
