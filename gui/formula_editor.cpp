@@ -16,7 +16,7 @@ namespace reachlab {
 
 std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
   static const std::set<std::string> known{"pi", "e", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs", "sign"};
-  static const QRegularExpression name(QStringLiteral("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*(?!\\s*\\()"));
+  static const QRegularExpression name(QStringLiteral("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*+(?!\\s*\\()"));
   const std::vector<std::string> variables = variablesOf(kind);
   std::vector<std::string> names;
   for (const std::string& line : coordinates) {

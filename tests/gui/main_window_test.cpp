@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <QAbstractButton>
+#include <QApplication>
+#include <QWindow>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -47,16 +48,20 @@ class Window : public ::testing::Test {
     window_ = std::make_unique<MainWindow>(request_);
     window_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());  // there may be no window manager to do it, and shortcuts ask for it
     return *window_;
   }
+  // The pointer goes through the window system's queue, as a real one does; places are the scene's.
+  QPoint inWindow(const QPoint& inScene) const { return window_->view().mapTo(window_.get(), inScene); }
+  void press(Qt::MouseButton button, const QPoint& at) const { QTest::mousePress(window_->windowHandle(), button, {}, inWindow(at)); }
+  void moveTo(const QPoint& at) const { QTest::mouseMove(window_->windowHandle(), inWindow(at)); }
+  void release(Qt::MouseButton button, const QPoint& at) const { QTest::mouseRelease(window_->windowHandle(), button, {}, inWindow(at)); }
   template <typename T>
   T* find(const char* name) const {
     T* found = window_->findChild<T*>(QLatin1String(name));
     EXPECT_NE(found, nullptr) << name;
     return found;
   }
-  // The widget of the scene that the pointer is over.
-  QWidget* canvas() const { return window_->view().findChild<QWidget*>(QString(), Qt::FindDirectChildrenOnly); }
   bool waitForPhase(Phase phase) const {
     return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
   }
@@ -91,16 +96,16 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   SceneView& view = window.view();
   const QPoint from = view.pixelOf(view.plan().start).toPoint(), to = view.pixelOf(view.plan().target).toPoint();
   std::set<Semaphore> seen{window.overlay().semaphore};
-  QTest::mousePress(canvas(), Qt::LeftButton, {}, from);
+  press(Qt::LeftButton, from);
   constexpr int kMoves = 60;
   for (int i = 1; i <= kMoves; ++i) {
     const double s = static_cast<double>(i) / kMoves, share = s * s * s * (10 - 15 * s + 6 * s * s);
-    QTest::mouseMove(canvas(), from + (QPointF(to - from) * share).toPoint());
+    moveTo(from + (QPointF(to - from) * share).toPoint());
     QTest::qWait(12);
     seen.insert(window.overlay().semaphore);
   }
   ASSERT_TRUE(waitForPhase(Phase::Done));
-  QTest::mouseRelease(canvas(), Qt::LeftButton, {}, to);
+  release(Qt::LeftButton, to);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
   const TrialResult result = window.session().lastTrial()->result;
   EXPECT_EQ(result.outcome, Outcome::Success) << nameOf(result.reason) << " by " << result.by;
@@ -129,9 +134,9 @@ TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   MainWindow& window = open();
   const Camera before = window.view().camera();
   const Vec3 hand = window.view().frame().hand;
-  QTest::mousePress(canvas(), Qt::RightButton, {}, {200, 200});
-  QTest::mouseMove(canvas(), {260, 180});
-  QTest::mouseRelease(canvas(), Qt::RightButton, {}, {260, 180});
+  press(Qt::RightButton, {200, 200});
+  moveTo({260, 180});
+  release(Qt::RightButton, {260, 180});
   EXPECT_GT(norm(window.view().camera().position - before.position), 1e-3);
   EXPECT_EQ(window.view().frame().hand, hand);
 }
