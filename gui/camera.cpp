@@ -41,6 +41,30 @@ Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double
   return camera;
 }
 
+Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect) {
+  Box box;
+  for (const Vec3& p : points) box.add(p);
+  Camera camera = lookAt(box.valid() ? box.centre() : Vec3{}, std::max(box.diagonal() + 2 * margin, 1e-6), direction, aspect);
+  if (!box.valid()) return camera;
+  // The middle of what is seen, across and up, is the middle of the picture; then as near as the worst point allows.
+  const CameraAxes axes = axesOf(camera);
+  double left = 0, right = 0, low = 0, high = 0;
+  for (const Vec3& p : points) {
+    const Vec3 arm = p - camera.focus;
+    left = std::min(left, dot(arm, axes.right)), right = std::max(right, dot(arm, axes.right));
+    low = std::min(low, dot(arm, axes.up)), high = std::max(high, dot(arm, axes.up));
+  }
+  camera.focus += (0.5 * (left + right)) * axes.right + (0.5 * (low + high)) * axes.up;
+  double distance = 0;
+  for (const Vec3& p : points) {
+    const Vec3 arm = p - camera.focus;
+    const double across = (std::abs(dot(arm, axes.right)) + margin) / aspect, up = std::abs(dot(arm, axes.up)) + margin;
+    distance = std::max(distance, std::max(across, up) / tanHalf(camera) - dot(arm, axes.forward));
+  }
+  camera.position = camera.focus - distance * axes.forward;
+  return camera;
+}
+
 void turn(Camera& camera, double right, double down, double height) {
   const double scale = std::numbers::pi / std::max(height, 1.0);  // half a turn over the picture's height
   CameraAxes axes = axesOf(camera);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 
 #include "constraints/vec3.h"
 #include "gui/constraint_mesh.h"
@@ -20,6 +21,8 @@ CameraAxes axesOf(const Camera& camera);
 
 /// Looks from `direction` so that a ball of that diameter fills the height (and, for an upright picture, the width).
 Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double aspect);
+/// Looks from `direction` so that all the points, with `margin` [m] around each, are just seen.
+Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect);
 
 /// Turns about the focus: `right` and `down` pixels of a picture `height` high.
 void turn(Camera& camera, double right, double down, double height);

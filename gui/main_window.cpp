@@ -16,6 +16,7 @@
 #include <chrono>
 #include <functional>
 #include <future>
+#include <stop_token>
 #include <utility>
 
 #include "constraints/error.h"
@@ -90,6 +91,7 @@ struct MainWindow::Impl {
   std::vector<TracePoint> trace;  // of the trial under way, or the last
   std::int32_t traceTrial = 0;
   std::vector<CriterionForecast> forecasts;
+  std::stop_source stopComputing;
   std::future<std::vector<CriterionForecast>> computing;
   bool forecastsStale = true, errorsDue = false;
   int frames = 0;
@@ -194,11 +196,11 @@ struct MainWindow::Impl {
     if (forecastsStale && !computing.valid()) {
       forecastsStale = false;
       predictions->setForecasts({});
-      computing = std::async(std::launch::async, [experiment = session.experiment()] { return forecastAll(experiment); });
+      computing = std::async(std::launch::async, [experiment = session.experiment(), stop = stopComputing.get_token()] { return forecastAll(experiment, stop); });
     }
     if (errorsDue && !computing.valid() && !forecastsStale) {
       errorsDue = false;
-      predictions->addErrors(computeHandErrors(trace, path, forecasts, currentTask().onset));
+      predictions->addErrors(computeHandErrors(trace, path, forecasts, currentTask()));
     }
   }
 
@@ -509,6 +511,7 @@ MainWindow::MainWindow(const SessionRequest& request, QWidget* parent) : QMainWi
 
 MainWindow::~MainWindow() {
   impl_->timer->stop();
+  impl_->stopComputing.request_stop();
   delete impl_->subject;
 }
 

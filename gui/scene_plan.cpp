@@ -42,7 +42,7 @@ bool isSideBySide(const Object& object, ViewOptions::SideBySide wish) {
 void planMasses(const Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
   const Object& object = experiment.object;
   const std::size_t count = object.masses.size();
-  plan.massRadius = radiiOf(object.masses, plan.unit);
+  plan.massRadius = radiiOf(object.masses, std::max(plan.unit, 0.6 * plan.size));
   plan.massRole.assign(count, MassRole::Middle);
   plan.massShift.assign(count, Vec3{});
   if (count == 0) return;
@@ -63,6 +63,25 @@ void planMasses(const Experiment& experiment, ViewOptions::SideBySide wish, Scen
   else if (experiment.coupling) plan.springs.push_back({-1, 0, true});
   if (object.kind == ObjectKind::Chain)
     for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, false});
+}
+
+// Some hundreds of the constraint's points, and the task's places with the shifts of their masses.
+std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
+  std::vector<Vec3> seen;
+  const std::size_t skip = 1 + plan.curve.pointCount() / 400;
+  for (const auto& piece : plan.curve.pieces) {
+    for (std::size_t i = 0; i < piece.size(); i += skip) seen.push_back(piece[i]);
+    seen.push_back(piece.back());
+  }
+  const std::size_t skipQuads = 1 + plan.surface.quads.size() / 800;
+  for (std::size_t i = 0; i < plan.surface.quads.size(); i += skipQuads) seen.push_back(plan.surface.points[plan.surface.quads[i][0]]);
+  if (plan.hasTask)
+    for (const Vec3& place : {plan.start, plan.target}) {
+      seen.push_back(place);
+      for (const Vec3& shift : plan.massShift) seen.push_back(place + shift);
+    }
+  if (seen.empty()) seen = {plan.centre - Vec3{0.5 * plan.size, 0, 0}, plan.centre + Vec3{0.5 * plan.size, 0, 0}};
+  return seen;
 }
 
 }  // namespace
@@ -99,8 +118,9 @@ ScenePlan planScene(const Experiment& experiment, const Constraint& constraint, 
   plan.viewFrom = viewDirection(box, plan.kind);
   plan.handRadius = 0.016 * plan.unit;
   plan.markRadius = 0.014 * plan.unit;
-  plan.railRadius = 0.0045 * plan.unit;
+  plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
   planMasses(experiment, options.sideBySide, plan);
+  plan.seen = pointsSeen(plan);
   return plan;
 }
 

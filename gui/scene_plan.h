@@ -26,6 +26,7 @@ struct ScenePlan {
   double size = 0.2;                   // [m] diagonal of what is seen
   double unit = 0.2;                   // [m] what bodies are sized by
   Vec3 viewFrom{0.1, 0.35, 1};         // direction from the centre to the camera
+  std::vector<Vec3> seen;              // [m] points that a view of the whole must hold
   std::vector<double> massRadius;      // [m]
   std::vector<MassRole> massRole;
   std::vector<Vec3> massShift;         // [m] added for the eye only

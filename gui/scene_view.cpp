@@ -57,7 +57,6 @@ struct SceneView::Impl {
 
   double width() const { return std::max(widget->width(), 1); }
   double height() const { return std::max(widget->height(), 1); }
-  double viewDiameter() const { return 1.12 * plan.size; }
 
   void applyCamera() {
     vtkCamera* c = renderer->GetActiveCamera();
@@ -152,17 +151,14 @@ void SceneView::setSurfaceStyle(SurfaceStyle style) {
 
 void SceneView::resetCamera() {
   const ScenePlan& plan = impl_->plan;
-  const double aspect = impl_->width() / impl_->height();
-  // A wide flat scene may fill the width of a wide window.
-  const double diameter = impl_->viewDiameter() / (plan.kind == ConstraintKind::Curve ? std::clamp(aspect, 1.0, 1.55) : 1.0);
-  impl_->camera = lookAt(plan.centre, diameter, plan.viewFrom, aspect);
+  impl_->camera = lookAtPoints(plan.seen, 0.09 * plan.size, plan.viewFrom, impl_->width() / impl_->height());
   impl_->applyCamera();
   renderNow();
 }
 
 void SceneView::lookAlong(char axis) {
   const Vec3 from = axis == 'x' ? Vec3{1, 0, 0} : axis == 'y' ? Vec3{0, 1, 0} : axis == 'z' ? Vec3{0, 0, 1} : impl_->plan.viewFrom;
-  impl_->camera = lookAt(impl_->plan.centre, impl_->viewDiameter(), from, impl_->width() / impl_->height());
+  impl_->camera = lookAtPoints(impl_->plan.seen, 0.09 * impl_->plan.size, from, impl_->width() / impl_->height());
   impl_->applyCamera();
   renderNow();
 }

@@ -63,7 +63,7 @@ QImage drawThumbnail(const ScenePlan& plan, const QSize& size, double pixelRatio
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);
   const double width = size.width(), height = size.height();
-  const Projector at{lookAt(plan.centre, 1.05 * plan.size / (plan.kind == ConstraintKind::Curve ? 1.1 : 0.95), plan.viewFrom, width / height), width, height};
+  const Projector at{lookAtPoints(plan.seen, 0.06 * plan.size, plan.viewFrom, width / height), width, height};
   if (!plan.surface.quads.empty()) {
     drawSkin(painter, at, plan.surface);
     QColor line = toQColor(colours::kSurfaceLine);

@@ -21,9 +21,9 @@ Vec3 placeOf(const Constraint& constraint, const std::vector<double>& q) {
 
 }  // namespace
 
-std::vector<CriterionForecast> forecastAll(const Experiment& experiment) {
+std::vector<CriterionForecast> forecastAll(const Experiment& experiment, const std::stop_token& stop) {
   std::vector<CriterionForecast> forecasts;
-  for (int i = 0; i < kCriterionCount; ++i) {
+  for (int i = 0; i < kCriterionCount && !stop.stop_requested(); ++i) {
     CriterionForecast forecast;
     forecast.criterion = static_cast<Criterion>(i);
     try {
@@ -58,7 +58,7 @@ double PathDirection::along(const Vec3& velocity, double q) const {
 }
 
 std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
-                                                     const std::vector<CriterionForecast>& forecasts, double taskOnset) {
+                                                     const std::vector<CriterionForecast>& forecasts, const Task& task) {
   std::vector<std::optional<double>> errors(forecasts.size());
   if (trace.size() < 8) return errors;
   TrialData trial;
@@ -77,10 +77,11 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
   const TrialSignals signals = computeSignals(trial, options);
   if (!signals.movement.found) return errors;
   const double duration = signals.movement.duration();
+  const double endLevel = valueAt(signals.speed, trial.rate, signals.movement.offset) / signals.movement.peak;
   const std::vector<double> measured = normaliseTime(signals.handVelocity, trial.rate, signals.movement.onset, signals.movement.offset);
   for (std::size_t i = 0; i < forecasts.size(); ++i) {
     if (!forecasts[i].prediction) continue;
-    const PredictedProfile predicted = scaledTo(sampleProfile(*forecasts[i].prediction, options, taskOnset), duration);
+    const PredictedProfile predicted = scaledTo(profileUntil(recordPrediction(*forecasts[i].prediction, options, task), endLevel), duration);
     const double error = computeRmsError(predicted.hand, measured);
     if (std::isfinite(error)) errors[i] = error;
   }

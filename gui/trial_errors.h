@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct CriterionForecast {
   std::shared_ptr<const Prediction> prediction;  // shared: computed on another thread, looked at by plot and list
   std::string refusal;
 };
-/// All seven, in Table 1's order; may take a second on curved constraints: not for the window's thread.
-std::vector<CriterionForecast> forecastAll(const Experiment& experiment);
+/// All seven, in Table 1's order; may take a second on curved constraints: not for the window's thread. Asked to stop, it leaves out the
+/// rest.
+std::vector<CriterionForecast> forecastAll(const Experiment& experiment, const std::stop_token& stop = {});
 
 /// Direction of positive velocity: along the chord when straight, along rising phi towards the target on a curve; on a surface or in free
 /// space there is none, and speed is taken. World frame.
@@ -42,9 +44,9 @@ class PathDirection {
   bool straight_ = false;
 };
 
-/// RMS difference between the measured hand velocity and each forecast, both from onset to offset by the 5 % rule and time-scaled to the
+/// RMS difference between the measured hand velocity and each forecast, both from onset to end by the rule of the analysis and time-scaled to the
 /// measured duration: the paper's error for one trial. nullopt where there is no prediction or no movement. [m/s]
 std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
-                                                     const std::vector<CriterionForecast>& forecasts, double taskOnset);
+                                                     const std::vector<CriterionForecast>& forecasts, const Task& task);
 
 }  // namespace reachlab

@@ -41,6 +41,22 @@ TEST(Camera, PanningMovesThePlaneWithThePointer) {
   EXPECT_NEAR(after[1] - before[1], -12, 1e-6);
 }
 
+TEST(Camera, AViewOfPointsHoldsThemAllAndFillsThePicture) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 50; ++i) points.push_back({0.3 * any(random), 0.1 * any(random), 0.2 * any(random)});
+  const Camera camera = lookAtPoints(points, 0, {0.4, 0.3, 1}, kWidth / kHeight);
+  double nearest = kWidth;
+  for (const Vec3& p : points) {
+    const auto [x, y] = pixelOf(camera, p, kWidth, kHeight);
+    const double room = std::min({x, kWidth - x, y, kHeight - y});
+    EXPECT_GT(room, -1e-6);
+    nearest = std::min(nearest, room);
+  }
+  EXPECT_LT(nearest, 1);  // one of them touches the edge
+}
+
 TEST(Camera, LookingStraightDownStillHasARightAndAnUp) {
   const CameraAxes axes = axesOf(lookAt({}, 1, {0, 1, 0}, 1));
   EXPECT_NEAR(norm(axes.right), 1, kRounding);

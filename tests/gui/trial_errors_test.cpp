@@ -25,7 +25,7 @@ TEST(HandErrors, AreLeastForTheCriterionThatTheHandFollows) {
   const PathDirection path(experiment, makeConstraint(experiment.constraint));
   const auto forecasts = forecastAll(experiment);
   ASSERT_EQ(forecasts.size(), static_cast<std::size_t>(kCriterionCount));
-  const auto errors = computeHandErrors(traceOf(*forecasts[0].prediction, path), path, forecasts, experiment.task->onset);
+  const auto errors = computeHandErrors(traceOf(*forecasts[0].prediction, path), path, forecasts, *experiment.task);
   ASSERT_TRUE(errors[0].has_value());
   // What is left is the 10 Hz filter and the 5 ms grid on a profile of 1 Hz: a few thousandths of the peak.
   EXPECT_LT(*errors[0], 0.02 * forecasts[0].prediction->handPeak);
@@ -39,7 +39,7 @@ TEST(HandErrors, AreNotMadeUpWithoutAMovement) {
   const Experiment experiment = readExperiment("chain-slow");
   const PathDirection path(experiment, makeConstraint(experiment.constraint));
   const std::vector<TracePoint> still(200);
-  for (const auto& error : computeHandErrors(still, path, forecastAll(experiment), 0.001)) EXPECT_FALSE(error.has_value());
+  for (const auto& error : computeHandErrors(still, path, forecastAll(experiment), *experiment.task)) EXPECT_FALSE(error.has_value());
 }
 
 TEST(PathDirection, FollowsACurveTowardsTheTarget) {
