@@ -120,8 +120,7 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const Arm& arm, const ArmTask&
   }
   const SeriesOfOne hand = makeSeriesOfVelocity(projectOnLegendre(speed, rule.node, rule.weight), task.duration);
   auto prediction = makeLegendrePrediction(hand, std::vector<SeriesOfOne>(massCount, hand), task.duration);
-  prediction->cost = motion.cost;
-  prediction->condition = motion.condition;
+  describeMotion(motion, *prediction);
   prediction->warnings.push_back("free arm: the hand carries nothing, the masses go with it; positions are those along the chord");
   return prediction;
 }
@@ -187,8 +186,7 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask&
   std::vector<SeriesOfOne> masses;
   for (const int i : object.source) masses.push_back({apply(node[i + 1], 0), apply(node[i + 1], 1), {}});
   auto prediction = makeLegendrePrediction({apply(node[0], 0), apply(node[0], 1), apply(node[0], 2)}, std::move(masses), task.duration);
-  prediction->cost = motion.cost;
-  prediction->condition = motion.condition;
+  describeMotion(motion, *prediction);
   return prediction;
 }
 

@@ -16,7 +16,7 @@ class CracklePrediction final : public Prediction {
       : half_(seconds / 2), distance_(distanceInMetres), power_(2 * object.count() + 2), source_(object.source),
         node_(computeFlatPolynomials(object)) {
     massCount_ = static_cast<int>(source_.size());
-    fastest_ = std::sqrt(2.0 * power_) * power_ / seconds;
+    fastest_ = 2.0 * power_ / seconds;  // z and its derivatives have no more zeros than their degree
     // Times H^-k, so that rows multiply derivatives with respect to sigma.
     for (FlatPolynomial& p : node_)
       for (size_t k = 0; k < p.size(); ++k) p[k] /= std::pow(static_cast<Real>(half_), static_cast<Real>(k));
@@ -38,6 +38,12 @@ class CracklePrediction final : public Prediction {
     const Real H = half_;
     return {static_cast<double>(sum(node_[0], z, 0)), static_cast<double>(sum(node_[0], z, 1) / H),
             static_cast<double>(sum(node_[0], z, 2) / (H * H))};
+  }
+
+  double objectVelocityAt(double t) const override {
+    std::vector<Real> z(derivatives());
+    computeDerivatives(t, z);
+    return static_cast<double>(sum(node_[source_.back() + 1], z, 1) / half_);
   }
 
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
@@ -72,10 +78,12 @@ class CracklePrediction final : public Prediction {
     z[0] = distance_ * (s < 0 ? tail : 1 - tail);
     Real before = 0, now = 1;
     for (int m = 0; m < n; ++m) {
-      z[m + 1] = slope_ * now * std::pow(rest, static_cast<Real>(n - m));
+      z[m + 1] = slope_ * now;
       const Real next = 2 * (m - n) * s * now + m * (m - 1.0L - 2 * n) * rest * before;
       before = now, now = next;
     }
+    Real power = rest;
+    for (int m = n - 1; m >= 0; --m, power *= rest) z[m + 1] *= power;
   }
 
   double computeAmplification() const {

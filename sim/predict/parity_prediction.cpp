@@ -94,6 +94,19 @@ class ParityPrediction final : public Prediction {
     return out;
   }
 
+  double objectVelocityAt(double t) const override {
+    const double s = (t - halfTime_) / halfTime_, s2 = s * s;
+    const auto row = masses_.row(source_.back());
+    const Eigen::Index n = frequency_.size();
+    double even = 1 / halfTime_, velocity = 0;
+    for (int k = 0; k < kOddPowers; ++k, even *= s2) velocity += row(k) * (2 * k + 1) * even;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double w = frequency_(j), angle = w * (t - halfTime_), cosine = std::cos(angle), b = row(kOddPowers + n + j);
+      velocity += (row(kOddPowers + j) * w + b / halfTime_) * cosine - b * s * w * std::sin(angle);
+    }
+    return velocity;
+  }
+
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
     const double s = (t - halfTime_) / halfTime_, s2 = s * s;
     for (int i = 0; i < massCount_; ++i) position[i] = half_, velocity[i] = 0;

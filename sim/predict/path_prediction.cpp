@@ -70,8 +70,7 @@ std::unique_ptr<Prediction> makePathPrediction(const TranscribedMotion& motion, 
   for (const double x : rule.node) speed.push_back(speedAt(x));
   const SeriesOfOne hand = makeSeriesOfVelocity(projectOnLegendre(speed, rule.node, rule.weight), duration);
   auto prediction = makeLegendrePrediction(hand, std::vector<SeriesOfOne>(massCount, hand), duration);
-  prediction->cost = motion.cost;
-  prediction->condition = motion.condition;
+  describeMotion(motion, *prediction);
   prediction->distance = evaluate(hand.position, 1.0);
   prediction->warnings.push_back("on a curve or surface hand and mass move as one; positions are metres of arc length");
   return prediction;

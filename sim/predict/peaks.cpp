@@ -73,12 +73,17 @@ Peak largest(const std::vector<double>& samples, double duration, const Refine& 
 
 }  // namespace
 
+double Prediction::objectVelocityAt(double t) const {
+  std::vector<double> x(massCount_), v(massCount_);
+  massesAt(t, x, v);
+  return v.back();
+}
+
 void findPeaks(Prediction& prediction) {
   const double T = prediction.duration;
   const int count = prediction.scanCount();
-  const int object = prediction.massCount() - 1;
-  std::vector<double> hand(count + 1), mass(count + 1), x(object + 1), v(object + 1);
-  const auto massVelocity = [&](double t) { return prediction.massesAt(t, x, v), v[object]; };
+  std::vector<double> hand(count + 1), mass(count + 1);
+  const auto massVelocity = [&](double t) { return prediction.objectVelocityAt(t); };
   for (int i = 0; i <= count; ++i) {
     hand[i] = prediction.handAt(T * i / count).velocity;
     mass[i] = massVelocity(T * i / count);

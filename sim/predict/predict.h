@@ -39,9 +39,11 @@ class Prediction {
   virtual PredictedHand handAt(double t) const = 0;
   /// Positions and velocities of all masses at t; spans of massCount().
   virtual void massesAt(double t, std::span<double> position, std::span<double> velocity) const = 0;
+  /// Velocity of the last mass [m/s].
+  virtual double objectVelocityAt(double t) const;
   int massCount() const { return massCount_; }
   /// Equal parts of [0, T] that are fine enough to see every wave of the profiles.
-  int scanCount() const { return 64 + static_cast<int>(2.0 * fastest_ * duration); }
+  int scanCount() const { return 48 + static_cast<int>(1.2 * fastest_ * duration); }
 
   Criterion criterion{};
   double duration = 0;      // [s]

@@ -17,6 +17,7 @@ constexpr double kSettled = 1e-10;      // change of the unknowns, relative, at 
 // Change of the profile, of its peak, from n to 3n/2 unknowns. It is the error of the coarser; that of the finer, which is given, is
 // about its power 3/2 as long as the expansion converges geometrically, and below 1e-8.
 constexpr double kProfileChange = 1e-7;
+constexpr double kUseless = 1e-2;  // of the peak
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -168,9 +169,13 @@ TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem
       }
     }
     motion = std::move(finer);
+    motion.uncertainty = 0;
     if (change < kProfileChange * peak) return motion;
+    motion.uncertainty = change / peak;
   }
-  throw RefusedError(fmt::format("the profile has not settled to 1e-8 of its peak with {} unknowns", kMost));
+  if (!(motion.uncertainty < kUseless))
+    throw RefusedError(fmt::format("the profile still changes by {:.1e} of its peak with {} unknowns; another path or start may help", motion.uncertainty, kMost));
+  return motion;
 }
 
 TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknowns) {
@@ -240,6 +245,14 @@ class LegendrePrediction final : public Prediction {
 };
 
 }  // namespace
+
+void describeMotion(const TranscribedMotion& motion, Prediction& prediction) {
+  prediction.cost = motion.cost;
+  prediction.condition = motion.condition;
+  if (motion.uncertainty > 0)
+    prediction.warnings.push_back(fmt::format("the profile is known to {:.0e} of its peak only: the path bends too sharply for {} unknowns",
+                                              motion.uncertainty, motion.basis.columns() - 1));
+}
 
 std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration) {
   auto prediction = std::make_unique<LegendrePrediction>(std::move(hand), std::move(masses), duration);

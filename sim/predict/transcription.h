@@ -30,6 +30,7 @@ struct TranscribedMotion {
   double cost = 0;
   double condition = 0;  // root of the last Newton matrix's, as it is of a square
   int iterations = 0;
+  double uncertainty = 0;  // of the profile, of its peak; 0 where it is below what was asked
 
   /// d^m y / dt^m of one motion as a Legendre series in x = 2t/T - 1.
   LegendreSeries derivative(int motion, int m) const;
@@ -40,6 +41,7 @@ struct TranscribedMotion {
 TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
 
 /// Raises the number of unknowns until the first motion's velocity is known to 1e-8 of its peak, or `unknowns` > 0 as given.
+/// Where 300 are not enough (close by a cusp) the result says how far it is known; above 1e-2 it is refused.
 TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
 
 /// The same from several starts, the straight one and others bent from it; the lowest minimum wins.
@@ -51,6 +53,8 @@ struct SeriesOfOne {
 };
 /// From the velocity [m/s] over x; position from 0.
 SeriesOfOne makeSeriesOfVelocity(const LegendreSeries& velocity, double duration);
+/// Cost, condition and what the reader must know of the motion.
+void describeMotion(const TranscribedMotion& motion, Prediction& prediction);
 std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration);
 
 }  // namespace reachlab

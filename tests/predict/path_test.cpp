@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 
+#include "constraints/definition.h"
 #include "constraints/error.h"
 #include "sim/predict/gauss_legendre.h"
 #include "sim/predict/predict.h"
@@ -127,6 +128,31 @@ TEST(SurfaceJerk, OnACylinderCostsNoMoreThanAlongTheHelixBetweenTheSamePoints) {
   const auto helix = predict(makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", "0.1*phi/1.5"}, 0, 1.5, 1), Criterion::MinHandJerk);
   EXPECT_LT(free->cost, helix->cost * (1 - 1e-6));
   EXPECT_GT(free->cost, 720 * (std::pow(2 * 0.1 * std::sin(0.75), 2) + 0.01));  // of the chord, which leaves the cylinder
+}
+
+TEST(PathJerk, IsFoundOnTheWholeCatalogueExceptAcrossCusps) {
+  int refused = 0;
+  for (const Definition& definition : catalogue()) {
+    Experiment e = makeChain(1, 1, 600, 1);
+    e.constraint = {};
+    e.constraint.name = definition.name;
+    e.task->start = definition.start;
+    e.task->target = definition.target;
+    try {
+      const auto p = predict(e, Criterion::MinHandJerk);
+      // Bending only adds to the jerk along the way; the chord bounds it from below.
+      const Constraint c = makeConstraint(e.constraint);
+      const bool curve = c.kind == ConstraintKind::Curve;
+      const Vec3 from = curve ? evaluate(c.curve, definition.start[0]).r : evaluate(c.surface, definition.start[0], definition.start[1]).r;
+      const Vec3 to = curve ? evaluate(c.curve, definition.target[0]).r : evaluate(c.surface, definition.target[0], definition.target[1]).r;
+      EXPECT_GE(p->cost, 720 * dot(to - from, to - from) * (1 - kProfile)) << definition.name;
+      EXPECT_NEAR(p->handAt(1).position, p->distance, 1e-9) << definition.name;
+    } catch (const RefusedError& reason) {
+      ++refused;
+      EXPECT_NE(std::string(reason.what()).find("cusp"), std::string::npos) << definition.name << ": " << reason.what();
+    }
+  }
+  EXPECT_LT(refused, 10);
 }
 
 TEST(CurveJerk, IsRefusedWhereItHasNoMeaning) {
