@@ -63,10 +63,10 @@ void pauseFor(double seconds) {
   while (!stopAsked && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
-void printReport(const LoopReport& report) {
-  fmt::print(stderr,
+std::string describe(const LoopReport& report) {
+  return fmt::format(
              "loop: {:.2f} ticks/s over {:.2f} s ({}); lateness p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; late {}, missed {}, longest gap {:.3f} "
-             "ms; dropped {}, clamped {}\n",
+             "ms; dropped {}, clamped {}",
              report.rate, report.seconds, report.mode, report.latenessP50, report.latenessP99, report.latenessMax, report.faults.lateTicks,
              report.faults.missedTicks, static_cast<double>(report.faults.longestGapNs) * 1e-6, report.faults.droppedRecords,
              report.faults.clampedTicks);
@@ -99,8 +99,12 @@ bool runBlock(const BlockToRun& block, const SessionRequest& request, SuccessTab
     if (!request.fast && run.trialsLeft() > 0) pauseFor(configuration.pauseSeconds);
     interrupted = interrupted || stopAsked;
   }
+  if (!request.fast) {
+    const std::string report = describe(run.report());
+    recorder->note(report);
+    fmt::print(stderr, "{}\n", report);
+  }
   run.finish();
-  if (!request.fast) printReport(run.report());
   const RunLog log = RunLog::open(block.logPath);
   writeBidsRun(log, request.place.data);
   writeBidsTables({log.configuration()}, request.place.data);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "constraints/error.h"
+#include "sim/haptics/os.h"
 
 namespace reachlab {
 namespace {
@@ -41,10 +42,7 @@ bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size) {
 // After a rename or a creation the folder itself must reach the disk, or the name may be lost with the power.
 void syncFolderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
+  os::syncFolder(folder.empty() ? "." : folder);
 }
 
 }  // namespace
@@ -93,7 +91,7 @@ void AppendFile::append(std::span<const std::uint8_t> bytes) {
 }
 
 void AppendFile::sync() {
-  if (::fdatasync(descriptor_) != 0) fail("cannot be synced to the disk", path_);
+  if (!os::syncFile(descriptor_)) fail("cannot be synced to the disk", path_);
   struct stat open {}, named {};
   const bool there = ::fstat(descriptor_, &open) == 0 && ::stat(path_.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
   if (!there) throw ResourceError(path_ + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run");
@@ -105,7 +103,7 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0) fail("cannot be created", path);
   const auto* data = reinterpret_cast<const std::uint8_t*>(text.data());
-  const bool good = writeAll(descriptor, data, text.size()) && ::fsync(descriptor) == 0;
+  const bool good = writeAll(descriptor, data, text.size()) && os::syncFile(descriptor);
   const int fault = errno;
   ::close(descriptor);
   if (!good || ::rename(temporary.c_str(), path.c_str()) != 0) {

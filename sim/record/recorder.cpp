@@ -1,13 +1,12 @@
 #include "sim/record/recorder.h"
 
-#include <time.h>
-
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 #include "constraints/error.h"
+#include "sim/haptics/os.h"
 #include "sim/record/run_writer.h"
 
 namespace reachlab {
@@ -74,9 +73,7 @@ struct Recorder::Impl {
         drain();
       }
       changed.notify_all();
-      timespec used{};
-      ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-      processorSeconds = static_cast<double>(used.tv_sec) + static_cast<double>(used.tv_nsec) * 1e-9;
+      processorSeconds = static_cast<double>(os::threadProcessorTime()) * 1e-9;
       std::this_thread::sleep_for(kNap);
     }
   }

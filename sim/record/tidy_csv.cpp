@@ -14,7 +14,7 @@ const std::vector<std::string> kTrialColumns{
     "movement_time_s", "by", "by_unit", "experiment", "day", "order_index", "catch_trial", "foreperiod_s", "target_time_s",
     "position_tolerance_m", "velocity_tolerance_m_per_s", "time_tolerance_s", "start_s", "armed_s", "go_s", "onset_s", "end_s",
     "reaction_time_s", "peak_hand_speed_m_per_s", "hand_path_m", "peak_force_n", "mean_force_n", "clamped_ticks", "missed_ticks",
-    "complete", "seed", "device", "age_years", "sex", "handedness"};
+    "complete", "seed", "device", "age_years", "sex", "handedness", "notes"};
 
 // What the experiment asked for; an experiment that this version cannot read any more leaves these cells empty.
 Task taskOf(const RunConfiguration& configuration) {
@@ -43,7 +43,7 @@ void addTrial(TableText& table, const RunConfiguration& c, const Task& task, con
   table.whole(static_cast<long long>(t.clampedTicks)).whole(static_cast<long long>(t.missedTicks)).whole(t.complete ? 1 : 0);
   table.cell(fmt::format("{}", c.seed)).cell(c.device);
   table.number(c.participant.age.value_or(std::numeric_limits<double>::quiet_NaN()));
-  table.cell(c.participant.sex).cell(c.participant.handedness);
+  table.cell(c.participant.sex).cell(c.participant.handedness).cell(c.notes);
   table.endRow();
 }
 
