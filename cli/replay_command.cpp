@@ -1,9 +1,8 @@
-#include "sim/record/replay.h"
-
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/success_table.h"
+#include "sim/record/replay.h"
 
 namespace reachlab {
 
@@ -14,17 +13,19 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("log", *path, "The log (…_log.reach)")->required();
   command->add_flag("--check", *check, "Are the states bit-identical to the recorded ones? Exits 1 when they differ");
   command->footer(
-      "Prints a line a trial as simulated now (by in m, m/s or s). Results are bit-identical with the program that recorded; another\n"
+      "Prints a line a trial as simulated now (by in m, m/s or s). Results are bit-identical with the program that recorded; "
+      "another\n"
       "processor or compiler may round differently.\n\n"
       "Example:\n"
       "  reach replay data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --check");
   command->callback([path, check, &exitCode] {
     const RunLog log = RunLog::open(*path);
-    if (log.goodBytes() < log.fileBytes()) fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
+    if (log.goodBytes() < log.fileBytes())
+      fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
     const Replay replay = replayRun(log);
     for (const RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result));
-    fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows, replay.rowsThatDiffer,
-               replay.trialsThatDiffer, replay.identical() ? "identical" : replay.firstDifference);
+    fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows,
+               replay.rowsThatDiffer, replay.trialsThatDiffer, replay.identical() ? "identical" : replay.firstDifference);
     if (*check && !replay.identical()) exitCode = 1;
   });
 }

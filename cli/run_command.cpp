@@ -7,9 +7,12 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Records a run of an experiment, or a session of a plan");
   const auto r = std::make_shared<SessionRequest>();
   command->add_option("experiment", r->what, "Experiment or session plan: a file, or the name of a shipped one")->required();
-  command->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")->required();
+  command
+      ->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
+      ->required();
   command->add_option("--trials", r->trials, "Trials of an experiment [1]; a plan has its own")->check(CLI::Range(1, 1000000));
-  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
+  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")
+      ->check(CLI::Range(1, 9999));
   command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", r->place.session, "Session's label, letters and digits [01]; a number is the plan's day");
   command->add_option("--data", r->place.data, "Folder of the dataset [./data]");
@@ -20,11 +23,14 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
   command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, 130.0));
   command->add_option("--sex", r->participant.sex, "Participant's sex: F, M or O")->check(CLI::IsMember({"F", "M", "O"}));
-  command->add_option("--handedness", r->participant.handedness, "Participant's handedness: R, L or A")->check(CLI::IsMember({"R", "L", "A"}));
+  command->add_option("--handedness", r->participant.handedness, "Participant's handedness: R, L or A")
+      ->check(CLI::IsMember({"R", "L", "A"}));
   command->add_option("--notes", r->notes, "Notes by the experimenter; kept in the recording");
   command->footer(
-      "Prints one line a trial once it is safe on the disk, `trial=3 outcome=failure reason=velocity mass=5 by=0.004 time_s=1.31` (by in m,\n"
-      "m/s or s), and the success table at the end. The data folder is a BIDS dataset, its logs lie in sourcedata. Ctrl-C keeps the trial\n"
+      "Prints one line a trial once it is safe on the disk, `trial=3 outcome=failure reason=velocity mass=5 by=0.004 "
+      "time_s=1.31` (by in m,\n"
+      "m/s or s), and the success table at the end. The data folder is a BIDS dataset, its logs lie in sourcedata. Ctrl-C keeps "
+      "the trial\n"
       "as interrupted and exits 130.\n\n"
       "Examples:\n"
       "  reach run chain-moderate --device simulated --trials 20 --seed 1 --fast\n"

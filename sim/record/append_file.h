@@ -20,21 +20,22 @@ class AppendFile {
 
   /// All or nothing: what a full disk lets through only in part is cut off again.
   void append(std::span<const std::uint8_t> bytes);
-  /// Returns when everything appended is on the disk (fdatasync) and the file is still found under its name: a folder that was unmounted
-  /// or deleted under an open file takes writes without a word.
+  /// Returns when everything appended is on the disk (fdatasync) and the file is still found under its name: a folder that was
+  /// unmounted or deleted under an open file takes writes without a word.
   void sync();
   std::uint64_t size() const { return size_; }
   const std::string& path() const { return path_; }
 
  private:
-  AppendFile(int descriptor, std::string path, std::uint64_t size) : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
+  AppendFile(int descriptor, std::string path, std::uint64_t size)
+      : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
   int descriptor_ = -1;
   std::string path_;
   std::uint64_t size_ = 0;
 };
 
-/// Replaces `path` by `text` in one step (temporary file, fsync, rename): a reader sees the old file or the new one, never a part.
-/// Makes the folders above it. Throws ResourceError.
+/// Replaces `path` by `text` in one step (temporary file, fsync, rename): a reader sees the old file or the new one, never a
+/// part. Makes the folders above it. Throws ResourceError.
 void writeFileAtomically(const std::string& path, std::string_view text);
 /// The whole file. Throws ResourceError.
 std::string readWholeFile(const std::string& path);

@@ -6,13 +6,13 @@
 
 namespace reachlab {
 
-/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, and its line
-/// in the session's scans table. One run is one block, recorded continuously; trials are rows of events.tsv. Returns the files written.
-/// Throws ResourceError.
+/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, and
+/// its line in the session's scans table. One run is one block, recorded continuously; trials are rows of events.tsv. Returns the
+/// files written. Throws ResourceError.
 std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder);
 
-/// Writes what describes the dataset as a whole: dataset_description.json and README.md (only where there is none, a person may have
-/// edited them), participants and sessions. Rows and columns that are there already are kept.
+/// Writes what describes the dataset as a whole: dataset_description.json and README.md (only where there is none, a person may
+/// have edited them), participants and sessions. Rows and columns that are there already are kept.
 std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder);
 
 /// Both, for these runs.

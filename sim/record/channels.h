@@ -15,11 +15,11 @@ struct Channel {
   std::string trackedPoint;  // hand | device | mass1 … | n/a
   std::string units;         // s | m | m/s | m/s^2 | N | J | n/a …
   std::string description;
-  std::string column;        // its name in CSV files, with the unit: "hand_x_m"
+  std::string column;  // its name in CSV files, with the unit: "hand_x_m"
 };
 
-/// What is sampled in this scene, in the order of fillRow: time; hand (estimated); device (raw); coupling, feedback and device force;
-/// energy; phase, trial and validity; then position, velocity, acceleration and constraint parameters of each mass.
+/// What is sampled in this scene, in the order of fillRow: time; hand (estimated); device (raw); coupling, feedback and device
+/// force; energy; phase, trial and validity; then position, velocity, acceleration and constraint parameters of each mass.
 struct ChannelTable {
   std::vector<Channel> channels;
   int massCount = 0;
@@ -34,8 +34,8 @@ struct ChannelTable {
 /// `parameterCount` is Constraint::parameterCount() of the scene's constraint.
 ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount);
 
-/// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic thread;
-/// never allocates.
+/// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic
+/// thread; never allocates.
 void fillRow(const ChannelTable& table, const TickState& state, double* row) noexcept;
 
 /// Turns the engine's count of trials in a row (from 1; 0 before the first) into trial numbers that begin with `firstTrial`.

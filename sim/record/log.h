@@ -11,10 +11,11 @@
 /// The append-only log of one run (docs/recording.md has it byte by byte). All numbers little-endian.
 ///
 ///     file   = "REACHLOG" | u32 schema version | u32 CRC-32 of the twelve bytes before | record*
-///     record = u32 payload length | u16 type | u16 zero | u32 sequence number, from 0 | payload | u32 CRC-32 of all before in this record
+///     record = u32 payload length | u16 type | u16 zero | u32 sequence number, from 0 | payload | u32 CRC-32 of all before in
+///     this record
 ///
-/// A record counts only if its CRC, its sequence number and its type are right, and reading ends at the first that is not: a flipped
-/// bit, a cut, a zero-filled or a duplicated stretch can end a log early, never change a number in it.
+/// A record counts only if its CRC, its sequence number and its type are right, and reading ends at the first that is not: a
+/// flipped bit, a cut, a zero-filled or a duplicated stretch can end a log early, never change a number in it.
 namespace reachlab {
 
 inline constexpr std::uint32_t kLogSchemaVersion = 1;
@@ -92,8 +93,8 @@ class LogWriter {
   /// Goes on after the last good record of a log that was scanned; the caller has made sure of `nextSequence` and `size`.
   static LogWriter resume(const std::string& path, std::uint64_t size, std::uint32_t nextSequence);
 
-  /// Hands the record to the kernel in one write and returns its offset in the file. A write cut short by a full disk is taken back,
-  /// so that the log still ends with a good record.
+  /// Hands the record to the kernel in one write and returns its offset in the file. A write cut short by a full disk is taken
+  /// back, so that the log still ends with a good record.
   std::uint64_t append(RecordType type, std::span<const std::uint8_t> payload);
   /// The records so far survive a power cut once this returns.
   void sync();
@@ -112,8 +113,8 @@ class LogWriter {
 struct RecordView {
   RecordType type{};
   std::uint32_t sequence = 0;
-  std::uint64_t offset = 0;                 // of its header in the file
-  std::span<const std::uint8_t> payload;    // into the reader's memory
+  std::uint64_t offset = 0;               // of its header in the file
+  std::span<const std::uint8_t> payload;  // into the reader's memory
 };
 
 /// Reads a log from memory-mapped bytes. Any thread, one at a time. Records are checked as they are read.

@@ -14,8 +14,8 @@ struct RecorderOptions {
   std::size_t queueTicks = 4096;  // how many ticks the disk may be behind before ticks are dropped and counted
 };
 
-/// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a thread
-/// of the recorder writes; blocks reach the kernel at least every 100 ms.
+/// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a
+/// thread of the recorder writes; blocks reach the kernel at least every 100 ms.
 class Recorder : public RunSink {
  public:
   /// Creates the log at `path` and writes the configuration. Throws ResourceError.
@@ -24,8 +24,8 @@ class Recorder : public RunSink {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Haptic thread, every tick; never waits, allocates or throws. False when the queue was full: the tick is lost and must be counted
-  /// (LoopFaults::droppedRecords).
+  /// Haptic thread, every tick; never waits, allocates or throws. False when the queue was full: the tick is lost and must be
+  /// counted (LoopFaults::droppedRecords).
   bool onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept override;
 
   /// Controlling thread, before a trial is put up: what the engine's `trial`-th (from 1) stands for. Throws ResourceError.

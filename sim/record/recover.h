@@ -8,7 +8,7 @@ struct Recovery {
   bool mended = false;          // false: the log was healthy and is as it was
   std::string damagedOriginal;  // where the log as found was kept
   std::uint64_t keptBytes = 0, lostBytes = 0;
-  int trials = 0;               // in the mended log, the interrupted one included
+  int trials = 0;  // in the mended log, the interrupted one included
   bool interruptedTrial = false;
 };
 

@@ -17,15 +17,18 @@ constexpr std::size_t kMeasuredTime = 1;  // the one column that is the computer
 bool sameBits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 bool sameResult(const TrialResult& a, const TrialResult& b) {
-  return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) && sameBits(a.movementTime, b.movementTime) &&
-         a.onsetTick == b.onsetTick && a.endTick == b.endTick;
+  return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) &&
+         sameBits(a.movementTime, b.movementTime) && a.onsetTick == b.onsetTick && a.endTick == b.endTick;
 }
 
 // Holds simulated rows against the recorded ones, in step.
 class RowCheck {
  public:
   explicit RowCheck(const RunLog& log)
-      : table_(log.configuration().table), firstTrial_(log.configuration().firstTrial), recorded_(log.allRows()), row_(table_.size()) {}
+      : table_(log.configuration().table),
+        firstTrial_(log.configuration().firstTrial),
+        recorded_(log.allRows()),
+        row_(table_.size()) {}
 
   void look(const TickState& state, Replay& replay) {
     if (next_ >= recorded_.size() || recorded_.ticks[next_] != state.tick) return;
@@ -36,8 +39,8 @@ class RowCheck {
       const double recorded = recorded_.at(next_, column);
       if (column == kMeasuredTime || sameBits(recorded, row_[column])) continue;
       if (replay.firstDifference.empty())
-        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick, table_.channels[column].name, recorded,
-                                             row_[column]);
+        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick,
+                                             table_.channels[column].name, recorded, row_[column]);
       ++replay.rowsThatDiffer;
       break;
     }
@@ -89,7 +92,8 @@ Replay replayRun(const RunLog& log) {
     const TickState& state = engine.state();
     if (replay.ticks == 0) expected = tick.tick;
     if (tick.tick != expected || state.tick != tick.tick)
-      throw UsageError(fmt::format("{}: tick {} is missing (dropped while recording), so the run cannot be simulated past it", log.path(), expected));
+      throw UsageError(fmt::format("{}: tick {} is missing (dropped while recording), so the run cannot be simulated past it",
+                                   log.path(), expected));
     ++expected;
     ++replay.ticks;
     rows.look(state, replay);

@@ -20,33 +20,33 @@ struct Participant {
 /// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value.
 struct RunConfiguration {
   std::string subject = "01", session = "01", task = "reach";
-  int run = 1;                     // as in the file name
-  int firstRun = 1;                // the run that this one resumes, or itself: together they are one block
-  int firstTrial = 1;              // the number of this run's first trial; a resumed block goes on counting
-  int block = 1;                   // within the session's plan, from 1; 1 without a plan
+  int run = 1;         // as in the file name
+  int firstRun = 1;    // the run that this one resumes, or itself: together they are one block
+  int firstTrial = 1;  // the number of this run's first trial; a resumed block goes on counting
+  int block = 1;       // within the session's plan, from 1; 1 without a plan
   bool practice = false;
-  std::string condition;           // of the plan; empty: the experiment's name
-  int day = 0;                     // of the plan; 0: none
-  double pauseSeconds = 0;         // between trials
-  bool repeatAborted = false;      // an aborted trial is put up once more at the end
+  std::string condition;                       // of the plan; empty: the experiment's name
+  int day = 0;                                 // of the plan; 0: none
+  double pauseSeconds = 0;                     // between trials
+  bool repeatAborted = false;                  // an aborted trial is put up once more at the end
   std::string experimentName, experimentText;  // the file as it was read
-  std::string planName, planText;  // empty without a plan
-  std::uint64_t seed = 0;          // of this block: trial i depends on (seed, i) alone
-  std::uint64_t sessionSeed = 0;   // that the blocks' seeds come from
-  std::uint64_t orderSeed = 0;     // of the plan
+  std::string planName, planText;              // empty without a plan
+  std::uint64_t seed = 0;                      // of this block: trial i depends on (seed, i) alone
+  std::uint64_t sessionSeed = 0;               // that the blocks' seeds come from
+  std::uint64_t orderSeed = 0;                 // of the plan
   std::vector<PlannedTrial> trials;
-  std::string device;              // as asked for: "simulated:noise=0"
+  std::string device;  // as asked for: "simulated:noise=0"
   std::string deviceName, deviceVersion;
-  double deviceMaxForce = 0;       // [N]
-  bool virtualHand = false;        // DeviceInfo::virtualHand
+  double deviceMaxForce = 0;         // [N]
+  bool virtualHand = false;          // DeviceInfo::virtualHand
   std::string method, methodReason;  // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
-  std::string startedUtc;          // ISO 8601 with milliseconds
-  std::string clock = "steady";    // virtual with --fast
-  double samplingHz = 100;         // of the sample rows
+  std::string startedUtc;        // ISO 8601 with milliseconds
+  std::string clock = "steady";  // virtual with --fast
+  double samplingHz = 100;       // of the sample rows
   std::uint32_t sampleEveryTicks = 10;
   Participant participant;
-  std::string notes;               // by the experimenter
+  std::string notes;  // by the experimenter
   ChannelTable table;
 };
 

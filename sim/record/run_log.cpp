@@ -108,8 +108,10 @@ bool RunLog::readChain(LogReader& reader) {
   closed_ = fileBytes_ > kEndPayloadBytes + kRecordFrameBytes + kLogHeaderBytes &&
             reader.looksLike(endOffset, RecordType::End, kEndPayloadBytes) &&
             readAt(reader, endOffset, reader.sequenceAt(endOffset), RecordType::End, record);
-  if (closed_) link = decodeEnd(record.payload);
-  else if (!findLastTrial(reader, link)) return false;
+  if (closed_)
+    link = decodeEnd(record.payload);
+  else if (!findLastTrial(reader, link))
+    return false;
   const TrialLink last = link;
   while (link.offset != 0) {
     if (!readAt(reader, link.offset, link.sequence, RecordType::Trial, record)) return false;
@@ -166,7 +168,8 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   LogReader reader(path_);
   const auto after = std::upper_bound(trials_.begin(), trials_.end(), firstTick,
                                       [](std::uint64_t tick, const RecordedTrial& trial) { return tick < trial.startTick; });
-  if (after != trials_.begin() && std::prev(after)->offset != 0) reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
+  if (after != trials_.begin() && std::prev(after)->offset != 0)
+    reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
   RecordView record;
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
@@ -221,7 +224,8 @@ std::vector<std::string> findLogs(const std::string& path) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) return {path};
   if (!fs::is_directory(path, error)) throw UsageError(path + ": no such log or folder");
-  // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels in their names.
+  // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
+  // in their names.
   std::string prefix;
   fs::path root = fs::absolute(path).lexically_normal();
   if (!root.has_filename()) root = root.parent_path();

@@ -19,25 +19,25 @@ struct TrialSetup {
 /// A raw tick as logged: with the configuration all that is needed to simulate the run again.
 struct RecordedTick {
   std::uint64_t tick = 0;
-  std::int64_t measuredNs = 0;    // monotonic clock of the computer
+  std::int64_t measuredNs = 0;  // monotonic clock of the computer
   DeviceSample device;
   Command command = Command::None;
   std::uint32_t missedTicks = 0;  // whole periods skipped before this tick
 };
 
 enum class EventKind : std::uint8_t {
-  TrialStart = 1,   // the trial was put up
-  Armed = 2,        // the hand was at the start
-  Go = 3,           // go signal
-  Onset = 4,        // the hand moved: t = 0
+  TrialStart = 1,  // the trial was put up
+  Armed = 2,       // the hand was at the start
+  Go = 3,          // go signal
+  Onset = 4,       // the hand moved: t = 0
   TrialEnd = 5,
-  ClampBegin = 6,   // the device gets less force than the object gives
+  ClampBegin = 6,  // the device gets less force than the object gives
   ClampEnd = 7,
   DeviceLost = 8,
   DeviceBack = 9,
   TicksMissed = 10,
-  StepFault = 11,   // a step did not end well; `value` is its StepStatus
-  Note = 12,        // by the experimenter
+  StepFault = 11,  // a step did not end well; `value` is its StepStatus
+  Note = 12,       // by the experimenter
 };
 std::string_view nameOf(EventKind kind);
 
@@ -49,21 +49,22 @@ struct RecordedEvent {
   std::string text;
 };
 
-/// One trial of a run with its result and simple measures. An unfinished trial of a log that broke off is `Interrupted` by `Program`.
+/// One trial of a run with its result and simple measures. An unfinished trial of a log that broke off is `Interrupted` by
+/// `Program`.
 struct RecordedTrial {
-  int trial = 0;                 // from 1; a resumed block goes on counting
-  PlannedTrial planned;          // a repeated trial has the index of its predecessor
+  int trial = 0;         // from 1; a resumed block goes on counting
+  PlannedTrial planned;  // a repeated trial has the index of its predecessor
   TrialResult result;
   std::uint64_t startTick = 0, armedTick = 0, goTick = 0;  // 0: never came
-  std::uint64_t lastTick = 0;    // last tick that belongs to the trial
-  double peakHandSpeed = 0;      // [m/s] largest over every tick of the movement
-  double handPathLength = 0;     // [m] from onset to the end
-  double peakForce = 0;          // [N] largest coupling force
-  double meanForce = 0;          // [N]
+  std::uint64_t lastTick = 0;                              // last tick that belongs to the trial
+  double peakHandSpeed = 0;                                // [m/s] largest over every tick of the movement
+  double handPathLength = 0;                               // [m] from onset to the end
+  double peakForce = 0;                                    // [N] largest coupling force
+  double meanForce = 0;                                    // [N]
   std::uint64_t clampedTicks = 0, missedTicks = 0;
-  bool complete = true;          // false: the log broke off in this trial
-  std::uint64_t offset = 0;      // where in the log reading of this trial starts,
-  std::uint32_t sequence = 0;    // and the number of the record there
+  bool complete = true;        // false: the log broke off in this trial
+  std::uint64_t offset = 0;    // where in the log reading of this trial starts,
+  std::uint32_t sequence = 0;  // and the number of the record there
 };
 
 /// Rows of the derived channels: row-major, table.size() numbers a row.
@@ -75,8 +76,8 @@ struct SampleRows {
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 
-/// Everything: every record's CRC, up to the first damage. Trials: only the chain of trial records, last to first, so that the cost
-/// follows the number of trials and not the bytes; rows are checked when they are read.
+/// Everything: every record's CRC, up to the first damage. Trials: only the chain of trial records, last to first, so that the
+/// cost follows the number of trials and not the bytes; rows are checked when they are read.
 enum class LogCheck { Everything, Trials };
 
 /// One recorded run, read to its last good record. Rows and ticks are read when asked for. Any thread, one at a time.

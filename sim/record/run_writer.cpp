@@ -3,7 +3,8 @@
 namespace reachlab {
 namespace {
 
-constexpr auto kFlushEvery = std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
+constexpr auto kFlushEvery =
+    std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
 constexpr std::uint32_t kTicksPerBlock = 1000;
 constexpr std::uint32_t kTicksPerClockLook = 16;
 

@@ -15,8 +15,8 @@ struct QueuedTick {
   bool hasRow = false;
 };
 
-/// Bounded queue of ticks with rows of a length known at the start. One writer (haptic thread), one reader (recorder); neither waits.
-/// A row is `columns` numbers, and only every so manieth tick has one, so rows have a store of their own.
+/// Bounded queue of ticks with rows of a length known at the start. One writer (haptic thread), one reader (recorder); neither
+/// waits. A row is `columns` numbers, and only every so manieth tick has one, so rows have a store of their own.
 class TickRing {
  public:
   TickRing(std::size_t ticks, std::size_t rows, std::size_t columns)

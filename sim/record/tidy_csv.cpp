@@ -9,12 +9,47 @@
 namespace reachlab {
 namespace {
 
-const std::vector<std::string> kTrialColumns{
-    "subject", "session", "run", "block", "trial", "phase", "condition", "outcome", "reason", "mass",
-    "movement_time_s", "by", "by_unit", "experiment", "day", "order_index", "catch_trial", "foreperiod_s", "target_time_s",
-    "position_tolerance_m", "velocity_tolerance_m_per_s", "time_tolerance_s", "start_s", "armed_s", "go_s", "onset_s", "end_s",
-    "reaction_time_s", "peak_hand_speed_m_per_s", "hand_path_m", "peak_force_n", "mean_force_n", "clamped_ticks", "missed_ticks",
-    "complete", "seed", "device", "age_years", "sex", "handedness", "notes"};
+const std::vector<std::string> kTrialColumns{"subject",
+                                             "session",
+                                             "run",
+                                             "block",
+                                             "trial",
+                                             "phase",
+                                             "condition",
+                                             "outcome",
+                                             "reason",
+                                             "mass",
+                                             "movement_time_s",
+                                             "by",
+                                             "by_unit",
+                                             "experiment",
+                                             "day",
+                                             "order_index",
+                                             "catch_trial",
+                                             "foreperiod_s",
+                                             "target_time_s",
+                                             "position_tolerance_m",
+                                             "velocity_tolerance_m_per_s",
+                                             "time_tolerance_s",
+                                             "start_s",
+                                             "armed_s",
+                                             "go_s",
+                                             "onset_s",
+                                             "end_s",
+                                             "reaction_time_s",
+                                             "peak_hand_speed_m_per_s",
+                                             "hand_path_m",
+                                             "peak_force_n",
+                                             "mean_force_n",
+                                             "clamped_ticks",
+                                             "missed_ticks",
+                                             "complete",
+                                             "seed",
+                                             "device",
+                                             "age_years",
+                                             "sex",
+                                             "handedness",
+                                             "notes"};
 
 // What the experiment asked for; an experiment that this version cannot read any more leaves these cells empty.
 Task taskOf(const RunConfiguration& configuration) {
@@ -51,11 +86,15 @@ void addTrial(TableText& table, const RunConfiguration& c, const Task& task, con
 
 std::string unitOf(Reason reason) {
   switch (reason) {
-    case Reason::Position: return "m";
-    case Reason::Velocity: return "m/s";
+    case Reason::Position:
+      return "m";
+    case Reason::Velocity:
+      return "m/s";
     case Reason::TimeShort:
-    case Reason::TimeLong: return "s";
-    default: return "";
+    case Reason::TimeLong:
+      return "s";
+    default:
+      return "";
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace reachlab {
 
-/// Writes `trials.csv` (one row a trial of all the runs) and one `sub-…_ses-…_task-…_run-…_samples.csv` a run into `folder`, for R, JASP,
-/// SPSS, pandas. Returns the files written. Throws ResourceError.
+/// Writes `trials.csv` (one row a trial of all the runs) and one `sub-…_ses-…_task-…_run-…_samples.csv` a run into `folder`, for
+/// R, JASP, SPSS, pandas. Returns the files written. Throws ResourceError.
 std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder);
 
 /// The text of trials.csv.

@@ -5,8 +5,8 @@
 namespace reachlab {
 
 TickFacts factsOf(const TickState& state) noexcept {
-  return {state.phase, state.status, state.trial, !(state.deviceForce == state.feedbackForce) && state.device.valid, state.hand,
-          state.couplingForce, state.result};
+  return {state.phase, state.status,        state.trial, !(state.deviceForce == state.feedbackForce) && state.device.valid,
+          state.hand,  state.couplingForce, state.result};
 }
 
 void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {

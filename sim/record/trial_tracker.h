@@ -12,13 +12,13 @@ struct TickFacts {
   std::int32_t trial = 0;
   bool clamped = false;  // the device gets less force than the object gives
   HandSample hand;
-  Vec3 couplingForce;    // [N]
-  TrialResult result;    // in phase Done
+  Vec3 couplingForce;  // [N]
+  TrialResult result;  // in phase Done
 };
 TickFacts factsOf(const TickState& state) noexcept;
 
-/// Follows a run tick by tick and tells what happened and how each trial went. A function of the ticks alone, so that the recorder and
-/// a reader of the log come to the same trial. One thread.
+/// Follows a run tick by tick and tells what happened and how each trial went. A function of the ticks alone, so that the
+/// recorder and a reader of the log come to the same trial. One thread.
 class TrialTracker {
  public:
   /// Trials are numbered from `firstTrial`; the engine counts them from 1.

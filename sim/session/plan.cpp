@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "constraints/error.h"
-#include "sim/experiment/experiment.h"
 #include "constraints/json_reader.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab {
 namespace {
@@ -115,7 +115,8 @@ std::vector<std::string> planProblems(const std::string& file) {
     if (std::find(seen.begin(), seen.end(), block.experiment) != seen.end()) continue;
     seen.push_back(block.experiment);
     try {
-      if (!readExperiment(block.experiment).task) found.push_back(file + ": blocks: " + block.experiment + ": has no task to be carried out");
+      if (!readExperiment(block.experiment).task)
+        found.push_back(file + ": blocks: " + block.experiment + ": has no task to be carried out");
     } catch (const UsageError& error) {
       found.emplace_back(error.what());
     }

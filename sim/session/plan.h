@@ -8,19 +8,19 @@ namespace reachlab {
 
 /// A series of trials with the same settings; recorded as one run.
 struct PlanBlock {
-  std::string experiment;           // file (beside the plan) or shipped name
+  std::string experiment;  // file (beside the plan) or shipped name
   int trials = 1;
-  bool practice = false;            // recorded too, left out of statistics
-  double pauseSeconds = 0;          // [s] between trials
-  std::string condition;            // empty: the experiment's name
-  int day = 0;                      // 0: every day
+  bool practice = false;                        // recorded too, left out of statistics
+  double pauseSeconds = 0;                      // [s] between trials
+  std::string condition;                        // empty: the experiment's name
+  int day = 0;                                  // 0: every day
   double foreperiodMin = 0, foreperiodMax = 0;  // [s] from arming to the go signal, drawn evenly
-  double catchShare = 0;            // of the trials, without a go signal
-  bool repeatAborted = false;       // a trial that was aborted is put up once more at the end of the block
+  double catchShare = 0;                        // of the trials, without a go signal
+  bool repeatAborted = false;                   // a trial that was aborted is put up once more at the end of the block
 };
 
-/// How the order of a day's blocks differs between subjects. `Permute`: the blocks that are not practice take the subject's row of a
-/// balanced table (all orders of up to 4 conditions, else a Latin square); practice blocks stay where they are.
+/// How the order of a day's blocks differs between subjects. `Permute`: the blocks that are not practice take the subject's row
+/// of a balanced table (all orders of up to 4 conditions, else a Latin square); practice blocks stay where they are.
 enum class Counterbalance { None, Permute };
 
 /// A session plan, as read from a file. Keys given for the plan as a whole hold for every block that does not give them itself.
@@ -41,8 +41,8 @@ Plan readPlan(const std::string& file);
 /// Every fault of a plan file and of the experiments it names; empty when fine.
 std::vector<std::string> planProblems(const std::string& file);
 
-/// The blocks of `day` (every block when 0) in the order that this subject does them: indices into plan.blocks. A function of the plan
-/// and the subject's label alone.
+/// The blocks of `day` (every block when 0) in the order that this subject does them: indices into plan.blocks. A function of the
+/// plan and the subject's label alone.
 std::vector<int> blockOrder(const Plan& plan, const std::string& subject, int day);
 
 }  // namespace reachlab

@@ -2,8 +2,8 @@
 #include <set>
 #include <vector>
 
-#include "sim/session/session_folder.h"
 #include "sim/record/run_log.h"
+#include "sim/session/session_folder.h"
 
 namespace reachlab {
 
@@ -13,7 +13,7 @@ struct BlockProgress {
   std::set<int> done;              // planned indices that were finished, and are not to be repeated
   bool complete() const { return done.size() >= configuration.trials.size(); }
   int lastRun = 0;
-  int lastTrial = 0;               // largest trial number used so far
+  int lastTrial = 0;  // largest trial number used so far
 };
 
 /// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`.

@@ -32,23 +32,28 @@ Plan planOf(const SessionRequest& request) {
 
 // A session is one day: the one asked for, else the session's label when that is a number.
 int dayOf(const SessionRequest& request, const Plan& plan) {
-  const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
+  const bool daysMatter =
+      std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
   if (!daysMatter) return 0;
   int day = 0;
   const std::string& label = request.place.session;
   const auto [end, fault] = std::from_chars(label.data(), label.data() + label.size(), day);
   const bool number = fault == std::errc{} && end == label.data() + label.size();
-  if (request.day) day = *request.day;
+  if (request.day)
+    day = *request.day;
   else if (!number)
-    throw UsageError(fmt::format("{}: the plan has days and session \"{}\" is no number; allowed: --session 01, 02 …, or --day N", plan.name, label));
+    throw UsageError(fmt::format("{}: the plan has days and session \"{}\" is no number; allowed: --session 01, 02 …, or --day N",
+                                 plan.name, label));
   return day;
 }
 
-const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number, const Experiment& experiment) {
+const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number,
+                                  const Experiment& experiment) {
   const BlockProgress* found = nullptr;
   for (const BlockProgress& block : progress) {
     const RunConfiguration& c = block.configuration;
-    const bool same = plan.text.empty() ? c.planText.empty() && c.experimentText == experiment.text : c.planText == plan.text && c.block == number;
+    const bool same = plan.text.empty() ? c.planText.empty() && c.experimentText == experiment.text
+                                        : c.planText == plan.text && c.block == number;
     if (same) found = &block;
   }
   return found;
@@ -60,22 +65,25 @@ void refuseChanged(const std::vector<BlockProgress>& progress, const Plan& plan,
     const RunConfiguration& c = block.configuration;
     const bool sameName = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name : c.planName == plan.name;
     if (sameName && !block.complete())
-      throw UsageError(fmt::format("{}: has changed since run {}, so that run cannot be resumed; allowed: the file as it was, or a new run without --resume",
-                                   plan.text.empty() ? experiment.name : plan.name, c.run));
+      throw UsageError(
+          fmt::format("{}: has changed since run {}, so that run cannot be resumed; allowed: the file as it was, or a new run "
+                      "without --resume",
+                      plan.text.empty() ? experiment.name : plan.name, c.run));
   }
 }
 
 void checkSameWishes(const SessionRequest& request, const BlockProgress& block) {
   const auto planned = static_cast<int>(block.configuration.trials.size());
   if (request.trials && *request.trials != planned)
-    throw UsageError(fmt::format("--trials {}: run {} was planned with {} trials; allowed with --resume: no --trials, or {}", *request.trials,
-                                 block.configuration.run, planned, planned));
+    throw UsageError(fmt::format("--trials {}: run {} was planned with {} trials; allowed with --resume: no --trials, or {}",
+                                 *request.trials, block.configuration.run, planned, planned));
   if (request.seed && *request.seed != block.configuration.sessionSeed)
     throw UsageError(fmt::format("--seed {}: run {} has the seed {}; allowed with --resume: no --seed, or {}", *request.seed,
                                  block.configuration.run, block.configuration.sessionSeed, block.configuration.sessionSeed));
 }
 
-RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block, const Experiment& experiment) {
+RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block,
+                                    const Experiment& experiment) {
   RunConfiguration c;
   c.subject = request.place.subject;
   c.session = request.place.session;
@@ -100,8 +108,8 @@ std::vector<PlannedTrial> remainingTrials(const RunConfiguration& configuration,
   return trials;
 }
 
-// A block that broke off goes on with the number of the trial it broke off in. Where single trials are left (repeats of aborted ones),
-// they get numbers that were not used yet.
+// A block that broke off goes on with the number of the trial it broke off in. Where single trials are left (repeats of aborted
+// ones), they get numbers that were not used yet.
 int firstTrialOf(const std::vector<PlannedTrial>& remaining, const BlockProgress* before) {
   if (before == nullptr) return 1;
   const bool oneStretch = remaining.back().index - remaining.front().index + 1 == static_cast<int>(remaining.size());
@@ -110,8 +118,10 @@ int firstTrialOf(const std::vector<PlannedTrial>& remaining, const BlockProgress
 
 // The seed of the session that is resumed, before that the one asked for, else a drawn one.
 void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, SessionToRun& session) {
-  if (resumed != nullptr) session.seed = resumed->configuration.sessionSeed;
-  else if (request.seed) session.seed = *request.seed;
+  if (resumed != nullptr)
+    session.seed = resumed->configuration.sessionSeed;
+  else if (request.seed)
+    session.seed = *request.seed;
   else {
     session.seed = drawSeed();
     session.seedDrawn = true;
@@ -122,17 +132,20 @@ void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, Ses
 
 std::uint64_t drawSeed() {
   std::random_device entropy;
-  return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
+  return (static_cast<std::uint64_t>(entropy()) << 21) ^
+         entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
 }
 
 SessionToRun planSession(const SessionRequest& request) {
   checkLabel(request.place.subject, "--subject");
   checkLabel(request.place.session, "--session");
   const Plan plan = planOf(request);
-  if (!plan.text.empty() && request.trials) throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
+  if (!plan.text.empty() && request.trials)
+    throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
   const int day = dayOf(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
-  if (order.empty()) throw UsageError(fmt::format("{}: no block for day {}; allowed: a --session or --day that the plan has", plan.name, day));
+  if (order.empty())
+    throw UsageError(fmt::format("{}: no block for day {}; allowed: a --session or --day that the plan has", plan.name, day));
 
   SessionToRun session;
   std::vector<std::string> faults;
@@ -142,10 +155,12 @@ SessionToRun planSession(const SessionRequest& request) {
   for (std::size_t k = 0; k < order.size(); ++k) {
     const PlanBlock& block = plan.blocks[static_cast<std::size_t>(order[k])];
     experiments.push_back(readExperiment(block.experiment));
-    if (!experiments.back().task) throw UsageError(block.experiment + ": task: is missing, and a run needs one; allowed: { start, target, … }");
+    if (!experiments.back().task)
+      throw UsageError(block.experiment + ": task: is missing, and a run needs one; allowed: { start, target, … }");
     recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiments.back()));
   }
-  const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
+  const auto anyRecorded =
+      std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
   const BlockProgress* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
   if (request.resume && resumed == nullptr) refuseChanged(progress, plan, experiments.front());
   if (resumed != nullptr) checkSameWishes(request, *resumed);
@@ -180,8 +195,10 @@ SessionToRun planSession(const SessionRequest& request) {
     session.blocks.push_back(std::move(block));
     run = chooseRun(request.place, run + 1);
   }
-  for (std::size_t k = 0; k < session.blocks.size(); ++k) session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
-  const bool unfinished = std::any_of(recorded.begin(), recorded.end(), [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
+  for (std::size_t k = 0; k < session.blocks.size(); ++k)
+    session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
+  const bool unfinished =
+      std::any_of(recorded.begin(), recorded.end(), [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
   if (!request.resume && unfinished)
     session.hint = "an earlier run of this session was not finished; --resume goes on with it, this is a new run";
   for (const std::string& fault : faults) session.hint += (session.hint.empty() ? "" : "\n") + fault;

@@ -13,13 +13,13 @@ namespace reachlab {
 
 /// What was asked for on the command line or in the window.
 struct SessionRequest {
-  std::string what;                  // experiment or plan, a file or a shipped name
+  std::string what;  // experiment or plan, a file or a shipped name
   SessionPlace place;
   std::optional<int> trials, run, day;
   std::optional<std::uint64_t> seed;
   bool resume = false;
   bool fast = false, everyTick = false;
-  std::string device;                // as asked for
+  std::string device;  // as asked for
   Participant participant;
   std::string notes;
 };
@@ -34,14 +34,14 @@ struct BlockToRun {
 };
 
 struct SessionToRun {
-  std::vector<BlockToRun> blocks;    // empty: a resumed session has nothing left to do
+  std::vector<BlockToRun> blocks;  // empty: a resumed session has nothing left to do
   std::uint64_t seed = 0;
-  bool seedDrawn = false;            // by us, because none was given: to be printed
-  std::string hint;                  // one sentence for the experimenter, or empty
+  bool seedDrawn = false;  // by us, because none was given: to be printed
+  std::string hint;        // one sentence for the experimenter, or empty
 };
 
-/// Works out what is to be done: reads plan and experiments, draws the order, chooses run numbers, and with `resume` leaves out what
-/// is on disk already. Throws UsageError with every fault.
+/// Works out what is to be done: reads plan and experiments, draws the order, chooses run numbers, and with `resume` leaves out
+/// what is on disk already. Throws UsageError with every fault.
 SessionToRun planSession(const SessionRequest& request);
 
 /// A seed for a session that was given none, from the system's entropy.

@@ -31,8 +31,8 @@ Ending runWithFileLimit(const std::string& data, const std::string& folder, rlim
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 1);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 2);
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    ::execl(REACH_PROGRAM, REACH_PROGRAM, "run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--fast", "--data",
-            data.c_str(), nullptr);
+    ::execl(REACH_PROGRAM, REACH_PROGRAM, "run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1",
+            "--fast", "--data", data.c_str(), nullptr);
     ::_exit(127);
   }
   int status = 0;
@@ -42,7 +42,8 @@ Ending runWithFileLimit(const std::string& data, const std::string& folder, rlim
 
 std::size_t linesThatBegin(const std::string& text, const std::string& with) {
   std::size_t count = 0;
-  for (std::size_t at = 0; (at = text.find(with, at)) != std::string::npos; at += with.size()) count += at == 0 || text[at - 1] == '\n';
+  for (std::size_t at = 0; (at = text.find(with, at)) != std::string::npos; at += with.size())
+    count += at == 0 || text[at - 1] == '\n';
   return count;
 }
 
@@ -57,7 +58,8 @@ TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial
     EXPECT_GE(announced, 1u);
     EXPECT_LT(announced, 50u);
     const RunLog log = RunLog::open(recordedRuns({data}).at(0).path);
-    const auto finished = std::count_if(log.trials().begin(), log.trials().end(), [](const RecordedTrial& trial) { return trial.complete; });
+    const auto finished =
+        std::count_if(log.trials().begin(), log.trials().end(), [](const RecordedTrial& trial) { return trial.complete; });
     EXPECT_GE(static_cast<std::size_t>(finished), announced);
     EXPECT_EQ(log.goodBytes(), log.fileBytes()) << "what was written in part is cut off again";
   }

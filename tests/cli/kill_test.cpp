@@ -94,7 +94,8 @@ bool sameResult(const TrialResult& a, const TrialResult& b) {
 }
 
 std::vector<std::string> runArguments(const std::string& data, bool resume) {
-  std::vector<std::string> arguments{"run", "chain-moderate", "--device", "simulated", "--trials", "30", "--seed", "11", "--fast", "--data", data};
+  std::vector<std::string> arguments{"run", "chain-moderate", "--device", "simulated", "--trials", "30", "--seed",
+                                     "11",  "--fast",         "--data",   data};
   if (resume) arguments.push_back("--resume");
   return arguments;
 }
@@ -157,7 +158,8 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
         }
     }
     ASSERT_EQ(done.size(), 30u) << "kill " << k;
-    for (const RecordedTrial& trial : good.trials()) EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
+    for (const RecordedTrial& trial : good.trials())
+      EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
 
     EXPECT_NO_THROW(recoverLog(runs[0].path));
     const RunLog mended = RunLog::open(runs[0].path);
@@ -168,8 +170,8 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
   }
   std::sort(silences.begin(), silences.end());
   if (!silences.empty())
-    std::printf("%zu kills within a run, %d within a trial; last write before the kill: median %.1f ms, longest %.1f ms\n", silences.size(), midTrial,
-                silences[silences.size() / 2], silences.back());
+    std::printf("%zu kills within a run, %d within a trial; last write before the kill: median %.1f ms, longest %.1f ms\n",
+                silences.size(), midTrial, silences[silences.size() / 2], silences.back());
 }
 
 TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
@@ -183,7 +185,8 @@ TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
   ASSERT_EQ(runAndKill(arguments, -1).status, 0);
   const double length = std::chrono::duration<double>(Clock::now() - start).count();
   std::map<std::string, std::string> whole;
-  for (const auto& entry : std::filesystem::directory_iterator(out)) whole[entry.path().filename().string()] = readWholeFile(entry.path().string());
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    whole[entry.path().filename().string()] = readWholeFile(entry.path().string());
   ASSERT_EQ(whole.size(), 2u);
   std::mt19937_64 random(7);
   for (int k = 0; k < killCount(); ++k) {

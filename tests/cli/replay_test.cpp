@@ -1,10 +1,11 @@
+#include "sim/record/replay.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "sim/experiment/experiment.h"
 #include "sim/record/log.h"
-#include "sim/record/replay.h"
 #include "sim/session/session_folder.h"
 #include "tests/record/made_run.h"
 
@@ -21,7 +22,9 @@ TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
   for (const std::string& name : shippedExperiments()) {
     if (!readExperiment(name).task) continue;
     const std::string data = folder / name;
-    ASSERT_EQ(reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0) << name;
+    ASSERT_EQ(
+        reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0)
+        << name;
     const std::string log = recordedRuns({data}).at(0).path;
     EXPECT_EQ(reach("replay " + log + " --check"), 0) << name;
     const Replay replay = replayRun(RunLog::open(log));

@@ -71,8 +71,8 @@ TEST_F(Exported, MotionCellsReadBackAsTheRecordedNumbers) {
 TEST_F(Exported, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
   const auto rows = cellsOf(channelsTsv(configuration_), '\t');
   const json motion = json::parse(motionJson(RunLog::open(path_)));
-  const std::map<std::string, std::set<std::string>> allowed{{"LATENCY", {"s"}}, {"POS", {"m"}}, {"VEL", {"m/s"}}, {"ACCEL", {"m/s^2"}},
-                                                             {"MISC", {"s", "N", "J", "n/a", "1/s"}}};
+  const std::map<std::string, std::set<std::string>> allowed{
+      {"LATENCY", {"s"}}, {"POS", {"m"}}, {"VEL", {"m/s"}}, {"ACCEL", {"m/s^2"}}, {"MISC", {"s", "N", "J", "n/a", "1/s"}}};
   std::set<std::string> names, points;
   std::map<std::string, int> counts;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -120,7 +120,8 @@ TEST_F(Exported, SamplesCsvHasUniqueColumnsThatCarryTheirUnits) {
   const auto rows = cellsOf(samplesCsv(RunLog::open(path_)), ',');
   std::set<std::string> columns(rows[0].begin(), rows[0].end());
   EXPECT_EQ(columns.size(), rows[0].size());
-  for (const char* column : {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1", "coupling_x_n", "device_force_z_n"})
+  for (const char* column : {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1",
+                             "coupling_x_n", "device_force_z_n"})
     EXPECT_TRUE(columns.contains(column)) << column;
 }
 

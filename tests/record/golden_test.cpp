@@ -7,8 +7,9 @@
 namespace reachlab {
 namespace {
 
-// Logs of every released version stay readable, number for number. They were written by `record_bench log FILE 3 01 01 1`, whose content
-// is a formula, so that nothing has to be kept beside them (its sine may differ by a rounding between mathematical libraries).
+// Logs of every released version stay readable, number for number. They were written by `record_bench log FILE 3 01 01 1`, whose
+// content is a formula, so that nothing has to be kept beside them (its sine may differ by a rounding between mathematical
+// libraries).
 TEST(GoldenLogs, OfEveryVersionReadBackAsTheyWereWritten) {
   int versions = 0;
   for (const auto& entry : std::filesystem::directory_iterator(REACHLAB_SOURCE_DIR "/tests/record/golden")) {

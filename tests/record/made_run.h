@@ -63,10 +63,10 @@ class MadeRun {
     s.tick = tick;
     s.measuredNs = static_cast<std::int64_t>(tick) * 1000003;
     s.trial = static_cast<std::int32_t>(tick / kTicksPerTrial) + 1;
-    s.phase = within < kWaiting                        ? Phase::Waiting
-              : within < kWaiting + kArmed             ? Phase::Armed
-              : within < kWaiting + kArmed + kMoving   ? Phase::Moving
-                                                       : Phase::Done;
+    s.phase = within < kWaiting                      ? Phase::Waiting
+              : within < kWaiting + kArmed           ? Phase::Armed
+              : within < kWaiting + kArmed + kMoving ? Phase::Moving
+                                                     : Phase::Done;
     const double x = valueAt(tick);
     s.device.position = {x, -x, 2 * x};
     s.hand.position = {x, -x, 2 * x};
@@ -93,7 +93,8 @@ class MadeRun {
 };
 
 /// Writes a log of so many whole trials.
-inline void writeMadeRun(const std::string& path, int trials, const RunConfiguration& configuration = madeConfiguration(), bool close = true) {
+inline void writeMadeRun(const std::string& path, int trials, const RunConfiguration& configuration = madeConfiguration(),
+                         bool close = true) {
   Recorder recorder(path, configuration, {.threaded = false});
   MadeRun run(configuration.table.massCount);
   for (std::uint64_t tick = 0; tick < static_cast<std::uint64_t>(trials) * MadeRun::kTicksPerTrial; ++tick) {

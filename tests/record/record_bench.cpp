@@ -43,7 +43,8 @@ void measureRate(double seconds) {
 void measureOpening(int trials) {
   const TemporaryFolder folder("open");
   const int perRun = std::min(trials, 100);
-  for (int run = 0; run < trials / perRun; ++run) writeMadeRun(folder / fmt::format("sub-01_ses-01_task-made_run-{:03}_log.reach", run + 1), perRun);
+  for (int run = 0; run < trials / perRun; ++run)
+    writeMadeRun(folder / fmt::format("sub-01_ses-01_task-made_run-{:03}_log.reach", run + 1), perRun);
   for (const bool warm : {false, true}) {
     auto start = Clock::now();
     std::size_t successes = 0, listed = 0;
@@ -57,8 +58,8 @@ void measureOpening(int trials) {
     for (const RunLog& run : runs)
       for (const RecordedTrial& trial : run.trials()) sum += run.rows(trial).at(0, 2);
     if (warm)
-      fmt::print("{} trials ({} successes): outcomes in {:.1f} ms, a profile of each in {:.1f} ms{}\n", listed, successes, 1e3 * listing,
-                 1e3 * secondsSince(start), std::isfinite(sum) ? "" : " (not finite)");
+      fmt::print("{} trials ({} successes): outcomes in {:.1f} ms, a profile of each in {:.1f} ms{}\n", listed, successes,
+                 1e3 * listing, 1e3 * secondsSince(start), std::isfinite(sum) ? "" : " (not finite)");
   }
 }
 

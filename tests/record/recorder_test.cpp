@@ -10,7 +10,8 @@
 namespace reachlab {
 namespace {
 
-// One thread pushes as the haptic thread does, the recorder's writes: nothing is lost, torn or out of order. Run under TSan as well.
+// One thread pushes as the haptic thread does, the recorder's writes: nothing is lost, torn or out of order. Run under TSan as
+// well.
 TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
   const TemporaryFolder folder("recorder");
   const std::string path = folder / "a_log.reach";

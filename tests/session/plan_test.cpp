@@ -37,8 +37,9 @@ TEST(Plan, ReadsTheKeysOfABlockAndTheDefaultsOfThePlan) {
 }
 
 TEST(Plan, NamesLineColumnAndKeyOfEveryFaultAtOnce) {
-  const std::string faults = faultsOf("{ \"schema_version\": 1,\n  \"blocks\": [\n    { \"experiment\": \"chain-slow\", \"trails\": 3 },\n"
-                                      "    { \"experiment\": \"chain-slow\", \"trials\": 0 },\n    { \"trials\": 1, \"pause_s\": -1 } ] }");
+  const std::string faults = faultsOf(
+      "{ \"schema_version\": 1,\n  \"blocks\": [\n    { \"experiment\": \"chain-slow\", \"trails\": 3 },\n"
+      "    { \"experiment\": \"chain-slow\", \"trials\": 0 },\n    { \"trials\": 1, \"pause_s\": -1 } ] }");
   EXPECT_NE(faults.find("p.json:3:"), std::string::npos) << faults;
   EXPECT_NE(faults.find("trails"), std::string::npos) << faults;
   EXPECT_NE(faults.find("p.json:4:"), std::string::npos) << faults;

@@ -60,7 +60,8 @@ TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
   EXPECT_EQ(indicesOf(session.blocks[0]), (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(session.blocks[0].configuration.seed, 9u);
   EXPECT_EQ(session.blocks[0].configuration.run, 1);
-  EXPECT_TRUE(session.blocks[0].logPath.ends_with("sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach")) << session.blocks[0].logPath;
+  EXPECT_TRUE(session.blocks[0].logPath.ends_with("sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"))
+      << session.blocks[0].logPath;
   EXPECT_FALSE(session.seedDrawn);
 }
 
