@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/bench_tick.h"
 #include "cli/commands.h"
 #include "constraints/error.h"
 #include "sim/bench/sampled_hand.h"
@@ -15,7 +16,8 @@ namespace {
 struct BenchArguments {
   bench::SuiteOptions suite;
   std::string json, svg;
-  bool sampled = false;
+  bool sampled = false, tick = false;
+  std::uint64_t ticks = 1'000'000;
 };
 
 void showProgress(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
@@ -48,6 +50,7 @@ std::string toJson(const std::vector<bench::Row>& rows) {
 }
 
 void runBench(const BenchArguments& arguments) {
+  if (arguments.tick) return runTickBench(arguments.suite.scenes, arguments.ticks, arguments.json);
   if (arguments.sampled) {
     std::fputs(bench::formatSampledHand(bench::measureSampledHand(showProgress)).c_str(), stdout);
     return;
@@ -73,6 +76,10 @@ void addBenchCommand(CLI::App& app, int&) {
       ->capture_default_str();
   command->add_flag("--quick", arguments->suite.quick, "1 ms and the default tolerance only, no peers unless named");
   command->add_flag("--sampled", arguments->sampled, "Instead: what a hand costs that comes as samples at 1 kHz, clean, noisy and quantised");
+  command->add_flag("--tick", arguments->tick, "Instead: what a whole tick costs, from the device's sample to the device's force");
+  command->add_option("--ticks", arguments->ticks, "Ticks that --tick times in each scene")
+      ->check(CLI::Range(1000, 100'000'000))
+      ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the rows to this file");
   command->add_option("--svg", arguments->svg, "Draw price against error into this file");
   command->footer(

@@ -31,26 +31,57 @@ namespace reachlab {
 namespace {
 
 // A whole trial: put up, armed, moved, judged, put up again, with every tick handed to window and recorder.
-TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {
-  for (const std::string& name : shippedExperiments()) {
-    const Experiment experiment = readExperiment(name);
-    auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
-    const Vec3 start = engine->protocol().start;
-    test::ScriptedDevice device(start.x, start.x + 0.05, 400);
-    test::MemorySink sink(10);
-    LoopOptions options;
-    options.virtualClock = true;
-    HapticLoop loop(std::move(engine), device, &sink, options);
-    const std::uint64_t before = allocations.load();
-    for (int i = 0; i < 3000; ++i) {
-      if (i % 1000 == 0) loop.tryCommand(i == 0 ? Command::NextTrial : Command::Abort);
-      if (i % 1000 == 1) loop.tryCommand(Command::NextTrial);
-      loop.advance();
-      loop.takeLatest();
-    }
-    EXPECT_EQ(allocations.load(), before) << name;
-    EXPECT_GE(loop.engine().state().trial, 1) << name;
+std::uint64_t allocationsOfThreeTrials(const Experiment& experiment) {
+  auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
+  const Vec3 start = engine->protocol().start;
+  test::ScriptedDevice device(start.x, start.x + 0.02, 400);
+  device.others = start;
+  test::MemorySink sink(10);
+  LoopOptions options;
+  options.virtualClock = true;
+  HapticLoop loop(std::move(engine), device, &sink, options);
+  const std::uint64_t before = allocations.load();
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 1000 == 0) loop.tryCommand(i == 0 ? Command::NextTrial : Command::Abort);
+    if (i % 1000 == 1) loop.tryCommand(Command::NextTrial);
+    loop.advance();
+    loop.takeLatest();
   }
+  EXPECT_GE(loop.engine().state().trial, 1);
+  EXPECT_GT(loop.engine().state().faults.steps[0], 400u) << "steps were taken";
+  return allocations.load() - before;
+}
+
+TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {
+  for (const std::string& name : shippedExperiments()) EXPECT_EQ(allocationsOfThreeTrials(readExperiment(name)), 0u) << name;
+}
+
+TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
+  const std::string line = R"j("constraint": {"name": "line", "shape": {"length_m": 0.2}})j",
+                    ellipse = R"j("constraint": {"curve": ["a*cos(phi)", "0", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j",
+                    torus = R"j("constraint": {"surface": ["(0.1+0.04*cos(u))*cos(v)", "(0.1+0.04*cos(u))*sin(v)", "0.04*sin(u)"], "shape": {}})j",
+                    free = R"j("constraint": {"name": "free"})j";
+  const std::string chain = R"j("object": {"kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600], "damping_n_s_per_m": [1]})j",
+                    point = R"j("object": {"kind": "point", "masses_kg": [1]})j";
+  const auto task = [](const char* start, const char* target) {
+    return std::string(R"j("task": {"start": )j") + start + R"(, "target": )" + target +
+           R"(, "duration_s": 1, "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.3}})";
+  };
+  struct Case {
+    std::string constraint, object, task;
+    std::vector<const char*> methods;
+  };
+  const std::vector<Case> cases{{line, chain, task("[0]", "[6]"), {"auto", "rk4", "exact", "abm", "adaptive", "stiff"}},
+                                {ellipse, point, task("[0]", "[3]"), {"auto", "rk4", "abm", "adaptive", "stiff"}},
+                                {ellipse, chain, task("[0]", "[3]"), {"auto", "rk4", "abm", "adaptive", "stiff"}},
+                                {torus, point, task("[0, 0]", "[1, 1]"), {"auto", "rk4", "abm", "adaptive", "stiff"}},
+                                {free, point, task("[0, 0, 0]", "[0.1, 0, 0]"), {"auto", "rk4", "exact"}}};
+  for (const Case& c : cases)
+    for (const std::string method : c.methods) {
+      const std::string text = R"j({"schema_version": 1, )j" + c.constraint + ", " + c.object +
+                               R"(, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 1}, )" + c.task + R"(, "method": ")" + method + "\"}";
+      EXPECT_EQ(allocationsOfThreeTrials(parseExperiment(text, "case")), 0u) << text;
+    }
 }
 
 }  // namespace
