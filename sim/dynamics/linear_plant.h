@@ -38,6 +38,7 @@ class LinearPlant final : public PlantBase {
       core().place(state_[a], x_, v_);
     }
     fraction_ = 1;
+    fresh_ = false;
   }
   void setExtraForce(const Vec3& force) noexcept override { extra_ = force; }
   void setCoupled(bool coupled) noexcept override {
@@ -47,11 +48,13 @@ class LinearPlant final : public PlantBase {
       (coupled ? current_->coupled : current_->alone).place(state_[a], x_, v_);
     }
     coupled_ = coupled;
+    fresh_ = false;
   }
 
   StepStatus step(const HandSegment& hand, double dt) noexcept override {
     if (dt != current_->dt) selectStep(dt);
     fraction_ = 1;
+    fresh_ = false;
     AxisHand axisHand;
     axisHand.degree = coupled_ ? hand.degree : 0;
     for (int a = 0; a < Axes; ++a) {
@@ -108,7 +111,8 @@ class LinearPlant final : public PlantBase {
 
   void locate(std::span<MassState> masses) const noexcept override {
     for (int a = 0; a < Axes; ++a) {
-      core().read(state_[a], x_, v_);
+      if (!fresh_) core().read(state_[a], x_, v_);
+      fresh_ = Axes == 1;
       for (std::size_t i = 0; i < masses.size(); ++i) {
         if constexpr (Axes == 1) {
           masses[i].q = {x_[i] / length_, 0};
@@ -168,7 +172,8 @@ class LinearPlant final : public PlantBase {
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
   std::vector<typename Core::State> state_, next_;   // one an axis
-  mutable std::vector<double> x_, v_;                // scratch
+  mutable std::vector<double> x_, v_;                // scratch;
+  mutable bool fresh_ = false;                       // one axis: the masses' places now, read once a step (N^2 from modes)
 };
 
 }  // namespace reachlab

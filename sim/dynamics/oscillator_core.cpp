@@ -1,5 +1,6 @@
 #include "sim/dynamics/oscillator_core.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/dynamics/chain_modes.h"
@@ -84,16 +85,23 @@ void OscillatorCore::place(State& state, std::span<const double> x, std::span<co
 }
 
 void OscillatorCore::read(const State& state, std::span<double> x, std::span<double> v) const noexcept {
-  for (int i = 0; i < n_; ++i) {
-    x[i] = v[i] = 0;
-    if (toMasses_.size() == 0) {
+  if (toMasses_.size() == 0) {
+    for (int i = 0; i < n_; ++i) {
       x[i] = state.x[i / kLanes][i % kLanes];
       v[i] = state.v[i / kLanes][i % kLanes];
-    } else {
-      for (int j = 0; j < n_; ++j) {  // mode by mode along a row of toMasses_
-        x[i] += toMasses_(i, j) * state.x[j / kLanes][j % kLanes];
-        v[i] += toMasses_(i, j) * state.v[j / kLanes][j % kLanes];
-      }
+    }
+    return;
+  }
+  double* __restrict place = x.data();
+  double* __restrict rate = v.data();
+  std::fill_n(place, n_, 0.0);
+  std::fill_n(rate, n_, 0.0);
+  for (int j = 0; j < n_; ++j) {  // mode by mode: a mode's shape lies in one piece
+    const double e = state.x[j / kLanes][j % kLanes], de = state.v[j / kLanes][j % kLanes];
+    const double* __restrict shape = toMasses_.data() + static_cast<std::ptrdiff_t>(j) * n_;
+    for (int i = 0; i < n_; ++i) {
+      place[i] += shape[i] * e;
+      rate[i] += shape[i] * de;
     }
   }
 }
