@@ -15,7 +15,9 @@ void validateFile(const std::string& file) {
   const std::string text = readTextFile(file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
-    parsePlan(text, file);
+    std::string faults;
+    for (const std::string& fault : planProblems(file)) faults += (faults.empty() ? "" : "\n") + fault;
+    if (!faults.empty()) throw UsageError(faults);
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     parseDefinition(text, file);
   } else {
