@@ -14,7 +14,7 @@ namespace reachlab {
 namespace {
 
 struct AnalyzeOptions {
-  std::string dataset, out, experiment, onset = "percent", duration = "mean";
+  std::string dataset, out, experiment, onset = "percent", duration = "auto";
   std::vector<std::string> criteria;
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
   int resamples = 2000, bin = 10;
@@ -29,7 +29,7 @@ StudyOptions studyOptions(const AnalyzeOptions& o) {
   s.measure.onset.speed = o.speed;
   s.measure.onset.rule = o.onset == "absolute" ? OnsetRule::Absolute : o.onset == "task" ? OnsetRule::Task : OnsetRule::Percent;
   s.includePractice = o.includePractice;
-  s.predictMeanDuration = o.duration == "mean";
+  s.predictFor = o.duration == "task" ? PredictionDuration::Task : o.duration == "mean" ? PredictionDuration::Moved : PredictionDuration::Auto;
   s.ranking.resamples = o.resamples;
   s.ranking.seed = o.seed;
   s.learningBin = o.bin;
@@ -126,8 +126,8 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")->allow_extra_args(false);
   command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
-  command->add_option("--prediction-duration", o->duration, "Predict for the mean duration that was moved, or for the task's")
-      ->check(CLI::IsMember({"task", "mean"}))
+  command->add_option("--prediction-duration", o->duration, "Predict for the task's T, for the mean duration moved, or (auto) for the task's where trials kept to it within 10 %")
+      ->check(CLI::IsMember({"auto", "task", "mean"}))
       ->capture_default_str();
   command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")->check(CLI::IsMember({"percent", "absolute", "task"}))->capture_default_str();
   command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();

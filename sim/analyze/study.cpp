@@ -106,16 +106,29 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
   how.handDamping = options.handDamping;
   for (const Criterion criterion : wantedCriteria(options)) {
     try {
-      PredictedSignal signal = options.predictMeanDuration && result.used > 0
-                                   ? signalLasting(condition, criterion, how, options, result)
-                                   : recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task);
-      PredictedProfile profile = profileUntil(signal, result.endLevel);
-      result.unscaledDurations.push_back(profile.duration);
-      result.predictions.push_back(result.used > 0 ? scaledTo(std::move(profile), result.duration.mean) : std::move(profile));
-      result.signals.push_back(std::move(signal));
+      result.signals.push_back(recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
     } catch (const Error& error) {
       result.refusals.push_back(fmt::format("{}: {}", nameOf(criterion), error.what()));
     }
+  }
+  if (result.used > 0 && !result.signals.empty()) {
+    std::vector<double> ratios;
+    for (const PredictedSignal& signal : result.signals) ratios.push_back(result.duration.mean / profileUntil(signal, result.endLevel).duration);
+    std::sort(ratios.begin(), ratios.end());
+    result.durationRatio = quantileOfSorted(ratios, 0.5);
+    result.predictedForMoved = options.predictFor == PredictionDuration::Moved ||
+                               (options.predictFor == PredictionDuration::Auto && std::abs(result.durationRatio - 1) > kKeptDuration);
+  }
+  for (PredictedSignal& signal : result.signals) {
+    if (result.predictedForMoved) {
+      try {
+        signal = signalLasting(condition, signal.criterion, how, options, result);
+      } catch (const Error& error) {
+        result.refusals.push_back(fmt::format("{}: {}; compared at the task's T", nameOf(signal.criterion), error.what()));
+      }
+    }
+    const PredictedProfile profile = profileUntil(signal, result.endLevel);
+    result.predictions.push_back(result.used > 0 ? scaledTo(profile, result.duration.mean) : profile);
   }
 }
 

@@ -12,13 +12,18 @@
 /// From recorded trials to everything that tables, figures and report show. Pure: the same trials and options give the same numbers.
 namespace reachlab {
 
+/// What T criteria are predicted for. Task: the task's. Moved: for each criterion the T whose movement lasts as long as the trials did.
+/// Auto: the task's where the trials kept to it within kKeptDuration, else as Moved.
+inline constexpr double kKeptDuration = 0.1;  // a subject's own scatter of T is 7 %
+enum class PredictionDuration { Auto, Task, Moved };
+
 struct StudyOptions {
   MeasureOptions measure;
   bool includePractice = false;
   std::vector<Criterion> criteria;      // empty: all that are defined for the object
   std::optional<double> handMass;       // [kg] of the predictions; nullopt: the experiment's
   double handDamping = 0;               // [N s/m]
-  bool predictMeanDuration = true;      // predict for the duration that was moved (as the paper does), not for the task's
+  PredictionDuration predictFor = PredictionDuration::Auto;
   RankingOptions ranking;
   int learningBin = 10;                 // trials a point of the learning curve
 };
@@ -71,7 +76,8 @@ struct ConditionResult {
   double endLevel = 0;                         // mean of the used trials
   std::vector<PredictedSignal> signals;        // one a prediction
   std::vector<PredictedProfile> predictions;   // until endLevel, scaled to duration.mean
-  std::vector<double> unscaledDurations;       // [s] of each prediction before scaling
+  double durationRatio = 1;                    // trials' mean duration / that predicted for the task's T (median over the criteria)
+  bool predictedForMoved = false;              // predictions are for the duration that was moved
   std::vector<std::string> refusals;           // criteria that cannot be predicted here, and why
   Ranking handRanking, objectRanking;          // over trials
   std::optional<Ranking> handOverSubjects, objectOverSubjects;

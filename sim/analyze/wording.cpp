@@ -75,7 +75,9 @@ std::string describeMethods(const StudyOptions& options) {
       "the distance is kept. Each prediction, made for {}, went through the same filter, onset rule and scaling, and was cut where its speed had fallen to the trial's own at the end. ε is the root of the "
       "mean squared difference of velocity over all 101 samples of all trials. Intervals are 95 % percentiles of {} bootstrap "
       "resamples (seed {}); differences between criteria are taken within a resample.",
-      filter, rule, options.predictMeanDuration ? "the duration that was moved" : "the task's duration T", options.ranking.resamples,
+      filter, rule, options.predictFor == PredictionDuration::Task    ? "the task's duration T"
+      : options.predictFor == PredictionDuration::Moved ? "the duration that was moved"
+                                                        : "the task's duration T where the trials kept to it within 10 %, else for the duration that was moved", options.ranking.resamples,
       options.ranking.seed);
 }
 
@@ -100,13 +102,11 @@ std::string describeCounts(const ConditionResult& r) {
 }
 
 std::string describeDurations(const ConditionResult& r) {
-  if (r.used == 0 || r.unscaledDurations.empty()) return {};
-  const double ratio = r.duration.mean / r.unscaledDurations.front();
-  if (std::abs(ratio - 1) <= 0.1) return {};
-  return fmt::format("The movements last {:.0f} % of the first prediction's duration under the same onset rule ({:.3f} s against {:.3f} s); shapes are "
-                     "compared after scaling, which an object with its own frequencies does not quite allow. --prediction-duration mean predicts for "
-                     "the duration that was moved.",
-                     100 * ratio, r.duration.mean, r.unscaledDurations.front());
+  if (r.used == 0 || std::abs(r.durationRatio - 1) <= kKeptDuration) return {};
+  const std::string text = fmt::format("The movements last {:.0f} % of what the criteria predict for the task's T under the same onset rule; ",
+                                       100 * r.durationRatio);
+  return text + (r.predictedForMoved ? "predictions are for the duration that was moved, each criterion with its own T."
+                                     : "predictions for the task's T are scaled to them, which an object with its own frequencies does not quite allow.");
 }
 
 }  // namespace reachlab
