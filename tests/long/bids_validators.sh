@@ -14,7 +14,7 @@ rm -rf "$data"
 age=24
 for subject in 01 02; do
   for session in 01 02; do
-    for experiment in chain-moderate parallel; do
+    for experiment in chain-moderate torus; do
       "$build/cli/reach" run $experiment --device simulated --trials 3 --seed 1 --fast --subject $subject --session $session --data "$data" \
         --age $age --sex F --handedness R > /dev/null
     done
