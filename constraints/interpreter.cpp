@@ -15,7 +15,7 @@ using HandlerTable = std::array<const void*, kCodeCount>;
 // With `table` set it only tells its addresses; they exist nowhere else.
 [[gnu::noinline]] void execute(const Instruction* i, double* r, HandlerTable* table) noexcept {
   if (table != nullptr) [[unlikely]] {
-    *table = {&&load, &&add, &&addC, &&sub, &&rSubC, &&mul, &&mulC, &&negMul, &&mulAdd, &&mulSub, &&rMulSub, &&div, &&rDivC, &&neg, &&square,
+    *table = {&&load, &&add, &&addC, &&sub, &&rSubC, &&mul, &&mulC, &&mulMulC, &&negMul, &&mulAdd, &&mulSub, &&rMulSub, &&div, &&rDivC, &&neg, &&square,
               &&sinCosine, &&pow, &&tan, &&asin, &&acos, &&atan, &&atan2, &&sinh, &&cosh, &&tanh, &&exp, &&log, &&sqrt, &&abs, &&sign, &&stop};
     return;
   }
@@ -28,6 +28,7 @@ sub: r[i->out] = r[i->a] - r[i->b]; NEXT;
 rSubC: r[i->out] = i->number - r[i->a]; NEXT;
 mul: r[i->out] = r[i->a] * r[i->b]; NEXT;
 mulC: r[i->out] = i->number * r[i->a]; NEXT;
+mulMulC: r[i->out] = i->number * (r[i->a] * r[i->b]); NEXT;
 negMul: r[i->out] = -(r[i->a] * r[i->b]); NEXT;
 mulAdd: r[i->out] = r[i->a] * r[i->b] + r[i->c]; NEXT;
 mulSub: r[i->out] = r[i->a] * r[i->b] - r[i->c]; NEXT;
@@ -71,7 +72,8 @@ template <int kVariables, int kOutputs>
   for (int k = 0; k < p.parameterCount; ++k) registers[k] = shape[k];
   for (int k = 0; k < kVariables; ++k) registers[p.parameterCount + k] = variables[k];
   execute(p.instructions.data(), registers, nullptr);
-  for (int k = 0; k < kOutputs; ++k) out[k] = registers[p.outputs[static_cast<std::size_t>(k)]];
+  for (int k = 0; k < kOutputs; ++k) out[k] = p.constants[static_cast<std::size_t>(k)];
+  for (const Program::Output& output : p.outputs) out[output.slot] = registers[output.from];
 }
 
 }  // namespace

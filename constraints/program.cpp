@@ -30,7 +30,10 @@ class Compiler {
     fuse();
     for (std::size_t id = 0; id < needed_.size(); ++id)
       if (needed_[id] && !fused_[id]) emitNode(static_cast<int>(id));
-    for (std::size_t k = 0; k < roots_.size(); ++k) program_.outputs[k] = registerOf(roots_[k]);
+    for (std::size_t k = 0; k < roots_.size(); ++k) {
+      if (graph_.isConstant(roots_[k])) program_.constants[k] = node(roots_[k]).value;
+      else program_.outputs.push_back({static_cast<std::uint16_t>(k), registerOf(roots_[k])});
+    }
     emit(Code::Return, 0, 0, 0, 0, 0);
     program_.parameterCount = static_cast<std::uint16_t>(parameterCount_);
     return std::move(program_);
@@ -39,22 +42,27 @@ class Compiler {
  private:
   const ExpressionNode& node(int id) const { return graph_.node(id); }
 
-  // A product used once, by a sum or a sign, is computed with it (two roundings, as written).
+  // A product used once, by a sum, a sign or a factor, is computed with it (two roundings, as written).
   void fuse() {
     fused_.assign(needed_.size(), false);
     for (std::size_t id = 0; id < needed_.size(); ++id) {
       if (!needed_[id]) continue;
       const ExpressionNode& n = node(static_cast<int>(id));
-      if (n.op != Op::Add && n.op != Op::Sub && n.op != Op::Neg) continue;
-      for (const int operand : {n.a, n.op == Op::Neg ? -1 : n.b})
-        if (operand >= 0 && isPlainProduct(operand) && uses_[static_cast<std::size_t>(operand)] == 1) {
-          const int other = operand == n.a ? n.b : n.a;
-          if (n.op != Op::Neg && graph_.isConstant(other)) continue;
-          fused_[static_cast<std::size_t>(operand)] = true;
-          break;
-        }
+      if (n.op == Op::Neg) {
+        // The sign goes into the number of c * x; c * (x * y) stays whole.
+        if (usedOnce(n.a) && (isPlainProduct(n.a) || isScaling(n.a))) markFused(n.a);
+      } else if (isScaling(static_cast<int>(id))) {
+        if (usedOnce(n.b) && isPlainProduct(n.b)) markFused(n.b);
+      } else if (n.op == Op::Add || n.op == Op::Sub) {
+        if (graph_.isConstant(n.a) || graph_.isConstant(n.b)) continue;
+        if (usedOnce(n.a) && isPlainProduct(n.a)) markFused(n.a);
+        else if (usedOnce(n.b) && isPlainProduct(n.b)) markFused(n.b);
+      }
     }
   }
+  void markFused(int id) { fused_[static_cast<std::size_t>(id)] = true; }
+  bool usedOnce(int id) const { return uses_[static_cast<std::size_t>(id)] == 1; }
+  bool isScaling(int id) const { return node(id).op == Op::Mul && graph_.isConstant(node(id).a) && !graph_.isConstant(node(id).b); }
   bool isPlainProduct(int id) const {
     const ExpressionNode& n = node(id);
     return n.op == Op::Mul && !graph_.isConstant(n.a) && !graph_.isConstant(n.b);
@@ -107,6 +115,14 @@ class Compiler {
     register_[static_cast<std::size_t>(id)] = node(id).op == Op::Sin ? both.first : both.second;
   }
 
+  // id = sign * (number * x), where x may be a product of its own.
+  void emitScaling(int id, int scaling, double sign) {
+    const ExpressionNode n = node(scaling);
+    const double number = sign * node(n.a).value;
+    if (!isFused(n.b)) return put(id, Code::MulC, registerOf(n.b), 0, 0, number);
+    put(id, Code::MulMulC, registerOf(node(n.b).a), registerOf(node(n.b).b), 0, number);
+  }
+
   void emitSum(int id, const ExpressionNode& n) {
     const bool minus = n.op == Op::Sub;
     if (isFused(n.a)) {
@@ -128,7 +144,7 @@ class Compiler {
       case Op::Constant: case Op::Variable: case Op::Parameter: return;
       case Op::Add: case Op::Sub: return emitSum(id, n);
       case Op::Mul:
-        if (graph_.isConstant(n.a)) return put(id, Code::MulC, registerOf(n.b), 0, 0, node(n.a).value);
+        if (graph_.isConstant(n.a)) return emitScaling(id, id, 1);
         if (graph_.isConstant(n.b)) return put(id, Code::MulC, registerOf(n.a), 0, 0, node(n.b).value);
         if (n.a == n.b) return put(id, Code::Square, registerOf(n.a));
         return put(id, Code::Mul, registerOf(n.a), registerOf(n.b));
@@ -136,6 +152,7 @@ class Compiler {
         if (graph_.isConstant(n.a)) return put(id, Code::RDivC, registerOf(n.b), 0, 0, node(n.a).value);
         return put(id, Code::Div, registerOf(n.a), registerOf(n.b));
       case Op::Neg:
+        if (isFused(n.a) && isScaling(n.a)) return emitScaling(id, n.a, -1);
         if (isFused(n.a)) return put(id, Code::NegMul, registerOf(node(n.a).a), registerOf(node(n.a).b));
         return put(id, Code::Neg, registerOf(n.a));
       case Op::Sin: case Op::Cos: return emitSinCos(id);

@@ -10,7 +10,7 @@ namespace reachlab {
 
 /// Operations of the straight-line program. R: register, C: number kept in the instruction.
 enum class Code : std::uint16_t {
-  Load, Add, AddC, Sub, RSubC, Mul, MulC, NegMul, MulAdd, MulSub, RMulSub, Div, RDivC, Neg, Square,
+  Load, Add, AddC, Sub, RSubC, Mul, MulC, MulMulC, NegMul, MulAdd, MulSub, RMulSub, Div, RDivC, Neg, Square,
   SinCos, Pow, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign, Return
 };
 
@@ -29,7 +29,12 @@ inline constexpr int kMaxOutputs = 18;
 struct Program {
   std::vector<Instruction> instructions;
   std::uint16_t parameterCount = 0;
-  std::array<std::uint16_t, kMaxOutputs> outputs{};  // registers, in the order of CurvePoint's or SurfacePoint's members
+  // The results in the order of CurvePoint's or SurfacePoint's members: numbers that never change, and where the others come from.
+  struct Output {
+    std::uint16_t slot, from;
+  };
+  std::array<double, kMaxOutputs> constants{};
+  std::vector<Output> outputs;
 };
 
 /// Compiles roots (x, y, z of r, then of each derivative, in the order of the point's members). Throws UsageError when it needs more

@@ -1,0 +1,117 @@
+#include "cli/constraint_bench.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+
+#include "constraints/constraint.h"
+#include "constraints/sincos.h"
+
+namespace reachlab {
+namespace {
+
+void handTorus(const void*, const double* shape, double u, double v, SurfacePoint& p) noexcept {
+  const double major = shape[0], minor = shape[1];
+  double su, cu, sv, cv;
+  sinCos(u, su, cu);
+  sinCos(v, sv, cv);
+  const double a = minor * cu, b = minor * su, ring = major + a;
+  const double x = ring * cv, y = ring * sv, bc = b * cv, bs = b * sv;
+  p.r = {x, y, b};
+  p.rU = {-bc, -bs, a};
+  p.rV = {-y, x, 0};
+  p.rUu = {-(a * cv), -(a * sv), -b};
+  p.rUv = {bs, -bc, 0};
+  p.rVv = {-x, -y, 0};
+}
+
+void handEpitrochoid(const void*, const double* shape, double phi, CurvePoint& p) noexcept {
+  const double a = shape[0], d = shape[1];
+  double s, c, s4, c4;
+  sinCos(phi, s, c);
+  sinCos(4 * phi, s4, c4);
+  const double as = a * s, ac = a * c, ds = d * s4, dc = d * c4;
+  p.r = {ac - dc, as - ds, 0};
+  p.rPhi = {4 * ds - as, ac - 4 * dc, 0};
+  p.rPhiPhi = {16 * dc - ac, 16 * ds - as, 0};
+}
+
+void handMonkeySaddle(const void*, const double* shape, double u, double v, SurfacePoint& p) noexcept {
+  const double width = shape[0], depth = shape[1];
+  const double uu = u * u, vv = v * v, six = 6 * depth, sixU = six * u, sixV = six * v;
+  p.r = {width * u, width * v, depth * (u * (uu - 3 * vv))};
+  p.rU = {width, 0, 3 * depth * (uu - vv)};
+  p.rV = {0, width, -(sixU * v)};
+  p.rUu = {0, 0, sixU};
+  p.rUv = {0, 0, -sixV};
+  p.rVv = {0, 0, -sixU};
+}
+
+double threadNanoseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+struct Candidate {
+  std::string constraint, form;
+  Constraint evaluated;
+};
+
+// Parameters as a moving mass has them: near the last, never the same.
+constexpr int kPlaces = 512, kRounds = 60;
+
+double measure(const Candidate& candidate) {
+  const Constraint& c = candidate.evaluated;
+  double sink = 0;
+  const double start = threadNanoseconds();
+  for (int round = 0; round < kRounds; ++round)
+    for (int i = 0; i < kPlaces; ++i) {
+      const double u = -0.9 + 0.0037 * i, v = 0.3 + 0.0041 * i;
+      sink += c.kind == ConstraintKind::Curve ? evaluate(c.curve, u).rPhiPhi.x : evaluate(c.surface, u, v).rVv.x;
+    }
+  const double elapsed = threadNanoseconds() - start;
+  volatile double used = sink;
+  static_cast<void>(used);
+  return elapsed / (kRounds * kPlaces);
+}
+
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> list;
+  const auto put = [&](const std::string& name, const Constraint& generated, const Constraint& typed, CurveFunction curve, SurfaceFunction surface) {
+    Constraint hand = generated;
+    hand.curve.function = curve;
+    hand.surface.function = surface;
+    list.push_back({name, "hand-written", hand});
+    list.push_back({name, "generated", generated});
+    list.push_back({name, "typed", typed});
+  };
+  const auto named = [](const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); };
+  put("torus", named("torus"),
+      makeConstraint({.name = {}, .curve = {}, .surface = {"(a + b*cos(u))*cos(v)", "(a + b*cos(u))*sin(v)", "b*sin(u)"}, .shape = {{"a", 0.1}, {"b", 0.04}}}),
+      nullptr, handTorus);
+  put("epitrochoid", named("epitrochoid"),
+      makeConstraint({.name = {}, .curve = {"a*cos(phi) - d*cos(4*phi)", "a*sin(phi) - d*sin(4*phi)", "0"}, .surface = {}, .shape = {{"a", 0.08}, {"d", 0.016}}}),
+      handEpitrochoid, nullptr);
+  put("monkey-saddle", named("monkey-saddle"),
+      makeConstraint({.name = {}, .curve = {}, .surface = {"w*u", "w*v", "d*(u^3 - 3*u*v^2)"}, .shape = {{"d", 0.05}, {"w", 0.1}}}), nullptr, handMonkeySaddle);
+  return list;
+}
+
+}  // namespace
+
+std::vector<ConstraintEvalRow> benchConstraintEval(int repetitions) {
+  const std::vector<Candidate> list = candidates();
+  std::vector<std::vector<double>> times(list.size());
+  for (int repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t i = 0; i < list.size(); ++i) times[i].push_back(measure(list[i]));
+  std::vector<ConstraintEvalRow> rows;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::nth_element(times[i].begin(), times[i].begin() + repetitions / 2, times[i].end());
+    rows.push_back({list[i].constraint, list[i].form, times[i][static_cast<std::size_t>(repetitions / 2)]});
+  }
+  return rows;
+}
+
+}  // namespace reachlab

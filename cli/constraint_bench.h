@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace reachlab {
+
+/// Time of one evaluation of r and all its derivatives (`reach bench --scene constraint-eval`).
+struct ConstraintEvalRow {
+  std::string constraint;  // torus | epitrochoid | monkey-saddle
+  std::string form;        // hand-written | generated | typed
+  double nsPerEval = 0;    // [ns] of the processor, median of `repetitions`, the forms measured in turns
+};
+
+/// Measures all of them, about a second. The three forms share flags, call and sine; they differ in the code between.
+std::vector<ConstraintEvalRow> benchConstraintEval(int repetitions = 25);
+
+}  // namespace reachlab
