@@ -45,9 +45,16 @@ std::string findNonFinite(const Constraint& c, const std::array<Domain, 2>& rang
   std::array<double, 2> extent{};
   for (std::size_t k = 0; k < dimensions; ++k) extent[k] = std::max(range[k].hi - range[k].lo, 1e-300);
   const auto pointwise = [&](const std::array<double, 2>& q) -> std::string {
-    const std::vector<double> values = evaluateNodes(formula.graph, formula.roots, shape, q.data());
+    std::array<Vec3, 6> values{};
+    if (dimensions == 1) {
+      const CurvePoint p = evaluate(c.curve, q[0]);
+      values = {p.r, p.rPhi, p.rPhiPhi};
+    } else {
+      const SurfacePoint p = evaluate(c.surface, q[0], q[1]);
+      values = {p.r, p.rU, p.rV, p.rUu, p.rUv, p.rVv};
+    }
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i])) return tell(c, i, q);
+      if (!isFinite(values[i])) return tell(c, 3 * i, q);
     return {};
   };
 

@@ -6,7 +6,7 @@
 namespace reachlab {
 
 /// Sine and cosine together, inlined, without contraction or fused operations: the same bits on every machine, in generated code and
-/// in typed formulas. Absolute error below 1.5e-16 for |x| <= kSinCosLimit; libm beyond (and for what is not finite).
+/// in typed formulas. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; libm beyond (and for what is not finite).
 /// Reduction to |y| <= pi/4 after Cody and Waite (Software Manual for the Elementary Functions, 1980, ch. 8): pi/2 in three parts, the
 /// first two short enough that their products with the quadrant number are exact. Polynomials: minimax fits on [0, (pi/4)^2],
 /// `constraints/generate/sincos_coefficients.py` prints them.

@@ -1,0 +1,47 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "constraints/constraint.h"
+#include "constraints/cpp_writer.h"
+#include "constraints/error.h"
+#include "constraints/formula.h"
+
+namespace reachlab {
+
+/// One case of the formula fuzzer: three lines are a surface, otherwise the first line is the x of a curve, through the whole pipeline. Any
+/// text must end as a constraint that evaluates or as a UsageError; what else happens is a bug, and thrown.
+inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n') lines.emplace_back();
+    else lines.back() += c;
+  }
+  ConstraintSpec spec;
+  spec.name.clear();
+  if (lines.size() == 3) spec.surface = lines;
+  else spec.curve = {lines[0], "phi", "a"};
+  spec.shape = {{"a", 0.3}};
+  FormulaText formula{lines.size() == 3 ? ConstraintKind::Surface : ConstraintKind::Curve, {}, {"a"}};
+  for (std::size_t k = 0; k < 3; ++k) formula.coordinates[k] = lines.size() == 3 ? spec.surface[k] : spec.curve[k];
+  for (const FormulaFault& fault : formulaFaults(formula))
+    if (fault.coordinate >= 0 && fault.position > std::max<std::size_t>(formula.coordinates[static_cast<std::size_t>(fault.coordinate)].size(), kMaxFormulaCharacters))
+      throw std::logic_error("a fault is placed beyond the text");
+  try {
+    const Constraint c = makeConstraint(spec);
+    for (const double x : {0.0, 0.37, -1.5, 1e6, 1e308}) {
+      if (c.kind == ConstraintKind::Curve) evaluate(c.curve, x);
+      else evaluate(c.surface, x, -x);
+    }
+    writeEvaluator(*compileFormula(formula, "fuzz"), "evaluateFuzz");
+    writeDynamicsCode(*compileFormula(formula, "fuzz"), "fuzz", {0.3});
+  } catch (const UsageError& e) {
+    if (std::string_view(e.what()).empty()) throw std::logic_error("a refusal without words");
+  }
+}
+
+}  // namespace reachlab
