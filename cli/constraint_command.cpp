@@ -110,7 +110,8 @@ void showPlaces(const Constraint& c) {
     fmt::print("length    {:.6g} m from phi = {:.6g} to {:.6g}\n", computeArcLength(c, range[0].lo, range[0].hi), range[0].lo, range[0].hi);
     const SlowPlace slow = findMinSpeed(c, range[0].lo, range[0].hi);
     fmt::print("|r_phi|   at least {:.3g} m, at phi = {:.6g}\n", slow.speed, slow.phi);
-    for (const double cusp : findCusps(c, range[0].lo, range[0].hi)) fmt::print("cusp      phi = {:.9g}\n", cusp);
+    for (const double cusp : findCusps(c, range[0].lo, range[0].hi))
+      if (!range[0].periodic || cusp < range[0].hi - 1e-9) fmt::print("cusp      phi = {:.9g}\n", cusp);
   } else {
     for (const DegeneratePlace& p : findDegeneratePlaces(c))
       fmt::print("{:<9} {}\n", nameOf(p.kind), p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)

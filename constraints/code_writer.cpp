@@ -65,12 +65,11 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
   const bool curve = formula.text.kind == ConstraintKind::Curve;
   ExpressionGraph graph = formula.graph;
   // What the dynamics need besides the shape: parameters of the graph after the formula's own.
-  std::vector<std::string> given{"m", "lambda", "fx", "fy", "fz"};
-  if (!curve) given.insert(given.end(), {"uRate", "vRate"});
+  const std::vector<std::string> given = curve ? std::vector<std::string>{"fx", "fy", "fz", "m", "lambda"}
+                                               : std::vector<std::string>{"fx", "fy", "fz", "uRate", "vRate"};
   const int first = static_cast<int>(formula.text.parameters.size());
   const auto extra = [&](int k) { return graph.parameter(first + k); };
-  const int m = extra(0), lambda = extra(1);
-  const std::array<int, 3> force{extra(2), extra(3), extra(4)};
+  const std::array<int, 3> force{extra(0), extra(1), extra(2)};
 
   std::vector<int> roots(formula.roots.begin(), formula.roots.begin() + 3);
   std::vector<std::string> outputs{"x", "y", "z"};
@@ -80,6 +79,7 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
   };
   const int* r = formula.roots.data();
   if (curve) {
+    const int m = extra(3), lambda = extra(4);
     const int square = dotOf(graph, r + 3, r + 3);
     put("M", graph.mul(m, square));
     put("L", graph.mul(lambda, square));
@@ -87,7 +87,7 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
     put("Q", dotOf(graph, r + 3, force.data()));
   } else {
     const int *rU = r + 3, *rV = r + 6;
-    const int uRate = extra(5), vRate = extra(6);
+    const int uRate = extra(3), vRate = extra(4);
     std::array<int, 3> w{};
     for (int k = 0; k < 3; ++k) {
       const int square = graph.add(graph.mul(r[9 + k], graph.powInt(uRate, 2)), graph.mul(r[15 + k], graph.powInt(vRate, 2)));
@@ -128,7 +128,7 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
   if (body.find("signOf(") != std::string::npos) code += "inline double signOf(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : x; }\n\n";
   code += "inline " + type + " compute" + type + "(";
   for (const std::string& variable : names.variables) code += "[[maybe_unused]] double " + variable + ", ";
-  for (std::size_t k = 0; k < given.size(); ++k) code += (k == 0 ? "double " : ", double ") + given[k];
+  for (std::size_t k = 0; k < given.size(); ++k) code += (k == 0 ? "[[maybe_unused]] double " : ", [[maybe_unused]] double ") + given[k];
   for (std::size_t k = 0; k < shape.size(); ++k) {
     code += ", double " + shape[k];
     if (k < defaults.size()) code += fmt::format(" = {}", defaults[k]);

@@ -30,7 +30,8 @@ Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::a
 void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, const std::string& origin) {
   if (const std::string place = findNonFinite(c, range); !place.empty())
     throw UsageError(origin + ": " + place + "; allowed: a formula that is finite, with its first and second derivatives, on its domain");
-  if (degeneratesEverywhere(c, range))
+  // A path along a pole's line sees nothing but the pole: the surface as a whole decides.
+  if (degeneratesEverywhere(c, range) && degeneratesEverywhere(c, boundedDomain(c)))
     throw UsageError(origin + (c.kind == ConstraintKind::Curve ? ": degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi"
                                                                : ": degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface"));
 }
@@ -74,7 +75,7 @@ Constraint makeConstraint(const Definition& definition, const std::map<std::stri
   return c;
 }
 
-Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin, const std::array<Domain, 2>* inUse) {
+Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin) {
   if (spec.curve.empty() && spec.surface.empty()) {
     if (spec.name == "free") {
       if (!spec.shape.empty()) throw UsageError(origin + ": shape: free has no shape; allowed: no shape");
@@ -99,7 +100,7 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin,
   if (!faults.empty()) throw UsageError(faults);
   Constraint c = assemble(compileFormula(text, origin), values, {});
   c.name = text.kind == ConstraintKind::Curve ? "curve" : "surface";
-  requireUsable(c, inUse == nullptr ? boundedDomain(c) : *inUse, origin);
+  requireUsable(c, spec.inUse.value_or(boundedDomain(c)), origin);
   return c;
 }
 

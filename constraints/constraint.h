@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,9 @@ struct ConstraintSpec {
   std::vector<std::string> curve;    // one formula a coordinate in `phi`; empty if named
   std::vector<std::string> surface;  // one formula a coordinate in `u`, `v`; empty if named
   std::map<std::string, double> shape;
+  /// Where a typed formula will be moved on (the hull of start and target): there it must be finite with its derivatives; the motion itself
+  /// has no ends. Not known: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1].
+  std::optional<std::array<Domain, 2>> inUse = std::nullopt;
 };
 
 /// A constraint ready to be computed with: a value, cheap to copy; the owner keeps a typed formula's program alive.
@@ -85,8 +89,7 @@ struct Constraint {
 
 /// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws UsageError (unknown name or shape key,
 /// value out of range, syntax with the character's place, degenerate everywhere, non-finite in the domain).
-/// `origin` ("FILE:LINE:COLUMN: constraint") stands before each message. `inUse`: where a typed formula will be moved on (the hull of start
-/// and target); null: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1]. There it must be finite; the motion itself has no ends.
-Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin = "constraint", const std::array<Domain, 2>* inUse = nullptr);
+/// `origin` ("FILE:LINE:COLUMN: constraint") stands before each message.
+Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin = "constraint");
 
 }  // namespace reachlab

@@ -131,12 +131,19 @@ bool ExpressionGraph::joinSquares(int a, int b, int& joined) {
     joined = constant(1);
     return true;
   }
-  const ExpressionNode x = node(a), y = node(b);
+  // (k sin t)^2 + (k cos t)^2 = k^2
+  const auto isSquare = [&](int id) { return node(id).op == Op::PowInt && node(id).b == 2; };
+  const bool squares = isSquare(a) && isSquare(b);
+  const ExpressionNode x = node(squares ? node(a).a : a), y = node(squares ? node(b).a : b);
   if (x.op != Op::Mul || y.op != Op::Mul) return false;
+  const auto complementaryWaves = [&](int p, int q) {
+    const ExpressionNode &s = node(p), &c = node(q);
+    return s.a == c.a && ((s.op == Op::Sin && c.op == Op::Cos) || (s.op == Op::Cos && c.op == Op::Sin));
+  };
   for (const auto& [k1, p] : {std::pair{x.a, x.b}, std::pair{x.b, x.a}})
     for (const auto& [k2, q] : {std::pair{y.a, y.b}, std::pair{y.b, y.a}})
-      if (k1 == k2 && (complementary(p, q) || complementary(q, p))) {
-        joined = k1;
+      if (k1 == k2 && (squares ? complementaryWaves(p, q) : complementary(p, q) || complementary(q, p))) {
+        joined = squares ? powInt(k1, 2) : k1;
         return true;
       }
   return false;

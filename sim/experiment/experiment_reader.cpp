@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -15,6 +16,21 @@ const std::vector<std::string> kObjectKinds{"point", "chain", "parallel", "body"
 const std::vector<std::string> kEstimators{"auto", "difference", "butterworth", "device"};
 
 Vec3 vec3(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
+
+// Where the task moves a typed formula on: the hull of start and target, when both are there.
+std::optional<std::array<Domain, 2>> placesInUse(const JsonNode& tree) {
+  const JsonNode* task = tree.find("task");
+  const JsonNode* start = task == nullptr ? nullptr : task->find("start");
+  const JsonNode* target = task == nullptr ? nullptr : task->find("target");
+  if (start == nullptr || target == nullptr || start->items.empty() || start->items.size() > 2 || start->items.size() != target->items.size()) return {};
+  std::array<Domain, 2> range{Domain{0, 0}, Domain{0, 0}};
+  for (std::size_t k = 0; k < start->items.size(); ++k) {
+    const JsonNode &a = start->items[k], &b = target->items[k];
+    if (a.kind != JsonNode::Kind::Number || b.kind != JsonNode::Kind::Number) return {};
+    range[k] = {std::min(a.number, b.number), std::max(a.number, b.number)};
+  }
+  return range;
+}
 
 void readConstraint(ObjectReader& root, Experiment& experiment, std::optional<Constraint>& constraint) {
   const JsonNode* node = root.required("constraint", "a name of the catalogue, or a curve or surface formula");
@@ -38,6 +54,7 @@ void readConstraint(ObjectReader& root, Experiment& experiment, std::optional<Co
   reader.finish();
   if (root.faults().faults().size() > faultsBefore) return;
   try {
+    spec.inUse = placesInUse(root.node());
     constraint = makeConstraint(spec, root.faults().place(*node) + ": constraint");
   } catch (const UsageError& e) {
     root.faults().addLine(e.what());

@@ -21,9 +21,9 @@ Constraint named(const std::string& name, const std::map<std::string, double>& s
 Constraint curve(const std::vector<std::string>& formula, const std::map<std::string, double>& shape = {}) {
   return makeConstraint({.name = {}, .curve = formula, .surface = {}, .shape = shape});
 }
-std::string refusal(const ConstraintSpec& spec, const std::array<Domain, 2>* inUse = nullptr) {
+std::string refusal(const ConstraintSpec& spec) {
   try {
-    makeConstraint(spec, "here", inUse);
+    makeConstraint(spec, "here");
   } catch (const UsageError& e) {
     return e.what();
   }
@@ -138,10 +138,16 @@ TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
 }
 
 TEST(Usable, OnlyWhereItIsMovedOnMustItBeFinite) {
-  const std::array<Domain, 2> inUse{Domain{1, 2}, Domain{0, 1}};
-  const ConstraintSpec spec{.name = {}, .curve = {"log(phi)", "1/phi", "phi"}, .surface = {}, .shape = {}};
+  ConstraintSpec spec{.name = {}, .curve = {"log(phi)", "1/phi", "phi"}, .surface = {}, .shape = {}};
   EXPECT_NE(refusal(spec).find("not finite at phi = 0"), std::string::npos);
-  EXPECT_EQ(refusal(spec, &inUse), "accepted");
+  spec.inUse = {Domain{1, 2}, Domain{0, 0}};
+  EXPECT_EQ(refusal(spec), "accepted");
+}
+
+TEST(Usable, AMotionAlongAPoleIsNoDegenerateFormula) {
+  ConstraintSpec spec{.name = {}, .curve = {}, .surface = {"cos(v)*cos(u)/10", "sin(v)/10", "cos(v)*sin(u)/10"}, .shape = {}};
+  spec.inUse = {Domain{0, 1}, Domain{kPi / 2, kPi / 2}};
+  EXPECT_EQ(refusal(spec), "accepted");
 }
 
 TEST(Usable, HarmlessDenominatorsAndRootsAreAccepted) {

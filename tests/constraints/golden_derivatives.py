@@ -21,7 +21,10 @@ def absolute_terms(expression, values):
     """Sum of the absolute values of the terms after expansion: what rounding is relative to. A sine or cosine counts with its
     amplitude 1, for the rounding of its argument moves it even where it vanishes."""
     waves = lambda term: term.replace(lambda x: isinstance(x, (sp.sin, sp.cos)), lambda x: sp.Integer(1))
-    return sum(abs(sp.N(waves(term).subs(values), DIGITS)) for term in sp.Add.make_args(sp.expand(expression)))
+    def scale(term):
+        sizes = [abs(sp.N(t.subs(values), DIGITS)) for t in (term, waves(term))]
+        return max(size for size in sizes if size.is_finite)
+    return sum(scale(term) for term in sp.Add.make_args(sp.expand(expression)))
 
 
 def main(folder):

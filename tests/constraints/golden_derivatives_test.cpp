@@ -47,8 +47,8 @@ Constraint typedForm(const Definition& d) {
   spec.name.clear();
   (d.kind == ConstraintKind::Curve ? spec.curve : spec.surface).assign(d.coordinates.begin(), d.coordinates.end());
   for (const ShapeParameter& p : d.shape) spec.shape[p.name] = p.defaultValue;
-  const std::array<Domain, 2> domain = boundedDomain(makeConstraint(d));
-  return makeConstraint(spec, "typed", &domain);
+  spec.inUse = boundedDomain(makeConstraint(d));
+  return makeConstraint(spec, "typed");
 }
 
 std::vector<double> numbersOf(const Constraint& c, const double* q) {
@@ -103,8 +103,9 @@ TEST(Derivatives, MatchFiniteDifferencesOfTheRandomFormulas) {
   constexpr double kStep = 1e-5, kDifference = 2e-8;
   for (const char* formula : {"sin(phi)^3*exp(-phi)", "phi^2.5/(1 + phi)", "atan2(sin(phi), 2 + cos(phi))", "log(1 + phi^2)*sqrt(phi)", "tanh(phi)*cosh(phi/3)",
                               "asin(phi/4) + acos(phi/5)", "tan(phi/3) + atan(phi)", "abs(sin(phi))*sign(phi)", "2^phi + phi^phi/10", "sinh(phi)/(phi*phi + 1)"}) {
-    const std::array<Domain, 2> range{Domain{0.5, 2.5}, Domain{0, 1}};
-    const Constraint c = makeConstraint({.name = {}, .curve = {formula, "phi", "0"}, .surface = {}, .shape = {}}, "here", &range);
+    ConstraintSpec spec{.name = {}, .curve = {formula, "phi", "0"}, .surface = {}, .shape = {}};
+    spec.inUse = {Domain{0.5, 2.5}, Domain{0, 0}};
+    const Constraint c = makeConstraint(spec);
     for (const double phi : {0.7, 1.3, 2.2}) {
       const CurvePoint p = evaluate(c.curve, phi), before = evaluate(c.curve, phi - kStep), after = evaluate(c.curve, phi + kStep);
       EXPECT_NEAR(p.rPhi.x, (after.r.x - before.r.x) / (2 * kStep), kDifference) << formula;
