@@ -31,7 +31,8 @@ TickEngine::TickEngine(const Experiment& experiment, const EngineOptions& option
 TickEngine::TickEngine(const Experiment& experiment, Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), start_(taskOf(experiment).start), settings_(makeProtocolSettings(experiment, scene_.constraint)),
       virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump),
-      safety_(experiment.forceLimit.value_or(options.deviceMaxForce)) {
+      safety_(experiment.forceLimit.value_or(options.deviceMaxForce)),
+      fpInBody_(experiment.object.kind == ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
   lastSeen_ = settings_.start;
   putUp();
@@ -84,10 +85,11 @@ StepStatus TickEngine::stepObject(const HandSample& hand) noexcept {
   return scene_.plant->step(path_.segment(), kTickSeconds);
 }
 
-// At arming the FP is placed on the HIP: the hand is seen where mass 1 is.
+// At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.
 void TickEngine::placeFixedPoint(HandSample& hand) noexcept {
-  fpOffset_ = hand.position - state_.masses[0].r;
-  hand.position = lastSeen_ = state_.masses[0].r;
+  const Vec3 fixedPoint = state_.masses[0].r + fpInBody_;
+  fpOffset_ = hand.position - fixedPoint;
+  hand.position = lastSeen_ = fixedPoint;
   path_.reset();
   path_.push(hand);
   scene_.plant->restart();

@@ -70,8 +70,9 @@ class TickEngine {
   VelocityEstimator estimator_;
   HandPath path_;
   ForceSafety safety_;
+  Vec3 fpInBody_;                      // [m] the FP from mass 1 as the object is put up
   ProtocolState protocol_;
-  Vec3 fpOffset_;                      // [m] HIP minus FP-on-mass-1 at arming, fixed in world axes
+  Vec3 fpOffset_;                      // [m] HIP minus FP at arming, fixed in world axes
   Vec3 anchor_;                        // [m] the hand after a gap: seen minus true, at the gap
   int anchorTicks_ = 0;                // left of the blend
   Vec3 lastSeen_, lastRaw_;            // [m] where the hand was last seen by the coupling, and by the device

@@ -273,6 +273,21 @@ TEST(TickEngine, TheSameInputsGiveTheSameBits) {
   }
 }
 
+TEST(TickEngine, ABodyHeldOffItsCentreIsArmedWithoutForce) {
+  const Experiment experiment = readExperiment("free-body");
+  ASSERT_GT(norm(experiment.object.fpOffset), 0.01);
+  TickEngine engine(experiment, {});
+  TickInput input;
+  input.device = handAt(engine.protocol().start);
+  input.command = Command::NextTrial;
+  for (int i = 0; i < 20; ++i) {
+    engine.tick(input);
+    input.command = Command::None;
+    EXPECT_LT(norm(engine.state().couplingForce), 1e-12) << "rounding of the place, times 600 N/m";
+  }
+  EXPECT_EQ(engine.state().phase, Phase::Armed);
+}
+
 TEST(TickEngine, RefusesAnExperimentWithoutATask) {
   Experiment experiment = readExperiment("chain-moderate");
   experiment.task.reset();
