@@ -108,7 +108,8 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
     try {
       result.signals.push_back(recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
     } catch (const Error& error) {
-      result.refusals.push_back(fmt::format("{}: {}", nameOf(criterion), error.what()));
+      const std::string what = error.what();
+      result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
     }
   }
   if (result.used > 0 && !result.signals.empty()) {

@@ -36,9 +36,11 @@ std::string describeRanking(const Ranking& ranking, const std::vector<Criterion>
   if (ranking.places.empty()) return "Nothing to rank: no successful trial, or no criterion that can be predicted here.";
   const RankedCriterion& first = ranking.places.front();
   const std::string name = numberedName(criteria[first.criterion]);
-  std::string text = fmt::format("{} is nearest: ε = {} m/s [{}, {}], from {} of {}.", name, shortNumber(first.epsilon),
-                                 shortNumber(first.interval.low), shortNumber(first.interval.high), plural(ranking.trials, "trial"),
+  const bool alone = ranking.places.size() == 1;
+  std::string text = fmt::format("{} {}: ε = {} m/s [{}, {}], from {} of {}.", name, alone ? "is the only criterion compared" : "is nearest",
+                                 shortNumber(first.epsilon), shortNumber(first.interval.low), shortNumber(first.interval.high), plural(ranking.trials, "trial"),
                                  plural(ranking.subjects, "subject"));
+  if (alone) return text;
   if (ranking.trials < 2) return text + " One trial has no scatter, so nothing can be told apart.";
   std::vector<std::string> apart, equal;
   for (std::size_t i = 1; i < ranking.places.size(); ++i) {
