@@ -50,6 +50,17 @@ void givePlaces(Definition& definition) {
   }
 }
 
+// Start and target are the same place, or one of them is none.
+bool coincide(const Constraint& constraint, const ConstraintChoice& choice) {
+  const auto place = [&](const std::vector<double>& q) {
+    if (constraint.kind == ConstraintKind::Curve && q.size() == 1) return evaluate(constraint.curve, q[0]).r;
+    if (constraint.kind == ConstraintKind::Surface && q.size() == 2) return evaluate(constraint.surface, q[0], q[1]).r;
+    return Vec3{};
+  };
+  const double apart = norm(place(choice.target) - place(choice.start));
+  return !(apart > 1e-6);
+}
+
 }  // namespace
 
 ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(onePoint()) {
@@ -232,6 +243,7 @@ void ConstraintChooser::formulaChanged() {
   const std::string before = current_.name;
   if (!before.empty() && isTyped()) {
     typed.name.clear();
+    typed.domain = {};  // another formula's ends are not this one's
     typed.sentence = "typed; after " + before;
     typed.source.clear();
     title_->setText(QStringLiteral("typed formula"));
@@ -262,6 +274,11 @@ void ConstraintChooser::rebuild(bool resetCamera) {
   choice.spec.shape = sliders_->values();
   try {
     const Constraint constraint = current_.name.empty() ? makeConstraint(choice.spec, "formula") : makeConstraint(current_, choice.spec.shape);
+    if (current_.name.empty() && coincide(constraint, choice)) {  // after another formula's places: nowhere to go
+      givePlaces(current_);
+      choice.start = current_.start;
+      choice.target = current_.target;
+    }
     probe_.constraint = choice.spec;
     probe_.task->start = choice.start;
     probe_.task->target = choice.target;

@@ -139,8 +139,8 @@ std::array<Domain, 2> drawnDomain(const Constraint& constraint, std::span<const 
     const double usual = curve ? 2 * std::numbers::pi : 2;
     double low = curve ? 0 : -1, high = curve ? 2 * std::numbers::pi : 1;
     const bool known = i < start.size() && i < target.size() && start[i] != target[i];
-    const bool typed = constraint.name == "curve" || constraint.name == "surface";
-    if (openLow && openHigh && known && !typed) low = high = 0.5 * (start[i] + target[i]);  // the task says where to look
+    const bool typed = constraint.name == "curve";
+    if (curve && openLow && openHigh && known && !typed) low = high = 0.5 * (start[i] + target[i]);  // the task says where to look
     if (!openLow) low = d.lo, high = d.lo + usual;
     if (!openHigh) high = d.hi, low = std::min(low, d.hi - usual);
     if (i < start.size() && i < target.size()) {

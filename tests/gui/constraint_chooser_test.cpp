@@ -71,6 +71,8 @@ TEST_F(Chooser, ATypedFormulaIsDrawnGetsSlidersAndIsUsed) {
   ASSERT_TRUE(chooser_.choice().has_value());
   EXPECT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_a")), nullptr);
   EXPECT_GT(chooser_.preview()->plan().curve.pointCount(), 32u);
+  // The line's places, 0 and 2 pi, are one place here: others are given.
+  EXPECT_GT(norm(chooser_.preview()->plan().target - chooser_.preview()->plan().start), 0.01);
   const double before = chooser_.preview()->plan().size;
   find<QSlider>("slider_a")->setValue(500);  // from 0.1 to 1
   EXPECT_GT(chooser_.preview()->plan().size, 2 * before);
