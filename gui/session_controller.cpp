@@ -1,5 +1,7 @@
 #include "gui/session_controller.h"
 
+#include <QThread>
+
 #include "constraints/error.h"
 #include "sim/experiment/json_tree.h"
 #include "sim/session/plan.h"
@@ -114,6 +116,10 @@ void SessionController::endRun() {
   const std::unique_ptr<WindowRun> ending = std::move(run_);
   try {
     if (ending->underWay()) ending->interrupt();
+    for (int looks = 0; looks < 50 && ending->underWay(); ++looks) {  // the loop takes the command within a tick
+      QThread::msleep(2);
+      (void)ending->poll();
+    }
     ending->finish();
   } catch (const std::exception& e) {
     Q_EMIT failed(QString::fromUtf8(e.what()));

@@ -213,6 +213,18 @@ TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {
   EXPECT_NE(window.session().run(), nullptr);
 }
 
+TEST_F(Window, ClosedInATrialItKeepsTheTrialAsInterrupted) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  const std::string log = window.session().run()->logPath();
+  window.close();
+  const RunLog read = RunLog::open(log);
+  ASSERT_EQ(read.trials().size(), 1u);
+  EXPECT_EQ(read.trials()[0].result.outcome, Outcome::Interrupted);
+  EXPECT_TRUE(read.closed());
+}
+
 TEST_F(Window, TheSubjectsScreenShowsTheSceneAlone) {
   MainWindow& window = open();
   window.toggleSubjectWindow();
