@@ -46,9 +46,17 @@ class DenseCore {
 
   /// `next` must not be `state`. False if the result is not finite.
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept {
-    std::array<double, kForceTerms> f;
-    for (int k = 0; k < kForceTerms; ++k) f[k] = stiffness_ * hand.r[k] + damping_ * hand.v[k];
-    f[0] = damping_ * hand.v[0] + hand.extraForce;
+    return withDegree(hand.degree, [&](auto degree) { return advance<degree.value>(state, hand, next); });
+  }
+
+ private:
+  template <int Degree>
+  bool advance(const State& state, const AxisHand& hand, State& next) const noexcept {
+    std::array<double, Degree + 1> f;  // [N] on mass 1, by powers of s
+    f[0] = hand.extraForce;
+    for (int k = 1; k <= Degree; ++k) f[k] = stiffness_ * hand.r(k);
+    if (damping_ != 0)
+      for (int k = 0; k <= Degree; ++k) f[k] += damping_ * hand.v(k);
     const int groups = kFixed ? kGroups : lanesFor(2 * n_);
     if constexpr (kFixed) {
       std::array<Lanes, kFixed ? kGroups : 1> even = state.z, odd, push;
@@ -56,12 +64,12 @@ class DenseCore {
         push[g] = force_[0][g] * f[0] + gravity_[g] * hand.gravity;
         odd[g] = broadcast(0);
       }
-      for (int k = 1; k <= hand.degree; ++k)
+      for (int k = 1; k <= Degree; ++k)
         for (int g = 0; g < kGroups; ++g) push[g] += force_[k][g] * f[k];
 #pragma GCC unroll 16
       for (int j = 0; j < 2 * N; j += 2)
         for (int g = 0; g < kGroups; ++g) {
-          even[g] += fixed_[j][g] * (j == 0 ? at(state.z, 0) - hand.r[0] : at(state.z, j));
+          even[g] += fixed_[j][g] * (j == 0 ? at(state.z, 0) - hand.origin : at(state.z, j));
           odd[g] += fixed_[j + 1][g] * at(state.z, j + 1);
         }
       Lanes check = broadcast(0);
@@ -72,10 +80,10 @@ class DenseCore {
       return allFinite(check);
     } else {
       for (int g = 0; g < groups; ++g) next.z[g] = state.z[g] + force_[0][g] * f[0] + gravity_[g] * hand.gravity;
-      for (int k = 1; k <= hand.degree; ++k)
+      for (int k = 1; k <= Degree; ++k)
         for (int g = 0; g < groups; ++g) next.z[g] += force_[k][g] * f[k];
       for (int j = 0; j < 2 * n_; ++j) {
-        const double zj = at(state.z, j) - (j == 0 ? hand.r[0] : 0);
+        const double zj = at(state.z, j) - (j == 0 ? hand.origin : 0);
         for (int g = 0; g < groups; ++g) next.z[g] += columns_[j][g] * zj;
       }
       Lanes check = broadcast(0);
@@ -84,7 +92,6 @@ class DenseCore {
     }
   }
 
- private:
   static double& at(Column& c, int i) noexcept { return reinterpret_cast<double*>(c.data())[i]; }
   static double at(const Column& c, int i) noexcept { return reinterpret_cast<const double*>(c.data())[i]; }
   Column column(std::span<const double> values) const {

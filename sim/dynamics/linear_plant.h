@@ -24,6 +24,8 @@ class LinearPlant final : public PlantBase {
   LinearPlant(const ObjectModel& model, const LinearSpace& space, double dt)
       : PlantBase(model), space_(space), length_(norm(space.tangent)), axis_(Axes == 1 ? space.tangent / length_ : Vec3{}) {
     bounded_ = Axes == 1 && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi)) && !space.domain.periodic;
+    alongX_ = Axes == 1 && axis_.x == 1;
+    for (int a = 0; a < Axes; ++a) origin_[a] = along(space.origin, a), gravity_[a] = along(model.gravity, a);
     x_.resize(model.count());
     v_.resize(model.count());
     cores_.push_back(makeCores(dt));
@@ -55,17 +57,24 @@ class LinearPlant final : public PlantBase {
     if (dt != current_->dt) selectStep(dt);
     fraction_ = 1;
     fresh_ = false;
-    AxisHand axisHand;
-    axisHand.degree = coupled_ ? hand.degree : 0;
+    const Core& core = this->core();
     for (int a = 0; a < Axes; ++a) {
-      if (coupled_)
-        for (int k = 0; k <= hand.degree; ++k) {
-          axisHand.r[k] = along(k == 0 ? hand.position[k] - space_.origin : hand.position[k], a);
-          axisHand.v[k] = along(hand.velocity[k], a);
+      AxisHand axisHand;
+      std::array<double, 2 * AxisHand::kStride * kForceTerms> projected;
+      if (coupled_) {
+        axisHand.degree = hand.degree;
+        if (Axes == 3 || alongX_) {  // the usual line needs no products
+          axisHand.position = component(hand.position, a);
+          axisHand.velocity = component(hand.velocity, a);
+        } else {
+          axisHand.position = project(hand.position, hand.degree, projected.data());
+          axisHand.velocity = project(hand.velocity, hand.degree, projected.data() + AxisHand::kStride * kForceTerms);
         }
+        axisHand.origin = axisHand.r(0) - origin_[a];
+      }
       axisHand.extraForce = along(extra_, a);
-      axisHand.gravity = along(model_.gravity, a);
-      if (!core().advance(state_[a], axisHand, next_[a])) return StepStatus::NotFinite;
+      axisHand.gravity = gravity_[a];
+      if (!core.advance(state_[a], axisHand, next_[a])) return StepStatus::NotFinite;
     }
     if (bounded_ && leaves()) return StepStatus::AtEnd;
     std::swap(state_, next_);
@@ -96,6 +105,12 @@ class LinearPlant final : public PlantBase {
   double along(const Vec3& vector, int a) const noexcept {
     if constexpr (Axes == 1) return dot(vector, axis_);
     return a == 0 ? vector.x : a == 1 ? vector.y : vector.z;
+  }
+  using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
+  static const double* component(const Coefficients& c, int a) noexcept { return a == 0 ? &c[0].x : a == 1 ? &c[0].y : &c[0].z; }
+  const double* project(const Coefficients& c, int degree, double* out) const noexcept {
+    for (int k = 0; k <= degree; ++k) out[k * AxisHand::kStride] = dot(c[k], axis_);
+    return out;
   }
   /// Another step than the compiled one (the last row of a simulation): computed once and kept. Allocates; a haptic loop never does it.
   void selectStep(double dt) noexcept {
@@ -168,7 +183,8 @@ class LinearPlant final : public PlantBase {
   LinearSpace space_;
   double length_;  // [m] |r_phi|
   Vec3 axis_;
-  bool bounded_ = false;
+  bool bounded_ = false, alongX_ = false;
+  std::array<double, Axes> origin_{}, gravity_{};    // [m], [m/s^2] along the axes
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
   std::vector<typename Core::State> state_, next_;   // one an axis

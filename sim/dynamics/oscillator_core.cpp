@@ -107,24 +107,42 @@ void OscillatorCore::read(const State& state, std::span<double> x, std::span<dou
 }
 
 bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
+  const bool pushed = hand.extraForce != 0 || hand.gravity != 0;
+  return withDegree(hand.degree, [&](auto degree) {
+    return pushed || damped_ ? advance<degree.value, true>(state, hand, next) : advance<degree.value, false>(state, hand, next);
+  });
+}
+
+template <int Degree, bool Full>
+bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
   Lanes check = broadcast(0);
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    const Group& g = groups_[i];
-    const Lanes e = state.x[i] - g.rest * hand.r[0], v = state.v[i];
-    Lanes pushX = g.extraX * hand.extraForce + g.gravityX * hand.gravity;
-    Lanes pushV = g.extraV * hand.extraForce + g.gravityV * hand.gravity;
-    for (int k = 1; k <= hand.degree; ++k) {
-      pushX += g.handX[k] * hand.r[k];
-      pushV += g.handV[k] * hand.r[k];
+  const Group* group = groups_.data();
+  const Lanes *x = state.x.data(), *v = state.v.data();
+  Lanes *__restrict nextX = next.x.data(), *__restrict nextV = next.v.data();
+  const std::size_t count = groups_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Group& g = group[i];
+    // What comes from outside does not wait for the state.
+    Lanes pushX = broadcast(0), pushV = broadcast(0);
+    if constexpr (Full) {
+      pushX = g.extraX * hand.extraForce + g.gravityX * hand.gravity;
+      pushV = g.extraV * hand.extraForce + g.gravityV * hand.gravity;
+      if (damped_)
+        for (int k = 0; k <= Degree; ++k) {
+          pushX += g.rateX[k] * hand.v(k);
+          pushV += g.rateV[k] * hand.v(k);
+        }
     }
-    if (damped_)
-      for (int k = 0; k <= hand.degree; ++k) {
-        pushX += g.rateX[k] * hand.v[k];
-        pushV += g.rateV[k] * hand.v[k];
-      }
-    next.x[i] = state.x[i] + (g.xx * e + (g.xv * v + pushX));
-    next.v[i] = v + (g.vx * e + (g.vv * v + pushV));
-    check += (next.x[i] + next.v[i]) * 0.0;
+    for (int k = 1; k <= Degree; ++k) {
+      pushX += g.handX[k] * hand.r(k);
+      pushV += g.handV[k] * hand.r(k);
+    }
+    const Lanes e = x[i] - g.rest * hand.origin, rate = v[i];
+    const Lanes newX = x[i] + (g.xx * e + (g.xv * rate + pushX));
+    const Lanes newV = rate + (g.vx * e + (g.vv * rate + pushV));
+    nextX[i] = newX;
+    nextV[i] = newV;
+    check += (newX + newV) * 0.0;
   }
   return allFinite(check);
 }

@@ -26,6 +26,10 @@ class OscillatorCore {
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
 
  private:
+  /// Full: with an extra force, gravity or a damped hand.
+  template <int Degree, bool Full>
+  bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
+
   struct Group {
     Lanes xx, xv, vx, vv;                                              // exp(A dt) - 1
     Lanes rest;                                                        // e at rest for a hand at 1 m
