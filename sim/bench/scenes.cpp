@@ -51,9 +51,8 @@ BenchScene onEllipse(std::string name, std::string title, double a, double b, do
   BenchScene s;
   s.name = std::move(name), s.title = std::move(title);
   s.experiment.name = s.name;
-  s.experiment.constraint.name.clear();
-  s.experiment.constraint.curve = {"0", "a*cos(phi)", "b*sin(phi)"};
-  s.experiment.constraint.shape = {{"a", a}, {"b", b}};
+  s.experiment.constraint.name = "ellipse";
+  s.experiment.constraint.shape = {{"a_m", a}, {"b_m", b}};
   setBead(s, viscosity);
   s.start = {from};
   s.experiment.task = makeTask(from, from + kPi);
@@ -68,9 +67,8 @@ BenchScene nearCusp(std::string name, std::string title, double small) {
   BenchScene s;
   s.name = std::move(name), s.title = std::move(title);
   s.experiment.name = s.name;
-  s.experiment.constraint.name.clear();
-  s.experiment.constraint.curve = {"R*cos(phi) - d*cos(4*phi)", "R*sin(phi) - d*sin(4*phi)", "0"};
-  s.experiment.constraint.shape = {{"R", 0.08}, {"d", small}};
+  s.experiment.constraint.name = "epitrochoid";
+  s.experiment.constraint.shape = {{"a_m", 0.08}, {"d_m", small}};
   setBead(s, 0);
   s.start = {kPi / 3};
   s.experiment.task = makeTask(kPi / 3, kPi);
@@ -89,13 +87,12 @@ void setStart(BenchScene& s) {
   s.experiment.task = task;
 }
 
-BenchScene onSurface(std::string name, std::string title, std::vector<std::string> formula, std::map<std::string, double> shape,
-                     double viscosity, std::vector<double> start, Vec3 from, Vec3 by) {
+BenchScene onSurface(std::string name, std::string title, std::string surface, std::map<std::string, double> shape, double viscosity,
+                     std::vector<double> start, Vec3 from, Vec3 by) {
   BenchScene s;
   s.name = std::move(name), s.title = std::move(title);
   s.experiment.name = s.name;
-  s.experiment.constraint.name.clear();
-  s.experiment.constraint.surface = std::move(formula);
+  s.experiment.constraint.name = std::move(surface);
   s.experiment.constraint.shape = std::move(shape);
   setBead(s, viscosity);
   s.start = std::move(start);
@@ -108,7 +105,8 @@ BenchScene onSurface(std::string name, std::string title, std::vector<std::strin
 
 // A great circle whose nearest approach to the pole, `tilt` rad from it, comes at 0.675 s; 2 rad/s.
 BenchScene pastPole(std::string name, std::string title, double tilt) {
-  BenchScene s = onSurface(std::move(name), std::move(title), {"R*sin(v)*cos(u)", "R*sin(v)*sin(u)", "R*cos(v)"}, {{"R", 0.1}}, 0, {}, {}, {});
+  BenchScene s = onSurface(std::move(name), std::move(title), "", {{"R", 0.1}}, 0, {}, {}, {});
+  s.experiment.constraint.surface = {"R*sin(v)*cos(u)", "R*sin(v)*sin(u)", "R*cos(v)"};  // typed, so that no name tells of the pole
   s.hand.kind = HandLaw::Kind::None;
   s.cartesian = true;
   constexpr double kSpeed = 2;  // [rad/s]
@@ -134,11 +132,10 @@ std::vector<BenchScene> benchScenes() {
   all.push_back(onEllipse("S2b", "the same, viscous", 0.1, 0.06, 0, 2));
 
   const Vec3 outside{0.1 + 0.04 * std::cos(0.5), 0, 0.04 * std::sin(0.5)};
-  all.push_back(onSurface("S3", "bead on a torus", {"(R + r*cos(v))*cos(u)", "(R + r*cos(v))*sin(u)", "r*sin(v)"}, {{"R", 0.1}, {"r", 0.04}}, 1,
-                          {0, 0.5}, outside, {-0.12, 0.16, 0}));
+  all.push_back(onSurface("S3", "bead on a torus", "torus", {{"major_m", 0.1}, {"minor_m", 0.04}}, 1, {0.5, 0}, outside, {-0.12, 0.16, 0}));
   constexpr double kU = -0.95, kV = 0.3;
   const Vec3 onSaddle{0.1 * kU, 0.1 * kV, 0.05 * (kU * kU * kU - 3 * kU * kV * kV)};
-  all.push_back(onSurface("S4", "bead on a monkey saddle", {"a*u", "a*v", "h*(u^3 - 3*u*v^2)"}, {{"a", 0.1}, {"h", 0.05}}, 1, {kU, kV}, onSaddle,
+  all.push_back(onSurface("S4", "bead on a monkey saddle", "monkey-saddle", {{"width_m", 0.1}, {"depth_m", 0.05}}, 1, {kU, kV}, onSaddle,
                           {0.19, -0.05, std::sqrt(0.0014)}));
 
   all.push_back(nearCusp("S5", "bead, 1 % from a cusp", 0.0198));

@@ -36,20 +36,20 @@ struct EpitrochoidShape {
   }
 };
 
-/// ((R + r cos v) cos u, (R + r cos v) sin u, r sin v).
+/// ((R + r cos u) cos v, (R + r cos u) sin v, r sin u): u about the tube, v about the ring.
 struct TorusShape {
   double bigR, small;
   template <class T>
   void evaluate(const T& u, const T& v, T* r, T* ru, T* rv, T* ruu, T* ruv, T* rvv) const {
     const auto [su, cu] = sineCosine(u);
     const auto [sv, cv] = sineCosine(v);
-    const T w = bigR + small * cv, wv = -small * sv, wvv = -small * cv;
-    r[0] = w * cu, r[1] = w * su, r[2] = small * sv;
-    ru[0] = -w * su, ru[1] = w * cu, ru[2] = 0;
-    rv[0] = wv * cu, rv[1] = wv * su, rv[2] = small * cv;
-    ruu[0] = -w * cu, ruu[1] = -w * su, ruu[2] = 0;
-    ruv[0] = -wv * su, ruv[1] = wv * cu, ruv[2] = 0;
-    rvv[0] = wvv * cu, rvv[1] = wvv * su, rvv[2] = -small * sv;
+    const T w = bigR + small * cu, wu = -small * su, wuu = -small * cu;
+    r[0] = w * cv, r[1] = w * sv, r[2] = small * su;
+    ru[0] = wu * cv, ru[1] = wu * sv, ru[2] = small * cu;
+    rv[0] = -w * sv, rv[1] = w * cv, rv[2] = 0;
+    ruu[0] = wuu * cv, ruu[1] = wuu * sv, ruu[2] = -small * su;
+    ruv[0] = -wu * sv, ruv[1] = wu * cv, ruv[2] = 0;
+    rvv[0] = -w * cv, rvv[1] = -w * sv, rvv[2] = 0;
   }
 };
 

@@ -19,7 +19,7 @@ auto visitSystem(const BenchScene& scene, F&& f) {
   const auto chain = [&]<int N>(std::integral_constant<int, N>) {
     return LineChain<N>{mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping, x0};
   };
-  const auto ellipse = [&] { return EllipseShape{shape.at("a"), shape.at("b")}; };
+  const auto ellipse = [&] { return EllipseShape{shape.at("a_m"), shape.at("b_m")}; };
   if (n == "S1" || n == "S7a" || n == "S7b") return f(chain(std::integral_constant<int, 5>{}));
   if (n == "S1b50") return f(chain(std::integral_constant<int, 50>{}));
   if (n == "S1b500") return f(chain(std::integral_constant<int, 500>{}));
@@ -27,11 +27,11 @@ auto visitSystem(const BenchScene& scene, F&& f) {
   if (n == "S2a" || n == "S2b" || n == "S7c")
     return f(CurveBead<EllipseShape, 6>{ellipse(), mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S5" || n == "S5h")
-    return f(CurveBead<EpitrochoidShape, 3>{{shape.at("R"), shape.at("d")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(CurveBead<EpitrochoidShape, 3>{{shape.at("a_m"), shape.at("d_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S3")
-    return f(SurfaceBead<TorusShape, true>{{shape.at("R"), shape.at("r")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(SurfaceBead<TorusShape, true>{{shape.at("major_m"), shape.at("minor_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S4")
-    return f(SurfaceBead<SaddleShape, true>{{shape.at("a"), shape.at("h")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(SurfaceBead<SaddleShape, true>{{shape.at("width_m"), shape.at("depth_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S7d" || n == "S7e") return f(SurfaceBead<SphereShape, false>{{shape.at("R")}, mass, 0, 0, 0});
   if (n == "S8") return f(CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
   throw UsageError("bench: no right-hand side for scene " + n);

@@ -46,7 +46,10 @@ class AbmWith {
  public:
   using State = typename System::State;
   AbmWith(const System& system, double tolerance)
-      : fallback_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 10), slopes_(system.states()) {}
+      : fallback_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 10), slopes_(adams::kHistory, State(system.states())) {
+    for (State& f : slopes_)
+      for (int i = 0; i < system.states(); ++i) f[i] = 0;
+  }
   void restart() noexcept {
     count_ = 0;
     fallback_.restart();
@@ -70,14 +73,10 @@ class AbmWith {
     if (good) {
       const adams::Weights& weights = adams::kWeights[newest_];
       State predicted(n), extrapolated(n);
+      const State* slopes = slopes_.data();
       for (int i = 0; i < n; ++i) {
-        double sum = 0, next8 = 0;
-        for (int j = 0; j < adams::kHistory; ++j) {
-          sum += weights.predict[j] * slopes_(i, j);
-          next8 += weights.extrapolate[j] * slopes_(i, j);
-        }
-        predicted[i] = y[i] + dt * sum;
-        extrapolated[i] = next8;
+        predicted[i] = y[i] + dt * weighted(weights.predict, slopes, i);
+        extrapolated[i] = weighted(weights.extrapolate, slopes, i);
       }
       system.rate(end, predicted, f);
       double worst = 0;
@@ -113,21 +112,21 @@ class AbmWith {
   }
 
  private:
-  /// f at the last eight ticks, the eight values of one number side by side.
-  struct Slopes {
-    explicit Slopes(int n) : values(static_cast<std::size_t>(n) * adams::kHistory, 0.0) {}
-    double operator()(int i, int slot) const noexcept { return values[i * adams::kHistory + slot]; }
-    std::vector<double> values;
-  };
+  /// In pairs, so that no value waits for a long sum; neighbouring numbers share vector registers.
+  static double weighted(const double* w, const State* f, int i) noexcept {
+    static_assert(adams::kHistory == 8);
+    return ((w[0] * f[0][i] + w[1] * f[1][i]) + (w[2] * f[2][i] + w[3] * f[3][i])) +
+           ((w[4] * f[4][i] + w[5] * f[5][i]) + (w[6] * f[6][i] + w[7] * f[7][i]));
+  }
   void keep(const State& f, int n) noexcept {
-    for (int i = 0; i < n; ++i) slopes_.values[i * adams::kHistory + newest_] = f[i];
+    for (int i = 0; i < n; ++i) slopes_[newest_][i] = f[i];
   }
 
   Fallback<System> fallback_;
   double limit_;
   double dt_ = 0;
   int count_ = 0, newest_ = 0;
-  Slopes slopes_;
+  std::vector<State> slopes_;  // f at the last eight ticks, a ring
 };
 
 template <class System>

@@ -116,7 +116,7 @@ struct EllipseModel {
   void positions(const double* s, double* r) const { r[0] = 0, r[1] = a * std::cos(s[0]), r[2] = b * std::sin(s[0]); }
 };
 
-/// On the torus the first form is diagonal (w^2, r^2), w = R + r cos v.
+/// On the torus the first form is diagonal (r^2, w^2), w = R + r cos u; u about the tube, v about the ring.
 struct TorusModel {
   static constexpr int kStates = 4, kMasses = 1, kHandDegree = 5;
   double bigR, small, mass, kHand, bHand, drag;
@@ -124,14 +124,14 @@ struct TorusModel {
     double su, cu, sv, cv;
     sinCos(q[0], su, cu);
     sinCos(q[1], sv, cv);
-    const double w = bigR + small * cv, inverse = 1 / w, du = v[0], dv = v[1];
-    acceleration[0] = (cu * f.y - su * f.x) * inverse / mass - drag * du + 2 * small * sv * inverse * du * dv;
-    acceleration[1] = (cv * f.z - sv * (cu * f.x + su * f.y - kHand * bigR)) / (mass * small) - drag * dv - w * sv / small * du * du;
+    const double w = bigR + small * cu, inverse = 1 / w, du = v[0], dv = v[1];
+    acceleration[0] = (cu * f.z - su * (cv * f.x + sv * f.y - kHand * bigR)) / (mass * small) - drag * du - w * su / small * dv * dv;
+    acceleration[1] = (cv * f.y - sv * f.x) * inverse / mass - drag * dv + 2 * small * su * inverse * du * dv;
   }
   void state(const double* q, const double* v, double* out) const { out[0] = q[0], out[1] = q[1], out[2] = v[0], out[3] = v[1]; }
   void positions(const double* s, double* r) const {
-    const double w = bigR + small * std::cos(s[1]);
-    r[0] = w * std::cos(s[0]), r[1] = w * std::sin(s[0]), r[2] = small * std::sin(s[1]);
+    const double w = bigR + small * std::cos(s[0]);
+    r[0] = w * std::cos(s[1]), r[1] = w * std::sin(s[1]), r[2] = small * std::sin(s[0]);
   }
 };
 
