@@ -1,0 +1,66 @@
+#include "sim/bench/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace reachlab::bench {
+namespace {
+
+struct Bound {
+  double state, position;
+};
+constexpr double kNoBound = 1e300;
+
+// What is promised of `auto` at 1 ms: linear scenes to rounding, smooth ones to a state error of 1e-10, hard geometry to a position of
+// 1e-10 m with at most a thousand right-hand sides in a tick.
+TEST(Suite, AutoKeepsItsPromiseOnEveryScene) {
+  const std::map<std::string, Bound> promised{
+      {"S1", {1e-13, 1e-13}},      {"S1b50", {1e-12, 1e-13}},   {"S2a", {1e-10, 1e-10}},     {"S2b", {1e-10, 1e-10}},
+      {"S3", {1e-10, 1e-10}},      {"S4", {1e-10, 1e-10}},      {"S5", {kNoBound, 1e-10}},   {"S5h", {kNoBound, 1e-10}},
+      {"S6", {1e-13, 1e-13}},      {"S7a", {1e-12, 1e-13}},     {"S7b", {1e-13, 1e-13}},     {"S7c", {kNoBound, 1e-10}},
+      {"S7d", {kNoBound, 1e-10}},  {"S7e", {kNoBound, 1e-10}},  {"S8", {1e-10, 1e-10}}};
+  for (const auto& [name, bound] : promised) {
+    SCOPED_TRACE(name);
+    const BenchScene scene = benchScene(name);
+    const Contender contender = makePlantContender(scene, "auto", kTick, 0);
+    Trajectory trajectory;
+    contender.run(&trajectory);
+    ASSERT_EQ(trajectory.failure, "");
+    const Deviation error = computeError(trajectory, computeReference(scene));
+    EXPECT_LE(error.state, bound.state);
+    EXPECT_LE(error.position, bound.position);
+    EXPECT_LE(trajectory.worstTick, 1000u);
+  }
+}
+
+TEST(Suite, RowsHoldErrorsCountsAndPrices) {
+  SuiteOptions options;
+  options.scenes = {"S6"};
+  options.methods = {"auto", "rk4"};
+  options.quick = true;
+  options.effort = {.rounds = 5, .secondsPerRound = 1e-4};
+  const std::vector<Row> rows = runSuite(options, [](const std::string&) {});
+  ASSERT_EQ(rows.size(), 2u);
+  for (const Row& row : rows) {
+    EXPECT_EQ(row.scene, "S6");
+    EXPECT_EQ(row.steps, 2500u);
+    EXPECT_GT(row.nsPerMs, 0);
+    EXPECT_LE(row.nsLow, row.nsPerMs);
+    EXPECT_LE(row.nsPerMs, row.nsHigh);
+  }
+  EXPECT_EQ(rows[1].rhsEvaluations, 4u * 2500) << "RK4 evaluates four times a step";
+  EXPECT_LT(rows[0].error.position, rows[1].error.position) << "the exact propagator against RK4 at 1 ms";
+}
+
+TEST(Suite, UnknownNamesAreRefused) {
+  SuiteOptions options;
+  options.scenes = {"S9"};
+  EXPECT_ANY_THROW(runSuite(options, [](const std::string&) {}));
+  options.scenes = {"S6"};
+  options.methods = {"euler"};
+  EXPECT_ANY_THROW(runSuite(options, [](const std::string&) {}));
+}
+
+}  // namespace
+}  // namespace reachlab::bench
