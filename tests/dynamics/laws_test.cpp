@@ -101,6 +101,9 @@ TEST(Poles, AConesApexAndAPinchHaveNoContinuation) {
   EXPECT_EQ(run(*cone.plant, noHand, 1), StepStatus::NoContinuation);
   EXPECT_FALSE(cone.plant->stopReason().empty());
   EXPECT_NEAR(norm(observed(*cone.plant)[0].r), 0, 2e-3) << "within a tick of the apex";
+  const Scene umbrella = freeScene(onSurface("u*v", "u", "v^2"), {0, 0.3}, {0, -1});  // Whitney's, along its handle
+  EXPECT_EQ(run(*umbrella.plant, noHand, 1), StepStatus::NoContinuation);
+  EXPECT_FALSE(umbrella.plant->stopReason().empty());
 }
 
 TEST(Cusps, AnAstroidIsPassedWithoutGainingEnergy) {
