@@ -172,6 +172,8 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
 
 }  // namespace
 
+JsonNode::JsonNode() = default;
+
 const JsonNode* JsonNode::find(const std::string& key) const {
   for (const auto& [name, node] : members)
     if (name == key) return &node;

@@ -18,6 +18,7 @@ struct JsonNode {
   int line = 0, column = 0;                                 // from 1, of the first character
   int keyLine = 0, keyColumn = 0;                           // of the key, for a member of an object
 
+  JsonNode();  // in the .cpp: clang 14 can't form it here, where the members' pair is incomplete
   const JsonNode* find(const std::string& key) const;
 };
 const char* nameOf(JsonNode::Kind kind);
