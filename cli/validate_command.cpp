@@ -3,8 +3,8 @@
 #include "cli/commands.h"
 #include "constraints/definition.h"
 #include "constraints/error.h"
+#include "constraints/json_reader.h"
 #include "sim/experiment/experiment.h"
-#include "sim/experiment/json_reader.h"
 #include "sim/session/plan.h"
 
 namespace reachlab {

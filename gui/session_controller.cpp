@@ -3,7 +3,7 @@
 #include <QThread>
 
 #include "constraints/error.h"
-#include "sim/experiment/json_tree.h"
+#include "constraints/json_tree.h"
 #include "sim/session/plan.h"
 
 namespace reachlab {

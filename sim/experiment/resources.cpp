@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "constraints/error.h"
-#include "sim/experiment/experiment.h"
 #include "constraints/json_reader.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab {
 namespace fs = std::filesystem;

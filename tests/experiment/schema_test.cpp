@@ -8,8 +8,8 @@
 #include <valijson/validator.hpp>
 
 #include "constraints/error.h"
-#include "sim/experiment/experiment.h"
 #include "constraints/json_reader.h"
+#include "sim/experiment/experiment.h"
 
 using namespace reachlab;
 using Json = nlohmann::json;

@@ -1,2 +1,0 @@
-#pragma once
-#include "constraints/json_reader.h"
