@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "constraints/definition.h"
+#include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 
@@ -53,10 +54,9 @@ Json listCriteria() {
 }
 
 Json listDevices() {
-  return Json::array(
-      {{{"name", "simulated"}, {"description", "a virtual subject: minimum hand jerk for this very object, with seeded motor noise"}},
-       {{"name", "replay"}, {"description", "replay:FILE|FOLDER, recorded reaches fitted onto start and target, one a trial"}},
-       {{"name", "mouse"}, {"description", "the pointer in the window of `reachlab`"}}});
+  Json rows = Json::array();
+  for (const DeviceDescription& device : knownDevices()) rows.push_back({{"name", device.name}, {"description", device.description}});
+  return rows;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/session_runner.h"
+#include "devices/make_device.h"
 
 namespace reachlab {
 
@@ -10,7 +11,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
       ->required();
-  command->add_option("--trials", r->trials, "Trials of an experiment [1]; a plan has its own")->check(CLI::Range(1, 1000000));
+  command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")->check(CLI::Range(1, 1000000));
   command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")
       ->check(CLI::Range(1, 9999));
   command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
@@ -34,9 +35,12 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       "as interrupted and exits 130.\n\n"
       "Examples:\n"
       "  reach run chain-moderate --device simulated --trials 20 --seed 1 --fast\n"
-      "  reach run chain-moderate --device replay:resources/reaches --trials 19 --fast\n"
+      "  reach run chain-moderate --device replay:resources/reaches --fast\n"
       "  reach run paper --device simulated --subject 03 --session 01 --age 24 --sex F --handedness R --fast");
-  command->callback([r, &exitCode] { exitCode = runSession(*r); });
+  command->callback([r, &exitCode] {
+    r->trialsOnOffer = trialsOnOffer(r->device);
+    exitCode = runSession(*r);
+  });
 }
 
 }  // namespace reachlab

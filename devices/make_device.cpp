@@ -20,6 +20,11 @@ std::unique_ptr<HapticDevice> makeDevice(const std::string& spec, const Experime
   throw UsageError("--device " + spec + ": unknown; allowed: simulated[:KEY=VALUE,...], replay:FILE, replay:FOLDER, mouse");
 }
 
+int trialsOnOffer(const std::string& spec) {
+  const std::string replay = "replay:";
+  return spec.starts_with(replay) && spec.size() > replay.size() ? static_cast<int>(reachFiles(spec.substr(replay.size())).size()) : 1;
+}
+
 std::vector<DeviceDescription> knownDevices() {
   return {{"simulated", "a virtual subject: minimum hand jerk for this very object, with seeded motor noise"},
           {"replay", "replay:FILE|FOLDER, recorded reaches laid onto start and target, one a trial"},

@@ -17,6 +17,10 @@ namespace reachlab {
 /// (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
 std::unique_ptr<HapticDevice> makeDevice(const std::string& spec, const Experiment& experiment, std::uint64_t seed);
 
+/// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws
+/// ResourceError when there is nothing to replay.
+int trialsOnOffer(const std::string& spec);
+
 struct DeviceDescription {
   std::string name, description;
 };

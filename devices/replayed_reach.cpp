@@ -42,7 +42,9 @@ Vec3 turn(const Vec3& v, const Vec3& from, const Vec3& to) {
   return 2 * dot(axis, v) * axis - v;
 }
 
-std::vector<std::string> filesOf(const std::string& path) {
+}  // namespace
+
+std::vector<std::string> reachFiles(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
     std::vector<std::string> files;
@@ -55,8 +57,6 @@ std::vector<std::string> filesOf(const std::string& path) {
   if (!fs::exists(path, error)) throw ResourceError(path + ": no such file or folder to replay");
   return {path};
 }
-
-}  // namespace
 
 RecordedReach readReach(const std::string& file) {
   std::ifstream in(file);
@@ -114,7 +114,7 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
 
 std::unique_ptr<HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target) {
   std::vector<PlayedReach> reaches;
-  for (const std::string& file : filesOf(path)) reaches.push_back(layOnto(readReach(file), start, target));
+  for (const std::string& file : reachFiles(path)) reaches.push_back(layOnto(readReach(file), start, target));
   DeviceInfo info;
   info.name = "replay";
   info.version = "1";

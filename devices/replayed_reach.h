@@ -23,6 +23,9 @@ RecordedReach readReach(const std::string& file);
 /// estimator, as with any device that has none.
 PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target);
 
+/// The files that `path` stands for: itself, or the CSV files of the folder in name order. Throws ResourceError when there are none.
+std::vector<std::string> reachFiles(const std::string& path);
+
 /// A device that plays the file, or the CSV files of a folder in name order, one a trial, again from the first.
 std::unique_ptr<HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target);
 

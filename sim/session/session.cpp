@@ -25,7 +25,7 @@ Plan planOf(const SessionRequest& request) {
   Plan plan;
   PlanBlock block;
   block.experiment = request.what;
-  block.trials = request.trials.value_or(1);
+  block.trials = request.trials.value_or(request.trialsOnOffer);
   plan.blocks.push_back(block);
   return plan;
 }

@@ -16,6 +16,7 @@ struct SessionRequest {
   std::string what;  // experiment or plan, a file or a shipped name
   SessionPlace place;
   std::optional<int> trials, run, day;
+  int trialsOnOffer = 1;  // of an experiment when `trials` is not given
   std::optional<std::uint64_t> seed;
   bool resume = false;
   bool fast = false, everyTick = false;

@@ -47,7 +47,7 @@ TEST(Run, WithoutNoiseEveryTrialSucceeds) {
 
 TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
   const Folder folder, out;
-  const Ended ended = reach("run chain-moderate --device replay:" + kReaches + " --trials 19 --fast --data " + folder.string());
+  const Ended ended = reach("run chain-moderate --device replay:" + kReaches + " --fast --data " + folder.string());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const auto trials = trialLines(ended.out);
   ASSERT_EQ(trials.size(), 19u);
@@ -58,7 +58,7 @@ TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     EXPECT_EQ(table.rows[i][table.column("outcome")], trials[i].at("outcome"));
     EXPECT_EQ(table.at(i, "trial"), static_cast<double>(i + 1));
-    if (trials[i].at("outcome") == "failure") EXPECT_EQ(table.rows[i][table.column("reason")], trials[i].at("reason"));
+    if (trials[i].at("outcome") == "failure") { EXPECT_EQ(table.rows[i][table.column("reason")], trials[i].at("reason")); }
   }
   EXPECT_EQ(reach("replay --check " + logOf(folder)).exitCode, 0);
 }
