@@ -21,5 +21,26 @@ TEST(FormulaCorpus, EveryTextBecomesAConstraintOrARefusal) {
   EXPECT_GE(cases, 20);
 }
 
+// One case a line, what is not printable as %HH: the new coverage of the fuzzer's runs, cases of up to 120 bytes.
+std::string unescaped(const std::string& line) {
+  std::string text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool escape = line[i] == '%' && i + 2 < line.size();
+    text += escape ? static_cast<char>(std::stoi(line.substr(i + 1, 2), nullptr, 16)) : line[i];
+    if (escape) i += 2;
+  }
+  return text;
+}
+
+TEST(FormulaCorpus, WhatTheFuzzerFoundEndsAsItShould) {
+  std::ifstream in(REACHLAB_SOURCE_DIR "/tests/fuzz/formula_found.txt");
+  int cases = 0;
+  for (std::string line; std::getline(in, line); ++cases) {
+    const std::string text = unescaped(line);
+    EXPECT_NO_THROW(runFormulaCase(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())) << line;
+  }
+  EXPECT_GE(cases, 800);
+}
+
 }  // namespace
 }  // namespace reachlab
