@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/constraint_bench.h"
 #include "constraints/error.h"
-#include "sim/bench/constraint_cost.h"
 #include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
 #include "sim/haptics/tick_timing.h"
@@ -53,16 +53,17 @@ std::string toJson(const std::vector<bench::Row>& rows) {
   return all.dump(1) + "\n";
 }
 
-std::string toJson(const std::vector<bench::ConstraintCost>& rows) {
+std::string toJson(const std::vector<ConstraintEvalRow>& rows) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const bench::ConstraintCost& row : rows)
+  for (const ConstraintEvalRow& row : rows)
     all.push_back({{"constraint", row.constraint}, {"form", row.form}, {"ns_per_eval", number(row.nsPerEval)}});
   return all.dump(1) + "\n";
 }
 
 void benchConstraints(const BenchArguments& arguments) {
-  const std::vector<bench::ConstraintCost> rows = bench::measureConstraintCosts();
-  std::fputs(bench::formatConstraintCosts(rows).c_str(), stdout);
+  const std::vector<ConstraintEvalRow> rows = benchConstraintEval();
+  fmt::print("{:<16} {:<14} {:>11}\n", "constraint", "form", "ns_per_eval");
+  for (const ConstraintEvalRow& row : rows) fmt::print("{:<16} {:<14} {:>11.1f}\n", row.constraint, row.form, row.nsPerEval);
   if (!arguments.json.empty()) writeFile(arguments.json, toJson(rows));
 }
 
@@ -111,7 +112,7 @@ void runBench(const BenchArguments& arguments) {
 void addBenchCommand(CLI::App& app, int&) {
   auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand("bench", "Sets speed against error: scenes S1 to S8, every method, against references of over 20 digits");
-  command->add_option("--scene", arguments->suite.scenes, "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S8), or constraint-eval for the catalogue; default all");
+  command->add_option("--scene", arguments->suite.scenes, "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S8), or constraint-eval for the price of a constraint's derivatives; default all");
   command->add_option("--method", arguments->suite.methods, "Methods (auto rk4 exact abm adaptive stiff, or a peer if built); default all");
   command->add_option("--rounds", arguments->suite.effort.rounds, "Timed repetitions, interleaved over the methods")
       ->check(CLI::Range(5, 1000))

@@ -188,7 +188,7 @@ class LinearPlant final : public PlantBase {
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
   std::vector<typename Core::State> state_, next_;   // one an axis
-  mutable std::vector<double> x_, v_;                // scratch;
+  mutable std::vector<double> x_, v_;                // scratch
   mutable bool fresh_ = false;                       // one axis: the masses' places now, read once a step (N^2 from modes)
 };
 
