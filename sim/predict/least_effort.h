@@ -1,18 +1,8 @@
 #pragma once
-#include <vector>
-
 #include "sim/predict/line_system.h"
+#include "sim/predict/series_profile.h"
 
 namespace reachlab {
-
-/// Positions as Taylor series, panel by panel: on panel p, s = t/width - p in [0, 1], output i is sum_k c_k s^k [m].
-struct SeriesProfile {
-  int outputs = 0, terms = 0, panels = 0;
-  double width = 0;                 // [s]
-  std::vector<double> coefficient;  // [panel][output][term]
-
-  const double* of(int panel, int output) const { return &coefficient[(static_cast<size_t>(panel) * outputs + output) * terms]; }
-};
 
 struct LeastEffort {
   SeriesProfile profile;

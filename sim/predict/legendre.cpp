@@ -59,11 +59,24 @@ RestToRestBasis::RestToRestBasis(int order, int unknowns) : order_(order) {
   }
 }
 
+void RestToRestBasis::tabulate(double x, double rate, double* table) const {
+  const std::vector<double> values = legendreValues(columns() + 2 * order_, x);
+  for (int column = 0; column < columns(); ++column) {
+    double factor = 1;
+    for (int m = 0; m <= order_; ++m, factor *= rate) {
+      const LegendreSeries& series = derivative(column, m);
+      double sum = 0;
+      for (size_t n = firstTerm(column, m); n < series.size(); ++n) sum += series[n] * values[n];
+      *table++ = factor * sum;
+    }
+  }
+}
+
 LegendreSeries RestToRestBasis::combine(const std::vector<double>& coefficient, int m) const {
   LegendreSeries sum(series_.back()[static_cast<size_t>(m)].size(), 0);
   for (size_t c = 0; c < coefficient.size(); ++c) {
     const LegendreSeries& column = series_[c][static_cast<size_t>(m)];
-    for (size_t n = 0; n < column.size(); ++n) sum[n] += coefficient[c] * column[n];
+    for (size_t n = firstTerm(static_cast<int>(c), m); n < column.size(); ++n) sum[n] += coefficient[c] * column[n];
   }
   return sum;
 }

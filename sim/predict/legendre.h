@@ -25,10 +25,15 @@ class RestToRestBasis {
   int columns() const { return static_cast<int>(series_.size()); }
   /// d^m y / dx^m of one column, 0 <= m <= order.
   const LegendreSeries& derivative(int column, int m) const { return series_[static_cast<std::size_t>(column)][static_cast<std::size_t>(m)]; }
-  /// The same of a combination: coefficient of the first column, then the unknowns.
+  /// All derivatives of all columns at one x, times rate^m: table[column * (order+1) + m].
+  void tabulate(double x, double rate, double* table) const;
+  /// A derivative of a combination: coefficient of the first column, then the unknowns.
   LegendreSeries combine(const std::vector<double>& coefficient, int m) const;
 
  private:
+  // Integrating a polynomial P_n k times leaves P_(n-k) … P_(n+k): the terms before are zero.
+  std::size_t firstTerm(int column, int m) const { return static_cast<std::size_t>(column + m > 1 ? column + m - 1 : 0); }
+
   int order_;
   std::vector<std::vector<LegendreSeries>> series_;
 };

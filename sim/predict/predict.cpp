@@ -8,11 +8,13 @@
 #include "sim/predict/arm_prediction.h"
 #include "sim/predict/condition.h"
 #include "sim/predict/crackle_prediction.h"
+#include "sim/predict/curve_object_prediction.h"
+#include "sim/predict/curve_prediction.h"
 #include "sim/predict/line_object.h"
 #include "sim/predict/parity_prediction.h"
-#include "sim/predict/path_prediction.h"
 #include "sim/predict/peaks.h"
 #include "sim/predict/series_prediction.h"
+#include "sim/predict/surface_prediction.h"
 
 namespace reachlab {
 namespace {
@@ -74,18 +76,32 @@ void judge(Prediction& prediction, const LineObject* object) {
     prediction.warnings.push_back(fmt::format("ill-conditioned ({:.1e}): tiny changes of the object change the prediction", prediction.condition));
 }
 
+// Gravity that pulls along the way would let the masses hang at other places than start and target.
+void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
+  constexpr int kProbes = 64;
+  for (int i = 0; i <= kProbes; ++i) {
+    const double along = dot(curve.expand<2>(curve.length() * i / kProbes)[1], gravity);
+    if (std::abs(along) > 1e-9)
+      throw RefusedError(fmt::format("min-hand-jerk: gravity has {:.3g} m/s^2 along the curve, so that the masses rest neither at the start nor at "
+                                     "the target; allowed: gravity across the curve, or none",
+                                     along));
+  }
+}
+
+// A point on a curve or surface moves with the hand; chain and parallel objects follow it by their springs.
 std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, const Constraint& constraint, Criterion criterion, double duration,
-                                               int unknowns) {
+                                               const std::optional<LineObject>& object, int unknowns) {
   if (criterion != Criterion::MinHandJerk)
     throw RefusedError(fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces", nameOf(criterion)));
   const Task& task = *experiment.task;
-  const auto masses = static_cast<int>(experiment.object.masses.size());
-  if (experiment.object.kind == ObjectKind::Body) throw UsageError("object: the criteria are not defined for a body that turns");
-  if (masses != 1)
-    throw RefusedError("min-hand-jerk: on curves and surfaces it is computed for a single mass; several masses need a straight line");
-  if (constraint.kind == ConstraintKind::Curve)
-    return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, masses, unknowns);
-  return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, masses, unknowns);
+  if (constraint.kind == ConstraintKind::Curve) {
+    if (!object) return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, unknowns);
+    const ArcCurve curve(constraint, task.start.at(0), task.target.at(0));
+    requireNoGravityAlong(curve, experiment.object.gravity);
+    return makeCurveObjectPrediction(curve, *object, duration, unknowns);
+  }
+  if (object) throw RefusedError("min-hand-jerk: on surfaces it is computed for a single mass that moves with the hand; chains need a curve");
+  return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, 1, unknowns);
 }
 
 }  // namespace
@@ -104,18 +120,23 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
   std::unique_ptr<Prediction> prediction;
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
+  if (experiment.object.kind == ObjectKind::Body) throw UsageError("object: the criteria are not defined for a body that turns");
+  const auto makeObject = [&] {
+    return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration, warnings);
+  };
   const bool straight = constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
   if (straight) {
     const StraightTask way = computeStraightTask(constraint, task);
     if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");
-    object = mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration, warnings);
+    object = makeObject();
     if (std::abs(dot(experiment.object.gravity, way.target - way.start)) > 0)
       warnings.push_back("gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the weight");
     prediction = criterion == Criterion::MinTorqueChange ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
                                                          : makeLinearPrediction(*object, criterion, way.distance, duration);
     prediction->distance = way.distance;
   } else {
-    prediction = makeBentPrediction(experiment, constraint, criterion, duration, options.unknowns);
+    if (experiment.object.kind != ObjectKind::Point) object = makeObject();
+    prediction = makeBentPrediction(experiment, constraint, criterion, duration, object, options.unknowns);
   }
   prediction->criterion = criterion;
   prediction->duration = duration;

@@ -1,8 +1,5 @@
 #include "sim/predict/series_prediction.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "sim/predict/condition.h"
 #include "sim/predict/least_effort.h"
 
@@ -16,39 +13,16 @@ class SeriesPrediction final : public Prediction {
     fastest_ = 1 / profile_.width;
   }
 
-  PredictedHand handAt(double t) const override {
-    const auto [panel, s] = place(t);
-    return evaluate(profile_.of(panel, 0), s);
-  }
+  PredictedHand handAt(double t) const override { return profile_.evaluate(0, t); }
 
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
-    const auto [panel, s] = place(t);
     for (int i = 0; i < massCount_; ++i) {
-      const PredictedHand mass = evaluate(profile_.of(panel, 1 + source_[i]), s);
+      const PredictedHand mass = profile_.evaluate(1 + source_[i], t);
       position[i] = mass.position, velocity[i] = mass.velocity;
     }
   }
 
  private:
-  struct Place {
-    int panel;
-    double s;
-  };
-  Place place(double t) const {
-    const double x = t / profile_.width;
-    const int panel = std::clamp(static_cast<int>(x), 0, profile_.panels - 1);
-    return {panel, x - panel};
-  }
-  PredictedHand evaluate(const double* c, double s) const {
-    double position = 0, slope = 0, curvature = 0;  // Horner with two derivatives
-    for (int k = profile_.terms; k-- > 0;) {
-      curvature = curvature * s + slope;
-      slope = slope * s + position;
-      position = position * s + c[k];
-    }
-    return {position, slope / profile_.width, 2 * curvature / (profile_.width * profile_.width)};
-  }
-
   SeriesProfile profile_;
   std::vector<int> source_;
 };

@@ -13,91 +13,14 @@ namespace reachlab {
 namespace {
 
 constexpr int kMostIterations = 60;
-constexpr double kSettled = 1e-10;      // change of the unknowns, relative, at which the next Newton step is below rounding
-// Change of the profile, of its peak, from n to 3n/2 unknowns. It is the error of the coarser; that of the finer, which is given, is
-// about its power 3/2 as long as the expansion converges geometrically, and below 1e-8.
-constexpr double kProfileChange = 1e-7;
+constexpr double kSettled = 1e-7;  // change of the unknowns, relative, after which Newton's error, its square, is below rounding
+// Error of the profile, of its peak, that is aimed at: for the motion itself, and for a flat output, of which the hand is a sum of higher
+// derivatives.
+constexpr double kProfile = 2e-9, kFlatProfile = 1e-11;
 constexpr double kUseless = 1e-2;  // of the peak
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
-
-class Newton {
- public:
-  Newton(const TranscribedProblem& problem, const RestToRestBasis& basis, int unknowns)
-      : p_(problem), unknowns_(unknowns), motions_(static_cast<int>(problem.from.size())),
-        rule_(makeGaussRule<double>(3 * (unknowns + problem.order) / 2 + 8)) {
-    const double rate = 2 / p_.duration;
-    for (const double x : rule_.node) {
-      Matrix a(p_.locals, motions_ * unknowns_);
-      Vector fixed = Vector::Zero(p_.locals);
-      const std::vector<double> values = legendreValues(p_.order + unknowns + p_.order + 1, x);
-      for (int motion = 0; motion < motions_; ++motion) {
-        Matrix table(p_.order + 1, unknowns_ + 1);
-        for (int m = 0; m <= p_.order; ++m)
-          for (int c = 0; c <= unknowns_; ++c) {
-            const LegendreSeries& series = basis.derivative(c, m);
-            double sum = 0;
-            for (size_t n = 0; n < series.size(); ++n) sum += series[n] * values[n];
-            table(m, c) = sum * std::pow(rate, m);
-          }
-        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> local(
-            p_.local[motion].data(), p_.locals, p_.order + 1);
-        const Matrix all = local * table;
-        fixed += all.col(0) * (p_.to[motion] - p_.from[motion]) + local.col(0) * p_.from[motion];
-        a.middleCols(motion * unknowns_, unknowns_) = all.rightCols(unknowns_);
-      }
-      rows_.push_back(std::move(a));
-      fixed_.push_back(std::move(fixed));
-    }
-  }
-
-  double cost(const Vector& c) const {
-    double sum = 0;
-    std::vector<double> r(p_.residuals);
-    Vector a;
-    for (size_t i = 0; i < rows_.size(); ++i) {
-      a = fixed_[i];
-      a.noalias() += rows_[i] * c;
-      p_.residual(a.data(), r.data(), nullptr, nullptr);
-      for (const double value : r) sum += weight(i) * value * value;
-    }
-    return sum;
-  }
-
-  double expand(const Vector& c, Vector& gradient, Matrix& hessian) const {
-    const int n = static_cast<int>(c.size()), l = p_.locals;
-    gradient = Vector::Zero(n);
-    hessian = Matrix::Zero(n, n);
-    double sum = 0;
-    std::vector<double> r(p_.residuals), ra(p_.residuals * l), raa(p_.residuals * l * l);
-    for (size_t i = 0; i < rows_.size(); ++i) {
-      const Vector a = fixed_[i] + rows_[i] * c;
-      p_.residual(a.data(), r.data(), ra.data(), raa.data());
-      Vector g = Vector::Zero(l);
-      Matrix h = Matrix::Zero(l, l);
-      for (int k = 0; k < p_.residuals; ++k) {
-        sum += weight(i) * r[k] * r[k];
-        const Eigen::Map<const Vector> slope(&ra[k * l], l);
-        const Eigen::Map<const Matrix> bend(&raa[k * l * l], l, l);
-        g += 2 * weight(i) * r[k] * slope;
-        h += 2 * weight(i) * (slope * slope.transpose() + r[k] * bend);
-      }
-      gradient += rows_[i].transpose() * g;
-      hessian.noalias() += rows_[i].transpose() * (h * rows_[i]);
-    }
-    return sum;
-  }
-
- private:
-  double weight(size_t i) const { return rule_.weight[i] * p_.duration / 2; }
-
-  const TranscribedProblem& p_;
-  int unknowns_, motions_;
-  GaussRule<double> rule_;
-  std::vector<Matrix> rows_;
-  std::vector<Vector> fixed_;
-};
 
 }  // namespace
 
@@ -111,7 +34,7 @@ LegendreSeries TranscribedMotion::derivative(int motion, int m) const {
 TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
   const int motions = static_cast<int>(problem.from.size()), total = motions * unknowns;
   TranscribedMotion motion{RestToRestBasis(problem.order, unknowns), {}, problem.from, problem.duration};
-  const Newton newton(problem, motion.basis, unknowns);
+  const TranscribedCost cost(problem, motion.basis);
   Vector c = Vector::Zero(total), gradient;
   Matrix hessian;
   for (size_t m = 0; m < guess.size(); ++m)
@@ -120,7 +43,7 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
   double damping = 0;
   bool settled = false;
   for (int iteration = 0; iteration < kMostIterations && !settled; ++iteration) {
-    motion.cost = newton.expand(c, gradient, hessian);
+    motion.cost = cost.expand(c, gradient, hessian);
     motion.iterations = iteration + 1;
     if (!std::isfinite(motion.cost)) break;
     const double scale = hessian.diagonal().cwiseAbs().maxCoeff();
@@ -133,11 +56,11 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
     double length = 1;
     const double slope = gradient.dot(step), small = kSettled * (c.norm() + 1e-3 * std::abs(problem.to[0] - problem.from[0]));
     settled = damping == 0 && step.norm() <= small;
-    while (!settled && length > 1e-6 && !(newton.cost(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost)) length /= 2;
+    while (!settled && length > 1e-6 && !(cost.evaluate(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost)) length /= 2;
     c += length * step;
     damping = length < 0.1 ? std::max(10 * damping, 1e-6) : damping < 1e-5 ? 0 : damping / 10;
     if (settled) {
-      motion.cost = newton.cost(c);
+      motion.cost = cost.evaluate(c);
       const double rcond = factor.rcond();
       motion.condition = rcond > 0 ? 1 / std::sqrt(rcond) : std::numeric_limits<double>::infinity();
     }
@@ -151,10 +74,13 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
   return motion;
 }
 
+double estimateError(double change, double before) { return change < before ? change * std::pow(change / before, 1.5) : change; }
+
 TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
   if (unknowns > 0) return solveTranscription(problem, unknowns, guess);
-  constexpr int kFirst = 16, kMost = 300;
+  constexpr int kFirst = 16, kMost = 450;
   TranscribedMotion motion = solveTranscription(problem, kFirst, guess);
+  double before = 0;
   for (int n = kFirst + kFirst / 2; n <= kMost; n += n / 2) {
     std::vector<std::vector<double>> warm;
     for (const auto& c : motion.coefficient) warm.emplace_back(c.begin() + 1, c.end());
@@ -169,9 +95,12 @@ TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem
       }
     }
     motion = std::move(finer);
-    motion.uncertainty = 0;
-    if (change < kProfileChange * peak) return motion;
-    motion.uncertainty = change / peak;
+    motion.uncertainty = estimateError(change / peak, before);
+    before = change / peak;
+    if (motion.uncertainty < (problem.order > 3 ? kFlatProfile : kProfile)) {
+      motion.uncertainty = 0;
+      return motion;
+    }
   }
   if (!(motion.uncertainty < kUseless))
     throw RefusedError(fmt::format("the profile still changes by {:.1e} of its peak with {} unknowns; another path or start may help", motion.uncertainty, kMost));

@@ -1,26 +1,11 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <vector>
 
-#include "sim/predict/gauss_legendre.h"
-#include "sim/predict/legendre.h"
 #include "sim/predict/predict.h"
+#include "sim/predict/transcribed_cost.h"
 
 namespace reachlab {
-
-/// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions: the problem of criterion 2
-/// and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
-struct TranscribedProblem {
-  double duration = 0;      // [s]
-  int order = 3;            // conditions per end of each motion
-  int locals = 0, residuals = 0;
-  std::vector<double> from, to;  // ends of each unknown motion
-  /// locals x (order+1) for each motion: a = sum over motions and m of local[motion][l*(order+1)+m] * y^(m)(t), time derivatives.
-  std::vector<std::vector<double>> local;
-  /// R, dR/da (residuals x locals) and d2R/da2 (residuals x locals x locals) at one instant; R alone when ra is null.
-  std::function<void(const double* a, double* r, double* ra, double* raa)> residual;
-};
 
 struct TranscribedMotion {
   RestToRestBasis basis;
@@ -40,8 +25,12 @@ struct TranscribedMotion {
 /// Throws RefusedError when it does not settle.
 TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
 
-/// Raises the number of unknowns until the first motion's velocity is known to 1e-8 of its peak, or `unknowns` > 0 as given.
-/// Where 300 are not enough (close by a cusp) the result says how far it is known; above 1e-2 it is refused.
+/// Error of a profile after its unknowns were raised by half for the last time, when the last two raises changed it by `before` and
+/// `change`: the error falls geometrically with the number of unknowns, and the last raise was half as large again as the one before.
+double estimateError(double change, double before);
+
+/// Raises the number of unknowns by half until the motions' velocities are known to 1e-8 of their peak, or `unknowns` > 0 as given.
+/// Where 450 are not enough the result says how far it is known; above 1e-2 it is refused.
 TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
 
 /// The same from several starts, the straight one and others bent from it; the lowest minimum wins.
@@ -53,6 +42,8 @@ struct SeriesOfOne {
 };
 /// From the velocity [m/s] over x; position from 0.
 SeriesOfOne makeSeriesOfVelocity(const LegendreSeries& velocity, double duration);
+/// What is said of a point mass on a curve or a surface.
+inline constexpr const char* kMovesAsOne = "on a curve or surface hand and mass move as one; positions are metres of arc length";
 /// Cost, condition and what the reader must know of the motion.
 void describeMotion(const TranscribedMotion& motion, Prediction& prediction);
 std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration);

@@ -1,4 +1,4 @@
-#include "sim/predict/path_prediction.h"
+#include "sim/predict/surface_prediction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,20 +19,7 @@ constexpr double kDifference[4][9] = {
     {-7.0 / 240, 3.0 / 10, -169.0 / 120, 61.0 / 30, 0, -61.0 / 30, 169.0 / 120, -3.0 / 10, 7.0 / 240}};
 constexpr double kStep = 0.02;  // of the parameter's natural scale, 1 for angles: truncation and rounding both near 1e-12
 
-
 double component(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
-
-// r and its derivatives to the fifth at phi.
-std::array<Vec3, 6> expandCurve(const Curve& curve, double phi, double step) {
-  std::array<Vec3, 6> d{};
-  std::array<CurvePoint, 9> p;
-  for (int i = 0; i < 9; ++i) p[i] = evaluate(curve, phi + (i - 4) * step);
-  d[0] = p[4].r, d[1] = p[4].rPhi, d[2] = p[4].rPhiPhi;
-  double scale = 1 / step;
-  for (int m = 1; m <= 3; ++m, scale /= step)
-    for (int i = 0; i < 9; ++i) d[2 + m] += kDifference[m][i] * scale * p[i].rPhiPhi;
-  return d;
-}
 
 // All partial derivatives d[a][b] = r_(u^a v^b), a + b <= `order`, which is 3 or 5.
 using SurfaceExpansion = std::array<std::array<Vec3, 6>, 6>;
@@ -62,71 +49,12 @@ void store(const std::array<Jet<Locals>, 3>& jerk, double* r, double* ra, double
   for (int k = 0; k < 3; ++k) jerk[k].store(r + k, ra + k * Locals, raa + k * Locals * Locals);
 }
 
-// Arc length along the motion from its speed, and the prediction made of it.
-template <class Speed>
-std::unique_ptr<Prediction> makePathPrediction(const TranscribedMotion& motion, const Speed& speedAt, double duration, int massCount) {
-  const GaussRule<double> rule = makeGaussRule<double>(3 * motion.basis.columns() + 40);
-  std::vector<double> speed;
-  for (const double x : rule.node) speed.push_back(speedAt(x));
-  const SeriesOfOne hand = makeSeriesOfVelocity(projectOnLegendre(speed, rule.node, rule.weight), duration);
-  auto prediction = makeLegendrePrediction(hand, std::vector<SeriesOfOne>(massCount, hand), duration);
-  describeMotion(motion, *prediction);
-  prediction->distance = evaluate(hand.position, 1.0);
-  prediction->warnings.push_back("on a curve or surface hand and mass move as one; positions are metres of arc length");
-  return prediction;
-}
-
 double stepFor(const Domain& domain) {
   const double width = domain.hi - domain.lo;
   return std::isfinite(width) ? kStep * std::min(1.0, width) : kStep;
 }
 
 }  // namespace
-
-std::unique_ptr<Prediction> makeCurveJerkPrediction(const Constraint& curve, double start, double target, double duration, int massCount, int unknowns) {
-  constexpr int kLocals = 4, kProbes = 400;
-  double slowest = INFINITY, fastest = 0;
-  for (int i = 0; i <= kProbes; ++i) {
-    const double speed = norm(evaluate(curve.curve, start + (target - start) * i / kProbes).rPhi);
-    slowest = std::min(slowest, speed), fastest = std::max(fastest, speed);
-  }
-  if (!(slowest > 1e-6 * fastest)) throw RefusedError("the curve has a cusp, or stands still, between start and target: no smooth motion passes it");
-
-  TranscribedProblem problem;
-  problem.duration = duration;
-  problem.locals = kLocals;
-  problem.residuals = 3;
-  problem.from = {start};
-  problem.to = {target};
-  problem.local = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-  const double step = stepFor(curve.domain[0]);
-  problem.residual = [&](const double* a, double* r, double* ra, double* raa) {
-    using S = Jet<kLocals>;
-    const auto d = expandCurve(curve.curve, a[0], step);
-    if (ra == nullptr) {
-      const Vec3 plain = a[1] * a[1] * a[1] * d[3] + 3 * a[1] * a[2] * d[2] + a[3] * d[1];
-      r[0] = plain.x, r[1] = plain.y, r[2] = plain.z;
-      return;
-    }
-    const S v = S::variable(1, a[1]), w = S::variable(2, a[2]), z = S::variable(3, a[3]);
-    std::array<S, 3> jerk;
-    for (int k = 0; k < 3; ++k) {
-      const auto derivative = [&](int m) {
-        S c(component(d[m], k));
-        c.slope[0] = component(d[m + 1], k);
-        c.bend[0] = component(d[m + 2], k);
-        return c;
-      };
-      jerk[k] = derivative(3) * v * v * v + 3.0 * derivative(2) * v * w + derivative(1) * z;
-    }
-    store<kLocals>(jerk, r, ra, raa);
-  };
-  const TranscribedMotion motion = solveFromStarts(problem, unknowns);
-  const LegendreSeries phi = motion.derivative(0, 0), rate = motion.derivative(0, 1);
-  const double direction = target > start ? 1 : -1;
-  return makePathPrediction(motion, [&](double x) { return direction * evaluate(rate, x) * norm(evaluate(curve.curve, evaluate(phi, x)).rPhi); },
-                            duration, massCount);
-}
 
 std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface, const std::vector<double>& start, const std::vector<double>& target,
                                                       double duration, int massCount, int unknowns) {
@@ -175,12 +103,19 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface,
   };
   const TranscribedMotion motion = solveFromStarts(problem, unknowns);
   const LegendreSeries u = motion.derivative(0, 0), v = motion.derivative(1, 0), du = motion.derivative(0, 1), dv = motion.derivative(1, 1);
-  return makePathPrediction(motion,
-                            [&](double x) {
-                              const SurfacePoint p = evaluate(surface.surface, evaluate(u, x), evaluate(v, x));
-                              return norm(evaluate(du, x) * p.rU + evaluate(dv, x) * p.rV);
-                            },
-                            duration, massCount);
+  // Arc length along the motion from its speed.
+  const GaussRule<double> rule = makeGaussRule<double>(3 * motion.basis.columns() + 40);
+  std::vector<double> speed;
+  for (const double x : rule.node) {
+    const SurfacePoint p = evaluate(surface.surface, evaluate(u, x), evaluate(v, x));
+    speed.push_back(norm(evaluate(du, x) * p.rU + evaluate(dv, x) * p.rV));
+  }
+  const SeriesOfOne hand = makeSeriesOfVelocity(projectOnLegendre(speed, rule.node, rule.weight), duration);
+  auto prediction = makeLegendrePrediction(hand, std::vector<SeriesOfOne>(massCount, hand), duration);
+  describeMotion(motion, *prediction);
+  prediction->distance = evaluate(hand.position, 1.0);
+  prediction->warnings.emplace_back(kMovesAsOne);
+  return prediction;
 }
 
 }  // namespace reachlab

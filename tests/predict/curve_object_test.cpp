@@ -1,0 +1,175 @@
+// Least hand jerk with a chain or a parallel object on bent curves: the straight line as oracle, the program's own simulator as judge.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "constraints/error.h"
+#include "sim/dynamics/hand_function.h"
+#include "sim/dynamics/plant.h"
+#include "sim/predict/arc_curve.h"
+#include "sim/predict/predict.h"
+#include "tests/predict/objects.h"
+
+namespace reachlab {
+namespace {
+
+constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
+
+Experiment onCurve(Experiment e, std::vector<std::string> formula, double from, double to) {
+  e.constraint = {};
+  e.constraint.name.clear();
+  e.constraint.curve = std::move(formula);
+  e.task->start = {from};
+  e.task->target = {to};
+  return e;
+}
+
+Experiment onCircle(Experiment e, double radius) {
+  const std::string r = std::to_string(radius);
+  return onCurve(std::move(e), {r + "*sin(phi)", r + "*(1 - cos(phi))", "0"}, 0, 0.2 / radius);
+}
+
+Experiment onEllipse(Experiment e) { return onCurve(std::move(e), {"0", "0.1*cos(phi)", "0.06*sin(phi)"}, 0.2, 3); }
+
+Experiment damped(Experiment e) {
+  for (double& b : e.object.damping) b = 1;
+  if (e.coupling) e.coupling->damping = 5;
+  return e;
+}
+
+// Largest difference of any velocity, of the hand's peak.
+double compare(const Prediction& a, const Prediction& b) {
+  const auto n = static_cast<size_t>(b.massCount());
+  std::vector<double> x(n), v(n), y(n), w(n);
+  double most = 0;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = b.duration * i / 100;
+    a.massesAt(t, x, v), b.massesAt(t, y, w);
+    most = std::max(most, std::abs(a.handAt(t).velocity - b.handAt(t).velocity));
+    for (size_t m = 0; m < n; ++m) most = std::max({most, std::abs(v[m] - w[m]), std::abs(x[m] - y[m]) / b.duration});
+  }
+  return most / std::abs(b.handPeak);
+}
+
+TEST(CurveObject, OnAStraightLineUnevenlyRunItIsTheLinearPrediction) {
+  for (const Experiment& e : {chainModerate(), parallelPair(), damped(chainModerate()), makeChain(10, 0.3, 600, 1.35)}) {
+    const auto line = predict(e, Criterion::MinHandJerk);
+    const auto curve = predict(onCurve(e, {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1), Criterion::MinHandJerk);
+    EXPECT_LT(compare(*curve, *line), kProfile);
+    EXPECT_NEAR(curve->cost / line->cost, 1, kProfile);
+    EXPECT_EQ(curve->travelTime, line->travelTime);
+  }
+}
+
+// The way turns by L/R; what that changes is even in it.
+TEST(CurveObject, OnWiderAndWiderCirclesItComesToTheLineWithTheSquareOfTheCurvature) {
+  constexpr double kRatio = 0.05;  // what the fourth power leaves at 1 m
+  for (const Experiment& e : {chainModerate(), parallelPair()}) {
+    const auto line = predict(e, Criterion::MinHandJerk);
+    const auto from = [&](double radius) { return compare(*predict(onCircle(e, radius), Criterion::MinHandJerk), *line); };
+    EXPECT_LT(from(1000), 4e-8);  // (0.2 m / 1 km)^2
+    EXPECT_NEAR(from(1) / from(2), 4, 4 * kRatio);
+  }
+}
+
+struct Arrival {
+  double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
+  double along = 0;                   // largest distance of any mass from where it is predicted on the way [m]
+};
+
+Arrival simulate(const Experiment& e, const Prediction& p) {
+  const Scene scene = compileScene(e, {"adaptive", 0.001, 1e-13});
+  const ArcCurve curve(scene.constraint, e.task->start[0], e.task->target[0]);
+  scene.plant->placeAtRest(e.task->start);
+  const double T = p.duration;
+  const HandFunction hand = [&](double t) {
+    const PredictedHand h = p.handAt(std::min(t, T));
+    const auto at = curve.expand<2>(h.position);
+    return HandSample{at[0], h.velocity * at[1]};
+  };
+  constexpr int kSteps = 1500;
+  const auto n = static_cast<size_t>(p.massCount());
+  std::vector<MassState> masses(n);
+  std::vector<double> x(n), v(n);
+  Arrival arrival;
+  for (int i = 0; i < kSteps; ++i) {
+    if (scene.plant->step(makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != StepStatus::Ok) return {1, 1, 1};
+    const double t = T * (i + 1) / kSteps;
+    scene.plant->observe(hand(t), masses);
+    p.massesAt(t, x, v);
+    for (size_t m = 0; m < n; ++m) arrival.along = std::max(arrival.along, norm(masses[m].r - curve.expand<2>(x[m])[0]));
+  }
+  const Vec3 target = curve.expand<2>(curve.length())[0];
+  for (const MassState& m : masses) {
+    arrival.position = std::max(arrival.position, norm(m.r - target));
+    arrival.velocity = std::max(arrival.velocity, norm(m.v));
+  }
+  return arrival;
+}
+
+TEST(CurveObject, ArrivesAtRestInTheSimulator) {
+  constexpr double kAtRest = 1e-10;  // [m], [m/s]
+  constexpr double kOnTheWay = 1e-9;  // [m] between the masses' collocation points
+  for (const Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(chainModerate())), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
+                              onCurve(damped(parallelPair()), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
+    const auto p = predict(e, Criterion::MinHandJerk);
+    const Arrival arrival = simulate(e, *p);
+    EXPECT_LT(arrival.position, kAtRest);
+    EXPECT_LT(arrival.velocity, kAtRest);
+    EXPECT_LT(arrival.along, kOnTheWay);
+    const PredictedHand first = p->handAt(0), last = p->handAt(p->duration);
+    for (const double rest : {first.position, first.velocity, first.acceleration, last.position - p->distance, last.velocity, last.acceleration})
+      EXPECT_NEAR(rest, 0, kAtRest);
+  }
+}
+
+// Motions of fewer unknowns are among those of more, and all of them arrive: none may cost less.
+TEST(CurveObject, AMotionOfFewerUnknownsCostsMore) {
+  constexpr double kRounding = 1e-9;
+  for (const Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(parallelPair()))}) {
+    const auto best = predict(e, Criterion::MinHandJerk);
+    double before = INFINITY;
+    for (const int unknowns : {20, 30, 40, 50}) {
+      PredictOptions options;
+      options.unknowns = unknowns;
+      const double cost = predict(e, Criterion::MinHandJerk, options)->cost;
+      EXPECT_LT(cost, before * (1 + kRounding));
+      EXPECT_GT(cost, best->cost * (1 - kRounding));
+      before = cost;
+    }
+  }
+}
+
+TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
+  const auto with = [](const Experiment& e, int unknowns) {
+    PredictOptions options;
+    options.unknowns = unknowns;
+    return predict(e, Criterion::MinHandJerk, options);
+  };
+  const Experiment bent = onEllipse(chainModerate()), straight = onCurve(chainModerate(), {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1);
+  const auto settled = with(bent, 130), linear = predict(chainModerate(), Criterion::MinHandJerk);
+  double before = INFINITY;
+  for (const int unknowns : {24, 36, 54, 81}) {
+    const double onBent = compare(*with(bent, unknowns), *settled), onStraight = compare(*with(straight, unknowns), *linear);
+    std::cout << "measured: " << unknowns << " unknowns, error of the peak: ellipse " << onBent << ", straight line " << onStraight << '\n';
+    EXPECT_LT(std::max(onBent, onStraight), before / 3);
+    before = std::max(onBent, onStraight);
+  }
+  EXPECT_LT(before, kProfile);
+  EXPECT_LT(compare(*predict(bent, Criterion::MinHandJerk), *settled), kProfile);
+  EXPECT_LT(compare(*predict(onEllipse(parallelPair()), Criterion::MinHandJerk), *with(onEllipse(parallelPair()), 130)), kProfile);
+}
+
+TEST(CurveObject, IsRefusedWhereItHasNoMeaning) {
+  Experiment heavy = onEllipse(chainModerate());
+  heavy.object.gravity = {0, -9.81, 0};
+  EXPECT_THROW(predict(heavy, Criterion::MinHandJerk), RefusedError);
+  heavy.object.gravity = {-9.81, 0, 0};  // across the ellipse's plane
+  EXPECT_NO_THROW(predict(heavy, Criterion::MinHandJerk));
+  EXPECT_THROW(predict(onCurve(chainModerate(), {"0.1*phi^3", "0.1*phi^2", "0"}, -1, 1), Criterion::MinHandJerk), RefusedError);
+  EXPECT_THROW(predict(onEllipse(chainModerate()), Criterion::MinHandForce), RefusedError);
+}
+
+}  // namespace
+}  // namespace reachlab
