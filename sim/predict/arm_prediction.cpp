@@ -150,7 +150,7 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask&
   addForce(node[0], 1, object.handDamping);
   for (int i = 0; i < n; ++i) {
     addForce(node[i + 1], 2, object.masses[i]);
-    addForce(node[i + 1], 1, object.viscosity);
+    addForce(node[i + 1], 1, object.viscosity[i]);
   }
   const size_t width = static_cast<size_t>(problem.order) + 1;
   std::vector<double> local(kLocals * width, 0.0);

@@ -6,7 +6,7 @@
 namespace reachlab {
 
 double CurveObject::boundRate() const {
-  std::vector<double> stiffness(masses.size(), 0.0), decay(masses.size(), viscosity);
+  std::vector<double> stiffness(masses.size(), 0.0), decay = viscosity;
   for (const Link& link : links)
     for (const int node : {link.inner, link.outer})
       if (node > 0) {
@@ -38,7 +38,7 @@ void expandAccelerations(const ArcCurve& curve, const CurveObject& object, const
   for (int i = 0; i < nodes; ++i) at.push_back(curve.expand<3>(s[i]));
   if (slope != nullptr) slope->setZero(nodes - 1, 2 * nodes);
   for (int i = 1; i < nodes; ++i) {
-    const double drag = object.viscosity / object.masses[static_cast<size_t>(i) - 1];
+    const double drag = object.viscosity[static_cast<size_t>(i) - 1] / object.masses[static_cast<size_t>(i) - 1];
     a[i - 1] = -drag * v[i];
     if (slope != nullptr) (*slope)(i - 1, nodes + i) = -drag;
   }

@@ -9,7 +9,7 @@ namespace reachlab {
 
 /// Chain or parallel object on a curve: node 0 is the hand, nodes 1 … N the masses, all at arc lengths s [m] with speeds v [m/s].
 /// Springs and dampers act along the chords in space and are projected on the tangent (physics.md; Eq. (11) in arc length):
-/// m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity v_i.
+/// m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity_i v_i.
 struct CurveObject {
   struct Link {
     int inner = 0, outer = 0;  // nodes; the inner one may be the hand
@@ -18,7 +18,7 @@ struct CurveObject {
   };
   std::vector<double> masses;  // [kg]
   std::vector<Link> links;
-  double viscosity = 0;  // [N s/m] on every mass
+  std::vector<double> viscosity;  // [N s/m] on each mass
 
   int count() const { return static_cast<int>(masses.size()); }
   /// [rad/s] an upper bound of its frequencies and decay rates.

@@ -28,7 +28,7 @@ std::vector<FlatPolynomial> computeChain(const LineObject& object) {
   FlatPolynomial elongation{0};
   for (int i = n; i > 0; --i) {
     const long double k = object.springs[i - 1];
-    FlatPolynomial next = FlatPolynomial{0, object.viscosity / k, object.masses[i - 1] / k} * node[i];
+    FlatPolynomial next = FlatPolynomial{0, object.viscosity[i - 1] / k, object.masses[i - 1] / k} * node[i];
     if (i < n) next = next + FlatPolynomial{object.springs[i] / k} * (kappa(i) * elongation);
     elongation = next;
     node[i - 1] = elongation + kappa(i - 1) * node[i];
@@ -46,7 +46,7 @@ std::vector<FlatPolynomial> computeParallel(const LineObject& object) {
   std::vector<FlatPolynomial> node(n + 1, FlatPolynomial{1});
   for (int j = 0; j < n; ++j) {
     const long double k = object.springs[j];
-    const FlatPolynomial oscillator{1, (static_cast<long double>(object.dampers[j]) + object.viscosity) / k, object.masses[j] / k};
+    const FlatPolynomial oscillator{1, (static_cast<long double>(object.dampers[j]) + object.viscosity[j]) / k, object.masses[j] / k};
     for (int i = 0; i <= n; ++i)
       node[i] = node[i] * (i == j + 1 ? FlatPolynomial{1, static_cast<long double>(object.dampers[j]) / k} : oscillator);
   }

@@ -23,7 +23,8 @@ void requirePositive(const std::vector<double>& values, const char* what, const 
 }  // namespace
 
 bool LineObject::damped(bool withHand) const {
-  return viscosity > 0 || (withHand && handDamping > 0) || std::any_of(dampers.begin(), dampers.end(), [](double b) { return b > 0; });
+  const auto any = [](const std::vector<double>& values) { return std::any_of(values.begin(), values.end(), [](double b) { return b > 0; }); };
+  return any(viscosity) || any(dampers) || (withHand && handDamping > 0);
 }
 
 double LineObject::totalMass() const { return std::accumulate(masses.begin(), masses.end(), handMass); }
@@ -35,7 +36,7 @@ LineObject makeLineObject(const Experiment& experiment, double handMass, double 
   LineObject line;
   line.parallel = object.kind == ObjectKind::Parallel;
   line.masses = object.masses;
-  line.viscosity = object.viscosity;
+  line.viscosity.assign(object.masses.size(), object.viscosity);
   line.handMass = handMass;
   line.handDamping = handDamping;
   const size_t n = line.masses.size();
@@ -59,18 +60,21 @@ LineObject makeLineObject(const Experiment& experiment, double handMass, double 
 LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings) {
   if (!object.parallel) return object;
   LineObject merged = object;
-  merged.masses.clear(), merged.springs.clear(), merged.dampers.clear();
+  merged.masses.clear(), merged.springs.clear(), merged.dampers.clear(), merged.viscosity.clear();
   const auto frequency = [](const LineObject& o, int i) { return std::sqrt(o.springs[i] / o.masses[i]); };
   const auto decay = [](const LineObject& o, int i) { return o.dampers[i] / o.masses[i]; };
+  const auto drag = [](const LineObject& o, int i) { return o.viscosity[i] / o.masses[i]; };
   for (int i = 0; i < object.count(); ++i) {
     int place = 0;
     while (place < merged.count() && !(std::abs(frequency(merged, place) - frequency(object, i)) * duration < kEqualPhase &&
-                                       std::abs(decay(merged, place) - decay(object, i)) * duration < kEqualPhase))
+                                       std::abs(decay(merged, place) - decay(object, i)) * duration < kEqualPhase &&
+                                       std::abs(drag(merged, place) - drag(object, i)) * duration < kEqualPhase))
       ++place;
     if (place == merged.count()) {
       merged.masses.push_back(object.masses[i]);
       merged.springs.push_back(object.springs[i]);
       merged.dampers.push_back(object.dampers[i]);
+      merged.viscosity.push_back(object.viscosity[i]);
     } else {
       warnings.push_back(fmt::format("masses {} and {} have equal frequencies ({:.6g} rad/s): they move as one mass",
                                      std::find(merged.source.begin(), merged.source.begin() + i, place) - merged.source.begin() + 1,
@@ -78,6 +82,7 @@ LineObject mergeEqualFrequencies(const LineObject& object, double duration, std:
       merged.masses[place] += object.masses[i];
       merged.springs[place] += object.springs[i];
       merged.dampers[place] += object.dampers[i];
+      merged.viscosity[place] += object.viscosity[i];
     }
     merged.source[i] = place;
   }

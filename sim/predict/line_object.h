@@ -13,7 +13,7 @@ struct LineObject {
   std::vector<double> masses;   // [kg]
   std::vector<double> springs;  // [N/m], as many as masses
   std::vector<double> dampers;  // [N s/m], as many as masses
-  double viscosity = 0;         // [N s/m] of the surroundings, on every mass
+  std::vector<double> viscosity;  // [N s/m] of the surroundings, on each mass
   double handMass = 0;          // [kg]
   double handDamping = 0;       // [N s/m]
   std::vector<int> source;      // mass i of the experiment is masses[source[i]] here: equal parallel frequencies are one mass

@@ -34,8 +34,8 @@ class Builder {
       const Row<Real> stretching = difference(from < 0 ? zero() : velocity(from), velocity(i));
       setRate(i, stretching, sqrt(Real(o.springs[i])));
       applySpring(i, from, i, stretching);
-      add(force[i], velocity(i), Real(-o.viscosity));
-      add(force[i], speed, Real(-o.viscosity));
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
+      add(force[i], speed, Real(-o.viscosity[i]));
       add(force[i], acceleration, Real(-o.masses[i]));
     }
     finishVelocities(o.masses);
@@ -72,7 +72,7 @@ class Builder {
       const Row<Real> stretching = difference(velocity(from), velocity(to));
       setRate(i, stretching, sqrt(Real(o.springs[i])));
       applySpring(i, from, to, stretching);
-      add(force[to], velocity(to), Real(-o.viscosity));
+      add(force[to], velocity(to), Real(-o.viscosity[i]));
     }
     add(force[0], velocity(0), Real(-o.handDamping));
     const Row<Real> drive = drivingForce(velocity(0), 1);
@@ -101,7 +101,7 @@ class Builder {
       const Row<Real> stretching = difference(from < 0 ? speed : velocity(from), velocity(i));
       setRate(i, stretching, sqrt(Real(o.springs[i])));
       applySpring(i, from, i, stretching);
-      add(force[i], velocity(i), Real(-o.viscosity));
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
     }
     s.handVelocityJumps = kind != Criterion::MinHandForceChange;
     finishByForce(o.masses, distance);
@@ -119,7 +119,7 @@ class Builder {
     nodeMass = o.masses;
     const Row<Real> drive = drivingForce(zero(), 0);
     for (int i = 0; i < n; ++i) {
-      add(force[i], velocity(i), Real(-o.viscosity));
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
       if (i == 0) continue;
       const Row<Real> stretching = difference(velocity(i - 1), velocity(i));
       setRate(i - 1, stretching, sqrt(Real(o.springs[i])));
@@ -179,7 +179,7 @@ class Builder {
       add(stretch[i], drive, q[i] / sqrt(total));
       for (int j = 0; j + 1 < n; ++j) add(stretch[i], state(j), basis(i, j));
       add(force[i], stretch[i], sqrt(Real(o.springs[i])));
-      add(force[i], velocity(i), Real(-o.viscosity));
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
     }
     for (int j = 0; j + 1 < n; ++j) {
       Row<Real> rate = zero();
@@ -249,7 +249,7 @@ class Builder {
     Row<Real> row = control();
     for (Real& c : row) c *= Real(o.totalMass());
     add(row, handVelocity, Real(o.handDamping));
-    for (int i = 0; i < n; ++i) add(row, velocity(firstMass + i), Real(o.viscosity));
+    for (int i = 0; i < n; ++i) add(row, velocity(firstMass + i), Real(o.viscosity[i]));
     return row;
   }
 
