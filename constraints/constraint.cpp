@@ -83,7 +83,7 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
       c.name = "free";
       return c;
     }
-    return makeConstraint(findDefinition(spec.name, origin), spec.shape, origin);
+    return makeConstraint(spec.definition.empty() ? findDefinition(spec.name, origin) : parseDefinition(spec.definition, origin), spec.shape, origin);
   }
   const std::vector<std::string>& lines = spec.curve.empty() ? spec.surface : spec.curve;
   if (lines.size() != 3) throw UsageError(origin + ": has " + std::to_string(lines.size()) + " formulas; allowed: three, one a coordinate");

@@ -71,6 +71,8 @@ struct ConstraintSpec {
   /// Where a typed formula will be moved on (the hull of start and target): there it must be finite with its derivatives; the motion itself
   /// has no ends. Not known: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1].
   std::optional<std::array<Domain, 2>> inUse = std::nullopt;
+  /// The text of the named definition where it is not to be looked up: a recorded run brings its own. Empty: looked up.
+  std::string definition = {};
 };
 
 /// A constraint ready to be computed with: a value, cheap to copy; the owner keeps a typed formula's program alive.

@@ -72,6 +72,7 @@ void SessionController::open(const SessionRequest& request) {
   } else if (edited_) {
     block.experiment = experiment_;
     block.configuration.experimentText = experiment_.text;
+    block.configuration.definitionText = definitionTextOf(experiment_);
   }
   run_ = std::make_unique<WindowRun>(block, asked.device, asked.place.data);
   last_.reset();

@@ -184,15 +184,14 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
   } catch (const UsageError&) {
     // No logs: the exported files may still be there.
   }
-  std::map<std::string, Experiment> parsed;
+  std::map<std::pair<std::string, std::string>, Experiment> parsed;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
     try {
       const RunLog log = RunLog::open(logs[i]);
       const RunConfiguration& c = log.configuration();
-      auto known = parsed.find(c.experimentText);
-      if (known == parsed.end())
-        known = parsed.emplace(c.experimentText, parseExperiment(c.experimentText, c.experimentName)).first;
+      auto known = parsed.find({c.experimentText, c.definitionText});
+      if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, recordedExperiment(c)).first;
       Experiment experiment = known->second;
       experiment.text = c.experimentText;
       addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset);

@@ -84,7 +84,11 @@ struct Experiment {
 /// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Experiment readExperiment(const std::string& fileOrName);
 /// The same from text; `file` is only named in messages.
-Experiment parseExperiment(const std::string& text, const std::string& file);
+/// `definition`: the text of the definition that the experiment names, where it is not to be looked up (recorded runs); empty: looked up.
+Experiment parseExperiment(const std::string& text, const std::string& file, const std::string& definition = {});
+/// The text of the definition that the experiment names, with formula, shape and domain; empty where it types its formula or moves free.
+/// Throws UsageError when there is no such definition.
+std::string definitionTextOf(const Experiment& experiment);
 /// The experiment as a file that reads back equal (for saving from the window, and for the log).
 std::string toJson(const Experiment& experiment);
 /// Every fault of a value that did not come through the reader (edited in the window); empty when fine.

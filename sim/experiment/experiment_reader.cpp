@@ -211,7 +211,7 @@ void readVelocityEstimator(ObjectReader& root, Experiment& experiment) {
 
 }  // namespace
 
-Experiment parseExperiment(const std::string& text, const std::string& file) {
+Experiment parseExperiment(const std::string& text, const std::string& file, const std::string& definition) {
   FaultList faults(file);
   const JsonNode tree = parseJson(text, file);
   ObjectReader root(faults, tree, "");
@@ -227,6 +227,7 @@ Experiment parseExperiment(const std::string& text, const std::string& file) {
   std::string description;
   root.text("description", description);
   std::optional<Constraint> constraint;
+  experiment.constraint.definition = definition;
   readConstraint(root, experiment, constraint);
   readObject(root, experiment);
   readCoupling(root, experiment);

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "constraints/definition.h"
 #include "constraints/error.h"
 #include "sim/experiment/experiment.h"
 
@@ -85,6 +86,13 @@ std::string toJson(const Experiment& experiment) {
                  {"shoulder_m", arm.shoulder},
                  {"elbow_left", arm.elbowLeft}};
   return json.dump(2) + "\n";
+}
+
+std::string definitionTextOf(const Experiment& experiment) {
+  const ConstraintSpec& spec = experiment.constraint;
+  if (!spec.definition.empty()) return spec.definition;
+  if (!spec.curve.empty() || !spec.surface.empty() || spec.name == "free") return {};
+  return toJson(findDefinition(spec.name, "constraint"));
 }
 
 std::vector<std::string> problems(const Experiment& experiment) {

@@ -73,7 +73,7 @@ void compareTrials(const RunLog& log, Replay& replay) {
 
 Replay replayRun(const RunLog& log) {
   const RunConfiguration& c = log.configuration();
-  const Experiment experiment = parseExperiment(c.experimentText, c.experimentName);
+  const Experiment experiment = recordedExperiment(c);
   TickEngine engine(experiment, EngineOptions{c.deviceMaxForce, c.virtualHand});
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);

@@ -85,6 +85,7 @@ std::string toJson(const RunConfiguration& c) {
       {"repeat_aborted", c.repeatAborted},
       {"experiment_name", c.experimentName},
       {"experiment_text", c.experimentText},
+      {"definition_text", c.definitionText},
       {"plan_name", c.planName},
       {"plan_text", c.planText},
       {"seed", c.seed},
@@ -130,6 +131,7 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     c.repeatAborted = j.at("repeat_aborted");
     c.experimentName = j.at("experiment_name");
     c.experimentText = j.at("experiment_text");
+    c.definitionText = j.value("definition_text", "");  // logs before 2026-11-21 have none
     c.planName = j.at("plan_name");
     c.planText = j.at("plan_text");
     c.seed = j.at("seed");
@@ -157,6 +159,10 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   } catch (const json::exception& fault) {
     throw UsageError(fmt::format("{}: configuration record cannot be understood: {}", origin, fault.what()));
   }
+}
+
+Experiment recordedExperiment(const RunConfiguration& c) {
+  return parseExperiment(c.experimentText, c.experimentName, c.definitionText);
 }
 
 void checkLabel(const std::string& label, const std::string& what) {

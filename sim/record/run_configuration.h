@@ -30,6 +30,7 @@ struct RunConfiguration {
   double pauseSeconds = 0;                     // between trials
   bool repeatAborted = false;                  // an aborted trial is put up once more at the end
   std::string experimentName, experimentText;  // the file as it was read
+  std::string definitionText;                  // of the named constraint, see definitionTextOf; empty for a typed formula and free space
   std::string planName, planText;              // empty without a plan
   std::uint64_t seed = 0;                      // of this block: trial i depends on (seed, i) alone
   std::uint64_t sessionSeed = 0;               // that the blocks' seeds come from
@@ -53,6 +54,10 @@ struct RunConfiguration {
 std::string toJson(const RunConfiguration& configuration);
 /// Throws UsageError naming `origin` when the text is no configuration.
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
+
+/// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
+/// Throws UsageError when its text cannot be understood.
+Experiment recordedExperiment(const RunConfiguration& configuration);
 
 /// Labels are letters and digits only (BIDS). Throws UsageError otherwise.
 void checkLabel(const std::string& label, const std::string& what);

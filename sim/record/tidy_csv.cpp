@@ -58,7 +58,7 @@ Task taskOf(const RunConfiguration& configuration) {
   unknown.duration = kUnknown;
   unknown.tolerance = {kUnknown, kUnknown, kUnknown};
   try {
-    return parseExperiment(configuration.experimentText, configuration.experimentName).task.value_or(unknown);
+    return recordedExperiment(configuration).task.value_or(unknown);
   } catch (const std::runtime_error&) {
     return unknown;
   }

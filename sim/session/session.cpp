@@ -47,13 +47,17 @@ int dayOf(const SessionRequest& request, const Plan& plan) {
   return day;
 }
 
+bool isRunOf(const RunConfiguration& c, const Experiment& experiment) {
+  return c.planText.empty() && c.experimentText == experiment.text &&
+         (c.definitionText.empty() || c.definitionText == definitionTextOf(experiment));
+}
+
 const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number,
                                   const Experiment& experiment) {
   const BlockProgress* found = nullptr;
   for (const BlockProgress& block : progress) {
     const RunConfiguration& c = block.configuration;
-    const bool same = plan.text.empty() ? c.planText.empty() && c.experimentText == experiment.text
-                                        : c.planText == plan.text && c.block == number;
+    const bool same = plan.text.empty() ? isRunOf(c, experiment) : c.planText == plan.text && c.block == number;
     if (same) found = &block;
   }
   return found;
@@ -95,6 +99,7 @@ RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& p
   c.repeatAborted = block.repeatAborted;
   c.experimentName = experiment.name;
   c.experimentText = experiment.text;
+  c.definitionText = definitionTextOf(experiment);
   c.planName = plan.text.empty() ? "" : plan.name;
   c.planText = plan.text;
   c.orderSeed = plan.orderSeed;

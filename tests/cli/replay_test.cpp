@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
+#include "constraints/error.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log.h"
 #include "sim/session/session_folder.h"
@@ -39,6 +42,37 @@ TEST(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
   ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data), 0);
   ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data), 0);
   for (const RecordedRun& run : recordedRuns({data})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
+}
+
+// Years later, on another computer: the definition's file is gone, or says something else under the same name.
+TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
+  const TemporaryFolder folder("replay4");
+  const std::string data = folder / "data", definition = folder / "own-eight.json", experiment = folder / "eight.json";
+  const auto write = [](const std::string& file, const std::string& text) { std::ofstream(file) << text; };
+  const auto eight = [](const char* x) {
+    return std::string(R"json({"schema_version": 1, "name": "own-eight", "kind": "curve", "curve": [")json") + x +
+           R"json(", "w_m*sin(phi)*cos(phi)", "0"], "shape": {"w_m": {"default": 0.1, "min": 0.02, "max": 0.4, "unit": "m"}},
+             "domain": [0, "2*pi"], "periodic": true, "start": [0], "target": ["pi/2"]})json";
+  };
+  write(definition, eight("w_m*cos(phi)"));
+  write(experiment, R"({"schema_version": 1, "constraint": {"name": "own-eight", "shape": {"w_m": 0.12}},
+      "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5},
+      "task": {"start": [0], "target": [1.5], "duration_s": 1.5, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 1}}})");
+  ::setenv("REACHLAB_CONSTRAINTS", std::filesystem::path(definition).parent_path().c_str(), 1);
+  ASSERT_EQ(reach("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
+  const std::string log = recordedRuns({data}).at(0).path;
+  EXPECT_EQ(reach("replay " + log + " --check"), 0);
+  write(definition, eight("0.9*w_m*cos(phi)"));
+  EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file has changed";
+  std::filesystem::remove(definition);
+  EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file is gone";
+  EXPECT_EQ(reach("export " + data + " --format csv --out " + (folder / "tables")), 0);
+  EXPECT_EQ(reach("analyze " + data + " --out " + (folder / "analysis")), 0);
+  ::unsetenv("REACHLAB_CONSTRAINTS");
+  const RunConfiguration recorded = RunLog::open(log).configuration();
+  EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);
+  EXPECT_THROW((void)parseExperiment(recorded.experimentText, "eight"), UsageError) << "without the definition it cannot be known";
+  EXPECT_EQ(recordedExperiment(recorded).constraint.shape.at("w_m"), 0.12);
 }
 
 // The same log with one number of one row changed, every record good in itself.
