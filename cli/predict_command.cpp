@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <future>
 #include <iostream>
 #include <memory>
 
@@ -51,6 +53,21 @@ void reportTime(const Experiment& experiment, Criterion criterion, const Predict
   std::cerr << fmt::format("computed in {:.0f} us (median of {})\n", microseconds[kRuns / 2], kRuns);
 }
 
+// A prediction on a thread of its own; who waits longer than a moment is told so, on a terminal.
+std::unique_ptr<Prediction> predictPatiently(const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
+  using namespace std::chrono_literals;
+  const auto begin = std::chrono::steady_clock::now();
+  auto result = std::async(std::launch::async, [&] { return predict(experiment, criterion, options); });
+  bool told = false;
+  for (auto pause = 250ms; isatty(STDERR_FILENO) && result.wait_for(pause) != std::future_status::ready; pause = 500ms) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::cerr << fmt::format("\rcomputing {} … {:.1f} s", nameOf(criterion), seconds) << std::flush;
+    told = true;
+  }
+  if (told) std::cerr << '\n';
+  return result.get();
+}
+
 void runSweep(const PredictArguments& arguments, const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
   const Sweep sweep = parseSweep(arguments.sweep);
   const auto begin = std::chrono::steady_clock::now();
@@ -79,7 +96,7 @@ void runPredict(const PredictArguments& arguments) {
   if (arguments.handMass >= 0) options.handMass = arguments.handMass;
   if (!arguments.sweep.empty()) return runSweep(arguments, experiment, criterion, options);
 
-  const auto prediction = predict(experiment, criterion, options);
+  const auto prediction = predictPatiently(experiment, criterion, options);
   for (const std::string& warning : prediction->warnings) std::cerr << "warning: " << warning << '\n';
   if (arguments.time) reportTime(experiment, criterion, options);
   if (arguments.json) std::cout << writePredictionJson(*prediction) << std::flush;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -25,6 +27,31 @@ Series makeSeries(std::string label, Color color = palette::kBlack, Dash dash = 
   series.dash = dash;
   series.width = width;
   return series;
+}
+
+// "Movement time (s)" of duration_s.
+std::string labelOf(const std::string& key) {
+  std::string label = key;
+  for (const SweepKey& known : sweepKeys())
+    if (known.name == key) label = known.meaning;
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  for (const auto& [ending, unit] : {std::pair{"_n_s_per_m", "N s/m"}, std::pair{"_n_per_m", "N/m"}, std::pair{"_kg", "kg"}, std::pair{"_s", "s"}})
+    if (key.ends_with(ending)) return label + " (" + unit + ")";
+  return label;
+}
+
+// Where the number of peaks changes along the sweep, and where the hand begins or ceases to move backwards: half way between two values.
+std::vector<Rule> findTurns(const std::vector<FamilyRow>& rows) {
+  std::vector<Rule> turns;
+  for (size_t i = 1; i < rows.size(); ++i) {
+    if (!rows[i - 1].prediction || !rows[i].prediction) continue;
+    const ProfileShape &before = rows[i - 1].shape, &after = rows[i].shape;
+    Rule rule;
+    rule.at = (rows[i - 1].value + rows[i].value) / 2;
+    if (before.reverses != after.reverses) rule.color = palette::kVermilion;
+    if (before.velocityPeaks != after.velocityPeaks || before.reverses != after.reverses) turns.push_back(rule);
+  }
+  return turns;
 }
 
 }  // namespace
@@ -118,19 +145,30 @@ Figure drawFamily(const Sweep& sweep, const std::vector<FamilyRow>& rows, Criter
     count.y.push_back(p ? row.shape.velocityPeaks : none);
     reversal.y.push_back(p && row.shape.reverses ? row.shape.velocityPeaks : none);
   }
+  const std::string along = labelOf(sweep.key);
   const auto panel = [&](const std::string& y, Scale scale, std::vector<Series> series) {
     Panel made;
-    made.x.label = sweep.key;
+    made.x.label = along;
     made.y.label = y;
     made.y.scale = scale;
     made.series = std::move(series);
+    made.rules = findTurns(rows);
     return made;
   };
+  // What the lines across say, for the legend alone.
+  const Series change = makeSeries("their number changes", palette::kGrey, Dash::Dotted, kThin);
+  const Series turn = makeSeries("begins or ceases to reverse", palette::kVermilion, Dash::Dotted, kThin);
+  Panel peaks = panel("Peaks of the hand's velocity", Scale::Linear, {count, reversal, change, turn});
+  peaks.legend = LegendPlace::Below;
+  int most = 1;
+  for (const FamilyRow& row : rows) most = std::max(most, row.shape.velocityPeaks);
+  peaks.y.from = 0;
+  peaks.y.to = most + 0.5;
+  for (int i = 0; i <= most; ++i) peaks.y.ticks.emplace_back(i, std::to_string(i));
   Figure figure;
   figure.title = nameOf(criterion);
   figure.columns = 3;
-  figure.panels = {panel("Peak velocity (m/s)", Scale::Linear, {hand, object}), panel("Cost", Scale::Log, {cost}),
-                   panel("Peaks of the hand's velocity", Scale::Linear, {count, reversal})};
+  figure.panels = {panel("Peak velocity (m/s)", Scale::Linear, {hand, object}), panel("Cost", Scale::Log, {cost}), peaks};
   return figure;
 }
 

@@ -209,7 +209,7 @@ NamedFigure learningFigure(const StudyResult& study) {
       const bool newSession = !s.x.empty() && session[p.subject] != p.session;
       session[p.subject] = p.session;
       const int i = static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), p.subject) - study.subjects.begin());
-      s.label = p.subject;
+      s.label = "subject " + p.subject;
       s.color = palette::series(i);
       s.marker = markerOf(i);
       const auto add = [&](double x, double y, double low, double high) {

@@ -18,9 +18,9 @@ constexpr const char* kStyle = R"(
 body { font: 15px/1.5 "DejaVu Sans", "Segoe UI", Helvetica, Arial, sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.55rem; margin-bottom: .2rem; } h2 { font-size: 1.15rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; padding-bottom: .2rem; }
 h3 { font-size: 1rem; margin-bottom: .3rem; } p { margin: .5rem 0; } .quiet { color: #666; font-size: .85rem; }
-table { border-collapse: collapse; margin: .8rem 0; font-size: .87rem; } th, td { padding: .2rem .7rem; text-align: right; }
+table { border-collapse: collapse; margin: .8rem 0; font-size: .87rem; } th, td { padding: .2rem .7rem; text-align: right; } td { white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 1px solid #444; vertical-align: bottom; } tbody tr:nth-child(even) { background: #f5f6f8; }
-tbody tr.first td { font-weight: bold; } td.text, th.text { text-align: left; }
+tbody tr.first td { font-weight: bold; } td.text, th.text { text-align: left; } td.text { white-space: normal; overflow-wrap: anywhere; }
 figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: .87rem; color: #444; }
 .finding { background: #eef4fa; border-left: 4px solid #0072b2; padding: .6rem .9rem; } .warning { background: #fdf3e7; border-left: 4px solid #d55e00; padding: .6rem .9rem; }
 @media print { body { max-width: none; margin: 0; font-size: 10pt; } h2, figure, table { break-inside: avoid; } }
@@ -88,18 +88,18 @@ void addSuccessTable(Html& html, const StudyResult& study) {
 void addRankingTable(Html& html, const ConditionResult& result) {
   const Ranking& ranking = result.handRanking;
   if (ranking.places.empty()) return;
-  html.add("<table><thead><tr><th>Criterion</th><th>predicted for T (s)</th><th>ε (mm/s)</th><th>95 % interval</th><th>farther than the first by (mm/s)</th><th>95 % interval</th>"
+  html.add("<table><thead><tr><th>Criterion</th><th>predicted for T (s)</th><th>ε (m/s)</th><th>95 % interval</th><th>farther than the first by (m/s)</th><th>95 % interval</th>"
            "<th class=\"text\">told apart</th></tr></thead><tbody>");
-  const auto mm = [](double v) { return fmt::format("{:.2f}", 1e3 * v); };
+  const auto speed = [](double v) { return fmt::format("{:.5f}", v); };
   for (std::size_t i = 0; i < ranking.places.size(); ++i) {
     const RankedCriterion& p = ranking.places[i];
     const PredictedProfile& predicted = result.predictions[p.criterion];
     html.add(fmt::format("<tr{}><td>{}</td><td>{:.3f}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "",
-                         escaped(numberedName(predicted.criterion)), predicted.taskDuration, mm(p.epsilon), mm(p.interval.low), mm(p.interval.high)));
+                         escaped(numberedName(predicted.criterion)), predicted.taskDuration, speed(p.epsilon), speed(p.interval.low), speed(p.interval.high)));
     if (i == 0) html.add("<td></td><td></td><td class=\"text\"></td></tr>");
     else
-      html.add(fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td></tr>", mm(p.difference), mm(p.differenceInterval.low),
-                           mm(p.differenceInterval.high), p.apartFromFirst ? "yes" : "no"));
+      html.add(fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td></tr>", speed(p.difference), speed(p.differenceInterval.low),
+                           speed(p.differenceInterval.high), p.apartFromFirst ? "yes" : "no"));
   }
   html.add("</tbody></table>");
 }
@@ -227,7 +227,10 @@ std::string makeReport(const ReportHeader& header, const StudyResult& study, con
     addFigure(html, figures, "ranking");
   } else {
     html.heading(2, "Which criterion is nearest?");
-    html.paragraph("Nothing to rank: no successful trial, or no criterion that can be predicted here.", "warning");
+    const bool succeeded = std::any_of(study.results.begin(), study.results.end(), [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; });
+    html.paragraph(succeeded ? "Nothing to rank: no criterion can be predicted in every condition."
+                             : "Nothing to rank: no trial succeeded. What the failed ones were like is described below, condition by condition.",
+                   "warning");
   }
   addSuccessTable(html, study);
   addFigure(html, figures, "learning");

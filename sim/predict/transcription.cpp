@@ -61,7 +61,8 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
     damping = length < 0.1 ? std::max(10 * damping, 1e-6) : damping < 1e-5 ? 0 : damping / 10;
     if (settled) {
       motion.cost = cost.evaluate(c);
-      const double rcond = factor.rcond();
+      const Vector unit = hessian.diagonal().cwiseSqrt().cwiseInverse();  // each unknown in its own measure
+      const double rcond = Eigen::LLT<Matrix>(unit.asDiagonal() * hessian * unit.asDiagonal()).rcond();
       motion.condition = rcond > 0 ? 1 / std::sqrt(rcond) : std::numeric_limits<double>::infinity();
     }
   }

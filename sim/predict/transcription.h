@@ -13,7 +13,7 @@ struct TranscribedMotion {
   std::vector<double> start;
   double duration = 0;
   double cost = 0;
-  double condition = 0;  // root of the last Newton matrix's, as it is of a square
+  double condition = 0;  // root of the last Newton matrix's, as it is of a square, its diagonal scaled to one
   int iterations = 0;
   double uncertainty = 0;  // of the profile, of its peak; 0 where it is below what was asked
 
