@@ -19,7 +19,7 @@ body { font: 15px/1.5 "DejaVu Sans", "Segoe UI", Helvetica, Arial, sans-serif; c
 h1 { font-size: 1.55rem; margin-bottom: .2rem; } h2 { font-size: 1.15rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; padding-bottom: .2rem; }
 h3 { font-size: 1rem; margin-bottom: .3rem; } p { margin: .5rem 0; } .quiet { color: #666; font-size: .85rem; }
 table { border-collapse: collapse; margin: .8rem 0; font-size: .87rem; } th, td { padding: .2rem .7rem; text-align: right; } td { white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 1px solid #444; vertical-align: bottom; } tbody tr:nth-child(even) { background: #f5f6f8; }
+thead tr:first-child th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 1px solid #444; vertical-align: bottom; } tbody tr:nth-child(even) { background: #f5f6f8; }
 tbody tr.first td { font-weight: bold; } td.text, th.text { text-align: left; } td.text { white-space: normal; overflow-wrap: anywhere; }
 figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: .87rem; color: #444; }
 .finding { background: #eef4fa; border-left: 4px solid #0072b2; padding: .6rem .9rem; } .warning { background: #fdf3e7; border-left: 4px solid #d55e00; padding: .6rem .9rem; }
