@@ -112,7 +112,8 @@ Schedule makeSchedule(const Request& request, double until, const std::vector<do
 constexpr int kMostHalvings = 12;
 StepStatus stepInHalves(Plant& plant, const HandLaw& law, double t, double dt, int halvings, double& last) {
   StepStatus status = plant.step(makeSegment(law.function, t, dt), dt);
-  if (status == StepStatus::Capped && halvings > 0) {
+  // Capped, or before a place without continuation: it comes as near as 2^-12 of the step.
+  if ((status == StepStatus::Capped || status == StepStatus::NoContinuation) && halvings > 0) {
     status = stepInHalves(plant, law, t, dt / 2, halvings - 1, last);
     return status == StepStatus::Ok ? stepInHalves(plant, law, t + dt / 2, dt / 2, halvings - 1, last) : status;
   }

@@ -115,8 +115,7 @@ class CuspAdaptive {
             }
             if (std::abs(phi - trial[lead.mass]) < 1e-12 * (1 + std::abs(phi))) {
               trial[lead.mass] = phi;
-              cuspEnd = true;
-              h = tau;
+              cuspEnd = true;  // h stays: the way to the cusp may have been too short for the time to move on behind it
             }
           }
         }

@@ -42,7 +42,6 @@ class PlantBase : public Plant {
   std::uint64_t rhs_ = 0;
   double fraction_ = 1;
 
- private:
   mutable std::vector<MassState> located_;  // room of the scene's size: clearing room for the most masses took most of a tick
 };
 

@@ -73,8 +73,9 @@ struct QuadricSystem {
   bool bounces() const noexcept { return domain[0].atEnd == AtEnd::Bounce || domain[1].atEnd == AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {
     follow({y[0], y[1], y[2]});
+    constexpr double kRounding = 1e-12;  // of the search: a mass that was just thrown back from an edge is inside
     for (int k = 0; k < 2; ++k)
-      if (!domain[k].periodic && !(parameters[k] >= domain[k].lo && parameters[k] <= domain[k].hi)) return false;
+      if (!domain[k].periodic && !(parameters[k] >= domain[k].lo - kRounding && parameters[k] <= domain[k].hi + kRounding)) return false;
     return true;
   }
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept;

@@ -69,7 +69,7 @@ struct SurfaceSystem {
   /// Beside a place where r_u and r_v do not span a plane.
   bool lost(const State& y) const noexcept {
     const SurfacePoint p = evaluate(active, y[0], y[1]);
-    return norm(cross(p.rU, p.rV)) < 0.1 * largestArea;
+    return norm(cross(p.rU, p.rV)) < 0.25 * largestArea;
   }
   void look(const SurfacePoint& p) noexcept {
     if (!isFinite(p.rU) || !isFinite(p.rV)) return;
