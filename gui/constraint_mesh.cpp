@@ -151,6 +151,13 @@ std::array<Domain, 2> drawnDomain(const Constraint& constraint, std::span<const 
     d.lo = low;
     d.hi = high;
   }
+  // A surface without ends is no ribbon along the reach: hills beside it are seen too.
+  const auto endless = [&](std::size_t i) { return !std::isfinite(constraint.domain[i].lo) && !std::isfinite(constraint.domain[i].hi); };
+  if (constraint.kind == ConstraintKind::Surface && endless(0) && endless(1)) {
+    const double least = 0.75 * std::max(drawn[0].hi - drawn[0].lo, drawn[1].hi - drawn[1].lo);
+    for (Domain& d : drawn)
+      if (const double missing = least - (d.hi - d.lo); missing > 0) d.lo -= 0.5 * missing, d.hi += 0.5 * missing;
+  }
   return drawn;
 }
 
