@@ -86,35 +86,76 @@ void sumTerms(const std::vector<std::vector<Real>>& terms, std::vector<Real>& ou
     for (size_t i = 0; i < out.size(); ++i) out[i] += terms[k][i];
 }
 
-// Householder triangularisation of `columns` (each a vector of samples); R is left in `r`, column by column.
+// A square matrix, column by column.
 template <class Real>
-void triangularise(std::vector<std::vector<Real>>& columns, std::vector<std::vector<Real>>& r) {
-  const size_t n = columns.size(), rows = columns[0].size();
-  r.assign(n, std::vector<Real>(n, Real(0.0)));
-  for (size_t k = 0; k < n; ++k) {
-    std::vector<Real>& v = columns[k];
-    Real square = 0.0;
-    for (size_t i = k; i < rows; ++i) square += v[i] * v[i];
-    Real alpha = sqrt(square);
-    if (v[k] > Real(0.0)) alpha = -alpha;
-    for (size_t i = 0; i < k; ++i) r[k][i] = v[i];
-    r[k][k] = alpha;
-    v[k] -= alpha;
-    const Real half = square - (v[k] + alpha) * alpha;  // v^T v / 2
-    for (size_t j = k + 1; j < n; ++j) {
-      std::vector<Real>& c = columns[j];
-      Real product = 0.0;
-      for (size_t i = k; i < rows; ++i) product += v[i] * c[i];
-      product /= half;
-      for (size_t i = k; i < rows; ++i) c[i] -= product * v[i];
+struct Square {
+  explicit Square(int size) : n(size), value(static_cast<size_t>(size) * static_cast<size_t>(size), Real(0.0)) {}
+  Real* column(int j) { return &value[static_cast<size_t>(j) * static_cast<size_t>(n)]; }
+  const Real* column(int j) const { return &value[static_cast<size_t>(j) * static_cast<size_t>(n)]; }
+  int n;
+  std::vector<Real> value;
+};
+
+template <class Real>
+Real dotOf(const Real* a, const Real* b, int count) {
+  Real sum = 0.0;
+  for (int i = 0; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+template <>
+double dotOf(const double* a, const double* b, int count) {
+  return Eigen::Map<const Eigen::VectorXd>(a, count).dot(Eigen::Map<const Eigen::VectorXd>(b, count));
+}
+
+template <class Real>
+void addScaled(Real* to, const Real* from, const Real& factor, int count) {
+  for (int i = 0; i < count; ++i) to[i] += factor * from[i];
+}
+
+// Takes further rows into the triangular factor: R^T R grows by B^T B (`rows` x n, column by column; lost). Householder reflections of one
+// row of R and all of B, Golub and Van Loan 12.5.
+template <class Real>
+void absorb(Square<Real>& r, std::vector<Real>& b, int rows) {
+  for (int k = 0; k < r.n; ++k) {
+    Real* mine = &b[static_cast<size_t>(k) * rows];
+    Real& corner = r.column(k)[k];
+    const Real square = dotOf(mine, mine, rows);
+    if (!(square > Real(0.0))) continue;
+    Real alpha = sqrt(corner * corner + square);
+    if (corner > Real(0.0)) alpha = -alpha;
+    const Real first = corner - alpha, inverse = Real(2.0) / (square + first * first);
+    corner = alpha;
+    for (int j = k + 1; j < r.n; ++j) {
+      Real* other = &b[static_cast<size_t>(j) * rows];
+      const Real product = inverse * (first * r.column(j)[k] + dotOf(mine, other, rows));
+      r.column(j)[k] -= product * first;
+      addScaled(other, mine, -product, rows);
     }
   }
 }
 
-double computeCondition(const std::vector<std::vector<double>>& r) {
-  Eigen::MatrixXd m(r.size(), r.size());
-  for (size_t j = 0; j < r.size(); ++j)
-    for (size_t i = 0; i < r.size(); ++i) m(i, j) = r[j][i];
+// e^{A width}, column by column.
+template <class Real>
+Square<Real> computeExponential(const SparseRows<Real>& a, int n, Real width, std::vector<std::vector<Real>>& terms) {
+  Square<Real> e(n);
+  std::vector<Real> sum(static_cast<size_t>(n));
+  for (int j = 0; j < n; ++j) {
+    terms[0].assign(static_cast<size_t>(n), Real(0.0));
+    terms[0][static_cast<size_t>(j)] = 1.0;
+    expand(a, width, terms);
+    sumTerms(terms, sum);
+    std::copy(sum.begin(), sum.end(), e.column(j));
+  }
+  return e;
+}
+
+template <class Real>
+double computeCondition(const Square<Real>& r) {
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(r.n, r.n);
+  for (int j = 0; j < r.n; ++j) {
+    for (int i = 0; i <= j; ++i) m(i, j) = static_cast<double>(r.column(j)[i]);
+    m.col(j).normalize();
+  }
   const Eigen::VectorXd sizes = Eigen::BDCSVD<Eigen::MatrixXd>(m).singularValues();
   return sizes(0) / sizes(sizes.size() - 1);
 }
@@ -126,66 +167,63 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
   constexpr int kTerms = Precision<Real>::kTerms, kNodes = Precision<Real>::kNodes;
   const int m = system.controlled, n = system.size;
   const SparseRows<Real> a(system, n, false), controlled(system, m, false), adjoint(system, m, true);
-  const double needed = std::ceil(std::max(1.0, a.norm() * duration / kRatePerPanel));
+  double needed = 1;  // a power of two
+  int doublings = 0;
+  for (; needed * kRatePerPanel < a.norm() * duration && needed <= kMaxPanels; needed *= 2) ++doublings;
   if (!(needed <= kMaxPanels))
     throw RefusedError(fmt::format("the object's fastest rate, {:.3g} 1/s, is too stiff for a movement of {:.4g} s: less damping or "
                                    "heavier masses",
                                    a.norm(), duration));
   const int panels = static_cast<int>(needed);
-  const Real width = Real(duration) / Real(static_cast<double>(panels));
+  const Real width = Real(duration) / Real(needed);
 
-  // Samples of e^{A (T-t)} b, times the root of the Gauss weight, from T backwards.
+  // Samples of e^{A s} b over the first panel, times the root of the Gauss weight, triangularised; then over twice as long, and again.
   const GaussRule<Real> rule = makeGaussRule<Real>(kNodes);
   std::vector<std::vector<Real>> terms(kTerms, std::vector<Real>(m));
-  std::vector<std::vector<Real>> columns(m, std::vector<Real>(static_cast<size_t>(panels) * kNodes));
-  std::vector<Real> vector(system.b.begin(), system.b.begin() + m);
-  for (int p = 0; p < panels; ++p) {
-    terms[0] = vector;
-    expand(controlled, width, terms);
-    for (int g = 0; g < kNodes; ++g) {
-      const Real s = (rule.node[g] + Real(1.0)) / Real(2.0), root = sqrt(width * rule.weight[g] / Real(2.0));
-      for (int i = 0; i < m; ++i) {
-        Real sum = terms[kTerms - 1][i];
-        for (int k = kTerms - 2; k >= 0; --k) sum = sum * s + terms[k][i];
-        columns[i][static_cast<size_t>(p) * kNodes + g] = root * sum;
-      }
+  terms[0].assign(system.b.begin(), system.b.begin() + m);
+  expand(controlled, width, terms);
+  std::vector<Real> rows(static_cast<size_t>(m) * kNodes);
+  for (int g = 0; g < kNodes; ++g) {
+    const Real s = (rule.node[g] + Real(1.0)) / Real(2.0), root = sqrt(width * rule.weight[g] / Real(2.0));
+    for (int i = 0; i < m; ++i) {
+      Real sum = terms[kTerms - 1][i];
+      for (int k = kTerms - 2; k >= 0; --k) sum = sum * s + terms[k][i];
+      rows[static_cast<size_t>(i) * kNodes + g] = root * sum;
     }
-    sumTerms(terms, vector);
+  }
+  Square<Real> r(m);
+  absorb(r, rows, kNodes);
+  const Square<Real> panel = computeExponential(controlled, m, width, terms);
+  Square<Real> step = panel;
+  for (int d = 0; d < doublings; ++d) {
+    rows.assign(static_cast<size_t>(m) * m, Real(0.0));  // R e^{A^T s}
+    for (int k = 0; k < m; ++k)
+      for (int j = 0; j < m; ++j) addScaled(&rows[static_cast<size_t>(j) * m], r.column(k), step.column(k)[j], k + 1);
+    absorb(r, rows, m);
+    if (d + 1 == doublings) break;
+    Square<Real> twice(m);
+    for (int j = 0; j < m; ++j)
+      for (int k = 0; k < m; ++k) addScaled(twice.column(j), step.column(k), step.column(j)[k], m);
+    step = std::move(twice);
   }
 
-  std::vector<Real> scale(m);
-  for (int i = 0; i < m; ++i) {
-    Real square = 0.0;
-    for (const Real& c : columns[i]) square += c * c;
-    scale[i] = Real(1.0) / sqrt(square);
-    for (Real& c : columns[i]) c *= scale[i];
-  }
-  std::vector<std::vector<Real>> r;
-  triangularise(columns, r);
-
-  // W^-1 x_T = S R^-1 R^-T S x_T.
+  // W^-1 x_T = R^-1 R^-T x_T.
   std::vector<Real> solution(m);
   Real cost = 0.0;
   for (int i = 0; i < m; ++i) {
-    Real value = scale[i] * system.target[i];
-    for (int j = 0; j < i; ++j) value -= r[i][j] * solution[j];
-    solution[i] = value / r[i][i];
+    solution[i] = (system.target[i] - dotOf(r.column(i), solution.data(), i)) / r.column(i)[i];
     cost += solution[i] * solution[i];
   }
   for (int i = m - 1; i >= 0; --i) {
-    for (int j = i + 1; j < m; ++j) solution[i] -= r[j][i] * solution[j];
-    solution[i] /= r[i][i];
+    solution[i] /= r.column(i)[i];
+    addScaled(solution.data(), r.column(i), -solution[i], i);
   }
-  for (int i = 0; i < m; ++i) solution[i] *= scale[i];
 
   // The adjoint backwards to every panel's start (it would grow forwards), then the states forwards, both as Taylor series.
-  std::vector<std::vector<Real>> adjointAt(panels + 1);
+  std::vector<std::vector<Real>> adjointAt(panels + 1, std::vector<Real>(m));
   adjointAt[panels] = solution;
-  for (int p = panels; p-- > 0;) {
-    terms[0] = adjointAt[p + 1];
-    expand(adjoint, width, terms);
-    sumTerms(terms, adjointAt[p]);
-  }
+  for (int p = panels; p-- > 0;)
+    for (int i = 0; i < m; ++i) adjointAt[p][i] = dotOf(panel.column(i), adjointAt[p + 1].data(), m);
   LeastEffort result;
   SeriesProfile& profile = result.profile;
   profile.outputs = static_cast<int>(system.output.size());
@@ -195,6 +233,9 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
   profile.coefficient.resize(static_cast<size_t>(panels) * profile.outputs * kTerms);
   std::vector<Real> state(n, Real(0.0)), control(kTerms);
   std::vector<std::vector<Real>> states(kTerms, std::vector<Real>(n));
+  Eigen::MatrixXd output(profile.outputs, n + 1), plain(n + 1, kTerms);
+  for (int o = 0; o < profile.outputs; ++o)
+    for (int i = 0; i <= n; ++i) output(o, i) = static_cast<double>(system.output[o][i]);
   for (int p = 0; p < panels; ++p) {
     terms[0] = adjointAt[p];
     expand(adjoint, -width, terms);
@@ -209,19 +250,17 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
       for (int i = 0; i < n; ++i) states[k + 1][i] += factor * system.b[i] * control[k];
     }
     sumTerms(states, state);
-    for (int o = 0; o < profile.outputs; ++o)
-      for (int k = 0; k < kTerms; ++k) {
-        Real value = system.output[o][n] * control[k];
-        for (int i = 0; i < n; ++i) value += system.output[o][i] * states[k][i];
-        profile.coefficient[(static_cast<size_t>(p) * profile.outputs + o) * kTerms + k] = static_cast<double>(value);
-      }
+    // Positions are sums of states of their own size: a double is enough.
+    for (int k = 0; k < kTerms; ++k) {
+      for (int i = 0; i < n; ++i) plain(i, k) = static_cast<double>(states[k][i]);
+      plain(n, k) = static_cast<double>(control[k]);
+    }
+    Eigen::Map<Eigen::MatrixXd>(&profile.coefficient[static_cast<size_t>(p) * profile.outputs * kTerms], kTerms, profile.outputs).noalias() =
+        plain.transpose() * output.transpose();
   }
   for (int i = 0; i < m; ++i) result.miss = std::max(result.miss, std::abs(static_cast<double>(state[i] - system.target[i])));
   result.cost = static_cast<double>(cost);
-  std::vector<std::vector<double>> rough(m, std::vector<double>(m));
-  for (int j = 0; j < m; ++j)
-    for (int i = 0; i < m; ++i) rough[j][i] = static_cast<double>(r[j][i]);
-  result.condition = computeCondition(rough);
+  result.condition = computeCondition(r);
   return result;
 }
 
