@@ -60,7 +60,8 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
   pieces_.clear();
   const auto walk = [&](double from, double to) {
     for (int i = 0; i < kFirstPieces && to != from; ++i)
-      if (!append(curve.curve, from + (to - from) * i / kFirstPieces, from + (to - from) * (i + 1) / kFirstPieces, kDeepest / 2)) break;
+      if (!append(curve.curve, from + (to - from) * i / kFirstPieces, from + (to - from) * (i + 1) / kFirstPieces, kDeepest / 2))
+        break;
   };
   walk(start, within(start - kBeyond * way));
   std::reverse(pieces_.begin(), pieces_.end());
@@ -103,13 +104,15 @@ bool ArcCurve::append(const Curve& curve, double phi, double phiEnd, int depth) 
     }
     const CurvePoint p = evaluate(curve, phi + half * (x + 1));
     const double square = dot(p.rPhi, p.rPhi);
-    const Vec3 c = along_ == Along::Parameter ? half * half * p.rPhiPhi
-                                              : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
+    const Vec3 c = along_ == Along::Parameter
+                       ? half * half * p.rPhiPhi
+                       : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
     for (int k = 0; k < 3; ++k) bend[static_cast<size_t>(k)].push_back(coordinate(c, k));
     sharpest = std::max(sharpest, norm(c));
   }
   const CurvePoint begin = evaluate(curve, phi);
-  const Vec3 tangent = along_ == Along::Parameter ? half * begin.rPhi : (half > 0 ? 1 : -1) * way / 2 / norm(begin.rPhi) * begin.rPhi;
+  const Vec3 tangent =
+      along_ == Along::Parameter ? half * begin.rPhi : (half > 0 ? 1 : -1) * way / 2 / norm(begin.rPhi) * begin.rPhi;
   if (!isFinite(tangent) || !std::isfinite(sharpest)) return halves();
   Piece piece;
   piece.from = pieces_.empty() ? 0 : pieces_.back().to;
@@ -132,7 +135,8 @@ bool ArcCurve::append(const Curve& curve, double phi, double phiEnd, int depth) 
 }
 
 const ArcCurve::Piece& ArcCurve::pieceAt(double s) const {
-  const auto next = std::upper_bound(pieces_.begin(), pieces_.end(), s, [](double value, const Piece& piece) { return value < piece.from; });
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), s, [](double value, const Piece& piece) { return value < piece.from; });
   return next == pieces_.begin() ? pieces_.front() : *(next - 1);
 }
 

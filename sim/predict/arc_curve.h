@@ -6,21 +6,22 @@
 
 namespace reachlab {
 
-/// What s is: metres of arc length, or the curve's own parameter from the start on, |phi - start|, which passes near a cusp more smoothly.
+/// What s is: metres of arc length, or the curve's own parameter from the start on, |phi - start|, which passes near a cusp more
+/// smoothly.
 enum class Along { ArcLength, Parameter };
 
-/// A curve of the catalogue as a function of its arc length s [m] from the task's start (s = 0) to its target (s = length()), and as far
-/// beyond both ends as the curve goes smoothly, at most half the way. Pieces of high degree through the curvature vector r_ss =
-/// (r_ff - T (T.r_ff)) / |r_f|^2, integrated twice, so that r and its first five derivatives are known to about 1e-12 of their
-/// size. Beyond the known part it goes on straight, so that an iteration may look there; a result must stay within
+/// A curve of the catalogue as a function of its arc length s [m] from the task's start (s = 0) to its target (s = length()), and
+/// as far beyond both ends as the curve goes smoothly, at most half the way. Pieces of high degree through the curvature vector
+/// r_ss = (r_ff - T (T.r_ff)) / |r_f|^2, integrated twice, so that r and its first five derivatives are known to about 1e-12 of
+/// their size. Beyond the known part it goes on straight, so that an iteration may look there; a result must stay within
 /// [lowest(), highest()]. A value; any thread.
 class ArcCurve {
  public:
   /// Throws RefusedError where the curve has a cusp, stands still or breaks off between start and target (constraint parameters).
   ArcCurve(const Constraint& curve, double start, double target, Along along = Along::ArcLength);
 
-  /// The first `part` of the way, magnified to the whole length: r(part s)/part, from a straight line (part 0) to the curve itself (1).
-  /// For continuation from a straight line to any curve.
+  /// The first `part` of the way, magnified to the whole length: r(part s)/part, from a straight line (part 0) to the curve
+  /// itself (1). For continuation from a straight line to any curve.
   ArcCurve magnified(double part) const;
 
   double length() const { return length_; }

@@ -42,7 +42,12 @@ const Collocation& collocation() {
 }  // namespace
 
 CurveMotion::CurveMotion(const ArcCurve& curve, const CurveObject& object, double duration, int panels)
-    : curve_(curve), object_(object), panels_(panels), n_(object.count()), width_(duration / panels), panel_(static_cast<size_t>(panels)) {
+    : curve_(curve),
+      object_(object),
+      panels_(panels),
+      n_(object.count()),
+      width_(duration / panels),
+      panel_(static_cast<size_t>(panels)) {
   for (Panel& panel : panel_) {
     panel.position = panel.speed = Vector::Zero(n_);
     panel.acceleration = Vector::Zero(n_ * kStages);
@@ -74,8 +79,8 @@ CurveMotion::Matrix CurveMotion::stageSystem(const Panel& panel) const {
   for (int k = 0; k < kStages; ++k) {
     const Matrix& slope = panel.slope[static_cast<size_t>(k)];
     for (int l = 0; l < kStages; ++l)
-      system.block(k * n_, l * n_, n_, n_) -=
-          width_ * width_ * c.twiceInside(k, l) * slope.middleCols(1, n_) + width_ * c.once(k, l) * slope.middleCols(nodes + 1, n_);
+      system.block(k * n_, l * n_, n_, n_) -= width_ * width_ * c.twiceInside(k, l) * slope.middleCols(1, n_) +
+                                              width_ * c.once(k, l) * slope.middleCols(nodes + 1, n_);
   }
   return system;
 }
@@ -163,8 +168,8 @@ CurveMotion::Matrix CurveMotion::linearise(const Matrix& handPosition, const Mat
   return end;
 }
 
-// A change of the accelerations by a source of second order reaches the end through the transposed stage systems (the adjoint of the
-// method itself): each stage's second derivatives enter with that weight.
+// A change of the accelerations by a source of second order reaches the end through the transposed stage systems (the adjoint of
+// the method itself): each stage's second derivatives enter with that weight.
 CurveMotion::Matrix CurveMotion::computeBend(const Vector& multiplier) const {
   const Collocation& c = collocation();
   const int nodes = n_ + 1;
@@ -174,7 +179,8 @@ CurveMotion::Matrix CurveMotion::computeBend(const Vector& multiplier) const {
     const Panel& panel = panel_[static_cast<size_t>(p)];
     const int first = p * kStages;
     for (int l = 0; l < kStages; ++l)
-      drive.segment(l * n_, n_) = width_ * width_ * c.twice[static_cast<size_t>(l)] * onPosition + width_ * c.weight[static_cast<size_t>(l)] * onSpeed;
+      drive.segment(l * n_, n_) =
+          width_ * width_ * c.twice[static_cast<size_t>(l)] * onPosition + width_ * c.weight[static_cast<size_t>(l)] * onSpeed;
     const Vector weight = panel.factor.transpose().solve(drive);
     onSpeed += width_ * onPosition;
     for (int k = 0; k < kStages; ++k) {
@@ -186,7 +192,8 @@ CurveMotion::Matrix CurveMotion::computeBend(const Vector& multiplier) const {
       locateStage(panel, first, k, s, v);
       bend.setZero();
       expandAccelerations(curve_, object_, s.data(), v.data(), a.data(), nullptr, &weight[k * n_], &bend);
-      bent.middleRows(2 * nodes * (first + k), 2 * nodes).noalias() = bend * local_.middleRows(2 * nodes * (first + k), 2 * nodes);
+      bent.middleRows(2 * nodes * (first + k), 2 * nodes).noalias() =
+          bend * local_.middleRows(2 * nodes * (first + k), 2 * nodes);
     }
   }
   Matrix result(local_.cols(), local_.cols());

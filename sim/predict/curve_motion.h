@@ -7,9 +7,9 @@
 
 namespace reachlab {
 
-/// How the masses follow a hand along the curve: Gauss collocation with eight stages on equal panels of [0, T] (order 16 at their ends),
-/// with the exact derivatives of its own result, so that an optimisation may take it for the equations themselves. All masses rest at
-/// s = 0 at t = 0. Borrows curve and object. One thread.
+/// How the masses follow a hand along the curve: Gauss collocation with eight stages on equal panels of [0, T] (order 16 at their
+/// ends), with the exact derivatives of its own result, so that an optimisation may take it for the equations themselves. All
+/// masses rest at s = 0 at t = 0. Borrows curve and object. One thread.
 class CurveMotion {
  public:
   static constexpr int kStages = 8;
@@ -18,8 +18,8 @@ class CurveMotion {
 
   int nodes() const { return panels_ * kStages; }
   double timeOf(int node) const;
-  /// Solves for the masses, given the hand's arc length and speed at all nodes. False when Newton's method does not settle in a panel;
-  /// the motion is then not to be used.
+  /// Solves for the masses, given the hand's arc length and speed at all nodes. False when Newton's method does not settle in a
+  /// panel; the motion is then not to be used.
   bool follow(const Eigen::VectorXd& handPosition, const Eigen::VectorXd& handSpeed);
   /// Arc lengths, then speeds of all masses at T.
   const Eigen::VectorXd& end() const { return end_; }

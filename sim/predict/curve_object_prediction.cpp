@@ -46,7 +46,8 @@ struct HandTable {
 
 HandTable tabulateHand(const RestToRestBasis& basis, const CurveMotion& motion, double length, double duration) {
   const int unknowns = basis.columns() - 1, width = basis.order() + 1;
-  HandTable table{Matrix(motion.nodes(), unknowns), Matrix(motion.nodes(), unknowns), Vector(motion.nodes()), Vector(motion.nodes())};
+  HandTable table{Matrix(motion.nodes(), unknowns), Matrix(motion.nodes(), unknowns), Vector(motion.nodes()),
+                  Vector(motion.nodes())};
   Matrix at(width, basis.columns());
   for (int node = 0; node < motion.nodes(); ++node) {
     basis.tabulate(2 * motion.timeOf(node) / duration - 1, 2 / duration, at.data());
@@ -76,7 +77,9 @@ class Search {
   Optimum solve(int unknowns, int panels, const Vector& guess, const Vector& multiplier) const;
   /// Follows the optimum on finer panels.
   CurveMotion follow(const Optimum& optimum, int panels) const;
-  double missOf(const CurveMotion& motion) const { return (motion.end() - target_).head(object_.count()).lpNorm<Eigen::Infinity>(); }
+  double missOf(const CurveMotion& motion) const {
+    return (motion.end() - target_).head(object_.count()).lpNorm<Eigen::Infinity>();
+  }
   double fastest() const { return object_.boundRate(); }
 
  private:
@@ -90,14 +93,17 @@ class Search {
 
 Optimum Search::solve(int unknowns, int panels, const Vector& guess, const Vector& multiplier) const {
   Optimum found{RestToRestBasis(problem_.order, unknowns), Vector::Zero(unknowns), multiplier};
-  found.unknowns.head(std::min<Eigen::Index>(guess.size(), unknowns)) = guess.head(std::min<Eigen::Index>(guess.size(), unknowns));
+  found.unknowns.head(std::min<Eigen::Index>(guess.size(), unknowns)) =
+      guess.head(std::min<Eigen::Index>(guess.size(), unknowns));
   const TranscribedCost cost(problem_, found.basis);
   CurveMotion motion(curve_, object_, duration_, panels);
   const HandTable hand = tabulateHand(found.basis, motion, curve_.length(), duration_);
   const auto follow = [&](const Vector& c) {
     return motion.follow(hand.fixedPosition + hand.position * c, hand.fixedSpeed + hand.speed * c);
   };
-  const auto refuse = [&] { throw RefusedError("the object cannot follow the hand: springs would turn over on a way that is so bent"); };
+  const auto refuse = [&] {
+    throw RefusedError("the object cannot follow the hand: springs would turn over on a way that is so bent");
+  };
   if (!follow(found.unknowns)) refuse();
   const int conditions = static_cast<int>(target_.size());
   Vector gradient;
@@ -144,9 +150,10 @@ Optimum Search::solve(int unknowns, int panels, const Vector& guess, const Vecto
       return found;
     }
   }
-  throw RefusedError(fmt::format("no minimum was found within {} steps with {} unknowns (last step {:.1e} of the motion, conditions missed by "
-                                 "{:.1e}); a longer time or a less bent way may help",
-                                 kMostIterations, unknowns, size / found.unknowns.norm(), miss));
+  throw RefusedError(
+      fmt::format("no minimum was found within {} steps with {} unknowns (last step {:.1e} of the motion, conditions missed by "
+                  "{:.1e}); a longer time or a less bent way may help",
+                  kMostIterations, unknowns, size / found.unknowns.norm(), miss));
 }
 
 CurveMotion Search::follow(const Optimum& optimum, int panels) const {
@@ -173,7 +180,8 @@ Optimum continueFromStraight(const ArcCurve& curve, const LineObject& object, do
     } catch (const RefusedError& refused) {
       step /= 4;
       if (step < kLeastBend)
-        throw RefusedError(fmt::format("the straight line could be bent only to {:.0f} % of the way: {}", 100 * part, refused.what()));
+        throw RefusedError(
+            fmt::format("the straight line could be bent only to {:.0f} % of the way: {}", 100 * part, refused.what()));
     }
   }
   return best;
@@ -228,14 +236,16 @@ double compare(const LegendreSeries& coarse, const LegendreSeries& fine) {
 
 }  // namespace
 
-std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration, int unknowns) {
+std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration,
+                                                      int unknowns) {
   const Search search(curve, object, duration);
   const int conditions = 2 * object.count();
   const double phase = search.fastest() * duration;
   double asked = std::max(8.0, phase / kPanelPhase);
   if (asked > kMostPanels)
-    throw RefusedError(fmt::format("the object is too fast for the movement time: {:.3g} rad/s for {:.3g} s; allowed: a product of {}",
-                                   search.fastest(), duration, kMostPanels * kPanelPhase));
+    throw RefusedError(
+        fmt::format("the object is too fast for the movement time: {:.3g} rad/s for {:.3g} s; allowed: a product of {}",
+                    search.fastest(), duration, kMostPanels * kPanelPhase));
   int panels = static_cast<int>(std::ceil(asked));
   int n = unknowns > 0 ? unknowns : std::max(conditions + 14, static_cast<int>(kUnknownsPerPhase * phase));
   if (n <= conditions)
@@ -264,17 +274,19 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, con
     if (miss > 0.5 * missed) break;  // rounding, not the panels
   }
   if (fine->lowest() < curve.lowest() || fine->highest() > curve.highest())
-    throw RefusedError(fmt::format("the object would leave the smooth part of the curve: it moves from {:.3g} to {:.3g} m of arc length, the curve "
-                                   "is smooth from {:.3g} to {:.3g} m; allow more time",
-                                   fine->lowest(), fine->highest(), curve.lowest(), curve.highest()));
-  auto prediction = std::make_unique<CurveObjectPrediction>(seriesOf(best, curve.length(), duration), fine->makeProfile(), object.source, duration,
-                                                            search.fastest());
+    throw RefusedError(fmt::format(
+        "the object would leave the smooth part of the curve: it moves from {:.3g} to {:.3g} m of arc length, the curve "
+        "is smooth from {:.3g} to {:.3g} m; allow more time",
+        fine->lowest(), fine->highest(), curve.lowest(), curve.highest()));
+  auto prediction = std::make_unique<CurveObjectPrediction>(seriesOf(best, curve.length(), duration), fine->makeProfile(),
+                                                            object.source, duration, search.fastest());
   prediction->distance = curve.length();
   prediction->cost = best.cost;
   prediction->condition = best.condition;
   if (error >= kProfile)
-    prediction->warnings.push_back(fmt::format("the profile is known to {:.0e} of its peak only: the way bends too sharply for {} unknowns", error,
-                                               best.unknowns.size()));
+    prediction->warnings.push_back(
+        fmt::format("the profile is known to {:.0e} of its peak only: the way bends too sharply for {} unknowns", error,
+                    best.unknowns.size()));
   if (miss > 1e-8) prediction->warnings.push_back(fmt::format("the masses miss the target by {:.0e} of the way", miss));
   return prediction;
 }

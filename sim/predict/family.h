@@ -7,8 +7,8 @@
 
 namespace reachlab {
 
-/// How a hand profile looks: interior maxima of the velocity, and whether the hand moves backwards somewhere. Ripples below 1e-9 of the
-/// peak do not count.
+/// How a hand profile looks: interior maxima of the velocity, and whether the hand moves backwards somewhere. Ripples below 1e-9
+/// of the peak do not count.
 struct ProfileShape {
   int velocityPeaks = 0;
   bool reverses = false;
@@ -36,9 +36,9 @@ struct FamilyRow {
   ProfileShape shape;
   std::string refusal;
 };
-/// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the threads, one
-/// at a time, with how many are done.
-std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options, const Sweep& sweep,
-                                     const std::function<void(int done, int total)>& progress = {});
+/// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the
+/// threads, one at a time, with how many are done.
+std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options,
+                                     const Sweep& sweep, const std::function<void(int done, int total)>& progress = {});
 
 }  // namespace reachlab

@@ -22,7 +22,8 @@ FlatPolynomial operator+(FlatPolynomial a, const FlatPolynomial& b) {
 std::vector<FlatPolynomial> computeChain(const LineObject& object) {
   const int n = object.count();
   std::vector<FlatPolynomial> node(n + 1);
-  // X_i = x_i / (kappa_0 … kappa_(i-1)) and the elongation d_i likewise: k_(i-1) d_(i-1) = (m_i D^2 + lambda D) X_i + k_i kappa_i d_i.
+  // X_i = x_i / (kappa_0 … kappa_(i-1)) and the elongation d_i likewise: k_(i-1) d_(i-1) = (m_i D^2 + lambda D) X_i + k_i kappa_i
+  // d_i.
   const auto kappa = [&](int i) { return FlatPolynomial{1, static_cast<long double>(object.dampers[i]) / object.springs[i]}; };
   node[n] = {1};
   FlatPolynomial elongation{0};
@@ -46,7 +47,8 @@ std::vector<FlatPolynomial> computeParallel(const LineObject& object) {
   std::vector<FlatPolynomial> node(n + 1, FlatPolynomial{1});
   for (int j = 0; j < n; ++j) {
     const long double k = object.springs[j];
-    const FlatPolynomial oscillator{1, (static_cast<long double>(object.dampers[j]) + object.viscosity[j]) / k, object.masses[j] / k};
+    const FlatPolynomial oscillator{1, (static_cast<long double>(object.dampers[j]) + object.viscosity[j]) / k,
+                                    object.masses[j] / k};
     for (int i = 0; i <= n; ++i)
       node[i] = node[i] * (i == j + 1 ? FlatPolynomial{1, static_cast<long double>(object.dampers[j]) / k} : oscillator);
   }

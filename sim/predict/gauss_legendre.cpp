@@ -8,8 +8,8 @@
 
 namespace reachlab {
 
-// Newton on P_n from Tricomi's estimate of its roots (Abramowitz and Stegun 22.16.6), in extended precision so that nodes and weights
-// are right to the last bit of a double.
+// Newton on P_n from Tricomi's estimate of its roots (Abramowitz and Stegun 22.16.6), in extended precision so that nodes and
+// weights are right to the last bit of a double.
 template <class Real>
 GaussRule<Real> makeGaussRule(int count) {
   using Wide = std::conditional_t<std::is_same_v<Real, double>, long double, Real>;

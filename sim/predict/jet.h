@@ -50,7 +50,8 @@ struct Jet {
     for (int i = 0; i < Count; ++i) r.slope[i] = a.value * b.slope[i] + b.value * a.slope[i];
     for (int i = 0; i < Count; ++i)
       for (int j = 0; j < Count; ++j)
-        r.bend[i * Count + j] = a.value * b.bend[i * Count + j] + b.value * a.bend[i * Count + j] + a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i];
+        r.bend[i * Count + j] =
+            a.value * b.bend[i * Count + j] + b.value * a.bend[i * Count + j] + a.slope[i] * b.slope[j] + a.slope[j] * b.slope[i];
     return r;
   }
   friend Jet operator/(const Jet& a, const Jet& b) {

@@ -35,7 +35,8 @@ class SparseRows {
   SparseRows(const LineSystem<Real>& system, int rows, bool transposed) : begin_(1, 0) {
     for (int i = 0; i < rows; ++i) {
       for (int j = 0; j < rows; ++j) {
-        const Real& value = transposed ? system.a[static_cast<size_t>(j) * system.size + i] : system.a[static_cast<size_t>(i) * system.size + j];
+        const Real& value =
+            transposed ? system.a[static_cast<size_t>(j) * system.size + i] : system.a[static_cast<size_t>(i) * system.size + j];
         if (static_cast<double>(value) == 0) continue;
         column_.push_back(j);
         value_.push_back(value);
@@ -112,8 +113,8 @@ void addScaled(Real* to, const Real* from, const Real& factor, int count) {
   for (int i = 0; i < count; ++i) to[i] += factor * from[i];
 }
 
-// Takes further rows into the triangular factor: R^T R grows by B^T B (`rows` x n, column by column; lost). Householder reflections of one
-// row of R and all of B, Golub and Van Loan 12.5.
+// Takes further rows into the triangular factor: R^T R grows by B^T B (`rows` x n, column by column; lost). Householder
+// reflections of one row of R and all of B, Golub and Van Loan 12.5.
 template <class Real>
 void absorb(Square<Real>& r, std::vector<Real>& b, int rows) {
   for (int k = 0; k < r.n; ++k) {
@@ -171,13 +172,15 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
   int doublings = 0;
   for (; needed * kRatePerPanel < a.norm() * duration && needed <= kMaxPanels; needed *= 2) ++doublings;
   if (!(needed <= kMaxPanels))
-    throw RefusedError(fmt::format("the object's fastest rate, {:.3g} 1/s, is too stiff for a movement of {:.4g} s: less damping or "
-                                   "heavier masses",
-                                   a.norm(), duration));
+    throw RefusedError(
+        fmt::format("the object's fastest rate, {:.3g} 1/s, is too stiff for a movement of {:.4g} s: less damping or "
+                    "heavier masses",
+                    a.norm(), duration));
   const int panels = static_cast<int>(needed);
   const Real width = Real(duration) / Real(needed);
 
-  // Samples of e^{A s} b over the first panel, times the root of the Gauss weight, triangularised; then over twice as long, and again.
+  // Samples of e^{A s} b over the first panel, times the root of the Gauss weight, triangularised; then over twice as long, and
+  // again.
   const GaussRule<Real> rule = makeGaussRule<Real>(kNodes);
   std::vector<std::vector<Real>> terms(kTerms, std::vector<Real>(m));
   terms[0].assign(system.b.begin(), system.b.begin() + m);
@@ -255,8 +258,8 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
       for (int i = 0; i < n; ++i) plain(i, k) = static_cast<double>(states[k][i]);
       plain(n, k) = static_cast<double>(control[k]);
     }
-    Eigen::Map<Eigen::MatrixXd>(&profile.coefficient[static_cast<size_t>(p) * profile.outputs * kTerms], kTerms, profile.outputs).noalias() =
-        plain.transpose() * output.transpose();
+    Eigen::Map<Eigen::MatrixXd>(&profile.coefficient[static_cast<size_t>(p) * profile.outputs * kTerms], kTerms, profile.outputs)
+        .noalias() = plain.transpose() * output.transpose();
   }
   for (int i = 0; i < m; ++i) result.miss = std::max(result.miss, std::abs(static_cast<double>(state[i] - system.target[i])));
   result.cost = static_cast<double>(cost);

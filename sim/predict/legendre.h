@@ -13,18 +13,22 @@ LegendreSeries integrate(const LegendreSeries& series);
 /// P_0(x) … P_(count-1)(x).
 std::vector<double> legendreValues(int count, double x);
 /// The polynomial of degree values.size() - 1 through values at the nodes of the Gauss rule of as many points.
-LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node, const std::vector<double>& weight);
+LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node,
+                                 const std::vector<double>& weight);
 
 /// Motions y from rest to rest on x in [-1, 1] with derivatives 1 … order-1 zero at both ends: y^(order) = g P_(order-1) +
-/// sum_k c_k sqrt(2n+1) P_n, n = order + k. The first column goes from 0 to 1, the others from 0 to 0, so that the ends hold for any c
-/// and the highest derivative is an orthonormal expansion (criteria.md 6: [s(1-s)]^order times polynomials, in its best basis).
+/// sum_k c_k sqrt(2n+1) P_n, n = order + k. The first column goes from 0 to 1, the others from 0 to 0, so that the ends hold for
+/// any c and the highest derivative is an orthonormal expansion (criteria.md 6: [s(1-s)]^order times polynomials, in its best
+/// basis).
 class RestToRestBasis {
  public:
   RestToRestBasis(int order, int unknowns);
   int order() const { return order_; }
   int columns() const { return static_cast<int>(series_.size()); }
   /// d^m y / dx^m of one column, 0 <= m <= order.
-  const LegendreSeries& derivative(int column, int m) const { return series_[static_cast<std::size_t>(column)][static_cast<std::size_t>(m)]; }
+  const LegendreSeries& derivative(int column, int m) const {
+    return series_[static_cast<std::size_t>(column)][static_cast<std::size_t>(m)];
+  }
   /// All derivatives of all columns at one x, times rate^m: table[column * (order+1) + m].
   void tabulate(double x, double rate, double* table) const;
   /// A derivative of a combination: coefficient of the first column, then the unknowns.

@@ -23,12 +23,13 @@ struct LineObject {
   double totalMass() const;     // [kg] with the hand
 };
 
-/// Takes the object out of the experiment. Throws UsageError for an object that has no form on a line, RefusedError for a spring of
-/// zero stiffness (what hangs on it cannot be brought to rest).
+/// Takes the object out of the experiment. Throws UsageError for an object that has no form on a line, RefusedError for a spring
+/// of zero stiffness (what hangs on it cannot be brought to rest).
 LineObject makeLineObject(const Experiment& experiment, double handMass, double handDamping);
 
-/// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand: they become one mass.
-/// What was merged is said in `warnings`. Otherwise frequencies are never merged: the limit is not the merged solution (criteria.md 5).
+/// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand: they become one
+/// mass. What was merged is said in `warnings`. Otherwise frequencies are never merged: the limit is not the merged solution
+/// (criteria.md 5).
 LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings);
 
 /// Two-way wave travel time along a chain, 2 sum sqrt(m_i / k_[i-1]) [s]; below it costs and peaks explode.

@@ -111,8 +111,8 @@ class Builder {
     return finish();
   }
 
-  // Massless hand, no damper at it: the force acts on mass 1 of the chain at once, and h = x1 + F/k. A damper in the coupling makes the
-  // hand follow the force instead, without a say in the problem.
+  // Massless hand, no damper at it: the force acts on mass 1 of the chain at once, and h = x1 + F/k. A damper in the coupling
+  // makes the hand follow the force instead, without a say in the problem.
   LineSystem<Real> withFreeEnd(bool follower, double hubDamping, double distance) {
     begin(n - 1, n, 1 + forceStates() + (follower ? 1 : 0));
     s.controlled = s.size - (follower ? 1 : 0);
@@ -157,8 +157,8 @@ class Builder {
     return finish();
   }
 
-  // Massless hub of parallel springs: sum k e = F always, so that the scaled elongations are q F / sqrt(sum k) + B y with q = sqrt(k) of
-  // unit length and B an orthonormal basis of what is perpendicular to it (columns of a Householder reflection).
+  // Massless hub of parallel springs: sum k e = F always, so that the scaled elongations are q F / sqrt(sum k) + B y with q =
+  // sqrt(k) of unit length and B an orthonormal basis of what is perpendicular to it (columns of a Householder reflection).
   LineSystem<Real> withHub(double distance) {
     begin(n - 1, n, 1 + forceStates());
     s.controlled = s.size;

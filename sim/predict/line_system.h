@@ -7,9 +7,9 @@
 
 namespace reachlab {
 
-/// x' = A x + b u from x(0) = 0 to x(T) = target with least integral of u^2 (criteria.md 5). The first `controlled` states are the
-/// problem; those after them only follow (a massless hand behind a damper) and are driven by the first.
-/// Springs and masses are energy coordinates, sqrt(k) elongation and sqrt(m) velocity, so that exp(A t) does not grow.
+/// x' = A x + b u from x(0) = 0 to x(T) = target with least integral of u^2 (criteria.md 5). The first `controlled` states are
+/// the problem; those after them only follow (a massless hand behind a damper) and are driven by the first. Springs and masses
+/// are energy coordinates, sqrt(k) elongation and sqrt(m) velocity, so that exp(A t) does not grow.
 template <class Real>
 struct LineSystem {
   int size = 0, controlled = 0;
@@ -25,8 +25,8 @@ struct LineSystem {
 template <class Real>
 LineSystem<Real> makeLineSystem(const LineObject& object, Criterion criterion, double distance);
 
-/// Turns springs and masses to the object's own modes by the singular value decomposition of their coupling, an orthogonal change of
-/// coordinates; each state is then about one mode and can be scaled by itself.
+/// Turns springs and masses to the object's own modes by the singular value decomposition of their coupling, an orthogonal change
+/// of coordinates; each state is then about one mode and can be scaled by itself.
 void rotateToModes(LineSystem<double>& system);
 
 }  // namespace reachlab

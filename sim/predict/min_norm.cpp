@@ -20,7 +20,8 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   const double fastest = frequency.size() > 0 ? frequency.maxCoeff() : 0.0;
   const GaussRule<double>& rule = gaussRule16();
   const auto points = static_cast<Eigen::Index>(rule.node.size());
-  const auto panels = static_cast<Eigen::Index>(std::ceil(std::max({fastest * halfTime / kPhasePerPanel, static_cast<double>(unknowns) / 12, 1.0})));
+  const auto panels = static_cast<Eigen::Index>(
+      std::ceil(std::max({fastest * halfTime / kPhasePerPanel, static_cast<double>(unknowns) / 12, 1.0})));
   const double width = halfTime / static_cast<double>(panels);
 
   Eigen::MatrixXd basis(panels * points, unknowns);
@@ -44,7 +45,8 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   const Eigen::MatrixXd r = qr.matrixQR().topRows(unknowns).triangularView<Eigen::Upper>();
   const Eigen::VectorXd sizes = Eigen::BDCSVD<Eigen::MatrixXd>(r).singularValues();
 
-  // int g P_(r-1) dtau = lead * (-1)^(r-1) (r-1)! L / H^(r-1), lead the leading coefficient of P_(r-1); all other products vanish.
+  // int g P_(r-1) dtau = lead * (-1)^(r-1) (r-1)! L / H^(r-1), lead the leading coefficient of P_(r-1); all other products
+  // vanish.
   double right = distance;
   for (int k = 1; k < order; ++k) right *= -static_cast<double>(2 * k - 1) / halfTime;
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(unknowns);

@@ -16,8 +16,8 @@ struct MinNormMotion {
   double condition = 0;        // of the triangular factor, columns of unit norm
 };
 
-/// 2 <= order <= 5, halfTime > 0, frequencies > 0 and distinct. Solved by QR of the basis sampled on Gauss-Legendre nodes of the half
-/// interval. Not refused here: `condition` says how far the result may be trusted.
+/// 2 <= order <= 5, halfTime > 0, frequencies > 0 and distinct. Solved by QR of the basis sampled on Gauss-Legendre nodes of the
+/// half interval. Not refused here: `condition` says how far the result may be trusted.
 MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Eigen::VectorXd& frequency);
 
 }  // namespace reachlab

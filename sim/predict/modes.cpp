@@ -11,8 +11,8 @@ struct Spring {
   double stiffness;
 };
 
-// Modes of masses joined by springs. Frequencies are Rayleigh quotients summed over spring energies: every term is positive, so a low
-// frequency keeps its relative precision beside high ones.
+// Modes of masses joined by springs. Frequencies are Rayleigh quotients summed over spring energies: every term is positive, so a
+// low frequency keeps its relative precision beside high ones.
 Modes computeNetworkModes(const Eigen::VectorXd& masses, const std::vector<Spring>& springs, bool dropRigid) {
   const Eigen::Index n = masses.size();
   const Eigen::VectorXd scale = masses.cwiseSqrt().cwiseInverse();

@@ -39,16 +39,20 @@ StraightTask computeStraightTask(const Constraint& constraint, const Task& task)
 }
 
 // The arm moves in the plane of x, along, and -z, away from the chest.
-std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, const Constraint& constraint, const StraightTask& straight,
-                                              const LineObject& object, double duration, int unknowns) {
+std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, const Constraint& constraint,
+                                              const StraightTask& straight, const LineObject& object, double duration,
+                                              int unknowns) {
   const ArmTask task{{straight.start.x, -straight.start.z}, {straight.target.x, -straight.target.z}, duration};
-  if (constraint.kind == ConstraintKind::Free) return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), unknowns);
+  if (constraint.kind == ConstraintKind::Free)
+    return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), unknowns);
   const Vec3 way = straight.target - straight.start;
-  if (std::hypot(way.y, way.z) > 1e-9 * norm(way)) throw RefusedError("min-torque-change: the line must lie along x, as the arm's task plane does");
+  if (std::hypot(way.y, way.z) > 1e-9 * norm(way))
+    throw RefusedError("min-torque-change: the line must lie along x, as the arm's task plane does");
   return makeLineArmPrediction(experiment.arm, task, object, unknowns);
 }
 
-std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
+std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance,
+                                                 double duration) {
   if (criterion == Criterion::MinCrackle) return makeCracklePrediction(object, distance, duration);
   const bool byHand = criterion == Criterion::MinHandJerk || criterion == Criterion::MinHandCrackle;
   const bool handDampingMatters = !byHand && !(criterion == Criterion::MinComAcceleration && object.handMass == 0);
@@ -69,11 +73,13 @@ void judge(Prediction& prediction, const LineObject* object) {
         prediction.duration, prediction.condition, kRefuseCondition,
         prediction.travelTime ? fmt::format(", a wave needs {:.4g} s through the chain and back", *prediction.travelTime) : ""));
   if (prediction.travelTime && prediction.duration < *prediction.travelTime)
-    prediction.warnings.push_back(fmt::format("the movement of {:.6g} s is shorter than a wave's way through the chain and back, {:.6g} s: "
-                                              "forces and speeds explode",
-                                              prediction.duration, *prediction.travelTime));
+    prediction.warnings.push_back(
+        fmt::format("the movement of {:.6g} s is shorter than a wave's way through the chain and back, {:.6g} s: "
+                    "forces and speeds explode",
+                    prediction.duration, *prediction.travelTime));
   if (prediction.condition > kWarnCondition)
-    prediction.warnings.push_back(fmt::format("ill-conditioned ({:.1e}): tiny changes of the object change the prediction", prediction.condition));
+    prediction.warnings.push_back(
+        fmt::format("ill-conditioned ({:.1e}): tiny changes of the object change the prediction", prediction.condition));
 }
 
 // Gravity that pulls along the way would let the masses hang at other places than start and target.
@@ -82,17 +88,19 @@ void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
   for (int i = 0; i <= kProbes; ++i) {
     const double along = dot(curve.expand<2>(curve.length() * i / kProbes)[1], gravity);
     if (std::abs(along) > 1e-9)
-      throw RefusedError(fmt::format("min-hand-jerk: gravity has {:.3g} m/s^2 along the curve, so that the masses rest neither at the start nor at "
-                                     "the target; allowed: gravity across the curve, or none",
-                                     along));
+      throw RefusedError(fmt::format(
+          "min-hand-jerk: gravity has {:.3g} m/s^2 along the curve, so that the masses rest neither at the start nor at "
+          "the target; allowed: gravity across the curve, or none",
+          along));
   }
 }
 
 // A point on a curve or surface moves with the hand; chain and parallel objects follow it by their springs.
-std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, const Constraint& constraint, Criterion criterion, double duration,
-                                               const std::optional<LineObject>& object, int unknowns) {
+std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, const Constraint& constraint, Criterion criterion,
+                                               double duration, const std::optional<LineObject>& object, int unknowns) {
   if (criterion != Criterion::MinHandJerk)
-    throw RefusedError(fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces", nameOf(criterion)));
+    throw RefusedError(fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces",
+                                   nameOf(criterion)));
   const Task& task = *experiment.task;
   if (constraint.kind == ConstraintKind::Curve) {
     if (!object) return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, unknowns);
@@ -100,7 +108,9 @@ std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, con
     requireNoGravityAlong(curve, experiment.object.gravity);
     return makeCurveObjectPrediction(curve, *object, duration, unknowns);
   }
-  if (object) throw RefusedError("min-hand-jerk: on surfaces it is computed for a single mass that moves with the hand; chains need a curve");
+  if (object)
+    throw RefusedError(
+        "min-hand-jerk: on surfaces it is computed for a single mass that moves with the hand; chains need a curve");
   return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, 1, unknowns);
 }
 
@@ -122,17 +132,22 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
   std::optional<LineObject> object;
   if (experiment.object.kind == ObjectKind::Body) throw UsageError("object: the criteria are not defined for a body that turns");
   const auto makeObject = [&] {
-    return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration, warnings);
+    return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping),
+                                 duration, warnings);
   };
-  const bool straight = constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
+  const bool straight =
+      constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
   if (straight) {
     const StraightTask way = computeStraightTask(constraint, task);
     if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");
     object = makeObject();
     if (std::abs(dot(experiment.object.gravity, way.target - way.start)) > 0)
-      warnings.push_back("gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the weight");
-    prediction = criterion == Criterion::MinTorqueChange ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
-                                                         : makeLinearPrediction(*object, criterion, way.distance, duration);
+      warnings.push_back(
+          "gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the "
+          "weight");
+    prediction = criterion == Criterion::MinTorqueChange
+                     ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
+                     : makeLinearPrediction(*object, criterion, way.distance, duration);
     prediction->distance = way.distance;
   } else {
     if (experiment.object.kind != ObjectKind::Point) object = makeObject();

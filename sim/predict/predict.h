@@ -11,7 +11,15 @@
 namespace reachlab {
 
 /// The optimality criteria of the paper's Table 1, in its order, and the literal hand-crackle variant.
-enum class Criterion { MinHandJerk, MinTorqueChange, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle };
+enum class Criterion {
+  MinHandJerk,
+  MinTorqueChange,
+  MinCrackle,
+  MinHandForce,
+  MinHandForceChange,
+  MinComAcceleration,
+  MinHandCrackle
+};
 inline constexpr int kCriterionCount = 7;
 std::string_view nameOf(Criterion criterion);  // "min-hand-jerk", "min-torque-change", …
 /// One line of plain words with the paper's equation number.
@@ -30,9 +38,9 @@ struct PredictedHand {
   double position = 0, velocity = 0, acceleration = 0;  // [m], [m/s], [m/s^2]
 };
 
-/// What the hand should do for one experiment under one criterion. Profiles are functions of time on [0, T] (inner limits at 0 and T:
-/// end jumps and pulses are numbers here, never samples). Immutable after predict(); any thread; `at…` may allocate nothing but is
-/// not meant for the haptic thread: sample it beforehand.
+/// What the hand should do for one experiment under one criterion. Profiles are functions of time on [0, T] (inner limits at 0
+/// and T: end jumps and pulses are numbers here, never samples). Immutable after predict(); any thread; `at…` may allocate
+/// nothing but is not meant for the haptic thread: sample it beforehand.
 class Prediction {
  public:
   virtual ~Prediction() = default;

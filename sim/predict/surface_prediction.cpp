@@ -10,8 +10,8 @@
 namespace reachlab {
 namespace {
 
-// Central differences on nine points, eighth order for the first and second derivative, sixth for the third (which only shapes the
-// Newton matrix). [derivative][offset + 4]
+// Central differences on nine points, eighth order for the first and second derivative, sixth for the third (which only shapes
+// the Newton matrix). [derivative][offset + 4]
 constexpr double kDifference[4][9] = {
     {0, 0, 0, 0, 1, 0, 0, 0, 0},
     {1.0 / 280, -4.0 / 105, 1.0 / 5, -4.0 / 5, 0, 4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280},
@@ -56,8 +56,9 @@ double stepFor(const Domain& domain) {
 
 }  // namespace
 
-std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface, const std::vector<double>& start, const std::vector<double>& target,
-                                                      double duration, int massCount, int unknowns) {
+std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface, const std::vector<double>& start,
+                                                      const std::vector<double>& target, double duration, int massCount,
+                                                      int unknowns) {
   constexpr int kLocals = 8;
   TranscribedProblem problem;
   problem.duration = duration;
@@ -76,8 +77,9 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface,
     const SurfaceExpansion d = expandSurface(surface.surface, a[0], a[4], step, ra == nullptr ? 3 : 5);
     if (ra == nullptr) {
       const double u = a[1], v = a[5];
-      const Vec3 plain = u * u * u * d[3][0] + 3 * u * u * v * d[2][1] + 3 * u * v * v * d[1][2] + v * v * v * d[0][3] + 3 * u * a[2] * d[2][0] +
-                         3 * (u * a[6] + a[2] * v) * d[1][1] + 3 * v * a[6] * d[0][2] + a[3] * d[1][0] + a[7] * d[0][1];
+      const Vec3 plain = u * u * u * d[3][0] + 3 * u * u * v * d[2][1] + 3 * u * v * v * d[1][2] + v * v * v * d[0][3] +
+                         3 * u * a[2] * d[2][0] + 3 * (u * a[6] + a[2] * v) * d[1][1] + 3 * v * a[6] * d[0][2] + a[3] * d[1][0] +
+                         a[7] * d[0][1];
       r[0] = plain.x, r[1] = plain.y, r[2] = plain.z;
       return;
     }
@@ -96,13 +98,14 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface,
         c.bend[4 * kLocals + 4] = component(d[i][j + 2], k);
         return c;
       };
-      jerk[k] = partial(3, 0) * uuu + partial(2, 1) * uuv + partial(1, 2) * uvv + partial(0, 3) * vvv + partial(2, 0) * uu + partial(1, 1) * uv +
-                partial(0, 2) * vv + partial(1, 0) * u3 + partial(0, 1) * v3;
+      jerk[k] = partial(3, 0) * uuu + partial(2, 1) * uuv + partial(1, 2) * uvv + partial(0, 3) * vvv + partial(2, 0) * uu +
+                partial(1, 1) * uv + partial(0, 2) * vv + partial(1, 0) * u3 + partial(0, 1) * v3;
     }
     store<kLocals>(jerk, r, ra, raa);
   };
   const TranscribedMotion motion = solveFromStarts(problem, unknowns);
-  const LegendreSeries u = motion.derivative(0, 0), v = motion.derivative(1, 0), du = motion.derivative(0, 1), dv = motion.derivative(1, 1);
+  const LegendreSeries u = motion.derivative(0, 0), v = motion.derivative(1, 0), du = motion.derivative(0, 1),
+                       dv = motion.derivative(1, 1);
   // Arc length along the motion from its speed.
   const GaussRule<double> rule = makeGaussRule<double>(3 * motion.basis.columns() + 40);
   std::vector<double> speed;

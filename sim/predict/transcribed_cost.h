@@ -8,8 +8,8 @@
 
 namespace reachlab {
 
-/// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions: the problem of criterion 2
-/// and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
+/// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions: the problem of
+/// criterion 2 and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
 struct TranscribedProblem {
   double duration = 0;      // [s]
   int order = 3;            // conditions per end of each motion
@@ -21,8 +21,8 @@ struct TranscribedProblem {
   std::function<void(const double* a, double* r, double* ra, double* raa)> residual;
 };
 
-/// That integral as a function of the unknowns (those of the first motion, then of the second …), by Gauss-Legendre with three nodes
-/// for two unknowns; gradient and Hessian are exact. Borrows the problem.
+/// That integral as a function of the unknowns (those of the first motion, then of the second …), by Gauss-Legendre with three
+/// nodes for two unknowns; gradient and Hessian are exact. Borrows the problem.
 class TranscribedCost {
  public:
   TranscribedCost(const TranscribedProblem& problem, const RestToRestBasis& basis);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kMostIterations = 60;
 constexpr double kSettled = 1e-7;  // change of the unknowns, relative, after which Newton's error, its square, is below rounding
-// Error of the profile, of its peak, that is aimed at: for the motion itself, and for a flat output, of which the hand is a sum of higher
-// derivatives.
+// Error of the profile, of its peak, that is aimed at: for the motion itself, and for a flat output, of which the hand is a sum
+// of higher derivatives.
 constexpr double kProfile = 2e-9, kFlatProfile = 1e-11;
 constexpr double kUseless = 1e-2;  // of the peak
 
@@ -31,14 +31,16 @@ LegendreSeries TranscribedMotion::derivative(int motion, int m) const {
   return series;
 }
 
-TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
+TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns,
+                                     const std::vector<std::vector<double>>& guess) {
   const int motions = static_cast<int>(problem.from.size()), total = motions * unknowns;
   TranscribedMotion motion{RestToRestBasis(problem.order, unknowns), {}, problem.from, problem.duration};
   const TranscribedCost cost(problem, motion.basis);
   Vector c = Vector::Zero(total), gradient;
   Matrix hessian;
   for (size_t m = 0; m < guess.size(); ++m)
-    for (size_t k = 0; k < guess[m].size() && k < static_cast<size_t>(unknowns); ++k) c(static_cast<int>(m) * unknowns + static_cast<int>(k)) = guess[m][k];
+    for (size_t k = 0; k < guess[m].size() && k < static_cast<size_t>(unknowns); ++k)
+      c(static_cast<int>(m) * unknowns + static_cast<int>(k)) = guess[m][k];
 
   double damping = 0;
   bool settled = false;
@@ -56,7 +58,9 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
     double length = 1;
     const double slope = gradient.dot(step), small = kSettled * (c.norm() + 1e-3 * std::abs(problem.to[0] - problem.from[0]));
     settled = damping == 0 && step.norm() <= small;
-    while (!settled && length > 1e-6 && !(cost.evaluate(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost)) length /= 2;
+    while (!settled && length > 1e-6 &&
+           !(cost.evaluate(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost))
+      length /= 2;
     c += length * step;
     damping = length < 0.1 ? std::max(10 * damping, 1e-6) : damping < 1e-5 ? 0 : damping / 10;
     if (settled) {
@@ -66,7 +70,9 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
       motion.condition = rcond > 0 ? 1 / std::sqrt(rcond) : std::numeric_limits<double>::infinity();
     }
   }
-  if (!settled) throw RefusedError(fmt::format("no minimum was found within {} Newton steps; another posture, a longer time or another path may help", kMostIterations));
+  if (!settled)
+    throw RefusedError(fmt::format(
+        "no minimum was found within {} Newton steps; another posture, a longer time or another path may help", kMostIterations));
   for (int m = 0; m < motions; ++m) {
     std::vector<double> all{problem.to[m] - problem.from[m]};
     all.insert(all.end(), c.data() + m * unknowns, c.data() + (m + 1) * unknowns);
@@ -77,7 +83,8 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
 
 double estimateError(double change, double before) { return change < before ? change * std::pow(change / before, 1.5) : change; }
 
-TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
+TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns,
+                                               const std::vector<std::vector<double>>& guess) {
   if (unknowns > 0) return solveTranscription(problem, unknowns, guess);
   constexpr int kFirst = 16, kMost = 450;
   TranscribedMotion motion = solveTranscription(problem, kFirst, guess);
@@ -104,7 +111,9 @@ TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem
     }
   }
   if (!(motion.uncertainty < kUseless))
-    throw RefusedError(fmt::format("the profile still changes by {:.1e} of its peak with {} unknowns; another path or start may help", motion.uncertainty, kMost));
+    throw RefusedError(
+        fmt::format("the profile still changes by {:.1e} of its peak with {} unknowns; another path or start may help",
+                    motion.uncertainty, kMost));
   return motion;
 }
 
@@ -155,7 +164,8 @@ namespace {
 
 class LegendrePrediction final : public Prediction {
  public:
-  LegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double seconds) : hand_(std::move(hand)), masses_(std::move(masses)) {
+  LegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double seconds)
+      : hand_(std::move(hand)), masses_(std::move(masses)) {
     duration = seconds;
     massCount_ = static_cast<int>(masses_.size());
     fastest_ = static_cast<double>(hand_.position.size()) / seconds;
@@ -166,7 +176,8 @@ class LegendrePrediction final : public Prediction {
   }
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
     const double x = 2 * t / duration - 1;
-    for (size_t i = 0; i < masses_.size(); ++i) position[i] = evaluate(masses_[i].position, x), velocity[i] = evaluate(masses_[i].velocity, x);
+    for (size_t i = 0; i < masses_.size(); ++i)
+      position[i] = evaluate(masses_[i].position, x), velocity[i] = evaluate(masses_[i].velocity, x);
   }
 
  private:
@@ -180,8 +191,9 @@ void describeMotion(const TranscribedMotion& motion, Prediction& prediction) {
   prediction.cost = motion.cost;
   prediction.condition = motion.condition;
   if (motion.uncertainty > 0)
-    prediction.warnings.push_back(fmt::format("the profile is known to {:.0e} of its peak only: the path bends too sharply for {} unknowns",
-                                              motion.uncertainty, motion.basis.columns() - 1));
+    prediction.warnings.push_back(
+        fmt::format("the profile is known to {:.0e} of its peak only: the path bends too sharply for {} unknowns",
+                    motion.uncertainty, motion.basis.columns() - 1));
 }
 
 std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration) {

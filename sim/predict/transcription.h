@@ -21,17 +21,20 @@ struct TranscribedMotion {
   LegendreSeries derivative(int motion, int m) const;
 };
 
-/// Newton's method with exact second derivatives and a line search, from `guess` (unknowns of each motion, as many as given; the rest 0).
-/// Throws RefusedError when it does not settle.
-TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
+/// Newton's method with exact second derivatives and a line search, from `guess` (unknowns of each motion, as many as given; the
+/// rest 0). Throws RefusedError when it does not settle.
+TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns,
+                                     const std::vector<std::vector<double>>& guess);
 
-/// Error of a profile after its unknowns were raised by half for the last time, when the last two raises changed it by `before` and
-/// `change`: the error falls geometrically with the number of unknowns, and the last raise was half as large again as the one before.
+/// Error of a profile after its unknowns were raised by half for the last time, when the last two raises changed it by `before`
+/// and `change`: the error falls geometrically with the number of unknowns, and the last raise was half as large again as the one
+/// before.
 double estimateError(double change, double before);
 
-/// Raises the number of unknowns by half until the motions' velocities are known to 1e-8 of their peak, or `unknowns` > 0 as given.
-/// Where 450 are not enough the result says how far it is known; above 1e-2 it is refused.
-TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
+/// Raises the number of unknowns by half until the motions' velocities are known to 1e-8 of their peak, or `unknowns` > 0 as
+/// given. Where 450 are not enough the result says how far it is known; above 1e-2 it is refused.
+TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem, int unknowns,
+                                               const std::vector<std::vector<double>>& guess);
 
 /// The same from several starts, the straight one and others bent from it; the lowest minimum wins.
 TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknowns);
