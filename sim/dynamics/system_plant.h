@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 
 #include "sim/dynamics/adaptive.h"
@@ -15,13 +16,13 @@ class SystemPlant : public PlantBase {
   using State = typename System::State;
 
   SystemPlant(const ObjectModel& model, System system, double tolerance)
-      : PlantBase(model), system_(std::move(system)), method_(system_, tolerance), locator_(system_, tolerance), y_(system_.states()),
-        next_(system_.states()) {
-    for (int i = 0; i < system_.states(); ++i) y_[i] = 0;
+      : PlantBase(model), system_(std::move(system)), method_(system_, tolerance), locator_(system_, tolerance),
+        states_{State(system_.states()), State(system_.states())} {
+    for (int i = 0; i < system_.states(); ++i) now()[i] = 0;
   }
 
   void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
-    system_.place(q, qRate, y_);
+    system_.place(q, qRate, now());
     method_.restart();
     stopped_ = StepStatus::Ok;
     fraction_ = 1;
@@ -43,18 +44,18 @@ class SystemPlant : public PlantBase {
   StepStatus step(const HandSegment& hand, double dt) noexcept override {
     StepReport report;
     fraction_ = 1;
-    StepStatus status = method_.step(system_, hand, dt, y_, next_, report);
+    StepStatus status = method_.step(system_, hand, dt, now(), next(), report);
     if constexpr (System::kEnds)
-      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next_))) status = meetEnds(hand, dt, status, report);
+      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()))) status = meetEnds(hand, dt, status, report);
     if constexpr (requires(System& s, State& y) { s.settle(y, y); })
       if (status == StepStatus::Ok) {
-        const Settled settled = system_.settle(y_, next_);
+        const Settled settled = system_.settle(now(), next());
         if (settled != Settled::Same) method_.restart();
         if (settled == Settled::Lost) status = StepStatus::NoContinuation;
       }
     if constexpr (requires(const System& s, const State& y) { s.lost(y); })
-      if ((status == StepStatus::Capped || status == StepStatus::NotFinite) && system_.lost(y_)) status = StepStatus::NoContinuation;
-    if (status == StepStatus::Ok) y_ = next_;
+      if ((status == StepStatus::Capped || status == StepStatus::NotFinite) && system_.lost(now())) status = StepStatus::NoContinuation;
+    if (status == StepStatus::Ok) current_ = 1 - current_;
     if (status == StepStatus::NoContinuation) fraction_ = 0;
     stopped_ = status;
     error_ = report.error * 0.1;
@@ -64,10 +65,10 @@ class SystemPlant : public PlantBase {
 
   void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
     const auto used = masses.first(static_cast<std::size_t>(model_.count()));
-    system_.locate(y_, used);
+    system_.locate(now(), used);
     State dy(system_.states());
-    system_.rate(system_.handOf(hand), y_, dy);
-    system_.accelerate(y_, dy, used);
+    system_.rate(system_.handOf(hand), now(), dy);
+    system_.accelerate(now(), dy, used);
   }
   double errorEstimate() const noexcept override { return error_; }
   std::string stopReason() const override {
@@ -77,31 +78,35 @@ class SystemPlant : public PlantBase {
   }
 
  protected:
-  const State& state() const noexcept { return y_; }
-  void locate(std::span<MassState> masses) const noexcept override { system_.locate(y_, masses); }
+  const State& state() const noexcept { return now(); }
+  void locate(std::span<MassState> masses) const noexcept override { system_.locate(now(), masses); }
 
   System system_;
 
  private:
+  State& now() noexcept { return states_[current_]; }
+  const State& now() const noexcept { return states_[current_]; }
+  State& next() noexcept { return states_[1 - current_]; }
+
   static constexpr int kMostBounces = 64;  // in one tick
 
   /// The largest part of the tick after which every mass is still on the constraint, and the state then; at an elastic end the rest of
   /// the tick follows.
   StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
-    State at = y_, beyond = y_;
+    State at = now(), beyond = now();
     double begun = 0;
     HandSegment rest = hand;
     for (int bounce = 0; bounce < kMostBounces; ++bounce) {
       const double left = (1 - begun) * dt;
       double inside = 0, outside = 1;
-      State good = y_;
+      State good = now();
       // A step over an end that is a cusp is known only to the method; the locator comes up to it.
       bool crossed = bounce == 0 && status == StepStatus::Ok;
-      if (crossed) beyond = next_;
+      if (crossed) beyond = next();
       for (int round = 0; round < 60 && outside - inside > 1e-15; ++round) {
         const double middle = round == 0 ? 1.0 : 0.5 * (inside + outside);
         locator_.restart();
-        status = locator_.advance(system_, rest, left, middle, y_, at, report);
+        status = locator_.advance(system_, rest, left, middle, now(), at, report);
         const bool finite = status == StepStatus::Ok;
         if (finite && system_.inside(at)) {
           inside = middle;
@@ -113,17 +118,17 @@ class SystemPlant : public PlantBase {
         }
       }
       if (inside == 1) {
-        next_ = good;
+        next() = good;
         method_.restart();
         return StepStatus::Ok;
       }
       if (!crossed) return status;  // not an end: the method itself failed
       begun += inside * (1 - begun);
-      y_ = good;
-      system_.meetEnd(beyond, y_, system_.bounces());
+      now() = good;
+      system_.meetEnd(beyond, now(), system_.bounces());
       // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity: it stops just before, elastic or not.
-      const bool degenerate = !sameSpeed(good, y_) || !hasRates(rest, y_);
-      if (degenerate) y_ = good;
+      const bool degenerate = !sameSpeed(good, now()) || !hasRates(rest, now());
+      if (degenerate) now() = good;
       if (degenerate || !system_.bounces()) {
         fraction_ = begun;
         method_.restart();
@@ -157,7 +162,8 @@ class SystemPlant : public PlantBase {
 
   Method<System> method_;
   Adaptive<System> locator_;
-  State y_, next_;
+  std::array<State, 2> states_;  // now and after the step, by turns: nothing is copied
+  int current_ = 0;
   double error_ = 0;
   StepStatus stopped_ = StepStatus::Ok;
 };
