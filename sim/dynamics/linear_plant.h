@@ -30,14 +30,14 @@ class LinearPlant final : public PlantBase {
     v_.resize(model.count());
     cores_.push_back(makeCores(dt));
     current_ = cores_[0].get();
-    for (int a = 0; a < Axes; ++a) state_.push_back(core().makeState()), next_.push_back(core().makeState());
+    for (int a = 0; a < Axes; ++a) states_[0].push_back(core().makeState()), states_[1].push_back(core().makeState());
   }
 
   void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
     for (int a = 0; a < Axes; ++a) {
       std::fill(x_.begin(), x_.end(), Axes == 1 ? q[0] * length_ : q[a]);
       std::fill(v_.begin(), v_.end(), Axes == 1 ? qRate[0] * length_ : qRate[a]);
-      core().place(state_[a], x_, v_);
+      core().place(state()[a], x_, v_);
     }
     fraction_ = 1;
     fresh_ = false;
@@ -46,8 +46,8 @@ class LinearPlant final : public PlantBase {
   void setCoupled(bool coupled) noexcept override {
     if (coupled == coupled_) return;
     for (int a = 0; a < Axes; ++a) {
-      core().read(state_[a], x_, v_);
-      (coupled ? current_->coupled : current_->alone).place(state_[a], x_, v_);
+      core().read(state()[a], x_, v_);
+      (coupled ? current_->coupled : current_->alone).place(state()[a], x_, v_);
     }
     coupled_ = coupled;
     fresh_ = false;
@@ -74,10 +74,10 @@ class LinearPlant final : public PlantBase {
       }
       axisHand.extraForce = along(extra_, a);
       axisHand.gravity = gravity_[a];
-      if (!core.advance(state_[a], axisHand, next_[a])) return StepStatus::NotFinite;
+      if (!core.advance(state()[a], axisHand, next()[a])) return StepStatus::NotFinite;
     }
     if (bounded_ && leaves()) return StepStatus::AtEnd;
-    std::swap(state_, next_);
+    now_ = 1 - now_;  // swapped vectors would be read wider than they were written, and waited for
     return StepStatus::Ok;
   }
   void restart() noexcept override {}
@@ -101,6 +101,9 @@ class LinearPlant final : public PlantBase {
   std::unique_ptr<Cores> makeCores(double dt) const {
     return std::make_unique<Cores>(Cores{dt, Core(model_, true, dt), Core(model_, false, dt)});
   }
+  std::vector<typename Core::State>& state() noexcept { return states_[now_]; }
+  const std::vector<typename Core::State>& state() const noexcept { return states_[now_]; }
+  std::vector<typename Core::State>& next() noexcept { return states_[1 - now_]; }
   const Core& core() const noexcept { return coupled_ ? current_->coupled : current_->alone; }
   double along(const Vec3& vector, int a) const noexcept {
     if constexpr (Axes == 1) return dot(vector, axis_);
@@ -126,7 +129,7 @@ class LinearPlant final : public PlantBase {
 
   void locate(std::span<MassState> masses) const noexcept override {
     for (int a = 0; a < Axes; ++a) {
-      if (!fresh_) core().read(state_[a], x_, v_);
+      if (!fresh_) core().read(state()[a], x_, v_);
       fresh_ = Axes == 1;
       for (std::size_t i = 0; i < masses.size(); ++i) {
         if constexpr (Axes == 1) {
@@ -147,13 +150,13 @@ class LinearPlant final : public PlantBase {
   bool leaves() noexcept {
     const int n = model_.count();
     std::vector<double>&x1 = x_, &v1 = v_;
-    core().read(next_[0], x1, v1);
+    core().read(next()[0], x1, v1);
     const double lo = space_.domain.lo * length_, hi = space_.domain.hi * length_;
     bool outside = false;
     for (int i = 0; i < n; ++i) outside = outside || x1[i] < lo || x1[i] > hi;
     if (!outside) return false;
     std::array<double, kMaxMasses> x0, v0;
-    core().read(state_[0], {x0.data(), static_cast<std::size_t>(n)}, {v0.data(), static_cast<std::size_t>(n)});
+    core().read(state()[0], {x0.data(), static_cast<std::size_t>(n)}, {v0.data(), static_cast<std::size_t>(n)});
     const double dt = current_->dt;
     const auto cubic = [&](int i, double s) {
       const double d = x1[i] - x0[i], c2 = 3 * d - dt * (2 * v0[i] + v1[i]), c3 = -2 * d + dt * (v0[i] + v1[i]);
@@ -175,7 +178,7 @@ class LinearPlant final : public PlantBase {
       x[i] = std::fmin(std::fmax(place, lo), hi);
       v[i] = speed;
     }
-    core().place(state_[0], {x.data(), static_cast<std::size_t>(n)}, {v.data(), static_cast<std::size_t>(n)});
+    core().place(state()[0], {x.data(), static_cast<std::size_t>(n)}, {v.data(), static_cast<std::size_t>(n)});
     fraction_ = first;
     return true;
   }
@@ -187,7 +190,8 @@ class LinearPlant final : public PlantBase {
   std::array<double, Axes> origin_{}, gravity_{};    // [m], [m/s^2] along the axes
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
-  std::vector<typename Core::State> state_, next_;   // one an axis
+  std::array<std::vector<typename Core::State>, 2> states_;  // now and after the step, by turns; one an axis
+  int now_ = 0;
   mutable std::vector<double> x_, v_;                // scratch
   mutable bool fresh_ = false;                       // one axis: the masses' places now, read once a step (N^2 from modes)
 };

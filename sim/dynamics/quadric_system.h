@@ -42,9 +42,10 @@ struct QuadricSystem {
   /// round within the step: a cone's apex, beyond which nothing says where to go.
   Settled settle(const State& before, State& y) const noexcept {
     Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
-    const Vec3 n = quadric.gradient(r);
-    if (dot(n, quadric.gradient({before[0], before[1], before[2]})) < 0 && lost(before)) return Settled::Lost;
-    const double square = 1 / dot(n, n);
+    const Vec3 n = quadric.gradient(r), nBefore = quadric.gradient({before[0], before[1], before[2]});
+    if (dot(n, nBefore) < 0 && lost(before)) return Settled::Lost;
+    // The normal's length of the tick before does: what a step drifts is rounding, and waiting for this tick's would cost a division.
+    const double square = 1 / dot(nBefore, nBefore);
     r -= (quadric.value(r) * square) * n;
     v -= (dot(n, v) * square) * n;
     y.values = {r.x, r.y, r.z, v.x, v.y, v.z};
