@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/allocation_count.h"
 #include "cli/commands.h"
 #include "cli/constraint_bench.h"
 #include "constraints/error.h"
@@ -71,12 +72,12 @@ void benchTicks(const BenchArguments& arguments) {
   std::vector<bench::BenchScene> scenes;
   for (const std::string& name : arguments.suite.scenes) scenes.push_back(bench::benchScene(name));
   if (scenes.empty()) scenes = bench::benchScenes();
-  fmt::print("{:<7} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9}   ns, wall clock\n", "scene", "ticks", "p50", "p99", "p99.9", "max", "clock");
+  fmt::print("{:<7} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock\n", "scene", "ticks", "p50", "p99", "p99.9", "max", "clock", "allocations");
   for (const bench::BenchScene& scene : scenes) {
     showProgress(scene.name + ": " + scene.title);
     try {
-      const TickTiming t = measureTicks(scene.experiment, arguments.ticks);
-      fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max, t.clock);
+      const TickTiming t = measureTicks(scene.experiment, arguments.ticks, countAllocations);
+      fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max, t.clock, t.allocations);
     } catch (const Error& e) {
       showProgress("  refused: " + std::string(e.what()));
     }

@@ -71,9 +71,9 @@ auto beyond(const Pack& x, const Pack& most) noexcept {
 template <class Mask>
 bool anyLane(Mask mask) noexcept {
   constexpr int kWidth = sizeof(Mask) / sizeof(std::int64_t);
-  if constexpr (kWidth == 8) mask |= __builtin_shuffle(mask, Mask{4, 5, 6, 7, 0, 1, 2, 3});
-  if constexpr (kWidth == 8) mask |= __builtin_shuffle(mask, Mask{2, 3, 0, 1, 6, 7, 4, 5});
-  if constexpr (kWidth == 4) mask |= __builtin_shuffle(mask, Mask{2, 3, 0, 1});
+  if constexpr (kWidth == 8) mask |= __builtin_shufflevector(mask, mask, 4, 5, 6, 7, 0, 1, 2, 3);
+  if constexpr (kWidth == 8) mask |= __builtin_shufflevector(mask, mask, 2, 3, 0, 1, 6, 7, 4, 5);
+  if constexpr (kWidth == 4) mask |= __builtin_shufflevector(mask, mask, 2, 3, 0, 1);
   return (mask[0] | mask[1]) != 0;
 }
 }  // namespace adams

@@ -23,7 +23,7 @@ double percentile(std::vector<std::int64_t>& sorted, double share) {
 
 }  // namespace
 
-TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks) {
+TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks, std::uint64_t (*countAllocations)() noexcept) {
   TickEngine engine(withoutEnd(experiment), {});
   const Vec3 start = engine.protocol().start, chord = engine.protocol().target - start;
   constexpr double kShare = 0.1, kLeast = 0.01, kOmega = 2 * std::numbers::pi;
@@ -36,6 +36,7 @@ TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks) {
   }
   TickInput input;
   std::uint64_t since = 0;  // ticks of this trial; a trial that ends all the same (an edge was met) is put up again
+  const std::uint64_t allocatedBefore = countAllocations ? countAllocations() : 0;
   for (auto& cost : costs) {
     const Phase phase = engine.state().phase;
     const bool over = phase == Phase::Idle || phase == Phase::Done;
@@ -46,10 +47,11 @@ TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks) {
     engine.tick(input);
     cost = os::now() - before;
   }
+  const std::uint64_t allocated = countAllocations ? countAllocations() - allocatedBefore : 0;
   std::sort(costs.begin(), costs.end());
   std::sort(looks.begin(), looks.end());
   return {costs.size(), percentile(costs, 0.5), percentile(costs, 0.99), percentile(costs, 0.999), static_cast<double>(costs.back()),
-          static_cast<double>(looks[looks.size() / 2])};
+          static_cast<double>(looks[looks.size() / 2]), allocated};
 }
 
 }  // namespace reachlab

@@ -11,11 +11,12 @@ struct TickTiming {
   std::uint64_t ticks = 0;
   double p50 = 0, p99 = 0, p999 = 0, max = 0;  // [ns]
   double clock = 0;                            // [ns] median of two looks at the clock with nothing between
+  std::uint64_t allocations = 0;               // of memory in all ticks together, if they were counted
 };
 
 /// Runs `ticks` ticks of a trial that does not end, with a hand that swings about the start along the way to the target, 10 % of the
 /// chord at 1 Hz (1 cm where start and target are one place). Throws what TickEngine's constructor throws. Not real time: ticks follow
-/// one another at once.
-TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks = 1'000'000);
+/// one another at once. `countAllocations` gives the thread's allocations so far; null: not counted.
+TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks = 1'000'000, std::uint64_t (*countAllocations)() noexcept = nullptr);
 
 }  // namespace reachlab
