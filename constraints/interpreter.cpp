@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "constraints/program.h"
 #include "constraints/sincos.h"
@@ -9,14 +10,15 @@
 namespace reachlab {
 namespace {
 
-constexpr int kCodeCount = static_cast<int>(Code::Return) + 1;
+constexpr int kCodeCount = static_cast<int>(Code::TwoSquare) + 1;
 using HandlerTable = std::array<const void*, kCodeCount>;
 
 // With `table` set it only tells its addresses; they exist nowhere else.
 [[gnu::noinline]] void execute(const Instruction* i, double* r, HandlerTable* table) noexcept {
   if (table != nullptr) [[unlikely]] {
     *table = {&&load, &&add, &&addC, &&sub, &&rSubC, &&mul, &&mulC, &&mulMulC, &&negMul, &&mulAdd, &&mulSub, &&rMulSub, &&div, &&rDivC, &&neg, &&square,
-              &&sinCosine, &&pow, &&tan, &&asin, &&acos, &&atan, &&atan2, &&sinh, &&cosh, &&tanh, &&exp, &&log, &&sqrt, &&abs, &&sign, &&stop};
+              &&sinCosine, &&pow, &&tan, &&asin, &&acos, &&atan, &&atan2, &&sinh, &&cosh, &&tanh, &&exp, &&log, &&sqrt, &&abs, &&sign, &&stop,
+              &&twoMul, &&twoMulMulC, &&twoNegMul, &&twoNeg, &&twoSquare};
     return;
   }
 #define NEXT ++i; goto* i->handler
@@ -52,6 +54,11 @@ log: r[i->out] = std::log(r[i->a]); NEXT;
 sqrt: r[i->out] = std::sqrt(r[i->a]); NEXT;
 abs: r[i->out] = std::abs(r[i->a]); NEXT;
 sign: r[i->out] = signOf(r[i->a]); NEXT;
+twoMul: r[i->out] = r[i->a] * r[i->b]; ++i; r[i->out] = r[i->a] * r[i->b]; NEXT;
+twoMulMulC: r[i->out] = i->number * (r[i->a] * r[i->b]); ++i; r[i->out] = i->number * (r[i->a] * r[i->b]); NEXT;
+twoNegMul: r[i->out] = -(r[i->a] * r[i->b]); ++i; r[i->out] = -(r[i->a] * r[i->b]); NEXT;
+twoNeg: r[i->out] = -r[i->a]; ++i; r[i->out] = -r[i->a]; NEXT;
+twoSquare: r[i->out] = r[i->a] * r[i->a]; ++i; r[i->out] = r[i->a] * r[i->a]; NEXT;
 #undef NEXT
 stop:
   return;
@@ -66,14 +73,21 @@ const HandlerTable& handlers() noexcept {
   return table;
 }
 
+// Number by number: a vector load of two numbers that were just stored one by one would wait for both to reach the cache.
+template <std::size_t... k>
+[[gnu::always_inline]] inline void copyOutputs(const double* registers, double* out, std::index_sequence<k...>) noexcept {
+  ((out[k] = registers[k]), ...);
+}
+
 template <int kVariables, int kOutputs>
 [[gnu::always_inline]] inline void evaluateProgram(const Program& p, const double* shape, const double* variables, double* out) noexcept {
   double registers[kMaxRegisters];
-  for (int k = 0; k < p.parameterCount; ++k) registers[k] = shape[k];
-  for (int k = 0; k < kVariables; ++k) registers[p.parameterCount + k] = variables[k];
+  for (int k = 0; k < kOutputs; ++k) registers[k] = p.constants[static_cast<std::size_t>(k)];
+  for (int k = 0; k < p.parameterCount; ++k) registers[kOutputs + k] = shape[k];
+  for (int k = 0; k < kVariables; ++k) registers[kOutputs + p.parameterCount + k] = variables[k];
   execute(p.instructions.data(), registers, nullptr);
-  for (int k = 0; k < kOutputs; ++k) out[k] = p.constants[static_cast<std::size_t>(k)];
-  for (const Program::Output& output : p.outputs) out[output.slot] = registers[output.from];
+  copyOutputs(registers, out, std::make_index_sequence<kOutputs>());
+  for (const Program::Copy& copy : p.copies) out[copy.slot] = registers[copy.from];
 }
 
 }  // namespace

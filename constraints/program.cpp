@@ -11,7 +11,7 @@ namespace {
 class Compiler {
  public:
   Compiler(ExpressionGraph& graph, std::span<const int> roots, int parameterCount, int variableCount)
-      : graph_(graph), parameterCount_(parameterCount), next_(parameterCount + variableCount) {
+      : graph_(graph), parameterCount_(parameterCount), shape_(static_cast<int>(roots.size())), next_(shape_ + parameterCount + variableCount) {
     roots_ = graph.expandPowers(roots);
     needed_ = graph.reachableFrom(roots_);
     uses_.assign(needed_.size(), 0);
@@ -24,6 +24,8 @@ class Compiler {
     }
     for (const int root : roots_) uses_[static_cast<std::size_t>(root)] += 2;  // an output keeps its own register
     register_.assign(needed_.size(), -1);
+    place_.assign(needed_.size(), -1);
+    for (int k = static_cast<int>(roots_.size()); k-- > 0;) place_[static_cast<std::size_t>(roots_[static_cast<std::size_t>(k)])] = k;
   }
 
   Program compile() {
@@ -32,9 +34,10 @@ class Compiler {
       if (needed_[id] && !fused_[id]) emitNode(static_cast<int>(id));
     for (std::size_t k = 0; k < roots_.size(); ++k) {
       if (graph_.isConstant(roots_[k])) program_.constants[k] = node(roots_[k]).value;
-      else program_.outputs.push_back({static_cast<std::uint16_t>(k), registerOf(roots_[k])});
+      else if (const std::uint16_t from = registerOf(roots_[k]); from != k) program_.copies.push_back({static_cast<std::uint16_t>(k), from});
     }
     emit(Code::Return, 0, 0, 0, 0, 0);
+    pair();
     program_.parameterCount = static_cast<std::uint16_t>(parameterCount_);
     return std::move(program_);
   }
@@ -84,17 +87,35 @@ class Compiler {
     program_.instructions.push_back(i);
   }
   void put(int id, Code code, int a, int b = 0, int c = 0, double number = 0) {
-    const std::uint16_t out = newRegister();
+    const std::uint16_t out = registerFor(id);
     emit(code, a, b, c, out, number);
     register_[static_cast<std::size_t>(id)] = out;
+  }
+  // A result's own place, else a new one.
+  std::uint16_t registerFor(int id) {
+    const int place = place_[static_cast<std::size_t>(id)];
+    return place >= 0 ? static_cast<std::uint16_t>(place) : newRegister();
+  }
+
+  // Two instructions of one kind in a row need one jump.
+  void pair() {
+    constexpr std::pair<Code, Code> kPairs[] = {{Code::Mul, Code::TwoMul}, {Code::MulMulC, Code::TwoMulMulC}, {Code::NegMul, Code::TwoNegMul},
+                                                {Code::Neg, Code::TwoNeg}, {Code::Square, Code::TwoSquare}};
+    std::vector<Instruction>& all = program_.instructions;
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      for (const auto& [one, two] : kPairs)
+        if (all[i].handler == handlerOf(one) && all[i + 1].handler == handlerOf(one)) {
+          all[i++].handler = handlerOf(two);
+          break;
+        }
   }
 
   // Numbers are loaded only where an operation has no form with the number inside.
   std::uint16_t registerOf(int id) {
     int& r = register_[static_cast<std::size_t>(id)];
     const ExpressionNode n = node(id);
-    if (r < 0 && n.op == Op::Parameter) r = n.a;
-    if (r < 0 && n.op == Op::Variable) r = parameterCount_ + n.a;
+    if (r < 0 && n.op == Op::Parameter) r = shape_ + n.a;
+    if (r < 0 && n.op == Op::Variable) r = shape_ + parameterCount_ + n.a;
     if (r < 0) put(id, Code::Load, 0, 0, 0, n.value);
     return static_cast<std::uint16_t>(r);
   }
@@ -168,12 +189,14 @@ class Compiler {
 
   ExpressionGraph& graph_;
   int parameterCount_;
+  int shape_;  // register of the first parameter
   int next_;
   std::vector<int> roots_;
   std::vector<bool> needed_;
   std::vector<bool> fused_;
   std::vector<int> uses_;
   std::vector<int> register_;
+  std::vector<int> place_;  // of the results
   std::map<int, std::pair<std::uint16_t, std::uint16_t>> sinCos_;
   Program program_;
 };

@@ -11,7 +11,8 @@ namespace reachlab {
 /// Operations of the straight-line program. R: register, C: number kept in the instruction.
 enum class Code : std::uint16_t {
   Load, Add, AddC, Sub, RSubC, Mul, MulC, MulMulC, NegMul, MulAdd, MulSub, RMulSub, Div, RDivC, Neg, Square,
-  SinCos, Pow, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign, Return
+  SinCos, Pow, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign, Return,
+  TwoMul, TwoMulMulC, TwoNegMul, TwoNeg, TwoSquare  // this instruction and the next, of the same kind, with one jump
 };
 
 struct Instruction {
@@ -21,20 +22,21 @@ struct Instruction {
   std::uint16_t out = 0;
 };
 
-inline constexpr int kMaxRegisters = 1024;
 inline constexpr int kMaxOutputs = 18;
+inline constexpr int kMaxRegisters = 1024 + kMaxOutputs;
 
-/// A formula with its derivatives as a list of operations on registers: first the shape, then the variables, then the results.
+/// A formula with its derivatives as a list of operations on registers: first the results (9 or 18, in the order of CurvePoint's or
+/// SurfacePoint's members; each is computed in its place), then the shape, the variables, and what lies between.
 /// Immutable once made; evaluated by any thread, without allocation, recursion or loops.
 struct Program {
   std::vector<Instruction> instructions;
   std::uint16_t parameterCount = 0;
-  // The results in the order of CurvePoint's or SurfacePoint's members: numbers that never change, and where the others come from.
-  struct Output {
+  std::array<double, kMaxOutputs> constants{};  // results that never change
+  // Results that are the same as another, or as a parameter or variable.
+  struct Copy {
     std::uint16_t slot, from;
   };
-  std::array<double, kMaxOutputs> constants{};
-  std::vector<Output> outputs;
+  std::vector<Copy> copies;
 };
 
 /// Compiles roots (x, y, z of r, then of each derivative, in the order of the point's members). Throws UsageError when it needs more
