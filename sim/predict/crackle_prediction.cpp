@@ -19,7 +19,7 @@ class CracklePrediction final : public Prediction {
     fastest_ = 2.0 * power_ / seconds;  // z and its derivatives have no more zeros than their degree
     // Times H^-k, so that rows multiply derivatives with respect to sigma.
     for (FlatPolynomial& p : node_)
-      for (size_t k = 0; k < p.size(); ++k) p[k] /= std::pow(static_cast<Real>(half_), static_cast<Real>(k));
+      for (Real scale = 1; Real& c : p) c /= scale, scale *= half_;
     Real scale = 0.5L;  // (2n+1)! / (n!^2 2^(2n+1))
     for (int i = 1; i <= power_; ++i) scale *= (2 * i + 1) / (2.0L * i);
     slope_ = scale * distance_;
@@ -34,7 +34,7 @@ class CracklePrediction final : public Prediction {
 
   PredictedHand handAt(double t) const override {
     std::vector<Real> z(derivatives());
-    computeDerivatives(t, z);
+    computeDerivatives(t, z, Wanted::All);
     const Real H = half_;
     return {static_cast<double>(sum(node_[0], z, 0)), static_cast<double>(sum(node_[0], z, 1) / H),
             static_cast<double>(sum(node_[0], z, 2) / (H * H))};
@@ -48,7 +48,7 @@ class CracklePrediction final : public Prediction {
 
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
     std::vector<Real> z(derivatives());
-    computeDerivatives(t, z);
+    computeDerivatives(t, z, Wanted::All);
     for (int i = 0; i < massCount_; ++i) {
       position[i] = static_cast<double>(sum(node_[source_[i] + 1], z, 0));
       velocity[i] = static_cast<double>(sum(node_[source_[i] + 1], z, 1) / half_);
@@ -64,18 +64,12 @@ class CracklePrediction final : public Prediction {
     return s;
   }
 
-  // z and its derivatives with respect to sigma, up to order 2N+2. With F_m = f^(m) / (1 - sigma^2)^(n-m), f = (1 - sigma^2)^n:
+  enum class Wanted { Derivatives, All };
+  // z (unless only its derivatives are asked for) and its derivatives with respect to sigma, up to order 2N+2. With F_m = f^(m) / (1 - sigma^2)^(n-m), f = (1 - sigma^2)^n:
   // F_(m+1) = 2 (m-n) sigma F_m + m (m-1-2n) (1 - sigma^2) F_(m-1), from (1 - sigma^2) f' = -2 n sigma f.
-  void computeDerivatives(double t, std::vector<Real>& z) const {
+  void computeDerivatives(double t, std::vector<Real>& z, Wanted wanted = Wanted::Derivatives) const {
     const int n = power_;
     const Real s = std::clamp((static_cast<Real>(t) - half_) / half_, -1.0L, 1.0L), rest = (1 - s) * (1 + s);
-    const Real low = (1 - std::abs(s)) / 2, high = 1 - low;  // I_low(n+1, n+1): a binomial tail, all terms positive
-    Real tail = 0, term = 2 * slope_ / (distance_ * (n + 1)) * std::pow(rest, static_cast<Real>(n)) * low;
-    for (int j = n + 1; j <= 2 * n + 1; ++j) {
-      tail += term;
-      term *= low / high * (2 * n + 1 - j) / (j + 1);
-    }
-    z[0] = distance_ * (s < 0 ? tail : 1 - tail);
     Real before = 0, now = 1;
     for (int m = 0; m < n; ++m) {
       z[m + 1] = slope_ * now;
@@ -83,7 +77,16 @@ class CracklePrediction final : public Prediction {
       before = now, now = next;
     }
     Real power = rest;
-    for (int m = n - 1; m >= 0; --m, power *= rest) z[m + 1] *= power;
+    for (int m = n - 1; m > 0; --m, power *= rest) z[m + 1] *= power;
+    z[1] *= power;
+    if (wanted == Wanted::Derivatives) return;
+    const Real low = (1 - std::abs(s)) / 2, ratio = low / (1 - low);  // I_low(n+1, n+1): a binomial tail, all terms positive
+    Real tail = 0, term = 2 * slope_ / (distance_ * (n + 1)) * power * low;
+    for (int j = n + 1; j <= 2 * n + 1; ++j) {
+      tail += term;
+      term *= ratio * (2 * n + 1 - j) / (j + 1);
+    }
+    z[0] = distance_ * (s < 0 ? tail : 1 - tail);
   }
 
   double computeAmplification() const {
