@@ -19,6 +19,7 @@ GOALS = {
     "S1": (2, 3), "S1b50": (None, 4), "S1b500": (None, 6), "S2a": (None, 2.5), "S2b": (None, 2.5), "S3": (None, 2.5), "S4": (None, 2.5),
     "S6": (1, 1), "S7a": (None, 20), "S7b": (None, 20), "S7d": (None, 6), "S7e": (None, 6), "S8": (None, 2.5),
 }
+NEAR_LIMIT = ("S2a", "S2b", "S3", "S4", "S8")  # wanted: at most 1.25 times the form by hand
 HARD = ("S5", "S5h", "S7c")
 HARD_TICKS = 1350
 
@@ -50,11 +51,12 @@ def met(yes):
 
 
 def limit_table(text):
-    lines = ["| scene | by hand ns/ms, its state error | odeint rk4 ns/ms | `auto` ns/ms, its state error | by hand / odeint rk4 | `auto` / by hand | ≤ 1.25 |",
+    lines = ["| scene | by hand ns/ms, its state error | odeint rk4 ns/ms | `auto` ns/ms, its state error | by hand / odeint rk4 | `auto` / by hand | wanted ≤ 1.25 |",
              "|---|---|---|---|---|---|---|"]
     for line in text.splitlines()[1:]:
         scene, state, limit, rk4, auto, auto_state, _, limit_ratio, ratio = line.split()
-        lines.append(f"| {scene} | {limit}, {state} | {rk4} | {auto}, {auto_state} | {limit_ratio} | {ratio} | {met(float(ratio) <= 1.25)} |")
+        verdict = met(float(ratio) <= 1.25) if scene in NEAR_LIMIT else ""
+        lines.append(f"| {scene} | {limit}, {state} | {rk4} | {auto}, {auto_state} | {limit_ratio} | {ratio} | {verdict} |")
     return "\n".join(lines)
 
 
