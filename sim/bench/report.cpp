@@ -23,6 +23,19 @@ std::string setting(const Row& row) {
 
 std::string side(const Row* row) { return row ? fmt::format("{} ({}) {:.1f}", row->method, setting(*row), row->nsPerMs) : "none"; }
 
+/// A method's rows by price, without those that another setting of it beats in both price and error, and without errors beyond any
+/// motion.
+std::vector<const Row*> worthwhile(const std::vector<Row>& rows, const std::string& scene, const std::string& method) {
+  constexpr double kNoMotion = 1;
+  std::vector<const Row*> own, kept;
+  for (const Row& row : rows)
+    if (row.scene == scene && row.method == method && row.failure.empty() && row.error.state < kNoMotion) own.push_back(&row);
+  std::sort(own.begin(), own.end(), [](const Row* a, const Row* b) { return a->nsPerMs < b->nsPerMs; });
+  for (const Row* row : own)
+    if (kept.empty() || row->error.state < kept.back()->error.state) kept.push_back(row);
+  return kept;
+}
+
 }  // namespace
 
 std::string formatTable(const std::vector<Row>& rows) {
@@ -62,6 +75,8 @@ std::string drawWorkPrecision(const std::vector<Row>& rows) {
   std::vector<std::string> methods;  // the same colour in every panel
   for (const Row& row : rows)
     if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
+  const auto automatic = std::find(methods.begin(), methods.end(), "auto");
+  if (automatic != methods.end()) std::rotate(automatic, automatic + 1, methods.end());  // drawn last: it lies on the method it chose
   for (const std::string& scene : scenesOf(rows)) {
     Panel panel;
     panel.title = scene;
@@ -70,15 +85,13 @@ std::string drawWorkPrecision(const std::vector<Row>& rows) {
     panel.x.scale = panel.y.scale = Scale::Log;
     panel.legend = figure.panels.empty() ? LegendPlace::Auto : LegendPlace::None;
     for (std::size_t i = 0; i < methods.size(); ++i) {
-      std::vector<const Row*> own;
-      for (const Row& row : rows)
-        if (row.scene == scene && row.method == methods[i] && row.failure.empty() && std::isfinite(row.error.state)) own.push_back(&row);
+      const std::vector<const Row*> own = worthwhile(rows, scene, methods[i]);
       if (own.empty() && !figure.panels.empty()) continue;
-      std::sort(own.begin(), own.end(), [](const Row* a, const Row* b) { return a->nsPerMs < b->nsPerMs; });
       Series series;
       series.label = methods[i];
       series.color = palette::series(static_cast<int>(i));
       series.marker = markerOf(static_cast<int>(i));
+      if (methods[i] == "auto") series.markerSize *= 1.8;
       if (!own.empty() && isPeer(*own.front())) series.dash = Dash::Dashed;
       for (const Row* row : own) {
         series.x.push_back(row->nsPerMs);

@@ -112,6 +112,22 @@ TEST(HardCases, DampersThatBreakRk4AreTakenByAuto) {
   for (int i = 0; i < 3; ++i) EXPECT_LT(norm(a[i].r - b[i].r), 1e-9) << "Radau against the explicit pair";
 }
 
+// The L-stable method's systems are dense: a longer chain is taken by the explicit pair as far as its cap reaches, then refused.
+TEST(HardCases, LongStiffChainsOnACurveAreTakenOrRefusedInWords) {
+  const auto damped = [](double b) {
+    Experiment e = makeChain(40, 0.01, 600);
+    e.object.damping.assign(39, b);
+    return onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  };
+  EXPECT_EQ(compileScene(damped(500)).choice.method, "adaptive") << "4 b/m dt = 200";
+  try {
+    (void)compileScene(damped(5000));
+    FAIL() << "4 b/m dt = 2000 needs more sub-steps than a tick has";
+  } catch (const RefusedError& e) {
+    EXPECT_NE(std::string(e.what()).find("at most 24 masses"), std::string::npos) << e.what();
+  }
+}
+
 // Near-cusps (1 % and 0.1 %) and an ellipse of 0.1 x 1e-4: free motion keeps its energy, and no tick passes the cap.
 TEST(HardCases, NearCuspsAreFollowedWithinTheCap) {
   struct Case {

@@ -127,6 +127,17 @@ TEST(Cusps, AStartAtRestOnOneIsRefused) {
   EXPECT_THROW((void)compileScene(e), RefusedError);
 }
 
+TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
+  const Scene scene = compileScene(onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"));
+  scene.plant->placeAtRest(std::array{0.0});
+  const HandSample hand{{0.05, 0.02, 0}, {}, true};  // it pulls along the tangent of the tip and across
+  EXPECT_EQ(run(*scene.plant, [&](double) { return hand; }, 0.1), StepStatus::NoContinuation);
+  EXPECT_NE(scene.plant->stopReason().find("cusp"), std::string::npos);
+  const MassState mass = observed(*scene.plant, hand)[0];
+  EXPECT_TRUE(isFinite(mass.r) && isFinite(mass.v));
+  EXPECT_LT(norm(mass.r - Vec3{0.1, 0, 0}), 1e-12) << "it has not moved";
+}
+
 // Huygens: on a cycloid hanging down the period is 4 pi sqrt(a/g) for any amplitude.
 TEST(Laws, TheCycloidIsATautochrone) {
   const double a = 0.05, g = 9.81, quarter = kPi * std::sqrt(a / g);
