@@ -110,12 +110,18 @@ void showPlaces(const Constraint& c) {
     fmt::print("length    {:.6g} m from phi = {:.6g} to {:.6g}\n", computeArcLength(c, range[0].lo, range[0].hi), range[0].lo, range[0].hi);
     const SlowPlace slow = findMinSpeed(c, range[0].lo, range[0].hi);
     fmt::print("|r_phi|   at least {:.3g} m, at phi = {:.6g}\n", slow.speed, slow.phi);
-    for (const double cusp : findCusps(c, range[0].lo, range[0].hi))
+    const std::vector<double> cusps = findCusps(c, range[0].lo, range[0].hi);
+    for (const double cusp : cusps)
       if (!range[0].periodic || cusp < range[0].hi - 1e-9) fmt::print("cusp      phi = {:.9g}\n", cusp);
+    if (cusps.empty()) fmt::print("regular   no cusp\n");
   } else {
-    for (const DegeneratePlace& p : findDegeneratePlaces(c))
+    const std::vector<DegeneratePlace> places = findDegeneratePlaces(c);
+    for (const DegeneratePlace& p : places)
       fmt::print("{:<9} {}\n", nameOf(p.kind), p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
                                                          : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
+    if (places.empty()) fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]\n", range[0].lo, range[0].hi, range[1].lo, range[1].hi);
+    if (places.size() >= kMaxDegeneratePlaces)
+      fmt::print("…         isolated points are listed only up to {} places in all: there may be more of them\n", kMaxDegeneratePlaces);
   }
 }
 

@@ -47,7 +47,9 @@ struct DegeneratePlace {
   Vec3 r;               // [m]
   Vec3 normal;          // Pole: unit normal there
 };
-/// Degenerate places of a surface in its (bounded) domain, ends included; a period's second end is not listed. Empty for curves.
+/// Degenerate places of a surface in its (bounded) domain, ends included; a period's second end is not listed. Empty for curves. Points are
+/// searched for from a grid of 97 x 97, until kMaxDegeneratePlaces places are known.
+inline constexpr std::size_t kMaxDegeneratePlaces = 64;
 std::vector<DegeneratePlace> findDegeneratePlaces(const Constraint& surface);
 
 /// sqrt(det G) / (|r_u| |r_v|), 0 where degenerate: the sine of the angle between the parameter lines.

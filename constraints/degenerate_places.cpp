@@ -10,7 +10,6 @@ namespace {
 constexpr int kLines = 256;    // parameter lines looked at
 constexpr int kAlong = 33;     // places along each
 constexpr double kZero = 1e-9; // of the largest value seen; rounding leaves about 1e-16, a search about 1e-12
-constexpr std::size_t kMaxPlaces = 64;
 
 double area(const SurfacePoint& p) { return norm(cross(p.rU, p.rV)); }
 
@@ -131,7 +130,7 @@ class PlaceFinder {
       for (int j = 0; j <= n; ++j) w[index(i, j)] = area(evaluate(c_.surface, fraction(0, i / double{n}), fraction(1, j / double{n})));
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
-        if (places_.size() >= kMaxPlaces || w[index(i, j)] > 0.2 * largestArea_) continue;
+        if (places_.size() >= kMaxDegeneratePlaces || w[index(i, j)] > 0.2 * largestArea_) continue;
         bool lowest = true;
         for (int di = -1; di <= 1; ++di)
           for (int dj = -1; dj <= 1; ++dj) {
