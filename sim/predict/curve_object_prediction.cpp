@@ -23,6 +23,7 @@ constexpr int kMostUnknowns = 300, kMostPanels = 4000;
 constexpr double kSettled = 3e-6;        // change of the unknowns, relative: Newton's error is its square
 constexpr double kProfile = 2e-9;        // error of the profile, of its peak, that is aimed at
 constexpr double kArrived = 1e-11;       // of the way, by any mass on the finer panels
+constexpr double kRounding = 1e-9;       // of the way, beyond the end of a curve whose target is its end
 constexpr double kPanelPhase = 2.5;     // fastest rate times the width of a panel
 constexpr int kFinerPanels = 4;
 constexpr double kUnknownsPerPhase = 0.45;  // fewer do not follow the fastest mode of the object
@@ -273,7 +274,8 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, con
     const double missed = std::exchange(miss, search.missOf(*fine) / curve.length());
     if (miss > 0.5 * missed) break;  // rounding, not the panels
   }
-  if (fine->lowest() < curve.lowest() || fine->highest() > curve.highest())
+  const double rounding = kRounding * curve.length();
+  if (fine->lowest() < curve.lowest() - rounding || fine->highest() > curve.highest() + rounding)
     throw RefusedError(fmt::format(
         "the object would leave the smooth part of the curve: it moves from {:.3g} to {:.3g} m of arc length, the curve "
         "is smooth from {:.3g} to {:.3g} m; allow more time",

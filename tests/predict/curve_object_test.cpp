@@ -161,6 +161,16 @@ TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
   EXPECT_LT(compare(*predict(onEllipse(parallelPair()), Criterion::MinHandJerk), *with(onEllipse(parallelPair()), 130)), kProfile);
 }
 
+TEST(CurveObject, MayArriveAtTheVeryEndOfACurve) {
+  Experiment e = chainModerate();
+  e.constraint = {};
+  e.constraint.name = "logarithmic-spiral";
+  const Constraint curve = makeConstraint(e.constraint);
+  e.task->target = {curve.domain[0].hi};
+  e.task->start = {curve.domain[0].hi - 2};
+  EXPECT_GT(predict(e, Criterion::MinHandJerk)->cost, 0);
+}
+
 TEST(CurveObject, IsRefusedWhereItHasNoMeaning) {
   Experiment heavy = onEllipse(chainModerate());
   heavy.object.gravity = {0, -9.81, 0};
