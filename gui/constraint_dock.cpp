@@ -6,18 +6,30 @@
 #include <QVariant>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "constraints/definition.h"
+#include "constraints/error.h"
 #include "gui/shape_sliders.h"
 
 namespace reachlab {
 namespace {
 
+// Of the catalogue or the user's own folder; none while a file of it cannot be read.
+std::optional<Definition> definitionOf(const ConstraintSpec& spec) {
+  if (!spec.curve.empty() || !spec.surface.empty() || spec.name == "free") return {};
+  try {
+    return findDefinition(spec.name, "constraint");
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 // A typed formula's own names: a slider from minus twice to twice what they are.
 std::vector<ShapeParameter> parametersOf(const ConstraintSpec& spec) {
   if (spec.curve.empty() && spec.surface.empty()) {
-    if (const Definition* definition = findInCatalogue(spec.name)) return definition->shape;
-    return {};
+    const std::optional<Definition> definition = definitionOf(spec);
+    return definition ? definition->shape : std::vector<ShapeParameter>{};
   }
   std::vector<ShapeParameter> parameters;
   for (const auto& [name, value] : spec.shape) {
@@ -66,7 +78,11 @@ void ConstraintDock::setConstraint(const ConstraintSpec& spec, const Constraint&
   name_->setText(QStringLiteral("<b>%1</b>  (%2)").arg(QString::fromStdString(spec.name), QLatin1String(kind)));
   QString formula;
   for (const auto& line : spec.curve.empty() ? spec.surface : spec.curve) formula += QString::fromStdString(line) + QLatin1Char('\n');
-  if (const Definition* d = findInCatalogue(spec.name); d != nullptr && formula.isEmpty()) formula = QString::fromStdString(d->sentence);
+  if (const std::optional<Definition> d = definitionOf(spec)) {
+    formula = QString::fromStdString(d->sentence);
+    if (formula.isEmpty())  // the user's own often have none
+      for (const std::string& line : d->coordinates) formula += QString::fromStdString(line) + QLatin1Char('\n');
+  }
   formula_->setText(formula.trimmed());
   formula_->setVisible(!formula.isEmpty());
   // While a slider is being moved its row must stand still.

@@ -9,8 +9,10 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTest>
+#include <filesystem>
 #include <optional>
 
+#include "gui/constraint_dock.h"
 #include "gui/formula_editor.h"
 #include "gui/scene_view.h"
 
@@ -101,6 +103,20 @@ TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
   EXPECT_EQ(own[0].name, "my-eight");
   EXPECT_EQ(own[0].coordinates[2], "0.05*sin(2*phi)");
   EXPECT_EQ(find<QListWidget>("definitions")->count(), static_cast<int>(catalogue().size()) + 1);
+}
+
+TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
+  type("formula_x", "0");
+  type("formula_y", "0.1*cos(phi)");
+  type("formula_z", "depth*sin(2*phi)");
+  type("definitionName", "my-deep-eight");
+  QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
+  ConstraintSpec spec;
+  spec.name = "my-deep-eight";
+  ConstraintDock dock;
+  dock.setConstraint(spec, makeConstraint(spec));
+  EXPECT_NE(dock.findChild<QSlider*>(QStringLiteral("slider_depth")), nullptr);
+  std::filesystem::remove(userDefinitionFolder() + "/my-deep-eight.json");
 }
 
 TEST(FormulaNames, AreWhatIsNeitherVariableConstantNorFunction) {
