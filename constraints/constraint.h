@@ -39,6 +39,12 @@ struct Surface {
 };
 static_assert(std::is_trivially_copyable_v<Curve> && std::is_trivially_copyable_v<Surface>);
 
+/// Room for a point that a function is about to fill: nothing is written twice.
+template <class Point>
+union Unfilled {
+  Point point;
+  Unfilled() noexcept {}
+};
 inline CurvePoint evaluate(const Curve& curve, double phi) noexcept {
   CurvePoint p;
   curve.function(curve.program, curve.shape.data(), phi, p);

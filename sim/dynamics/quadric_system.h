@@ -10,6 +10,7 @@ namespace reachlab {
 struct QuadricSystem {
   static constexpr int kStates = 6;
   static constexpr bool kEnds = true;
+  static constexpr int kProjectEvery = 8;  // ticks
   static constexpr const char* kNoContinuation = "the surface has no tangent plane here (a cone's apex): there is no unique continuation";
   using State = Numbers<6>;
   using Hand = HandSample;
@@ -19,6 +20,7 @@ struct QuadricSystem {
   Surface surface;
   std::array<Domain, 2> domain;
   bool edges = false;                          // the domain has an edge that is not a pole: parameters are followed
+  int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
 
   QuadricSystem(const ObjectModel& model, const Constraint& constraint, const Quadric& q)
@@ -38,12 +40,13 @@ struct QuadricSystem {
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
 
-  /// Back onto the surface: rounding's drift of one step, far below what a multistep history notices. Lost where the normal turned
+  /// Back onto the surface every few ticks: rounding's drift, far below what a multistep history notices. Lost where the normal turned
   /// round within the step: a cone's apex, beyond which nothing says where to go.
-  Settled settle(const State& before, State& y) const noexcept {
+  Settled settle(const State& before, State& y) noexcept {
     Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
     const Vec3 n = quadric.gradient(r), nBefore = quadric.gradient({before[0], before[1], before[2]});
     if (dot(n, nBefore) < 0 && lost(before)) return Settled::Lost;
+    if (++ticks % kProjectEvery != 0) return Settled::Same;
     // The normal's length of the tick before does: what a step drifts is rounding, and waiting for this tick's would cost a division.
     const double square = 1 / dot(nBefore, nBefore);
     r -= (quadric.value(r) * square) * n;
@@ -54,11 +57,12 @@ struct QuadricSystem {
   /// Beside a place without a normal (the gradient is of order one elsewhere).
   bool lost(const State& y) const noexcept { return norm(quadric.gradient({y[0], y[1], y[2]})) < 0.1; }
 
-  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     const SurfacePoint p = evaluate(surface, q[0], q[1]);
     const Vec3 v = qRate[0] * p.rU + qRate[1] * p.rV;
     y.values = {p.r.x, p.r.y, p.r.z, v.x, v.y, v.z};
     parameters = {q[0], q[1]};
+    ticks = 0;
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     masses[0].r = {y[0], y[1], y[2]};
