@@ -5,7 +5,7 @@
 namespace reachlab {
 namespace {
 
-constexpr int kLookEvery = 8;         // ticks between looks for a pole
+constexpr int kLookEvery = 4;         // ticks between looks for a pole
 constexpr int kWaitAfterNothing = 16; // looks to leave out where there was none
 constexpr double kNear = 0.3;         // of the largest |r_u| (or |r_v|) seen
 constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
