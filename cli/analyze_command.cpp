@@ -29,7 +29,9 @@ StudyOptions studyOptions(const AnalyzeOptions& o) {
   s.measure.onset.speed = o.speed;
   s.measure.onset.rule = o.onset == "absolute" ? OnsetRule::Absolute : o.onset == "task" ? OnsetRule::Task : OnsetRule::Percent;
   s.includePractice = o.includePractice;
-  s.predictFor = o.duration == "task" ? PredictionDuration::Task : o.duration == "mean" ? PredictionDuration::Moved : PredictionDuration::Auto;
+  s.predictFor = o.duration == "task"   ? PredictionDuration::Task
+                 : o.duration == "mean" ? PredictionDuration::Moved
+                                        : PredictionDuration::Auto;
   s.ranking.resamples = o.resamples;
   s.ranking.seed = o.seed;
   s.learningBin = o.bin;
@@ -55,7 +57,10 @@ nlohmann::ordered_json jsonOf(const Ranking& ranking, const std::vector<Criterio
   auto ties = nlohmann::ordered_json::array();
   for (const auto& [i, j] : ranking.ties)
     ties.push_back({nameOf(criteria[ranking.places[i].criterion]), nameOf(criteria[ranking.places[j].criterion])});
-  return {{"decided", ranking.decided()}, {"trials", ranking.trials}, {"subjects", ranking.subjects}, {"places", places},
+  return {{"decided", ranking.decided()},
+          {"trials", ranking.trials},
+          {"subjects", ranking.subjects},
+          {"places", places},
           {"not_told_apart", ties}};
 }
 
@@ -69,8 +74,9 @@ std::string summaryJson(const StudyResult& study, const Dataset& dataset, const 
   j["conditions"] = nlohmann::ordered_json::array();
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
     const ConditionResult& r = study.results[c];
-    nlohmann::ordered_json condition{{"name", study.conditions[c].name}, {"success", r.counts.success}, {"failure", r.counts.failure},
-                                     {"aborted", r.counts.aborted}, {"interrupted", r.counts.interrupted}, {"used", r.used}};
+    nlohmann::ordered_json condition{{"name", study.conditions[c].name},    {"success", r.counts.success},
+                                     {"failure", r.counts.failure},         {"aborted", r.counts.aborted},
+                                     {"interrupted", r.counts.interrupted}, {"used", r.used}};
     if (r.used > 0) condition["mean_duration_s"] = r.duration.mean;
     condition["hand_ranking"] = jsonOf(r.handRanking, criteriaOf(r));
     condition["object_ranking"] = jsonOf(r.objectRanking, criteriaOf(r));
@@ -93,7 +99,8 @@ void printSummary(const StudyResult& study, const Dataset& dataset, const Analys
   }
   if (study.conditions.size() > 1 && !study.overall.places.empty()) {
     fmt::print("all conditions, over trials: {}\n", describeRanking(study.overall, study.common));
-    if (study.overallOverSubjects) fmt::print("all conditions, over subjects: {}\n", describeRanking(*study.overallOverSubjects, study.common));
+    if (study.overallOverSubjects)
+      fmt::print("all conditions, over subjects: {}\n", describeRanking(*study.overallOverSubjects, study.common));
   }
   fmt::print("{} tables, {} figures and {}\n", files.tables.size(), files.figures.size(), files.report);
 }
@@ -106,8 +113,8 @@ void run(const AnalyzeOptions& o) {
   };
   Dataset dataset = openDataset(o.dataset, o.experiment,
                                 [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
-  const StudyResult study = analyzeStudy(std::move(dataset.input), options,
-                                         [&](std::size_t done, std::size_t of) { progress("measuring trial", done, of); });
+  const StudyResult study =
+      analyzeStudy(std::move(dataset.input), options, [&](std::size_t done, std::size_t of) { progress("measuring trial", done, of); });
   std::string folder = o.dataset;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const ReportHeader header{folder, REACHLAB_VERSION, "reach analyze " + o.dataset};
@@ -123,13 +130,20 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   const auto o = std::make_shared<AnalyzeOptions>();
   command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
   command->add_option("--out", o->out, "Folder to write to (default: DATASET/derivatives/reachlab)");
-  command->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")->allow_extra_args(false);
-  command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")
+      ->allow_extra_args(false);
+  command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
-  command->add_option("--prediction-duration", o->duration, "Predict for the task's T, for the mean duration moved, or (auto) for the task's where trials kept to it within 10 %")
+  command
+      ->add_option("--prediction-duration", o->duration,
+                   "Predict for the task's T, for the mean duration moved, or (auto) for the task's where trials kept to it within 10 %")
       ->check(CLI::IsMember({"auto", "task", "mean"}))
       ->capture_default_str();
-  command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")->check(CLI::IsMember({"percent", "absolute", "task"}))->capture_default_str();
+  command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")
+      ->check(CLI::IsMember({"percent", "absolute", "task"}))
+      ->capture_default_str();
   command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();
   command->add_option("--onset-speed", o->speed, "Speed for --onset absolute [m/s]")->capture_default_str();
   command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")->capture_default_str();

@@ -27,7 +27,9 @@ struct BenchArguments {
 
 void showProgress(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
-nlohmann::ordered_json number(double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr); }
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
 
 void writeFile(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -72,12 +74,14 @@ void benchTicks(const BenchArguments& arguments) {
   std::vector<bench::BenchScene> scenes;
   for (const std::string& name : arguments.suite.scenes) scenes.push_back(bench::benchScene(name));
   if (scenes.empty()) scenes = bench::benchScenes();
-  fmt::print("{:<7} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock\n", "scene", "ticks", "p50", "p99", "p99.9", "max", "clock", "allocations");
+  fmt::print("{:<7} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock\n", "scene", "ticks", "p50", "p99", "p99.9", "max",
+             "clock", "allocations");
   for (const bench::BenchScene& scene : scenes) {
     showProgress(scene.name + ": " + scene.title);
     try {
       const TickTiming t = measureTicks(scene.experiment, arguments.ticks, countAllocations);
-      fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max, t.clock, t.allocations);
+      fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max,
+                 t.clock, t.allocations);
     } catch (const Error& e) {
       showProgress("  refused: " + std::string(e.what()));
     }
@@ -112,16 +116,23 @@ void runBench(const BenchArguments& arguments) {
 
 void addBenchCommand(CLI::App& app, int&) {
   auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* command = app.add_subcommand("bench", "Sets speed against error: scenes S1 to S8, every method, against references of over 20 digits");
-  command->add_option("--scene", arguments->suite.scenes, "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S8), or constraint-eval for the price of a constraint's derivatives; default all");
+  CLI::App* command =
+      app.add_subcommand("bench", "Sets speed against error: scenes S1 to S8, every method, against references of over 20 digits");
+  command->add_option("--scene", arguments->suite.scenes,
+                      "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S8), or constraint-eval for the price of a "
+                      "constraint's derivatives; default all");
   command->add_option("--method", arguments->suite.methods, "Methods (auto rk4 exact abm adaptive stiff, or a peer if built); default all");
   command->add_option("--rounds", arguments->suite.effort.rounds, "Timed repetitions, interleaved over the methods")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
   command->add_flag("--quick", arguments->suite.quick, "1 ms and the default tolerance only, no peers unless named");
-  command->add_flag("--sampled", arguments->sampled, "Instead: what a hand costs that comes as samples at 1 kHz, clean, noisy and quantised");
-  command->add_flag("--tick", arguments->tick, "Instead: what a tick costs from the device's sample to the force, without the device, as percentiles");
-  command->add_option("--ticks", arguments->ticks, "Ticks of each scene for --tick")->check(CLI::Range(1000, 100'000'000))->capture_default_str();
+  command->add_flag("--sampled", arguments->sampled,
+                    "Instead: what a hand costs that comes as samples at 1 kHz, clean, noisy and quantised");
+  command->add_flag("--tick", arguments->tick,
+                    "Instead: what a tick costs from the device's sample to the force, without the device, as percentiles");
+  command->add_option("--ticks", arguments->ticks, "Ticks of each scene for --tick")
+      ->check(CLI::Range(1000, 100'000'000))
+      ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the rows to this file");
   command->add_option("--svg", arguments->svg, "Draw price against error into this file");
   command->footer(

@@ -79,7 +79,8 @@ double measure(const Candidate& candidate) {
 
 std::vector<Candidate> candidates() {
   std::vector<Candidate> list;
-  const auto put = [&](const std::string& name, const Constraint& generated, const Constraint& typed, CurveFunction curve, SurfaceFunction surface) {
+  const auto put = [&](const std::string& name, const Constraint& generated, const Constraint& typed, CurveFunction curve,
+                       SurfaceFunction surface) {
     Constraint hand = generated;
     hand.curve.function = curve;
     hand.surface.function = surface;
@@ -89,13 +90,20 @@ std::vector<Candidate> candidates() {
   };
   const auto named = [](const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); };
   put("torus", named("torus"),
-      makeConstraint({.name = {}, .curve = {}, .surface = {"(a + b*cos(u))*cos(v)", "(a + b*cos(u))*sin(v)", "b*sin(u)"}, .shape = {{"a", 0.1}, {"b", 0.04}}}),
+      makeConstraint({.name = {},
+                      .curve = {},
+                      .surface = {"(a + b*cos(u))*cos(v)", "(a + b*cos(u))*sin(v)", "b*sin(u)"},
+                      .shape = {{"a", 0.1}, {"b", 0.04}}}),
       nullptr, handTorus);
   put("epitrochoid", named("epitrochoid"),
-      makeConstraint({.name = {}, .curve = {"a*cos(phi) - d*cos(4*phi)", "a*sin(phi) - d*sin(4*phi)", "0"}, .surface = {}, .shape = {{"a", 0.08}, {"d", 0.016}}}),
+      makeConstraint({.name = {},
+                      .curve = {"a*cos(phi) - d*cos(4*phi)", "a*sin(phi) - d*sin(4*phi)", "0"},
+                      .surface = {},
+                      .shape = {{"a", 0.08}, {"d", 0.016}}}),
       handEpitrochoid, nullptr);
   put("monkey-saddle", named("monkey-saddle"),
-      makeConstraint({.name = {}, .curve = {}, .surface = {"w*u", "w*v", "d*(u^3 - 3*u*v^2)"}, .shape = {{"d", 0.05}, {"w", 0.1}}}), nullptr, handMonkeySaddle);
+      makeConstraint({.name = {}, .curve = {}, .surface = {"w*u", "w*v", "d*(u^3 - 3*u*v^2)"}, .shape = {{"d", 0.05}, {"w", 0.1}}}),
+      nullptr, handMonkeySaddle);
   return list;
 }
 

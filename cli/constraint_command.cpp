@@ -92,8 +92,9 @@ void showJson(const Definition& d, const Constraint& c) {
   std::string coordinates, shape;
   for (const std::string& line : d.coordinates) coordinates += (coordinates.empty() ? "" : ", ") + quoted(line);
   for (const ShapeParameter& p : d.shape)
-    shape += fmt::format("{}    {}: {{\"default\": {}, \"min\": {}, \"max\": {}, \"unit\": {}, \"meaning\": {}{}}}", shape.empty() ? "\n" : ",\n", quoted(p.name),
-                         number(p.defaultValue), number(p.min), number(p.max), quoted(p.unit), quoted(p.meaning), p.whole ? ", \"whole\": true" : "");
+    shape += fmt::format("{}    {}: {{\"default\": {}, \"min\": {}, \"max\": {}, \"unit\": {}, \"meaning\": {}{}}}",
+                         shape.empty() ? "\n" : ",\n", quoted(p.name), number(p.defaultValue), number(p.min), number(p.max), quoted(p.unit),
+                         quoted(p.meaning), p.whole ? ", \"whole\": true" : "");
   const auto domain = [&](std::size_t k) { return fmt::format("[{}, {}]", number(c.domain[k].lo), number(c.domain[k].hi)); };
   const auto periodic = [&](std::size_t k) { return std::string(c.domain[k].periodic ? "true" : "false"); };
   const auto atEnd = [&](std::size_t k) { return std::string(c.domain[k].atEnd == AtEnd::Bounce ? "\"bounce\"" : "\"stop\""); };
@@ -101,7 +102,8 @@ void showJson(const Definition& d, const Constraint& c) {
       "{{\n  \"name\": {},\n  \"kind\": \"{}\",\n  \"{}\": [{}],\n  \"shape\": {{{}{}}},\n  \"domain\": {},\n  \"periodic\": {},\n"
       "  \"at_end\": {},\n  \"start\": {},\n  \"target\": {},\n  \"sentence\": {},\n  \"source\": {}\n}}\n",
       quoted(d.name), isCurve(d) ? "curve" : "surface", isCurve(d) ? "curve" : "surface", coordinates, shape, shape.empty() ? "" : "\n  ",
-      perParameter(d, domain), perParameter(d, periodic), perParameter(d, atEnd), list(d.start), list(d.target), quoted(d.sentence), quoted(d.source));
+      perParameter(d, domain), perParameter(d, periodic), perParameter(d, atEnd), list(d.start), list(d.target), quoted(d.sentence),
+      quoted(d.source));
 }
 
 void showPlaces(const Constraint& c) {
@@ -117,9 +119,12 @@ void showPlaces(const Constraint& c) {
   } else {
     const std::vector<DegeneratePlace> places = findDegeneratePlaces(c);
     for (const DegeneratePlace& p : places)
-      fmt::print("{:<9} {}\n", nameOf(p.kind), p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
-                                                         : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
-    if (places.empty()) fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]\n", range[0].lo, range[0].hi, range[1].lo, range[1].hi);
+      fmt::print("{:<9} {}\n", nameOf(p.kind),
+                 p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
+                             : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
+    if (places.empty())
+      fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]\n", range[0].lo, range[0].hi, range[1].lo,
+                 range[1].hi);
     if (places.size() >= kMaxDegeneratePlaces)
       fmt::print("…         isolated points are listed only up to {} places in all: there may be more of them\n", kMaxDegeneratePlaces);
   }
@@ -137,7 +142,10 @@ void show(const Options& o) {
   const std::vector<std::string> variables = variablesOf(d.kind);
   for (std::size_t k = 0; k < variables.size(); ++k)
     fmt::print("{:<9} {} to {}{}\n", variables[k], c.domain[k].lo, c.domain[k].hi,
-               c.domain[k].periodic ? ", periodic" : std::isinf(c.domain[k].lo) ? "" : c.domain[k].atEnd == AtEnd::Bounce ? ", elastic ends" : ", stops at its ends");
+               c.domain[k].periodic                 ? ", periodic"
+               : std::isinf(c.domain[k].lo)         ? ""
+               : c.domain[k].atEnd == AtEnd::Bounce ? ", elastic ends"
+                                                    : ", stops at its ends");
   fmt::print("reach     from {} to {}\n", list(d.start), list(d.target));
   showPlaces(c);
   fmt::print("source    {}\n", d.source);
@@ -175,7 +183,8 @@ void check(const Options& o) {
       const Definition d = readDefinition(file);
       const Constraint c = makeConstraint(d, {}, file);
       for (const ShapeParameter& p : d.shape)
-        for (const double value : {p.min, p.max}) makeConstraint(d, {{p.name, value}}, fmt::format("{}: with {} = {}", file, p.name, value));
+        for (const double value : {p.min, p.max})
+          makeConstraint(d, {{p.name, value}}, fmt::format("{}: with {} = {}", file, p.name, value));
       fmt::print("{}: fine: {} {}\n", file, isCurve(d) ? "curve" : "surface", d.name);
       showPlaces(c);
     } catch (const UsageError& e) {
@@ -195,9 +204,12 @@ void code(const Options& o) {
 }  // namespace
 
 void addConstraintCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("constraint", "Curves and surfaces that a mass may move on: list, show, evaluate, check, print as C++");
+  CLI::App* command =
+      app.add_subcommand("constraint", "Curves and surfaces that a mass may move on: list, show, evaluate, check, print as C++");
   command->require_subcommand(1);
-  command->footer("Examples:\n  reach constraint list\n  reach constraint eval torus --at 0.3,1.2 --set minor_m=0.05 --json\n  reach constraint check my-curve.json");
+  command->footer(
+      "Examples:\n  reach constraint list\n  reach constraint eval torus --at 0.3,1.2 --set minor_m=0.05 --json\n  reach constraint check "
+      "my-curve.json");
   const auto options = std::make_shared<Options>();
   const auto add = [&](const char* name, const char* description, const char* example, void (*run)(const Options&)) {
     CLI::App* sub = command->add_subcommand(name, description);
@@ -205,7 +217,9 @@ void addConstraintCommand(CLI::App& app, int&) {
     sub->callback([options, run] { run(*options); });
     return sub;
   };
-  const auto addName = [&](CLI::App* sub) { sub->add_option("name", options->what, "name of the catalogue, or a definition file")->required(); };
+  const auto addName = [&](CLI::App* sub) {
+    sub->add_option("name", options->what, "name of the catalogue, or a definition file")->required();
+  };
   const auto addSet = [&](CLI::App* sub) {
     sub->add_option("--set", options->set, "shape values KEY=VALUE, SI units (radius_m=0.12)")->take_all();
   };
@@ -214,7 +228,8 @@ void addConstraintCommand(CLI::App& app, int&) {
   addJson(add("list", "Names, kinds and a sentence each", "list --json", printList));
   CLI::App* showing = add("show", "Formula, shape, domain and where it is degenerate", "show cardioid", show);
   addName(showing), addSet(showing), addJson(showing);
-  CLI::App* evaluating = add("eval", "Position [m] and derivatives by the parameters [m]", "eval ellipse --at 0.5 --set a_m=0.12 b_m=0.05 --json", eval);
+  CLI::App* evaluating =
+      add("eval", "Position [m] and derivatives by the parameters [m]", "eval ellipse --at 0.5 --set a_m=0.12 b_m=0.05 --json", eval);
   addName(evaluating), addSet(evaluating), addJson(evaluating);
   evaluating->add_option("--at", options->at, "parameter phi, or u,v (no unit)")->required();
   CLI::App* checking = add("check", "Every fault of definition files, with its place", "check my-curve.json", check);

@@ -31,8 +31,8 @@ std::vector<RunLog> openAll(const std::string& what) {
       runs.push_back(RunLog::open(path));
       const RunLog& run = runs.back();
       if (run.goodBytes() < run.fileBytes())
-        fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(),
-                   run.fileBytes(), run.trials().size());
+        fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(), run.fileBytes(),
+                   run.trials().size());
     } catch (const UsageError& error) {
       faults += (faults.empty() ? "" : "\n") + std::string(error.what());
     }
@@ -46,10 +46,8 @@ void exportLogs(const Options& options) {
   const std::vector<RunLog> runs = openAll(options.what);
   const fs::path dataset = datasetOf(runs.front().path());
   std::vector<std::string> written;
-  if (options.format == "bids")
-    written = writeBids(runs, options.out.empty() ? dataset.string() : options.out);
-  else
-    written = writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
+  if (options.format == "bids") written = writeBids(runs, options.out.empty() ? dataset.string() : options.out);
+  else written = writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
   for (const std::string& path : written) fmt::print("{}\n", path);
 }
 
@@ -58,15 +56,11 @@ void exportLogs(const Options& options) {
 void addExportCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("export", "Writes recorded runs as Motion-BIDS or tidy CSV");
   const auto options = std::make_shared<Options>();
-  command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")
-      ->required();
-  command
-      ->add_option("--format", options->format,
-                   "bids: the dataset's motion, channels and events files; csv: trials.csv and samples")
+  command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")->required();
+  command->add_option("--format", options->format, "bids: the dataset's motion, channels and events files; csv: trials.csv and samples")
       ->required()
       ->check(CLI::IsMember({"bids", "csv"}));
-  command->add_option("--out", options->out,
-                      "Folder to write into; default: the dataset itself (bids), its derivatives/csv (csv)");
+  command->add_option("--out", options->out, "Folder to write into; default: the dataset itself (bids), its derivatives/csv (csv)");
   command->footer(
       "Columns carry their units (movement_time_s, mass1_x_m, …); docs/recording.md lists them. A damaged log is read up to the "
       "damage.\n"

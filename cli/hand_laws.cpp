@@ -37,7 +37,8 @@ HandLaw straightReach(const Experiment& experiment, const Constraint& c) {
   const Task& task = requireTask(experiment, "min-jerk");
   const Vec3 start = placeOf(c, task.start, "start"), chord = placeOf(c, task.target, "target") - start;
   const double duration = task.duration;
-  if (!(norm(chord) > 1e-12)) throw RefusedError("--hand min-jerk: start and target are the same place, so there is no chord to follow; use min-jerk-along or hold");
+  if (!(norm(chord) > 1e-12))
+    throw RefusedError("--hand min-jerk: start and target are the same place, so there is no chord to follow; use min-jerk-along or hold");
   return {[start, chord, duration](double t) {
             const MinJerk law = minJerk(t / duration);
             return HandSample{start + law.s * chord, (law.rate / duration) * chord, true};
@@ -126,18 +127,21 @@ HandLaw sampledHand(const std::string& file) {
         if (names[i] == kColumns[k]) place[k] = static_cast<int>(i);
   }
   for (int k = 0; k < 4; ++k)
-    if (place[k] < 0) throw UsageError(fmt::format("{}:1: {}: column is missing; allowed: a header with time_s,x_m,y_m,z_m", file, kColumns[k]));
+    if (place[k] < 0)
+      throw UsageError(fmt::format("{}:1: {}: column is missing; allowed: a header with time_s,x_m,y_m,z_m", file, kColumns[k]));
   std::array<std::vector<double>, 4> columns;
   while (std::getline(in, line)) {
     ++number;
     if (line.find_first_not_of(" \r") == std::string::npos) continue;
     const auto values = cells(line);
     for (int k = 0; k < 4; ++k) {
-      if (place[k] >= static_cast<int>(values.size())) throw UsageError(fmt::format("{}:{}: {}: is missing; allowed: a finite number", file, number, kColumns[k]));
+      if (place[k] >= static_cast<int>(values.size()))
+        throw UsageError(fmt::format("{}:{}: {}: is missing; allowed: a finite number", file, number, kColumns[k]));
       columns[k].push_back(numberIn(values[place[k]], file, number, kColumns[k]));
     }
     const auto& t = columns[0];
-    if (t.size() > 1 && !(t.back() > t[t.size() - 2])) throw UsageError(fmt::format("{}:{}: time_s: does not increase; allowed: increasing times", file, number));
+    if (t.size() > 1 && !(t.back() > t[t.size() - 2]))
+      throw UsageError(fmt::format("{}:{}: time_s: does not increase; allowed: increasing times", file, number));
   }
   if (columns[0].empty()) throw UsageError(file + ": has no samples; allowed: at least one row");
   const auto splines = std::make_shared<std::array<Spline, 3>>(

@@ -23,8 +23,7 @@ std::string describe(const Experiment& e) {
 
 Json listExperiments() {
   Json rows = Json::array();
-  for (const std::string& name : shippedExperiments())
-    rows.push_back({{"name", name}, {"description", describe(readExperiment(name))}});
+  for (const std::string& name : shippedExperiments()) rows.push_back({{"name", name}, {"description", describe(readExperiment(name))}});
   return rows;
 }
 
@@ -80,8 +79,7 @@ void addListCommand(CLI::App& app, int&) {
       std::puts(rows.dump(2).c_str());
       return;
     }
-    for (const Json& row : rows)
-      fmt::print("{:<24} {}\n", row["name"].get<std::string>(), row["description"].get<std::string>());
+    for (const Json& row : rows) fmt::print("{:<24} {}\n", row["name"].get<std::string>(), row["description"].get<std::string>());
   });
 }
 

@@ -35,7 +35,8 @@ std::string labelOf(const std::string& key) {
   for (const SweepKey& known : sweepKeys())
     if (known.name == key) label = known.meaning;
   label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  for (const auto& [ending, unit] : {std::pair{"_n_s_per_m", "N s/m"}, std::pair{"_n_per_m", "N/m"}, std::pair{"_kg", "kg"}, std::pair{"_s", "s"}})
+  for (const auto& [ending, unit] :
+       {std::pair{"_n_s_per_m", "N s/m"}, std::pair{"_n_per_m", "N/m"}, std::pair{"_kg", "kg"}, std::pair{"_s", "s"}})
     if (key.ends_with(ending)) return label + " (" + unit + ")";
   return label;
 }
@@ -112,7 +113,8 @@ std::string writeFamilyCsv(const Sweep& sweep, const std::vector<FamilyRow>& row
 }
 
 Figure drawPrediction(const Prediction& prediction, int samples) {
-  Series hand = makeSeries("hand", palette::kBlack, Dash::Solid, kThick), object = makeSeries("object", palette::kBlue, Dash::Dashed, kThick);
+  Series hand = makeSeries("hand", palette::kBlack, Dash::Solid, kThick),
+         object = makeSeries("object", palette::kBlue, Dash::Dashed, kThick);
   const auto n = static_cast<size_t>(prediction.massCount());
   std::vector<double> x(n), v(n);
   for (int i = 0; i < samples; ++i) {

@@ -21,9 +21,9 @@ void addRecoverCommand(CLI::App& app, int&) {
       fmt::print("{}: healthy, {} trials, left as it is\n", *path, recovery.trials);
       return;
     }
-    fmt::print("{}: mended, {} trials{}; {} bytes kept, {} bytes could not be read; the log as found is {}\n", *path,
-               recovery.trials, recovery.interruptedTrial ? " (the last one interrupted)" : "", recovery.keptBytes,
-               recovery.lostBytes, recovery.damagedOriginal);
+    fmt::print("{}: mended, {} trials{}; {} bytes kept, {} bytes could not be read; the log as found is {}\n", *path, recovery.trials,
+               recovery.interruptedTrial ? " (the last one interrupted)" : "", recovery.keptBytes, recovery.lostBytes,
+               recovery.damagedOriginal);
   });
 }
 

@@ -20,8 +20,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
       "  reach replay data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --check");
   command->callback([path, check, &exitCode] {
     const RunLog log = RunLog::open(*path);
-    if (log.goodBytes() < log.fileBytes())
-      fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
+    if (log.goodBytes() < log.fileBytes()) fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
     const Replay replay = replayRun(log);
     for (const RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result));
     fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows,

@@ -8,12 +8,11 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Records a run of an experiment, or a session of a plan");
   const auto r = std::make_shared<SessionRequest>();
   command->add_option("experiment", r->what, "Experiment or session plan: a file, or the name of a shipped one")->required();
-  command
-      ->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
+  command->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
       ->required();
-  command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")->check(CLI::Range(1, 1000000));
-  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")
-      ->check(CLI::Range(1, 9999));
+  command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
   command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", r->place.session, "Session's label, letters and digits [01]; a number is the plan's day");
   command->add_option("--data", r->place.data, "Folder of the dataset [./data]");

@@ -30,8 +30,8 @@ std::string utcNow() {
   const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
   std::tm utc{};
   ::gmtime_r(&seconds, &utc);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour,
-                     utc.tm_min, utc.tm_sec, milliseconds);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min,
+                     utc.tm_sec, milliseconds);
 }
 
 std::string computerName() {
@@ -68,9 +68,9 @@ std::string describe(const LoopReport& report) {
       "loop: {:.2f} ticks/s over {:.2f} s ({}); lateness p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; late {}, missed {}, "
       "longest gap {:.3f} "
       "ms; dropped {}, clamped {}",
-      report.rate, report.seconds, report.mode, report.latenessP50, report.latenessP99, report.latenessMax,
-      report.faults.lateTicks, report.faults.missedTicks, static_cast<double>(report.faults.longestGapNs) * 1e-6,
-      report.faults.droppedRecords, report.faults.clampedTicks);
+      report.rate, report.seconds, report.mode, report.latenessP50, report.latenessP99, report.latenessMax, report.faults.lateTicks,
+      report.faults.missedTicks, static_cast<double>(report.faults.longestGapNs) * 1e-6, report.faults.droppedRecords,
+      report.faults.clampedTicks);
 }
 
 // True when it was done to its end.
@@ -83,8 +83,8 @@ bool runBlock(const BlockToRun& block, const SessionRequest& request, SuccessTab
   RunConfiguration configuration = block.configuration;
   complete(configuration, block, run, request.fast);
   recorder = std::make_unique<Recorder>(block.logPath, configuration, RecorderOptions{.threaded = !request.fast});
-  fmt::print(stderr, "run {}: {}, {} trials{}, {}; recording to {}\n", configuration.run, configuration.condition,
-             block.trials.size(), configuration.practice ? " of practice" : "", configuration.methodReason, block.logPath);
+  fmt::print(stderr, "run {}: {}, {} trials{}, {}; recording to {}\n", configuration.run, configuration.condition, block.trials.size(),
+             configuration.practice ? " of practice" : "", configuration.methodReason, block.logPath);
   run.start(recorder.get());
   bool interrupted = false;
   std::size_t conducted = 0;

@@ -30,7 +30,9 @@ class Table {
     }
   }
   void text(std::string_view text) { buffer_ += text; }
-  void number(double value) { fmt::format_to(std::back_inserter(buffer_), "{}{:.17g}", buffer_.empty() || buffer_.back() == '\n' ? "" : ",", value); }
+  void number(double value) {
+    fmt::format_to(std::back_inserter(buffer_), "{}{:.17g}", buffer_.empty() || buffer_.back() == '\n' ? "" : ",", value);
+  }
   void vector(const Vec3& v) { number(v.x), number(v.y), number(v.z); }
   void endRow() {
     buffer_ += '\n';
@@ -107,7 +109,6 @@ Schedule makeSchedule(const Request& request, double until, const std::vector<do
   return schedule;
 }
 
-
 // Nobody waits for a tick here: a step that would cost more than a tick may is taken in halves. `last` becomes the time reached.
 constexpr int kMostHalvings = 12;
 StepStatus stepInHalves(Plant& plant, const HandLaw& law, double t, double dt, int halvings, double& last) {
@@ -124,14 +125,17 @@ StepStatus stepInHalves(Plant& plant, const HandLaw& law, double t, double dt, i
 void simulate(const Request& request) {
   Experiment experiment = readExperiment(request.experiment);
   const auto positive = [](double value, const char* option) {
-    if (!(value > 0) || !std::isfinite(value)) throw UsageError(fmt::format("{}: {} s; allowed: a positive number of seconds", option, value));
+    if (!(value > 0) || !std::isfinite(value))
+      throw UsageError(fmt::format("{}: {} s; allowed: a positive number of seconds", option, value));
   };
   positive(request.every, "--every");
   positive(request.step, "--step");
-  if (request.until < 0 && !experiment.task) throw UsageError("--until: is missing, and the experiment has no task.duration_s; allowed: seconds");
+  if (request.until < 0 && !experiment.task)
+    throw UsageError("--until: is missing, and the experiment has no task.duration_s; allowed: seconds");
   const double until = request.until >= 0 ? request.until : experiment.task->duration;
   if (!std::isfinite(until)) throw UsageError("--until: is not finite; allowed: seconds");
-  if (until / request.every > 1e8 || until / request.step > 1e10) throw UsageError("--until: too many rows or steps; allowed: fewer than 1e8 rows");
+  if (until / request.every > 1e8 || until / request.step > 1e10)
+    throw UsageError("--until: too many rows or steps; allowed: fewer than 1e8 rows");
   if (!request.method.empty()) experiment.method = request.method;
 
   const Constraint constraint = makeConstraint(experiment.constraint);
@@ -198,23 +202,29 @@ void simulate(const Request& request) {
 }  // namespace
 
 void addSimulateCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("simulate", "Moves the object with a hand that is a function of time, and writes its states as CSV");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Moves the object with a hand that is a function of time, and writes its states as CSV");
   const auto request = std::make_shared<Request>();
   command->add_option("experiment", request->experiment, "Experiment file, or the name of a shipped one")->required();
-  command->add_option("--hand", request->hand,
-                      "none (no coupling), hold (at the start), min-jerk (along the chord), min-jerk-along (along the curve),\n"
-                      "or a CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]")->required();
-  command->add_option("--until", request->until, "End of the simulation [s] (default: the task's duration_s)")->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--hand", request->hand,
+                   "none (no coupling), hold (at the start), min-jerk (along the chord), min-jerk-along (along the curve),\n"
+                   "or a CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]")
+      ->required();
+  command->add_option("--until", request->until, "End of the simulation [s] (default: the task's duration_s)")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--every", request->every, "Time between rows [s] (default 0.01)");
   command->add_option("--method", request->method, "auto, rk4, exact, abm, adaptive, stiff (default: the experiment's)")
       ->check(CLI::IsMember({"auto", "rk4", "exact", "abm", "adaptive", "stiff"}));
   command->add_option("--step", request->step, "Longest step of the method [s] (default 0.001)");
-  command->add_option("--at", request->at, "Initial parameters of all masses: phi, or u,v; metres when free (default: the start)")->delimiter(',');
+  command->add_option("--at", request->at, "Initial parameters of all masses: phi, or u,v; metres when free (default: the start)")
+      ->delimiter(',');
   command->add_option("--rate", request->rate, "Initial rates of these parameters [1/s, free: m/s] (default 0)")->delimiter(',');
   command->add_option("--force", request->force, "Constant extra force on mass 1, X,Y,Z [N]")->delimiter(',');
   command->add_option("--out", request->out, "File for the rows (default: standard output)");
-  command->footer("Example: reach simulate chain-moderate --hand min-jerk --until 2 --every 0.01 --out chain.csv\n"
-                  "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.");
+  command->footer(
+      "Example: reach simulate chain-moderate --hand min-jerk --until 2 --every 0.01 --out chain.csv\n"
+      "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.");
   command->callback([request] { simulate(*request); });
 }
 

@@ -4,7 +4,8 @@
 
 namespace reachlab {
 
-Spline::Spline(std::vector<double> times, std::vector<double> values) : t_(std::move(times)), x_(std::move(values)), second_(t_.size(), 0.0) {
+Spline::Spline(std::vector<double> times, std::vector<double> values)
+    : t_(std::move(times)), x_(std::move(values)), second_(t_.size(), 0.0) {
   const std::size_t n = t_.size();
   if (n < 3) return;
   const auto slope = [&](std::size_t i) { return (x_[i + 1] - x_[i]) / (t_[i + 1] - t_[i]); };

@@ -22,13 +22,13 @@ std::string SuccessTable::text() const {
   if (rows_.empty()) return {};
   std::size_t width = 9;
   for (const auto& row : rows_) width = std::max(width, row.first.size());
-  std::string text = fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15}  {}\n", "condition", width, "trials",
-                                 "success", "failure", "aborted", "interrupted", "success_percent", "reasons");
+  std::string text = fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15}  {}\n", "condition", width, "trials", "success",
+                                 "failure", "aborted", "interrupted", "success_percent", "reasons");
   for (const auto& [condition, c] : rows_) {
     std::string reasons;
     for (const auto& [reason, count] : c.reasons) reasons += fmt::format("{}{}={}", reasons.empty() ? "" : ",", reason, count);
-    text += fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15.1f}  {}\n", condition, width, c.trials, c.success,
-                        c.failure, c.aborted, c.interrupted, 100.0 * c.success / c.trials, reasons.empty() ? "-" : reasons);
+    text += fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15.1f}  {}\n", condition, width, c.trials, c.success, c.failure,
+                        c.aborted, c.interrupted, 100.0 * c.success / c.trials, reasons.empty() ? "-" : reasons);
   }
   return text;
 }

@@ -96,7 +96,8 @@ std::vector<Vec3> computeDerivatives(const Constraint& c, double phi, int order)
                        std::to_string(formula->derivatives.size() - 1));
   std::vector<int> roots;
   for (int k = 0; k <= order; ++k)
-    roots.insert(roots.end(), formula->derivatives[static_cast<std::size_t>(k)].begin(), formula->derivatives[static_cast<std::size_t>(k)].end());
+    roots.insert(roots.end(), formula->derivatives[static_cast<std::size_t>(k)].begin(),
+                 formula->derivatives[static_cast<std::size_t>(k)].end());
   const std::vector<double> values = evaluateNodes(formula->graph, roots, c.curve.shape.data(), &phi);
   std::vector<Vec3> result;
   for (std::size_t k = 0; k < values.size(); k += 3) result.push_back({values[k], values[k + 1], values[k + 2]});

@@ -33,10 +33,10 @@ double computeArcLength(const Constraint& curve, double from, double to);
 
 /// How a surface's parametrisation fails at a place where det G = 0.
 enum class DegenerateKind {
-  Pole,   // a whole parameter line is one point and the surface is smooth there: geodesics go on
-  Apex,   // a whole parameter line is one point, with no tangent plane (a cone's tip): no continuation
-  Edge,   // a cuspidal edge: r_u, r_v parallel along a line of distinct points: no continuation across
-  Pinch   // an isolated singular point (Whitney's umbrella): no unique continuation
+  Pole,  // a whole parameter line is one point and the surface is smooth there: geodesics go on
+  Apex,  // a whole parameter line is one point, with no tangent plane (a cone's tip): no continuation
+  Edge,  // a cuspidal edge: r_u, r_v parallel along a line of distinct points: no continuation across
+  Pinch  // an isolated singular point (Whitney's umbrella): no unique continuation
 };
 const char* nameOf(DegenerateKind kind);
 

@@ -47,11 +47,13 @@ Definition findDefinition(const std::string& name, const std::string& origin) {
   // A user's own, saved under its name; a name with a path in it is none.
   const std::string file = userDefinitionFolder() + "/" + name + ".json";
   std::error_code error;
-  if (!name.empty() && name.find_first_of("/\\.") == std::string::npos && std::filesystem::is_regular_file(file, error)) return readDefinition(file);
+  if (!name.empty() && name.find_first_of("/\\.") == std::string::npos && std::filesystem::is_regular_file(file, error))
+    return readDefinition(file);
   std::vector<std::string> known{"free"};
   for (const Definition& definition : catalogue()) known.push_back(definition.name);
   const std::string near = nearestName(name, known);
-  throw UsageError(origin + ": there is no constraint '" + name.substr(0, 60) + "'; allowed: free, or a name that `reach list constraints` tells" +
+  throw UsageError(origin + ": there is no constraint '" + name.substr(0, 60) +
+                   "'; allowed: free, or a name that `reach list constraints` tells" +
                    (near.empty() ? "" : "; did you mean " + near + "?"));
 }
 

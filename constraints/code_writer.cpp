@@ -54,9 +54,11 @@ std::string writeEvaluator(const CompiledFormula& formula, const std::string& fu
   body += writer.statements();
   const std::vector<std::string>& members = curve ? kCurveMembers : kSurfaceMembers;
   for (std::size_t k = 0; k < members.size(); ++k)
-    body += fmt::format("p.{} = {{{}, {}, {}}};\n", members[k], writer.expression(3 * k), writer.expression(3 * k + 1), writer.expression(3 * k + 2));
+    body += fmt::format("p.{} = {{{}, {}, {}}};\n", members[k], writer.expression(3 * k), writer.expression(3 * k + 1),
+                        writer.expression(3 * k + 2));
   const auto used = [&](const std::string& name) { return body.find(name) != std::string::npos; };
-  const std::string variables = curve ? "[[maybe_unused]] double phi, CurvePoint& p" : "[[maybe_unused]] double u, [[maybe_unused]] double v, SurfacePoint& p";
+  const std::string variables =
+      curve ? "[[maybe_unused]] double phi, CurvePoint& p" : "[[maybe_unused]] double u, [[maybe_unused]] double v, SurfacePoint& p";
   return fmt::format("// {}\nvoid {}(const void*, const double*{}, {}) noexcept {{\n{}}}\n", formulaLine(formula.text), functionName,
                      used("shape[") ? " shape" : "", variables, indented(body));
 }
@@ -65,8 +67,8 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
   const bool curve = formula.text.kind == ConstraintKind::Curve;
   ExpressionGraph graph = formula.graph;
   // What the dynamics need besides the shape: parameters of the graph after the formula's own.
-  const std::vector<std::string> given = curve ? std::vector<std::string>{"fx", "fy", "fz", "m", "lambda"}
-                                               : std::vector<std::string>{"fx", "fy", "fz", "uRate", "vRate"};
+  const std::vector<std::string> given =
+      curve ? std::vector<std::string>{"fx", "fy", "fz", "m", "lambda"} : std::vector<std::string>{"fx", "fy", "fz", "uRate", "vRate"};
   const int first = static_cast<int>(formula.text.parameters.size());
   const auto extra = [&](int k) { return graph.parameter(first + k); };
   const std::array<int, 3> force{extra(0), extra(1), extra(2)};

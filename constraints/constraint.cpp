@@ -32,13 +32,15 @@ void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, cons
     throw UsageError(origin + ": " + place + "; allowed: a formula that is finite, with its first and second derivatives, on its domain");
   // A path along a pole's line sees nothing but the pole: the surface as a whole decides.
   if (degeneratesEverywhere(c, range) && degeneratesEverywhere(c, boundedDomain(c)))
-    throw UsageError(origin + (c.kind == ConstraintKind::Curve ? ": degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi"
-                                                               : ": degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface"));
+    throw UsageError(origin + (c.kind == ConstraintKind::Curve
+                                   ? ": degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi"
+                                   : ": degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface"));
 }
 
 }  // namespace
 
-std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape, const std::string& origin) {
+std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape,
+                                                const std::string& origin) {
   std::array<double, kMaxShapeParameters> values{};
   const FormulaText text = formulaOf(definition);
   std::string faults;
@@ -57,8 +59,8 @@ std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, co
     const auto given = shape.find(p.name);
     values[i] = given == shape.end() ? p.defaultValue : given->second;
     if (!(values[i] >= p.min && values[i] <= p.max))
-      fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is out of range; allowed: " + fmt::format("{}", p.min) + " to " + fmt::format("{}", p.max) +
-            (p.unit == "1" ? "" : " " + p.unit));
+      fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is out of range; allowed: " + fmt::format("{}", p.min) + " to " +
+            fmt::format("{}", p.max) + (p.unit == "1" ? "" : " " + p.unit));
     else if (p.whole && values[i] != std::floor(values[i]))
       fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is not whole; allowed: a whole number");
   }
@@ -83,7 +85,8 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
       c.name = "free";
       return c;
     }
-    return makeConstraint(spec.definition.empty() ? findDefinition(spec.name, origin) : parseDefinition(spec.definition, origin), spec.shape, origin);
+    return makeConstraint(spec.definition.empty() ? findDefinition(spec.name, origin) : parseDefinition(spec.definition, origin),
+                          spec.shape, origin);
   }
   const std::vector<std::string>& lines = spec.curve.empty() ? spec.surface : spec.curve;
   if (lines.size() != 3) throw UsageError(origin + ": has " + std::to_string(lines.size()) + " formulas; allowed: three, one a coordinate");
@@ -95,7 +98,8 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
   for (const auto& [key, value] : spec.shape) {
     if (text.parameters.size() < kMaxShapeParameters) values[text.parameters.size()] = value;
     text.parameters.push_back(key);
-    if (!std::isfinite(value)) faults += (faults.empty() ? "" : "\n") + origin + ": shape." + key + ": is not finite; allowed: a finite number";
+    if (!std::isfinite(value))
+      faults += (faults.empty() ? "" : "\n") + origin + ": shape." + key + ": is not finite; allowed: a finite number";
   }
   if (!faults.empty()) throw UsageError(faults);
   Constraint c = assemble(compileFormula(text, origin), values, {});

@@ -12,9 +12,9 @@ namespace {
 const std::vector<std::string> kReserved{
     "alignas", "alignof", "and", "asm", "auto", "bool", "break", "case", "catch", "char", "class", "compl", "concept", "const", "continue",
     "default", "delete", "do", "double", "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if",
-    "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "nullptr", "operator", "or", "private", "protected", "public",
-    "register", "requires", "return", "short", "signed", "sizeof", "static", "struct", "switch", "template", "this", "throw", "true", "try",
-    "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "while", "xor",
+    "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "nullptr", "operator", "or", "private", "protected",
+    "public", "register", "requires", "return", "short", "signed", "sizeof", "static", "struct", "switch", "template", "this", "throw",
+    "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "while", "xor",
     // macros of <math.h> on common systems
     "NAN", "INFINITY", "HUGE_VAL", "NULL", "EOF", "unix", "linux"};
 
@@ -36,7 +36,8 @@ std::string capitalised(std::string text) {
 std::string cppIdentifier(const std::string& name, const std::vector<std::string>& taken) {
   std::string result = name;
   const auto clashes = [&] {
-    return std::find(kReserved.begin(), kReserved.end(), result) != kReserved.end() || std::find(taken.begin(), taken.end(), result) != taken.end();
+    return std::find(kReserved.begin(), kReserved.end(), result) != kReserved.end() ||
+           std::find(taken.begin(), taken.end(), result) != taken.end();
   };
   if (result.front() == '_' || result.find("__") != std::string::npos) {  // reserved to the implementation
     result.insert(0, "shape");

@@ -55,15 +55,18 @@ std::vector<Definition> readDefinitionFolder(const std::string& folder);
 std::string userDefinitionFolder();
 
 /// The constraint of a definition with some shape values changed from their defaults. Throws UsageError as makeConstraint does.
-Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape = {}, const std::string& origin = "constraint");
+Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape = {},
+                          const std::string& origin = "constraint");
 /// Parameters in the order of Curve::shape and Surface::shape.
 FormulaText formulaOf(const Definition& definition);
 /// The shape's values in that order. Throws UsageError on an unknown key or a value out of range.
-std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape, const std::string& origin);
+std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape,
+                                                const std::string& origin);
 /// The domain for a shape.
 std::array<Domain, 2> domainOf(const Definition& definition, const std::array<double, kMaxShapeParameters>& shape);
 /// Value of a constant expression that may name the definition's shape parameters. Throws UsageError.
-double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape, const std::string& origin);
+double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
+                  const std::string& origin);
 
 /// The definition's generated code if it is of the catalogue; both null otherwise.
 struct GeneratedFunctions {

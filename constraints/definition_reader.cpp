@@ -150,7 +150,8 @@ class DefinitionReader {
   void readPerParameter() {
     if (const JsonNode* node = root_.optional("periodic"))
       forEach(*node, "periodic", [&](const JsonNode& value, std::size_t k, const std::string& key) {
-        if (value.kind != JsonNode::Kind::Boolean) return faults_.add(value, key, fmt::format("is {}", nameOf(value.kind)), "true or false");
+        if (value.kind != JsonNode::Kind::Boolean)
+          return faults_.add(value, key, fmt::format("is {}", nameOf(value.kind)), "true or false");
         definition_.domain[k].periodic = value.boolean;
         if (value.boolean && (definition_.domain[k].lo.empty() || definition_.domain[k].hi.empty()))
           faults_.add(value, key, "is true without a range", "a domain with two ends");

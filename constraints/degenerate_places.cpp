@@ -7,9 +7,9 @@
 namespace reachlab {
 namespace {
 
-constexpr int kLines = 256;    // parameter lines looked at
-constexpr int kAlong = 33;     // places along each
-constexpr double kZero = 1e-9; // of the largest value seen; rounding leaves about 1e-16, a search about 1e-12
+constexpr int kLines = 256;     // parameter lines looked at
+constexpr int kAlong = 33;      // places along each
+constexpr double kZero = 1e-9;  // of the largest value seen; rounding leaves about 1e-16, a search about 1e-12
 
 double area(const SurfacePoint& p) { return norm(cross(p.rU, p.rV)); }
 
@@ -69,7 +69,8 @@ class PlaceFinder {
       const std::size_t s = static_cast<std::size_t>(i);
       if ((i > 0 && w[s - 1] < w[s]) || (i < n && w[s + 1] <= w[s])) continue;
       double a = fraction(k, i / double{kLines});
-      if (w[s] > kZero * largestArea_) a = minimise(value, fraction(k, std::max(0, i - 1) / double{kLines}), fraction(k, std::min(n, i + 1) / double{kLines}));
+      if (w[s] > kZero * largestArea_)
+        a = minimise(value, fraction(k, std::max(0, i - 1) / double{kLines}), fraction(k, std::min(n, i + 1) / double{kLines}));
       if (value(a) <= kZero * largestArea_) addLine(fixed, a);
     }
   }
@@ -82,7 +83,8 @@ class PlaceFinder {
     (fixed == 0 ? place.u : place.v) = a;
     (fixed == 0 ? place.v : place.u) = b;
     place.r = at(fixed, a, b).r;
-    const bool collapsed = largestAlong(fixed, a, [&](const SurfacePoint& p) { return norm(fixed == 0 ? p.rV : p.rU); }) <= 1e-7 * largestSide_;
+    const bool collapsed =
+        largestAlong(fixed, a, [&](const SurfacePoint& p) { return norm(fixed == 0 ? p.rV : p.rU); }) <= 1e-7 * largestSide_;
     place.kind = !collapsed ? DegenerateKind::Edge : isSmooth(fixed, a, place.normal) ? DegenerateKind::Pole : DegenerateKind::Apex;
     places_.push_back(place);
   }

@@ -36,7 +36,10 @@ int ExpressionGraph::derivativeOf(int id, const std::vector<int>& d) {
     case Op::Log: return div(da, n.a);
     case Op::Sqrt: return div(scale(0.5, da), id);
     case Op::Abs: return mul(apply(Op::Sign, n.a), da);
-    case Op::Sign: case Op::Constant: case Op::Variable: case Op::Parameter: break;
+    case Op::Sign:
+    case Op::Constant:
+    case Op::Variable:
+    case Op::Parameter: break;
   }
   return constant(0);
 }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kMaxIntegerExponent = 64;  // larger ones go through std::pow
 
-constexpr const char* kOpNames[] = {"constant", "variable", "parameter", "+",    "-",    "*",    "/",   "-",   "^",
-                                    "^",        "sin",      "cos",       "tan",  "asin", "acos", "atan", "atan2", "sinh",
-                                    "cosh",     "tanh",     "exp",       "log",  "sqrt", "abs",  "sign"};
+constexpr const char* kOpNames[] = {"constant", "variable", "parameter", "+",   "-",    "*",    "/",    "-",     "^",
+                                    "^",        "sin",      "cos",       "tan", "asin", "acos", "atan", "atan2", "sinh",
+                                    "cosh",     "tanh",     "exp",       "log", "sqrt", "abs",  "sign"};
 static_assert(std::size(kOpNames) == static_cast<std::size_t>(Op::Sign) + 1);
 
 double powInteger(double x, int n) noexcept {
@@ -33,8 +33,15 @@ bool isFunction(Op op) { return op >= Op::Sin; }
 
 int operandCount(Op op) {
   switch (op) {
-    case Op::Constant: case Op::Variable: case Op::Parameter: return 0;
-    case Op::Add: case Op::Sub: case Op::Mul: case Op::Div: case Op::Pow: case Op::Atan2: return 2;
+    case Op::Constant:
+    case Op::Variable:
+    case Op::Parameter: return 0;
+    case Op::Add:
+    case Op::Sub:
+    case Op::Mul:
+    case Op::Div:
+    case Op::Pow:
+    case Op::Atan2: return 2;
     default: return 1;
   }
 }
@@ -63,7 +70,9 @@ double applyOp(Op op, double a, double b) noexcept {
     case Op::Sqrt: return std::sqrt(a);
     case Op::Abs: return std::abs(a);
     case Op::Sign: return signOf(a);
-    case Op::Constant: case Op::Variable: case Op::Parameter: break;
+    case Op::Constant:
+    case Op::Variable:
+    case Op::Parameter: break;
   }
   return 0;
 }
@@ -227,9 +236,16 @@ int ExpressionGraph::apply(Op function, int a, int b) {
   if (node(a).op == Op::Neg) {
     const int inner = node(a).a;
     switch (function) {
-      case Op::Cos: case Op::Cosh: case Op::Abs: return apply(function, inner);
-      case Op::Sin: case Op::Tan: case Op::Asin: case Op::Atan: case Op::Sinh: case Op::Tanh: case Op::Sign:
-        return neg(apply(function, inner));
+      case Op::Cos:
+      case Op::Cosh:
+      case Op::Abs: return apply(function, inner);
+      case Op::Sin:
+      case Op::Tan:
+      case Op::Asin:
+      case Op::Atan:
+      case Op::Sinh:
+      case Op::Tanh:
+      case Op::Sign: return neg(apply(function, inner));
       default: break;
     }
   }
@@ -266,8 +282,8 @@ std::vector<int> ExpressionGraph::expandPowers(std::span<const int> roots) {
     } else if (operandCount(n.op) == 0) {
       image[id] = static_cast<int>(id);
     } else {
-      image[id] = intern({n.op, image[static_cast<std::size_t>(n.a)],
-                          operandCount(n.op) == 2 ? image[static_cast<std::size_t>(n.b)] : n.b, n.value});
+      image[id] = intern(
+          {n.op, image[static_cast<std::size_t>(n.a)], operandCount(n.op) == 2 ? image[static_cast<std::size_t>(n.b)] : n.b, n.value});
     }
   }
   std::vector<int> result;

@@ -7,9 +7,31 @@
 namespace reachlab {
 
 enum class Op : std::uint8_t {
-  Constant, Variable, Parameter,
-  Add, Sub, Mul, Div, Neg, PowInt, Pow,
-  Sin, Cos, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign
+  Constant,
+  Variable,
+  Parameter,
+  Add,
+  Sub,
+  Mul,
+  Div,
+  Neg,
+  PowInt,
+  Pow,
+  Sin,
+  Cos,
+  Tan,
+  Asin,
+  Acos,
+  Atan,
+  Atan2,
+  Sinh,
+  Cosh,
+  Tanh,
+  Exp,
+  Log,
+  Sqrt,
+  Abs,
+  Sign
 };
 const char* nameOf(Op op);
 bool isFunction(Op op);

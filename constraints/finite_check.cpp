@@ -10,8 +10,8 @@
 namespace reachlab {
 namespace {
 
-constexpr int kBudget = 6000;                     // boxes; what is undecided after them is sampled
-constexpr double kLeaf = 1.0 / (1LL << 40);       // of the range: nothing finer is told apart
+constexpr int kBudget = 6000;                // boxes; what is undecided after them is sampled
+constexpr double kLeaf = 1.0 / (1LL << 40);  // of the range: nothing finer is told apart
 constexpr double kTouchingLeaf = 1.0 / (1 << 10);
 
 struct Box {
@@ -61,7 +61,8 @@ std::string findNonFinite(const Constraint& c, const std::array<Domain, 2>& rang
   // The ends and a few inner points first: whole numbers and halves are where formulas like to break.
   for (int i = 0; i <= 8; ++i)
     for (int j = 0; j <= (dimensions == 2 ? 8 : 0); ++j)
-      if (std::string fault = pointwise({range[0].lo + extent[0] * i / 8, dimensions == 2 ? range[1].lo + extent[1] * j / 8 : 0}); !fault.empty())
+      if (std::string fault = pointwise({range[0].lo + extent[0] * i / 8, dimensions == 2 ? range[1].lo + extent[1] * j / 8 : 0});
+          !fault.empty())
         return fault;
 
   std::vector<Box> stack{{{Interval{range[0].lo, range[0].hi}, Interval{range[1].lo, range[1].hi}}}};
@@ -93,7 +94,8 @@ std::string findNonFinite(const Constraint& c, const std::array<Domain, 2>& rang
   const int n = dimensions == 1 ? 2000 : 60;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= (dimensions == 2 ? n : 0); ++j)
-      if (std::string fault = pointwise({range[0].lo + extent[0] * i / n, dimensions == 2 ? range[1].lo + extent[1] * j / n : 0}); !fault.empty())
+      if (std::string fault = pointwise({range[0].lo + extent[0] * i / n, dimensions == 2 ? range[1].lo + extent[1] * j / n : 0});
+          !fault.empty())
         return fault;
   return {};
 }

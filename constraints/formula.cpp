@@ -28,7 +28,8 @@ Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
   if (!result.faults.empty()) return result;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i])
-      result.faults.push_back({-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate; allowed: names that the formula uses"});
+      result.faults.push_back(
+          {-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate; allowed: names that the formula uses"});
   return result;
 }
 
@@ -121,8 +122,7 @@ std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const 
       case Op::Variable: values[id] = variables[n.a]; break;
       case Op::Parameter: values[id] = shape[n.a]; break;
       case Op::PowInt: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b); break;
-      default:
-        values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b < 0 ? 0 : values[static_cast<std::size_t>(n.b)]);
+      default: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b < 0 ? 0 : values[static_cast<std::size_t>(n.b)]);
     }
   }
   std::vector<double> result;

@@ -16,49 +16,134 @@ using HandlerTable = std::array<const void*, kCodeCount>;
 // With `table` set it only tells its addresses; they exist nowhere else.
 [[gnu::noinline]] void execute(const Instruction* i, double* r, HandlerTable* table) noexcept {
   if (table != nullptr) [[unlikely]] {
-    *table = {&&load, &&add, &&addC, &&sub, &&rSubC, &&mul, &&mulC, &&mulMulC, &&negMul, &&mulAdd, &&mulSub, &&rMulSub, &&div, &&rDivC, &&neg, &&square,
-              &&sinCosine, &&pow, &&tan, &&asin, &&acos, &&atan, &&atan2, &&sinh, &&cosh, &&tanh, &&exp, &&log, &&sqrt, &&abs, &&sign, &&stop,
-              &&twoMul, &&twoMulMulC, &&twoNegMul, &&twoNeg, &&twoSquare};
+    *table = {&&load,   &&add,     &&addC,   &&sub,        &&rSubC,     &&mul,    &&mulC,      &&mulMulC, &&negMul, &&mulAdd,
+              &&mulSub, &&rMulSub, &&div,    &&rDivC,      &&neg,       &&square, &&sinCosine, &&pow,     &&tan,    &&asin,
+              &&acos,   &&atan,    &&atan2,  &&sinh,       &&cosh,      &&tanh,   &&exp,       &&log,     &&sqrt,   &&abs,
+              &&sign,   &&stop,    &&twoMul, &&twoMulMulC, &&twoNegMul, &&twoNeg, &&twoSquare};
     return;
   }
-#define NEXT ++i; goto* i->handler
-  goto* i->handler;
-load: r[i->out] = i->number; NEXT;
-add: r[i->out] = r[i->a] + r[i->b]; NEXT;
-addC: r[i->out] = r[i->a] + i->number; NEXT;
-sub: r[i->out] = r[i->a] - r[i->b]; NEXT;
-rSubC: r[i->out] = i->number - r[i->a]; NEXT;
-mul: r[i->out] = r[i->a] * r[i->b]; NEXT;
-mulC: r[i->out] = i->number * r[i->a]; NEXT;
-mulMulC: r[i->out] = i->number * (r[i->a] * r[i->b]); NEXT;
-negMul: r[i->out] = -(r[i->a] * r[i->b]); NEXT;
-mulAdd: r[i->out] = r[i->a] * r[i->b] + r[i->c]; NEXT;
-mulSub: r[i->out] = r[i->a] * r[i->b] - r[i->c]; NEXT;
-rMulSub: r[i->out] = r[i->c] - r[i->a] * r[i->b]; NEXT;
-div: r[i->out] = r[i->a] / r[i->b]; NEXT;
-rDivC: r[i->out] = i->number / r[i->a]; NEXT;
-neg: r[i->out] = -r[i->a]; NEXT;
-square: r[i->out] = r[i->a] * r[i->a]; NEXT;
-sinCosine: sinCos(r[i->a], r[i->b], r[i->c]); NEXT;
-pow: r[i->out] = std::pow(r[i->a], r[i->b]); NEXT;
-tan: r[i->out] = std::tan(r[i->a]); NEXT;
-asin: r[i->out] = std::asin(r[i->a]); NEXT;
-acos: r[i->out] = std::acos(r[i->a]); NEXT;
-atan: r[i->out] = std::atan(r[i->a]); NEXT;
-atan2: r[i->out] = std::atan2(r[i->a], r[i->b]); NEXT;
-sinh: r[i->out] = std::sinh(r[i->a]); NEXT;
-cosh: r[i->out] = std::cosh(r[i->a]); NEXT;
-tanh: r[i->out] = std::tanh(r[i->a]); NEXT;
-exp: r[i->out] = std::exp(r[i->a]); NEXT;
-log: r[i->out] = std::log(r[i->a]); NEXT;
-sqrt: r[i->out] = std::sqrt(r[i->a]); NEXT;
-abs: r[i->out] = std::abs(r[i->a]); NEXT;
-sign: r[i->out] = signOf(r[i->a]); NEXT;
-twoMul: r[i->out] = r[i->a] * r[i->b]; ++i; r[i->out] = r[i->a] * r[i->b]; NEXT;
-twoMulMulC: r[i->out] = i->number * (r[i->a] * r[i->b]); ++i; r[i->out] = i->number * (r[i->a] * r[i->b]); NEXT;
-twoNegMul: r[i->out] = -(r[i->a] * r[i->b]); ++i; r[i->out] = -(r[i->a] * r[i->b]); NEXT;
-twoNeg: r[i->out] = -r[i->a]; ++i; r[i->out] = -r[i->a]; NEXT;
-twoSquare: r[i->out] = r[i->a] * r[i->a]; ++i; r[i->out] = r[i->a] * r[i->a]; NEXT;
+#define NEXT \
+  ++i;       \
+  goto * i->handler
+  goto * i->handler;
+load:
+  r[i->out] = i->number;
+  NEXT;
+add:
+  r[i->out] = r[i->a] + r[i->b];
+  NEXT;
+addC:
+  r[i->out] = r[i->a] + i->number;
+  NEXT;
+sub:
+  r[i->out] = r[i->a] - r[i->b];
+  NEXT;
+rSubC:
+  r[i->out] = i->number - r[i->a];
+  NEXT;
+mul:
+  r[i->out] = r[i->a] * r[i->b];
+  NEXT;
+mulC:
+  r[i->out] = i->number * r[i->a];
+  NEXT;
+mulMulC:
+  r[i->out] = i->number * (r[i->a] * r[i->b]);
+  NEXT;
+negMul:
+  r[i->out] = -(r[i->a] * r[i->b]);
+  NEXT;
+mulAdd:
+  r[i->out] = r[i->a] * r[i->b] + r[i->c];
+  NEXT;
+mulSub:
+  r[i->out] = r[i->a] * r[i->b] - r[i->c];
+  NEXT;
+rMulSub:
+  r[i->out] = r[i->c] - r[i->a] * r[i->b];
+  NEXT;
+div:
+  r[i->out] = r[i->a] / r[i->b];
+  NEXT;
+rDivC:
+  r[i->out] = i->number / r[i->a];
+  NEXT;
+neg:
+  r[i->out] = -r[i->a];
+  NEXT;
+square:
+  r[i->out] = r[i->a] * r[i->a];
+  NEXT;
+sinCosine:
+  sinCos(r[i->a], r[i->b], r[i->c]);
+  NEXT;
+pow:
+  r[i->out] = std::pow(r[i->a], r[i->b]);
+  NEXT;
+tan:
+  r[i->out] = std::tan(r[i->a]);
+  NEXT;
+asin:
+  r[i->out] = std::asin(r[i->a]);
+  NEXT;
+acos:
+  r[i->out] = std::acos(r[i->a]);
+  NEXT;
+atan:
+  r[i->out] = std::atan(r[i->a]);
+  NEXT;
+atan2:
+  r[i->out] = std::atan2(r[i->a], r[i->b]);
+  NEXT;
+sinh:
+  r[i->out] = std::sinh(r[i->a]);
+  NEXT;
+cosh:
+  r[i->out] = std::cosh(r[i->a]);
+  NEXT;
+tanh:
+  r[i->out] = std::tanh(r[i->a]);
+  NEXT;
+exp:
+  r[i->out] = std::exp(r[i->a]);
+  NEXT;
+log:
+  r[i->out] = std::log(r[i->a]);
+  NEXT;
+sqrt:
+  r[i->out] = std::sqrt(r[i->a]);
+  NEXT;
+abs:
+  r[i->out] = std::abs(r[i->a]);
+  NEXT;
+sign:
+  r[i->out] = signOf(r[i->a]);
+  NEXT;
+twoMul:
+  r[i->out] = r[i->a] * r[i->b];
+  ++i;
+  r[i->out] = r[i->a] * r[i->b];
+  NEXT;
+twoMulMulC:
+  r[i->out] = i->number * (r[i->a] * r[i->b]);
+  ++i;
+  r[i->out] = i->number * (r[i->a] * r[i->b]);
+  NEXT;
+twoNegMul:
+  r[i->out] = -(r[i->a] * r[i->b]);
+  ++i;
+  r[i->out] = -(r[i->a] * r[i->b]);
+  NEXT;
+twoNeg:
+  r[i->out] = -r[i->a];
+  ++i;
+  r[i->out] = -r[i->a];
+  NEXT;
+twoSquare:
+  r[i->out] = r[i->a] * r[i->a];
+  ++i;
+  r[i->out] = r[i->a] * r[i->a];
+  NEXT;
 #undef NEXT
 stop:
   return;

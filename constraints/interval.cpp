@@ -105,7 +105,8 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
       }
       break;
     }
-    case Op::Asin: case Op::Acos: {
+    case Op::Asin:
+    case Op::Acos: {
       if (a.lo > 1 || a.hi < -1) raise(Finiteness::Nowhere);
       else if (a.lo < -1 || a.hi > 1) raise(Finiteness::Touching);
       const double lo = std::clamp(a.lo, -1.0, 1.0), hi = std::clamp(a.hi, -1.0, 1.0);
@@ -115,7 +116,9 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
     case Op::Atan: r = monotone(std::atan); break;
     case Op::Atan2: r = {-std::numbers::pi, std::numbers::pi}; break;
     case Op::Sinh: r = monotone(std::sinh); break;
-    case Op::Cosh: r = {contains(a, 0) ? 1.0 : std::min(std::cosh(a.lo), std::cosh(a.hi)), std::max(std::cosh(a.lo), std::cosh(a.hi))}; break;
+    case Op::Cosh:
+      r = {contains(a, 0) ? 1.0 : std::min(std::cosh(a.lo), std::cosh(a.hi)), std::max(std::cosh(a.lo), std::cosh(a.hi))};
+      break;
     case Op::Tanh: r = monotone(std::tanh); break;
     case Op::Exp: r = monotone(std::exp); break;
     case Op::Log:

@@ -142,10 +142,10 @@ bool ObjectReader::numbers(const JsonNode& node, const std::string& key, int len
 bool ObjectReader::strings(const JsonNode& node, const std::string& key, int length, std::vector<std::string>& values) {
   const std::string shape = fmt::format("an array of {} strings", length);
   if (node.kind != JsonNode::Kind::Array || node.items.size() != static_cast<std::size_t>(length)) {
-    faults_.add(node, keyPath(key),
-                node.kind == JsonNode::Kind::Array ? fmt::format("has {} elements", node.items.size())
-                                                   : fmt::format("is {}", nameOf(node.kind)),
-                shape);
+    faults_.add(
+        node, keyPath(key),
+        node.kind == JsonNode::Kind::Array ? fmt::format("has {} elements", node.items.size()) : fmt::format("is {}", nameOf(node.kind)),
+        shape);
     return false;
   }
   std::vector<std::string> read;

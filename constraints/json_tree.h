@@ -13,10 +13,10 @@ struct JsonNode {
   double number = 0;
   bool integer = false;  // written without fraction and exponent
   std::string string;
-  std::vector<JsonNode> items;                              // Array
-  std::vector<std::pair<std::string, JsonNode>> members;    // Object, in file order
-  int line = 0, column = 0;                                 // from 1, of the first character
-  int keyLine = 0, keyColumn = 0;                           // of the key, for a member of an object
+  std::vector<JsonNode> items;                            // Array
+  std::vector<std::pair<std::string, JsonNode>> members;  // Object, in file order
+  int line = 0, column = 0;                               // from 1, of the first character
+  int keyLine = 0, keyColumn = 0;                         // of the key, for a member of an object
 
   JsonNode();  // in the .cpp: clang 14 can't form it here, where the members' pair is incomplete
   const JsonNode* find(const std::string& key) const;

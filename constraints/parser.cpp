@@ -121,7 +121,8 @@ class Parser {
     const char* begin = text_.data() + at_;
     const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument) fail(at_, "unexpected '.'; expected a number such as 0.5");
-    if (error != std::errc{} || !std::isfinite(value)) fail(at_, "the number is beyond what a double holds; expected a magnitude of 1e-308 to 1e308");
+    if (error != std::errc{} || !std::isfinite(value))
+      fail(at_, "the number is beyond what a double holds; expected a magnitude of 1e-308 to 1e308");
     at_ += static_cast<std::size_t>(end - begin);
     if (at_ < text_.size() && (isLetter(text_[at_]) || text_[at_] == '.'))
       fail(at_, "unexpected " + here() + " after a number; expected an operator (multiplication is written *)");
@@ -147,7 +148,8 @@ class Parser {
   int checked(int id, std::string_view word) {
     skipSpaces();
     if (at_ < text_.size() && text_[at_] == '(')
-      fail(at_, "unexpected '(' after '" + std::string(word) + "', which is no function; expected an operator (multiplication is written *)");
+      fail(at_,
+           "unexpected '(' after '" + std::string(word) + "', which is no function; expected an operator (multiplication is written *)");
     return id;
   }
   int call(Op function, std::string_view word) {
@@ -188,7 +190,8 @@ class Parser {
 };
 
 std::size_t countCharacters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 }  // namespace
@@ -197,8 +200,9 @@ ParsedFormula parseFormula(std::string_view text, const FormulaNames& names, Exp
   ParsedFormula result;
   result.used.assign(names.parameters.size(), false);
   if (text.size() > kMaxFormulaCharacters) {
-    result.fault = FormulaFault{0, kMaxFormulaCharacters, kMaxFormulaCharacters + 1,
-                                "the formula has " + std::to_string(text.size()) + " characters; allowed: " + std::to_string(kMaxFormulaCharacters)};
+    result.fault =
+        FormulaFault{0, kMaxFormulaCharacters, kMaxFormulaCharacters + 1,
+                     "the formula has " + std::to_string(text.size()) + " characters; allowed: " + std::to_string(kMaxFormulaCharacters)};
     return result;
   }
   try {
@@ -213,7 +217,8 @@ std::string parameterNameFault(const std::string& name, const std::vector<std::s
   if (name.empty() || name.size() > 40 || !isLetter(name[0]) ||
       !std::all_of(name.begin(), name.end(), [](char c) { return isLetter(c) || isDigit(c); }))
     return "is no name; allowed: a letter, then letters, digits and _, at most 40 characters";
-  if (std::find(variables.begin(), variables.end(), name) != variables.end()) return "is the name of the formula's variable; allowed: another name";
+  if (std::find(variables.begin(), variables.end(), name) != variables.end())
+    return "is the name of the formula's variable; allowed: another name";
   if (name == "phi" || name == "u" || name == "v") return "is the name of a variable; allowed: another name";
   if (name == "pi" || name == "e") return "is the name of a constant; allowed: another name";
   if (functionNamed(name)) return "is the name of a function; allowed: another name";

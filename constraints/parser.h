@@ -16,7 +16,7 @@ struct FormulaFault {
   int coordinate = 0;        // 0 x, 1 y, 2 z
   std::size_t position = 0;  // byte of the formula at which it went wrong (its length: at the end)
   std::size_t character = 1;
-  std::string what;          // "unknown name 'phj'; expected phi, a, b, a constant or a function; did you mean phi?"
+  std::string what;  // "unknown name 'phj'; expected phi, a, b, a constant or a function; did you mean phi?"
 };
 
 /// Names a formula may use besides `pi`, `e` and the functions.

@@ -11,7 +11,8 @@ namespace {
 class Compiler {
  public:
   Compiler(ExpressionGraph& graph, std::span<const int> roots, int parameterCount, int variableCount)
-      : graph_(graph), parameterCount_(parameterCount), shape_(static_cast<int>(roots.size())), next_(shape_ + parameterCount + variableCount) {
+      : graph_(graph), parameterCount_(parameterCount), shape_(static_cast<int>(roots.size())),
+        next_(shape_ + parameterCount + variableCount) {
     roots_ = graph.expandPowers(roots);
     needed_ = graph.reachableFrom(roots_);
     uses_.assign(needed_.size(), 0);
@@ -34,7 +35,8 @@ class Compiler {
       if (needed_[id] && !fused_[id]) emitNode(static_cast<int>(id));
     for (std::size_t k = 0; k < roots_.size(); ++k) {
       if (graph_.isConstant(roots_[k])) program_.constants[k] = node(roots_[k]).value;
-      else if (const std::uint16_t from = registerOf(roots_[k]); from != k) program_.copies.push_back({static_cast<std::uint16_t>(k), from});
+      else if (const std::uint16_t from = registerOf(roots_[k]); from != k)
+        program_.copies.push_back({static_cast<std::uint16_t>(k), from});
     }
     emit(Code::Return, 0, 0, 0, 0, 0);
     pair();
@@ -73,7 +75,8 @@ class Compiler {
   bool isFused(int id) const { return fused_[static_cast<std::size_t>(id)]; }
 
   std::uint16_t newRegister() {
-    if (next_ >= kMaxRegisters) throw UsageError("the formula with its derivatives needs more than 1024 operations; allowed: a shorter formula");
+    if (next_ >= kMaxRegisters)
+      throw UsageError("the formula with its derivatives needs more than 1024 operations; allowed: a shorter formula");
     return static_cast<std::uint16_t>(next_++);
   }
   void emit(Code code, int a, int b, int c, int out, double number) {
@@ -99,8 +102,11 @@ class Compiler {
 
   // Two instructions of one kind in a row need one jump.
   void pair() {
-    constexpr std::pair<Code, Code> kPairs[] = {{Code::Mul, Code::TwoMul}, {Code::MulMulC, Code::TwoMulMulC}, {Code::NegMul, Code::TwoNegMul},
-                                                {Code::Neg, Code::TwoNeg}, {Code::Square, Code::TwoSquare}};
+    constexpr std::pair<Code, Code> kPairs[] = {{Code::Mul, Code::TwoMul},
+                                                {Code::MulMulC, Code::TwoMulMulC},
+                                                {Code::NegMul, Code::TwoNegMul},
+                                                {Code::Neg, Code::TwoNeg},
+                                                {Code::Square, Code::TwoSquare}};
     std::vector<Instruction>& all = program_.instructions;
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
       for (const auto& [one, two] : kPairs)
@@ -162,8 +168,11 @@ class Compiler {
   void emitNode(int id) {
     const ExpressionNode n = node(id);
     switch (n.op) {
-      case Op::Constant: case Op::Variable: case Op::Parameter: return;
-      case Op::Add: case Op::Sub: return emitSum(id, n);
+      case Op::Constant:
+      case Op::Variable:
+      case Op::Parameter: return;
+      case Op::Add:
+      case Op::Sub: return emitSum(id, n);
       case Op::Mul:
         if (graph_.isConstant(n.a)) return emitScaling(id, id, 1);
         if (graph_.isConstant(n.b)) return put(id, Code::MulC, registerOf(n.a), 0, 0, node(n.b).value);
@@ -176,13 +185,14 @@ class Compiler {
         if (isFused(n.a) && isScaling(n.a)) return emitScaling(id, n.a, -1);
         if (isFused(n.a)) return put(id, Code::NegMul, registerOf(node(n.a).a), registerOf(node(n.a).b));
         return put(id, Code::Neg, registerOf(n.a));
-      case Op::Sin: case Op::Cos: return emitSinCos(id);
+      case Op::Sin:
+      case Op::Cos: return emitSinCos(id);
       default: break;
     }
-    static const std::map<Op, Code> kCodes{
-        {Op::Pow, Code::Pow}, {Op::Tan, Code::Tan}, {Op::Asin, Code::Asin}, {Op::Acos, Code::Acos}, {Op::Atan, Code::Atan},
-        {Op::Atan2, Code::Atan2}, {Op::Sinh, Code::Sinh}, {Op::Cosh, Code::Cosh}, {Op::Tanh, Code::Tanh}, {Op::Exp, Code::Exp},
-        {Op::Log, Code::Log}, {Op::Sqrt, Code::Sqrt}, {Op::Abs, Code::Abs}, {Op::Sign, Code::Sign}};
+    static const std::map<Op, Code> kCodes{{Op::Pow, Code::Pow},   {Op::Tan, Code::Tan},     {Op::Asin, Code::Asin}, {Op::Acos, Code::Acos},
+                                           {Op::Atan, Code::Atan}, {Op::Atan2, Code::Atan2}, {Op::Sinh, Code::Sinh}, {Op::Cosh, Code::Cosh},
+                                           {Op::Tanh, Code::Tanh}, {Op::Exp, Code::Exp},     {Op::Log, Code::Log},   {Op::Sqrt, Code::Sqrt},
+                                           {Op::Abs, Code::Abs},   {Op::Sign, Code::Sign}};
     const int b = operandCount(n.op) == 2 ? registerOf(n.b) : 0;
     put(id, kCodes.at(n.op), registerOf(n.a), b);
   }

@@ -10,9 +10,43 @@ namespace reachlab {
 
 /// Operations of the straight-line program. R: register, C: number kept in the instruction.
 enum class Code : std::uint16_t {
-  Load, Add, AddC, Sub, RSubC, Mul, MulC, MulMulC, NegMul, MulAdd, MulSub, RMulSub, Div, RDivC, Neg, Square,
-  SinCos, Pow, Tan, Asin, Acos, Atan, Atan2, Sinh, Cosh, Tanh, Exp, Log, Sqrt, Abs, Sign, Return,
-  TwoMul, TwoMulMulC, TwoNegMul, TwoNeg, TwoSquare  // this instruction and the next, of the same kind, with one jump
+  Load,
+  Add,
+  AddC,
+  Sub,
+  RSubC,
+  Mul,
+  MulC,
+  MulMulC,
+  NegMul,
+  MulAdd,
+  MulSub,
+  RMulSub,
+  Div,
+  RDivC,
+  Neg,
+  Square,
+  SinCos,
+  Pow,
+  Tan,
+  Asin,
+  Acos,
+  Atan,
+  Atan2,
+  Sinh,
+  Cosh,
+  Tanh,
+  Exp,
+  Log,
+  Sqrt,
+  Abs,
+  Sign,
+  Return,
+  TwoMul,
+  TwoMulMulC,
+  TwoNegMul,
+  TwoNeg,
+  TwoSquare  // this instruction and the next, of the same kind, with one jump
 };
 
 struct Instruction {

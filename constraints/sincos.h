@@ -14,17 +14,15 @@ inline constexpr double kSinCosLimit = 1e5;
 
 namespace sincosDetail {
 inline constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
-inline constexpr double kHalfPi1 = 0x1.921fb544p0;          // 33 bits of pi/2
-inline constexpr double kHalfPi2 = 0x1.0b4611a6p-34;        // the next 33
-inline constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;   // the rest
-inline constexpr double kRound = 0x1.8p52;                  // adding it leaves the nearest whole number in the low bits
+inline constexpr double kHalfPi1 = 0x1.921fb544p0;         // 33 bits of pi/2
+inline constexpr double kHalfPi2 = 0x1.0b4611a6p-34;       // the next 33
+inline constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;  // the rest
+inline constexpr double kRound = 0x1.8p52;                 // adding it leaves the nearest whole number in the low bits
 
-inline constexpr double kSin[6] = {
-    -0x1.5555555555549p-3,  0x1.111111110f8b8p-7,  -0x1.a01a019c19ad9p-13,
-    0x1.71de357f00e11p-19, -0x1.ae5e6c2316079p-26, 0x1.5d94c4e881cb6p-33};
-inline constexpr double kCos[6] = {
-    0x1.555555555554cp-5,   -0x1.6c16c16c1524bp-10, 0x1.a01a019cc6d12p-16,
-    -0x1.27e4f819dbc9cp-22, 0x1.1ee9f72c95fbap-29,  -0x1.8fb4a8dd0ba2dp-37};
+inline constexpr double kSin[6] = {-0x1.5555555555549p-3, 0x1.111111110f8b8p-7,   -0x1.a01a019c19ad9p-13,
+                                   0x1.71de357f00e11p-19, -0x1.ae5e6c2316079p-26, 0x1.5d94c4e881cb6p-33};
+inline constexpr double kCos[6] = {0x1.555555555554cp-5,   -0x1.6c16c16c1524bp-10, 0x1.a01a019cc6d12p-16,
+                                   -0x1.27e4f819dbc9cp-22, 0x1.1ee9f72c95fbap-29,  -0x1.8fb4a8dd0ba2dp-37};
 
 /// a b + c, rounded once where the build's processor can do that as fast as a product.
 [[gnu::always_inline]] inline double mulAdd(double a, double b, double c) noexcept {

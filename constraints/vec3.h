@@ -8,9 +8,18 @@ namespace reachlab {
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
-  constexpr Vec3& operator+=(const Vec3& o) noexcept { x += o.x, y += o.y, z += o.z; return *this; }
-  constexpr Vec3& operator-=(const Vec3& o) noexcept { x -= o.x, y -= o.y, z -= o.z; return *this; }
-  constexpr Vec3& operator*=(double s) noexcept { x *= s, y *= s, z *= s; return *this; }
+  constexpr Vec3& operator+=(const Vec3& o) noexcept {
+    x += o.x, y += o.y, z += o.z;
+    return *this;
+  }
+  constexpr Vec3& operator-=(const Vec3& o) noexcept {
+    x -= o.x, y -= o.y, z -= o.z;
+    return *this;
+  }
+  constexpr Vec3& operator*=(double s) noexcept {
+    x *= s, y *= s, z *= s;
+    return *this;
+  }
   friend constexpr Vec3 operator+(Vec3 a, const Vec3& b) noexcept { return a += b; }
   friend constexpr Vec3 operator-(Vec3 a, const Vec3& b) noexcept { return a -= b; }
   friend constexpr Vec3 operator-(const Vec3& a) noexcept { return {-a.x, -a.y, -a.z}; }

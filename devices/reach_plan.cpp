@@ -18,7 +18,7 @@ struct TimedPlan {
 };
 using MakePlan = std::function<TimedPlan(double duration)>;
 
-constexpr double kLook = 0.001;                         // [s]
+constexpr double kLook = 0.001;                           // [s]
 constexpr double kShortestLine = 0.01, kLongestLine = 1;  // [m] of the catalogue's line
 
 // From the first time that `hasLeft` to the first one from there on that `isThere`.
@@ -147,8 +147,7 @@ struct ParameterReach {
     }
     const SurfacePoint p = evaluate(constraint.surface, q, from[1] + by[1] * law.value);
     const double w = by[1] * rate;
-    return {p.r, u * p.rU + w * p.rV,
-            by[0] * change * p.rU + by[1] * change * p.rV + u * u * p.rUu + 2 * u * w * p.rUv + w * w * p.rVv};
+    return {p.r, u * p.rU + w * p.rV, by[0] * change * p.rU + by[1] * change * p.rV + u * u * p.rUu + 2 * u * w * p.rUv + w * w * p.rVv};
   }
 };
 

@@ -94,8 +94,7 @@ PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uin
   reach.position.push_back(hand);
   const std::size_t count = reach.position.size();
   reach.velocity.resize(count);
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * kTickSeconds);
+  for (std::size_t i = 1; i + 1 < count; ++i) reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * kTickSeconds);
   return reach;
 }
 
@@ -130,7 +129,8 @@ SubjectSpec parseSubject(const std::string& text) {
     else if (key == "hand-mass") subject.handMass = readNumber(key, value, 1000);
     else if (key == "criterion") subject.criterion = readCriterion(value);
     else
-      throw UsageError(fmt::format("--device simulated: {}: unknown; allowed: noise, criterion, hand-mass, time-sd, speed-sd, reaction", key));
+      throw UsageError(
+          fmt::format("--device simulated: {}: unknown; allowed: noise, criterion, hand-mass, time-sd, speed-sd, reaction", key));
   }
   return subject;
 }

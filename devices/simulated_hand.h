@@ -11,10 +11,10 @@ namespace reachlab {
 
 /// A virtual subject: plans by a criterion for this very object (reach_plan.h) and carries the plan out with motor noise.
 struct SubjectSpec {
-  double noise = 1;        // scales all of the below; 0: the plan itself, the same in each trial
-  double timeSd = 0.07;    // movement time: the plan is run through faster or slower by a factor 1 + timeSd z (paper: 0.09 of 1.35 s)
-  double speedSd = 0.07;   // smooth noise proportional to speed, as a part of it, along the path and across
-  double reaction = 0.2;   // [s] from go to the first movement, 15 % SD
+  double noise = 1;       // scales all of the below; 0: the plan itself, the same in each trial
+  double timeSd = 0.07;   // movement time: the plan is run through faster or slower by a factor 1 + timeSd z (paper: 0.09 of 1.35 s)
+  double speedSd = 0.07;  // smooth noise proportional to speed, as a part of it, along the path and across
+  double reaction = 0.2;  // [s] from go to the first movement, 15 % SD
   Criterion criterion = Criterion::MinHandJerk;
   std::optional<double> handMass;  // [kg] for the criterion; nullopt: the experiment's
 };

@@ -93,7 +93,11 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   sentence_->setProperty("role", "quiet");
   sentence_->setWordWrap(true);
   preview_ = new SceneView;
-  preview_->setOverlay([] { OverlayState o; o.semaphoreShown = false; return o; }());
+  preview_->setOverlay([] {
+    OverlayState o;
+    o.semaphoreShown = false;
+    return o;
+  }());
   middle->addWidget(title_);
   middle->addWidget(sentence_);
   middle->addWidget(preview_, 1);
@@ -163,7 +167,8 @@ void ConstraintChooser::fillList() {
     saved_->setText(QString::fromUtf8(e.what()));
   }
   for (const Definition& d : definitions_) {
-    auto* item = new QListWidgetItem(QStringLiteral("%1\n%2").arg(text(d.name), d.kind == ConstraintKind::Surface ? QStringLiteral("surface") : QStringLiteral("curve")));
+    auto* item = new QListWidgetItem(QStringLiteral("%1\n%2").arg(
+        text(d.name), d.kind == ConstraintKind::Surface ? QStringLiteral("surface") : QStringLiteral("curve")));
     item->setToolTip(text(d.sentence));
     item->setData(Qt::UserRole, (text(d.name) + QLatin1Char(' ') + item->text() + QLatin1Char(' ') + text(d.sentence)).toLower());
     try {
@@ -204,7 +209,8 @@ void ConstraintChooser::setCurrent(const Experiment& experiment) {
 void ConstraintChooser::show(const Definition& definition, const std::map<std::string, double>& shape) {
   current_ = definition;
   title_->setText(text(definition.name));
-  sentence_->setText(text(definition.sentence) + (definition.source.empty() ? QString() : QStringLiteral("  [%1]").arg(text(definition.source))));
+  sentence_->setText(text(definition.sentence) +
+                     (definition.source.empty() ? QString() : QStringLiteral("  [%1]").arg(text(definition.source))));
   formula_->setFormula(definition.kind, definition.coordinates);
   sliders_->setParameters(definition.shape, shape);
   rebuild(true);
@@ -252,8 +258,9 @@ void ConstraintChooser::formulaChanged() {
     list_->setCurrentRow(-1);
   }
   const auto values = sliders_->values();
-  const bool sameNames = typed.shape.size() == values.size() &&
-                         std::all_of(typed.shape.begin(), typed.shape.end(), [&](const ShapeParameter& p) { return values.contains(p.name); });
+  const bool sameNames =
+      typed.shape.size() == values.size() &&
+      std::all_of(typed.shape.begin(), typed.shape.end(), [&](const ShapeParameter& p) { return values.contains(p.name); });
   current_ = typed;
   if (!sameNames) sliders_->setParameters(typed.shape, values);
   rebuild(true);
@@ -273,7 +280,8 @@ void ConstraintChooser::rebuild(bool resetCamera) {
   }
   choice.spec.shape = sliders_->values();
   try {
-    const Constraint constraint = current_.name.empty() ? makeConstraint(choice.spec, "formula") : makeConstraint(current_, choice.spec.shape);
+    const Constraint constraint =
+        current_.name.empty() ? makeConstraint(choice.spec, "formula") : makeConstraint(current_, choice.spec.shape);
     if (current_.name.empty() && coincide(constraint, choice)) {  // after another formula's places: nowhere to go
       givePlaces(current_);
       choice.start = current_.start;

@@ -52,7 +52,7 @@ class ConstraintChooser : public QDialog {
 
   std::vector<Definition> definitions_;
   Definition current_;
-  Experiment probe_;   // one mass on the constraint, for the picture
+  Experiment probe_;  // one mass on the constraint, for the picture
   std::optional<ConstraintChoice> choice_;
   QLineEdit *search_, *name_;
   QListWidget* list_;

@@ -39,7 +39,9 @@ std::vector<ShapeParameter> parametersOf(const ConstraintSpec& spec) {
   return parameters;
 }
 
-bool sameFormula(const ConstraintSpec& a, const ConstraintSpec& b) { return a.name == b.name && a.curve == b.curve && a.surface == b.surface; }
+bool sameFormula(const ConstraintSpec& a, const ConstraintSpec& b) {
+  return a.name == b.name && a.curve == b.curve && a.surface == b.surface;
+}
 
 }  // namespace
 
@@ -74,7 +76,9 @@ ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Co
 }
 
 void ConstraintDock::setConstraint(const ConstraintSpec& spec, const Constraint& constraint) {
-  const char* kind = constraint.kind == ConstraintKind::Surface ? "surface" : constraint.kind == ConstraintKind::Curve ? "curve" : "no constraint";
+  const char* kind = constraint.kind == ConstraintKind::Surface ? "surface"
+                     : constraint.kind == ConstraintKind::Curve ? "curve"
+                                                                : "no constraint";
   name_->setText(QStringLiteral("<b>%1</b>  (%2)").arg(QString::fromStdString(spec.name), QLatin1String(kind)));
   QString formula;
   for (const auto& line : spec.curve.empty() ? spec.surface : spec.curve) formula += QString::fromStdString(line) + QLatin1Char('\n');

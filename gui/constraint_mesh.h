@@ -11,10 +11,10 @@
 namespace reachlab {
 
 struct MeshOptions {
-  double chordError = 5e-4;     // of the drawn size: how far a straight piece may leave the curve
-  double turn = 0.12;           // [rad] between neighbouring pieces
-  std::size_t maxPoints = 3000; // of a curve
-  std::size_t maxLines = 120;   // of a surface, each way
+  double chordError = 5e-4;      // of the drawn size: how far a straight piece may leave the curve
+  double turn = 0.12;            // [rad] between neighbouring pieces
+  std::size_t maxPoints = 3000;  // of a curve
+  std::size_t maxLines = 120;    // of a surface, each way
   std::size_t parameterLines = 16;
 };
 

@@ -15,7 +15,8 @@
 namespace reachlab {
 
 std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
-  static const std::set<std::string> known{"pi", "e", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs", "sign"};
+  static const std::set<std::string> known{"pi",   "e",    "sin",  "cos", "tan", "asin", "acos", "atan", "atan2",
+                                           "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs",  "sign"};
   static const QRegularExpression name(QStringLiteral("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*+(?!\\s*\\()"));
   const std::vector<std::string> variables = variablesOf(kind);
   std::vector<std::string> names;
@@ -63,8 +64,9 @@ FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
   fault_->setTextFormat(Qt::PlainText);
   fault_->hide();
   grid->addWidget(fault_, 7, 0, 1, 2);
-  auto* help = new QLabel(QStringLiteral("metres; + − * / ^ ( ) pi e, sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign; "
-                                         "any other name becomes a slider"));
+  auto* help =
+      new QLabel(QStringLiteral("metres; + − * / ^ ( ) pi e, sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign; "
+                                "any other name becomes a slider"));
   help->setProperty("role", "quiet");
   help->setWordWrap(true);
   grid->addWidget(help, 8, 0, 1, 2);

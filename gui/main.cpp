@@ -35,7 +35,9 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--seed", r.seed, "Seed of noise and order; default: one is drawn and stored");
   app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
-  app.footer("Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab parallel --device simulated --trials 5");
+  app.footer(
+      "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab parallel --device simulated --trials "
+      "5");
   app.parse(argc, argv);
   return a;
 }
@@ -43,7 +45,8 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
 int run(const Arguments& arguments, int argc, char** argv) {
   // The scene is drawn over GLX; on Wayland desktops XWayland serves it.
   if (std::getenv("QT_QPA_PLATFORM") == nullptr) {
-    if (std::getenv("DISPLAY") == nullptr) throw reachlab::ResourceError("reachlab: there is no display (DISPLAY is not set); `reach run` does without a window");
+    if (std::getenv("DISPLAY") == nullptr)
+      throw reachlab::ResourceError("reachlab: there is no display (DISPLAY is not set); `reach run` does without a window");
     setenv("QT_QPA_PLATFORM", "xcb", 0);
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);

@@ -96,7 +96,8 @@ void MainWindow::Impl::showOverlay() {
   const bool mouse = dock->device() == "mouse";
   if (WindowRun* run = session.run()) overlay = overlayOf(run->latest(), currentTask(), static_cast<int>(run->trialCount()), mouse);
   else overlay = restingOverlay(QString::fromStdString(session.experiment().name), mouse);
-  if (session.run() && !session.underWay() && session.run()->latest().trial == 0) overlay.instruction = QStringLiteral("Press Space to begin");
+  if (session.run() && !session.underWay() && session.run()->latest().trial == 0)
+    overlay.instruction = QStringLiteral("Press Space to begin");
   if (session.run() && session.run()->trialsLeft() == 0 && !session.underWay()) overlay.detail = QStringLiteral("the run is complete");
   view->setOverlay(overlay);
   if (subject != nullptr) subject->view().setOverlay(overlay);
@@ -105,7 +106,10 @@ void MainWindow::Impl::showOverlay() {
 void MainWindow::Impl::showStage() {
   using Stage = SessionDock::Stage;
   WindowRun* run = session.run();
-  dock->setStage(run == nullptr ? Stage::Closed : run->underWay() ? Stage::UnderWay : run->trialsLeft() > 0 ? Stage::BetweenTrials : Stage::Finished);
+  dock->setStage(run == nullptr          ? Stage::Closed
+                 : run->underWay()       ? Stage::UnderWay
+                 : run->trialsLeft() > 0 ? Stage::BetweenTrials
+                                         : Stage::Finished);
 }
 
 void MainWindow::Impl::next() {
@@ -148,7 +152,8 @@ void MainWindow::Impl::tendForecasts() {
   if (forecastsStale && !computing.valid()) {
     forecastsStale = false;
     predictions->setForecasts({});
-    computing = std::async(std::launch::async, [experiment = session.experiment(), stop = stopComputing.get_token()] { return forecastAll(experiment, stop); });
+    computing = std::async(std::launch::async,
+                           [experiment = session.experiment(), stop = stopComputing.get_token()] { return forecastAll(experiment, stop); });
   }
   if (errorsDue && !computing.valid() && !forecastsStale) {
     errorsDue = false;
@@ -182,7 +187,8 @@ void MainWindow::Impl::trialEnded() {
   const double planned = run ? run->configuration().pauseSeconds : 0;
   if (run && run->trialsLeft() > 0 && (dock->repeatsByItself() || planned > 0)) {
     nextPlanned = true;
-    nextAt = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<int>(1000 * (planned > 0 ? planned : dock->pauseSeconds())));
+    nextAt = std::chrono::steady_clock::now() +
+             std::chrono::milliseconds(static_cast<int>(1000 * (planned > 0 ? planned : dock->pauseSeconds())));
   }
   showStage();
 }
@@ -194,9 +200,14 @@ void MainWindow::Impl::showStatus() {
   const TickState& s = run->latest();
   rate->setText(QStringLiteral("%1 Hz").arg(report.rate, 0, 'f', 1));
   rate->setToolTip(QStringLiteral("%1; lateness p50 %2 µs, p99 %3 µs, max %4 µs")
-                       .arg(QString::fromStdString(report.mode)).arg(report.latenessP50, 0, 'f', 0).arg(report.latenessP99, 0, 'f', 0).arg(report.latenessMax, 0, 'f', 0));
+                       .arg(QString::fromStdString(report.mode))
+                       .arg(report.latenessP50, 0, 'f', 0)
+                       .arg(report.latenessP99, 0, 'f', 0)
+                       .arg(report.latenessMax, 0, 'f', 0));
   ticks->setText(QStringLiteral("late %1  missed %2  clamped %3%4")
-                     .arg(s.faults.lateTicks).arg(s.faults.missedTicks).arg(s.faults.clampedTicks)
+                     .arg(s.faults.lateTicks)
+                     .arg(s.faults.missedTicks)
+                     .arg(s.faults.clampedTicks)
                      .arg(s.faults.droppedRecords > 0 ? QStringLiteral("  not recorded %1").arg(s.faults.droppedRecords) : QString()));
 }
 
@@ -237,7 +248,8 @@ void MainWindow::Impl::oneFrame() {
   }
 }
 
-MainWindow::MainWindow(const SessionRequest& request, QWidget* parent) : QMainWindow(parent), impl_(std::make_unique<Impl>(*this, request)) {
+MainWindow::MainWindow(const SessionRequest& request, QWidget* parent)
+    : QMainWindow(parent), impl_(std::make_unique<Impl>(*this, request)) {
   setObjectName(QStringLiteral("reachlab"));
   resize(1560, 960);
   impl_->makeDocks();

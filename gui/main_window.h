@@ -28,7 +28,7 @@ class MainWindow : public QMainWindow {
   VelocityPlot& plot();
   PredictionDock& predictions();
   SessionDock& sessionDock();
-  ConstraintChooser& chooser();       // made when first asked for
+  ConstraintChooser& chooser();  // made when first asked for
   OverlayState overlay() const;
   /// The sentence in the bar at the top, empty when there is none.
   QString message() const;

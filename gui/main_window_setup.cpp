@@ -82,8 +82,9 @@ void MainWindow::Impl::openExperiment(const QString& what) {
 }
 
 void MainWindow::Impl::saveExperiment() {
-  const QString file = QFileDialog::getSaveFileName(&window, QStringLiteral("Save experiment"), QString::fromStdString(session.experiment().name + ".json"),
-                                                    QStringLiteral("Experiments (*.json)"));
+  const QString file =
+      QFileDialog::getSaveFileName(&window, QStringLiteral("Save experiment"), QString::fromStdString(session.experiment().name + ".json"),
+                                   QStringLiteral("Experiments (*.json)"));
   if (file.isEmpty()) return;
   QSaveFile out(file);
   const std::string text = toJson(session.experiment());
@@ -101,11 +102,13 @@ void MainWindow::Impl::makeMenus() {
   };
   QMenu* file = window.menuBar()->addMenu(QStringLiteral("&Experiment"));
   add(file, QStringLiteral("&Open…"), QKeySequence::Open, [this] {
-    const QString chosen = QFileDialog::getOpenFileName(&window, QStringLiteral("Open experiment"), {}, QStringLiteral("Experiments (*.json)"));
+    const QString chosen =
+        QFileDialog::getOpenFileName(&window, QStringLiteral("Open experiment"), {}, QStringLiteral("Experiments (*.json)"));
     if (!chosen.isEmpty()) openExperiment(chosen);
   });
   QMenu* shipped = file->addMenu(QStringLiteral("S&hipped"));
-  for (const std::string& name : shippedExperiments()) add(shipped, QString::fromStdString(name), {}, [this, name] { openExperiment(QString::fromStdString(name)); });
+  for (const std::string& name : shippedExperiments())
+    add(shipped, QString::fromStdString(name), {}, [this, name] { openExperiment(QString::fromStdString(name)); });
   add(file, QStringLiteral("&Save as…"), QKeySequence::SaveAs, [this] { saveExperiment(); });
   file->addSeparator();
   add(file, QStringLiteral("&Quit"), QKeySequence::Quit, [this] { window.close(); });
@@ -130,7 +133,11 @@ void MainWindow::Impl::makeMenus() {
   QMenu* show = window.menuBar()->addMenu(QStringLiteral("&View"));
   add(show, QStringLiteral("&Whole scene"), Qt::Key_Home, [this] { view->resetCamera(); });
   for (const char axis : {'x', 'y', 'z'})
-    add(show, QStringLiteral("Along %1").arg(QLatin1Char(axis)), QKeySequence(QStringLiteral("Ctrl+%1").arg(axis == 'x' ? 1 : axis == 'y' ? 2 : 3)), [this, axis] { view->lookAlong(axis); });
+    add(show, QStringLiteral("Along %1").arg(QLatin1Char(axis)),
+        QKeySequence(QStringLiteral("Ctrl+%1").arg(axis == 'x'   ? 1
+                                                   : axis == 'y' ? 2
+                                                                 : 3)),
+        [this, axis] { view->lookAlong(axis); });
   show->addSeparator();
   QAction* aside = add(show, QStringLiteral("&Masses side by side"), Qt::Key_F, [this](bool on) {
     viewOptions.sideBySide = on ? ViewOptions::SideBySide::Always : ViewOptions::SideBySide::Never;
@@ -141,7 +148,8 @@ void MainWindow::Impl::makeMenus() {
   aside->setCheckable(true);
   aside->setObjectName(QStringLiteral("sideBySide"));
   aside->setChecked(session.experiment().object.kind == ObjectKind::Parallel);
-  QAction* wire = add(show, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W, [this](bool on) { view->setSurfaceStyle(on ? SurfaceStyle::Wire : SurfaceStyle::Glass); });
+  QAction* wire = add(show, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
+                      [this](bool on) { view->setSurfaceStyle(on ? SurfaceStyle::Wire : SurfaceStyle::Glass); });
   wire->setCheckable(true);
   show->addSeparator();
   add(show, QStringLiteral("&Subject's screen"), Qt::Key_F11, [this] { window.toggleSubjectWindow(); });
@@ -152,22 +160,24 @@ void MainWindow::Impl::makeMenus() {
 
   QMenu* help = window.menuBar()->addMenu(QStringLiteral("&Help"));
   add(help, QStringLiteral("&Keys and mouse"), Qt::Key_F1, [this] {
-    auto* box = new QMessageBox(QMessageBox::NoIcon, QStringLiteral("Keys and mouse"),
-                                QStringLiteral("<table cellpadding=3><tr><td><b>left drag</b></td><td>moves the hand (device mouse)</td></tr>"
-                                               "<tr><td><b>right drag</b></td><td>turns</td></tr><tr><td><b>middle drag</b></td><td>shifts</td></tr>"
-                                               "<tr><td><b>wheel</b></td><td>nearer, farther</td></tr><tr><td><b>Space</b></td><td>next trial</td></tr>"
-                                               "<tr><td><b>Esc</b></td><td>abort the trial</td></tr><tr><td><b>R</b></td><td>repeat the last trial</td></tr>"
-                                               "<tr><td><b>F</b></td><td>masses side by side</td></tr><tr><td><b>Ctrl+K</b></td><td>constraints</td></tr>"
-                                               "<tr><td><b>F11</b></td><td>subject's screen</td></tr></table>"),
-                                QMessageBox::Close, &window);
+    auto* box = new QMessageBox(
+        QMessageBox::NoIcon, QStringLiteral("Keys and mouse"),
+        QStringLiteral("<table cellpadding=3><tr><td><b>left drag</b></td><td>moves the hand (device mouse)</td></tr>"
+                       "<tr><td><b>right drag</b></td><td>turns</td></tr><tr><td><b>middle drag</b></td><td>shifts</td></tr>"
+                       "<tr><td><b>wheel</b></td><td>nearer, farther</td></tr><tr><td><b>Space</b></td><td>next trial</td></tr>"
+                       "<tr><td><b>Esc</b></td><td>abort the trial</td></tr><tr><td><b>R</b></td><td>repeat the last trial</td></tr>"
+                       "<tr><td><b>F</b></td><td>masses side by side</td></tr><tr><td><b>Ctrl+K</b></td><td>constraints</td></tr>"
+                       "<tr><td><b>F11</b></td><td>subject's screen</td></tr></table>"),
+        QMessageBox::Close, &window);
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->show();
   });
   add(help, QStringLiteral("&About"), {}, [this] {
-    auto* box = new QMessageBox(QMessageBox::NoIcon, QStringLiteral("Reachlab"),
-                                QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>Drawn by %2")
-                                    .arg(QStringLiteral(REACHLAB_VERSION), view->rendererName().toHtmlEscaped()),
-                                QMessageBox::Close, &window);
+    auto* box = new QMessageBox(
+        QMessageBox::NoIcon, QStringLiteral("Reachlab"),
+        QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>Drawn by %2")
+            .arg(QStringLiteral(REACHLAB_VERSION), view->rendererName().toHtmlEscaped()),
+        QMessageBox::Close, &window);
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->show();
   });

@@ -91,7 +91,8 @@ struct ObjectActors::Impl {
   }
   void addObject(const ScenePlan& from) {
     for (const SpringPlan& spring : from.springs)
-      springs.push_back(add(makeCoil({spring.coupling ? colours::kCoupling : colours::kSpring, 1, 0.5}, spring.coupling ? 6 : 9, spring.coupling ? 0.16 : 0.2)));
+      springs.push_back(add(makeCoil({spring.coupling ? colours::kCoupling : colours::kSpring, 1, 0.5}, spring.coupling ? 6 : 9,
+                                     spring.coupling ? 0.16 : 0.2)));
     for (std::size_t i = 0; i < from.massRadius.size(); ++i) {
       const Look look{colourOf(from.massRole[i]), 1, 0.55};
       masses.push_back(add(from.body ? makeBox(look) : makeBall(look)));
@@ -102,7 +103,8 @@ struct ObjectActors::Impl {
   }
 };
 
-ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style) : impl_(new Impl{renderer, plan, {}, {}, {}, {}}) {
+ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
+    : impl_(new Impl{renderer, plan, {}, {}, {}, {}}) {
   impl_->plan.curve = {};
   impl_->plan.surface = {};
   impl_->addConstraint(plan, style);

@@ -61,7 +61,8 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] {
     object_.kind = static_cast<ObjectKind>(kind_->currentIndex());
     if (object_.kind == ObjectKind::Point || object_.kind == ObjectKind::Body) object_.masses.resize(1, 1.0);
-    if (object_.kind == ObjectKind::Parallel) object_.masses.resize(std::max<std::size_t>(2, object_.masses.size()), object_.masses.empty() ? 1.0 : object_.masses.back());
+    if (object_.kind == ObjectKind::Parallel)
+      object_.masses.resize(std::max<std::size_t>(2, object_.masses.size()), object_.masses.empty() ? 1.0 : object_.masses.back());
     if (object_.kind == ObjectKind::Body && object_.inertia[0][0] == 0)
       for (std::size_t i = 0; i < 3; ++i) object_.inertia[i][i] = 4e-4 * object_.masses[0];
     fitSprings(object_);
@@ -81,7 +82,8 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   connect(viscosity_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double v) { object_.viscosity = v, tell(); });
   double Vec3::*const parts[] = {&Vec3::x, &Vec3::y, &Vec3::z};
   for (std::size_t i = 0; i < 3; ++i)
-    connect(gravity_[i], qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, part = parts[i]](double v) { object_.gravity.*part = v, tell(); });
+    connect(gravity_[i], qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+            [this, part = parts[i]](double v) { object_.gravity.*part = v, tell(); });
 }
 
 void ObjectDock::setObject(const Object& object) {

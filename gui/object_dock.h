@@ -17,11 +17,11 @@ class ObjectDock : public QDockWidget {
   Q_OBJECT
  public:
   explicit ObjectDock(QWidget* parent = nullptr);
-  void setObject(const Object& object);          // displays; emits nothing
+  void setObject(const Object& object);  // displays; emits nothing
   void setFaults(const QStringList& faults);
 
  Q_SIGNALS:
-  void edited(const reachlab::Object& object);   // the user changed something; may be faulty
+  void edited(const reachlab::Object& object);  // the user changed something; may be faulty
 
  private:
   void tell();

@@ -29,7 +29,8 @@ PredictionDock::PredictionDock(QWidget* parent)
   auto* layout = new QVBoxLayout(body);
   table_ = new QTableWidget(kCriterionCount, kColumns);
   table_->setObjectName(QStringLiteral("criteria"));
-  table_->setHorizontalHeaderLabels({QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
+  table_->setHorizontalHeaderLabels(
+      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
   table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [mm/s]"));
   table_->horizontalHeaderItem(kLast)->setToolTip(QStringLiteral("RMS difference of the last trial's hand velocity [mm/s]"));
   table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral("the same over all trials of this run [mm/s]"));
@@ -79,7 +80,8 @@ void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecast
       QString why = QString::fromStdString(forecast.refusal);
       if (forecast.prediction)
         for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
-      table_->item(i, kName)->setToolTip(text(describe(forecast.criterion)) + (why.isEmpty() ? QString() : QStringLiteral("\n\n") + why.trimmed()));
+      table_->item(i, kName)->setToolTip(text(describe(forecast.criterion)) +
+                                         (why.isEmpty() ? QString() : QStringLiteral("\n\n") + why.trimmed()));
       table_->item(i, kName)->setForeground(forecast.prediction ? colourOf(forecast.criterion) : toQColor(colours::kNeutral));
     }
   }
@@ -130,7 +132,8 @@ void PredictionDock::setChosen(const std::vector<Criterion>& criteria) {
   {
     const QSignalBlocker quiet(table_);
     for (int i = 0; i < kCriterionCount; ++i)
-      table_->item(i, kName)->setCheckState(std::find(criteria.begin(), criteria.end(), static_cast<Criterion>(i)) != criteria.end() ? Qt::Checked : Qt::Unchecked);
+      table_->item(i, kName)->setCheckState(
+          std::find(criteria.begin(), criteria.end(), static_cast<Criterion>(i)) != criteria.end() ? Qt::Checked : Qt::Unchecked);
   }
   Q_EMIT chosenChanged();
 }

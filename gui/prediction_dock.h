@@ -32,7 +32,7 @@ class PredictionDock : public QDockWidget {
   QTableWidget* table_;
   QLabel* note_;
   std::vector<std::optional<double>> latest_;
-  std::vector<double> sums_;   // of squares, so that the mean is the paper's error of the series
+  std::vector<double> sums_;  // of squares, so that the mean is the paper's error of the series
   std::vector<int> counts_;
 };
 

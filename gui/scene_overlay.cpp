@@ -119,7 +119,8 @@ void SceneOverlay::paintAxes(QPainter& painter) const {
     const QPointF tip = origin + arm * axes_[i];
     painter.setPen(QPen(ink[i], 2));
     painter.drawLine(origin, tip);
-    painter.drawText(QRectF(origin.x() + 1.36 * arm * axes_[i].x() - 8, origin.y() + 1.36 * arm * axes_[i].y() - 8, 16, 16), Qt::AlignCenter, names[i]);
+    painter.drawText(QRectF(origin.x() + 1.36 * arm * axes_[i].x() - 8, origin.y() + 1.36 * arm * axes_[i].y() - 8, 16, 16),
+                     Qt::AlignCenter, names[i]);
   }
 }
 

@@ -19,8 +19,8 @@ Vec3 viewDirection(const Box& box, ConstraintKind kind) {
   const Vec3 extent = box.high - box.low;
   if (kind == ConstraintKind::Surface) return extent.z < 0.35 * std::max(extent.x, extent.y) ? Vec3{0.45, -0.9, 1.1} : Vec3{0.6, 0.55, 1};
   const double thin = 0.02 * box.diagonal();
-  if (extent.x <= thin && extent.z > thin) return {1, 0.22, 0.3};        // lies in the y-z plane
-  if (extent.y <= thin && extent.z > thin) return {0.1, 1, 0.55};        // in the x-z plane
+  if (extent.x <= thin && extent.z > thin) return {1, 0.22, 0.3};  // lies in the y-z plane
+  if (extent.y <= thin && extent.z > thin) return {0.1, 1, 0.55};  // in the x-z plane
   if (extent.z <= thin) return {0.06, 0.18, 1};
   return {0.55, 0.45, 1};
 }
@@ -52,7 +52,8 @@ void planMasses(const Experiment& experiment, ViewOptions::SideBySide wish, Scen
   if (!shifted)  // where all coincide the driven one would hide the rest
     for (std::size_t i = 1; i + 1 < count; ++i) plan.massRadius[i] *= 0.72;
   if (shifted) {
-    const Vec3 across = plan.kind == ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit ? Vec3{0, -1, 0} : Vec3{0.7, -0.7, 0};
+    const Vec3 across = plan.kind == ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit ? Vec3{0, -1, 0}
+                                                                                                                       : Vec3{0.7, -0.7, 0};
     const double step = std::min(0.22, 0.5 / static_cast<double>(count)) * plan.unit;
     const double middle = object.kind == ObjectKind::Parallel ? 0.5 * static_cast<double>(count - 1) : 0.0;
     for (std::size_t i = 0; i < count; ++i) plan.massShift[i] = ((static_cast<double>(i) - middle) * step) * across;

@@ -19,19 +19,19 @@ struct ScenePlan {
   ConstraintKind kind = ConstraintKind::Free;
   CurveMesh curve;
   SurfaceMesh surface;
-  Vec3 start, target;                  // [m]
+  Vec3 start, target;  // [m]
   bool hasTask = false;
-  double tolerance = 0;                // [m] dx, drawn as a faint shell around the target
-  Vec3 centre{};                       // [m] what the camera looks at
-  double size = 0.2;                   // [m] diagonal of what is seen
-  double unit = 0.2;                   // [m] what bodies are sized by
-  Vec3 viewFrom{0.1, 0.35, 1};         // direction from the centre to the camera
-  std::vector<Vec3> seen;              // [m] points that a view of the whole must hold
-  std::vector<double> massRadius;      // [m]
+  double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
+  Vec3 centre{};                   // [m] what the camera looks at
+  double size = 0.2;               // [m] diagonal of what is seen
+  double unit = 0.2;               // [m] what bodies are sized by
+  Vec3 viewFrom{0.1, 0.35, 1};     // direction from the centre to the camera
+  std::vector<Vec3> seen;          // [m] points that a view of the whole must hold
+  std::vector<double> massRadius;  // [m]
   std::vector<MassRole> massRole;
-  std::vector<Vec3> massShift;         // [m] added for the eye only
+  std::vector<Vec3> massShift;  // [m] added for the eye only
   std::vector<SpringPlan> springs;
-  bool body = false;                   // drawn as a box that turns
+  bool body = false;                                      // drawn as a box that turns
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
 };
 
@@ -44,8 +44,8 @@ ScenePlan planScene(const Experiment& experiment, const Constraint& constraint, 
 
 /// One instant of it: what actors are moved to.
 struct SceneFrame {
-  Vec3 hand;                  // [m]
-  std::vector<Vec3> masses;   // [m] true places
+  Vec3 hand;                 // [m]
+  std::vector<Vec3> masses;  // [m] true places
   BodyState body;
   bool handValid = true;
 };

@@ -22,9 +22,7 @@ namespace {
 // Key light from the upper left, a weak fill from the right, both fixed to the viewer.
 void addLights(vtkRenderer& renderer) {
   renderer.RemoveAllLights();
-  const struct {
-    double x, y, z, intensity;
-  } lights[] = {{-0.6, 0.9, 1.2, 0.85}, {0.9, 0.1, 0.8, 0.32}, {0, -1, 0.4, 0.14}};
+  const struct { double x, y, z, intensity; } lights[] = {{-0.6, 0.9, 1.2, 0.85}, {0.9, 0.1, 0.8, 0.32}, {0, -1, 0.4, 0.14}};
   for (const auto& l : lights) {
     vtkNew<vtkLight> light;
     light->SetLightTypeToCameraLight();

@@ -9,7 +9,6 @@
 
 namespace reachlab {
 
-
 /// The OpenGL format that the scene needs; before the QApplication is made.
 void applySurfaceFormat();
 

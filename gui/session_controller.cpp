@@ -17,7 +17,8 @@ Experiment firstExperiment(const SessionRequest& request, bool& isPlanFile) {
     if (isPlan(text, *file)) {
       isPlanFile = true;
       const SessionToRun session = planSession(request);
-      if (session.blocks.empty()) throw UsageError(request.what + ": every trial of this session is recorded; allowed: another --session or --subject");
+      if (session.blocks.empty())
+        throw UsageError(request.what + ": every trial of this session is recorded; allowed: another --session or --subject");
       return session.blocks.front().experiment;
     }
   }
@@ -27,7 +28,8 @@ Experiment firstExperiment(const SessionRequest& request, bool& isPlanFile) {
 }  // namespace
 
 SessionController::SessionController(const SessionRequest& request, QObject* parent)
-    : QObject(parent), experiment_(firstExperiment(request, isPlan_)), constraint_(makeConstraint(experiment_.constraint)), resume_(request.resume) {}
+    : QObject(parent), experiment_(firstExperiment(request, isPlan_)), constraint_(makeConstraint(experiment_.constraint)),
+      resume_(request.resume) {}
 
 SessionController::~SessionController() = default;
 

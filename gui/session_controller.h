@@ -57,7 +57,7 @@ class SessionController : public QObject {
   Experiment experiment_;
   Constraint constraint_;
   bool isPlan_ = false, edited_ = false, endAfterTrial_ = false, resume_ = false;
-  std::vector<BlockToRun> blocks_;   // of the plan, still to be done
+  std::vector<BlockToRun> blocks_;  // of the plan, still to be done
   std::unique_ptr<WindowRun> run_;
   std::optional<ConductedTrial> last_;
 };

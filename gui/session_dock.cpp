@@ -183,11 +183,14 @@ void SessionDock::count(const TrialResult& result) {
   else ++others_;
   if (result.outcome != Outcome::Success) ++reasons_[std::string(nameOf(result.reason))];
   const int judged = successes_ + failures_;
-  QString text = judged > 0 ? QStringLiteral("<b>%1 of %2 succeeded (%3 %)</b>").arg(successes_).arg(judged).arg(100.0 * successes_ / judged, 0, 'f', 0)
-                            : QStringLiteral("<b>none judged yet</b>");
+  QString text =
+      judged > 0
+          ? QStringLiteral("<b>%1 of %2 succeeded (%3 %)</b>").arg(successes_).arg(judged).arg(100.0 * successes_ / judged, 0, 'f', 0)
+          : QStringLiteral("<b>none judged yet</b>");
   if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
   QStringList why;
-  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(QString::fromStdString(reason).replace(QLatin1Char('_'), QLatin1Char(' ')));
+  for (const auto& [reason, count] : reasons_)
+    why << QStringLiteral("%1 × %2").arg(count).arg(QString::fromStdString(reason).replace(QLatin1Char('_'), QLatin1Char(' ')));
   if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
   tally_->setText(text);
 }

@@ -28,8 +28,8 @@ class SessionDock : public QDockWidget {
   /// What is typed; `what`, `fast` and the like as they came.
   SessionRequest request() const;
   std::string device() const;
-  bool repeatsByItself() const;      // next trial without a key
-  double pauseSeconds() const;       // [s] before it
+  bool repeatsByItself() const;  // next trial without a key
+  double pauseSeconds() const;   // [s] before it
 
   /// While a run is open its who and where stand still.
   enum class Stage { Closed, BetweenTrials, UnderWay, Finished };

@@ -16,7 +16,8 @@ namespace {
 constexpr int kSteps = 500;
 
 bool isWhole(const ShapeParameter& p) {
-  return p.unit == "1" && p.max - p.min >= 2 && p.min == std::floor(p.min) && p.max == std::floor(p.max) && p.defaultValue == std::floor(p.defaultValue);
+  return p.unit == "1" && p.max - p.min >= 2 && p.min == std::floor(p.min) && p.max == std::floor(p.max) &&
+         p.defaultValue == std::floor(p.defaultValue);
 }
 
 }  // namespace

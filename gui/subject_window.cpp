@@ -15,7 +15,8 @@ SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   view_ = new SceneView;
   view_->setTextScale(1.5);
   layout->addWidget(view_);
-  for (const auto& key : {QKeySequence(Qt::Key_F11), QKeySequence(Qt::Key_Escape)}) connect(new QShortcut(key, this), &QShortcut::activated, this, &QWidget::close);
+  for (const auto& key : {QKeySequence(Qt::Key_F11), QKeySequence(Qt::Key_Escape)})
+    connect(new QShortcut(key, this), &QShortcut::activated, this, &QWidget::close);
 }
 
 void SubjectWindow::showFull() {

@@ -45,8 +45,14 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   bind(time_, [](Task& t, double v) { t.tolerance.time = v; });
   bind(position_, [](Task& t, double v) { t.tolerance.position = v; });
   bind(velocity_, [](Task& t, double v) { t.tolerance.velocity = v; });
-  connect(start_, &NumberListEdit::numbersEdited, this, [this] { task_.start = *start_->numbers(); Q_EMIT edited(task_); });
-  connect(target_, &NumberListEdit::numbersEdited, this, [this] { task_.target = *target_->numbers(); Q_EMIT edited(task_); });
+  connect(start_, &NumberListEdit::numbersEdited, this, [this] {
+    task_.start = *start_->numbers();
+    Q_EMIT edited(task_);
+  });
+  connect(target_, &NumberListEdit::numbersEdited, this, [this] {
+    task_.target = *target_->numbers();
+    Q_EMIT edited(task_);
+  });
 }
 
 void TaskDock::setTask(const Task& task) {

@@ -81,7 +81,8 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
   const std::vector<double> measured = normaliseTime(signals.handVelocity, trial.rate, signals.movement.onset, signals.movement.offset);
   for (std::size_t i = 0; i < forecasts.size(); ++i) {
     if (!forecasts[i].prediction) continue;
-    const PredictedProfile predicted = scaledTo(profileUntil(recordPrediction(*forecasts[i].prediction, options, task), endLevel), duration);
+    const PredictedProfile predicted =
+        scaledTo(profileUntil(recordPrediction(*forecasts[i].prediction, options, task), endLevel), duration);
     const double error = computeRmsError(predicted.hand, measured);
     if (std::isfinite(error)) errors[i] = error;
   }

@@ -13,8 +13,10 @@ QString outcomeText(const TrialResult& result) {
   switch (result.reason) {
     case Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
     case Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
-    case Reason::Position: return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
-    case Reason::Velocity: return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
+    case Reason::Position:
+      return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
+    case Reason::Velocity:
+      return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
     case Reason::ForceLimit: return QStringLiteral("The force went over its limit");
     case Reason::DeviceLost: return QStringLiteral("The device was lost");
     case Reason::NoOnset: return QStringLiteral("No movement began");
@@ -32,7 +34,8 @@ QString outcomeText(const TrialResult& result) {
 OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlanned, bool mouse) {
   OverlayState o;
   o.semaphore = state.semaphore;
-  o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned) : QStringLiteral("%1 trials").arg(trialsPlanned);
+  o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
+                              : QStringLiteral("%1 trials").arg(trialsPlanned);
   o.detail = QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2));
   switch (state.phase) {
     case Phase::Idle: o.instruction = QStringLiteral("Wait"); break;

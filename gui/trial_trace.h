@@ -12,17 +12,17 @@ struct TracePoint {
   std::uint64_t tick = 0;
   std::int32_t trial = 0;
   Phase phase = Phase::Idle;
-  double trialTime = 0;                // [s] since onset
-  Vec3 hand, handVelocity;             // [m], [m/s]
-  Vec3 last, lastVelocity;             // of the last mass
-  double firstQ = 0, lastQ = 0;        // curve parameter of the first and last mass
-  double force = 0;                    // [N]
+  double trialTime = 0;          // [s] since onset
+  Vec3 hand, handVelocity;       // [m], [m/s]
+  Vec3 last, lastVelocity;       // of the last mass
+  double firstQ = 0, lastQ = 0;  // curve parameter of the first and last mass
+  double force = 0;              // [N]
 };
 
 /// A run's ticks go two ways: all of them to the recorder (if there is one), and every fifth to the window's plot. Neither waits.
 class TraceSink final : public RunSink {
  public:
-  static constexpr std::uint64_t kEvery = 5;                     // ticks a point
+  static constexpr std::uint64_t kEvery = 5;                             // ticks a point
   static constexpr double kRate = 1000.0 / static_cast<double>(kEvery);  // [Hz]
 
   /// `recorder` may be null and outlives this.

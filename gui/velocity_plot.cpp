@@ -30,7 +30,8 @@ QwtText axisTitle(const QString& text) {
   return title;
 }
 
-std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QColor& colour, double width, Qt::PenStyle style, double z) {
+std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QColor& colour, double width, Qt::PenStyle style,
+                                        double z) {
   auto curve = std::make_unique<QwtPlotCurve>(title);
   curve->setPen(QPen(colour, width, style));
   curve->setRenderHint(QwtPlotItem::RenderAntialiased);

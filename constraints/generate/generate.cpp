@@ -25,7 +25,8 @@ std::string generate(const std::vector<std::string>& files) {
     const std::string function = "evaluate" + upperCamel(definition.name);
     functions += writeEvaluator(*compileFormula(formulaOf(definition), file), function) + "\n";
     const bool curve = definition.kind == ConstraintKind::Curve;
-    table += fmt::format("    {{R\"definition({})definition\",\n     {}, {}}},\n", text, curve ? function : "nullptr", curve ? "nullptr" : function);
+    table += fmt::format("    {{R\"definition({})definition\",\n     {}, {}}},\n", text, curve ? function : "nullptr",
+                         curve ? "nullptr" : function);
   }
   return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
          "#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab {\nnamespace {\n\n" +

@@ -92,7 +92,8 @@ Reason reasonFrom(const std::string& text) {
 std::uint64_t armedTickOf(const SampleRows& rows, const ChannelTable& table, int trial) {
   const std::size_t trialColumn = table.indexOf("trial"), phase = table.indexOf("phase");
   for (std::size_t row = 0; row < rows.size(); ++row)
-    if (static_cast<int>(rows.at(row, trialColumn)) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3) return rows.ticks[row];
+    if (static_cast<int>(rows.at(row, trialColumn)) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3)
+      return rows.ticks[row];
   return 0;
 }
 
@@ -165,7 +166,8 @@ std::vector<RunSource> readBidsRuns(const std::string& folder) {
   if (!fs::is_directory(folder, error)) throw UsageError(folder + ": no such folder");
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
-    if (const std::string name = entry.path().filename().string(); name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
+    if (const std::string name = entry.path().filename().string();
+        name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
       files.push_back(entry.path());
   if (files.empty()) throw UsageError(folder + ": neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)");
   std::sort(files.begin(), files.end());

@@ -154,7 +154,8 @@ void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset
         };
         trial.goTime = seconds(recorded.goTick);
         trial.taskOnset = seconds(recorded.result.onsetTick);
-        trial.taskEnd = recorded.result.onsetTick == 0 ? kNotMeasured : seconds(std::max(recorded.result.endTick, recorded.result.onsetTick));
+        trial.taskEnd =
+            recorded.result.onsetTick == 0 ? kNotMeasured : seconds(std::max(recorded.result.endTick, recorded.result.onsetTick));
       }
       if (recorded.result.onsetTick > 0 && recorded.peakForce > 0) {
         trial.peakForce = recorded.peakForce;

@@ -98,7 +98,9 @@ Panel velocityPanel(const char* title, const char* label) {
 double shownDuration(const ConditionResult& r, const PredictedProfile& p) { return r.used > 0 ? r.duration.mean : p.duration; }
 
 /// A title that a panel of a grid can bear.
-std::string shortened(const std::string& text, std::size_t most = 34) { return text.size() <= most ? text : text.substr(0, most - 1) + "…"; }
+std::string shortened(const std::string& text, std::size_t most = 34) {
+  return text.size() <= most ? text : text.substr(0, most - 1) + "…";
+}
 
 Panel rankingPanel(const std::string& title, const Ranking& ranking, const std::vector<Criterion>& criteria) {
   Panel panel;
@@ -147,7 +149,8 @@ NamedFigure velocityFigure(const StudyResult& study, std::size_t condition) {
   out.figure.columns = 2;
   out.figure.panels = {hand, object};
   out.caption = r.used > 0 ? fmt::format("{}: velocity of hand and object, {} {} trial{} time-scaled to their mean duration of {:.3f} s.",
-                                         study.conditions[condition].name, r.used, r.onlyFailures ? "failed" : "successful", r.used == 1 ? "" : "s", r.duration.mean)
+                                         study.conditions[condition].name, r.used, r.onlyFailures ? "failed" : "successful",
+                                         r.used == 1 ? "" : "s", r.duration.mean)
                            : fmt::format("{}: no movement to show; predictions only.", study.conditions[condition].name);
   return out;
 }
@@ -164,14 +167,17 @@ NamedFigure predictionFigure(const StudyResult& study, std::size_t condition) {
   }
   out.figure.columns = 2;
   out.figure.panels = {hand, object};
-  out.caption = fmt::format("{}: {}every criterion's prediction.", study.conditions[condition].name, r.used > 0 ? "the mean profile and " : "");
+  out.caption =
+      fmt::format("{}: {}every criterion's prediction.", study.conditions[condition].name, r.used > 0 ? "the mean profile and " : "");
   return out;
 }
 
 NamedFigure rankingFigure(const StudyResult& study) {
   NamedFigure out;
   out.name = "ranking";
-  out.caption = "RMS error of each criterion with its 95 % bootstrap interval over trials. Blue: the nearest criterion and those that cannot be told from it.";
+  out.caption =
+      "RMS error of each criterion with its 95 % bootstrap interval over trials. Blue: the nearest criterion and those that cannot be told "
+      "from it.";
   std::size_t shown = 0;
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
@@ -191,8 +197,9 @@ NamedFigure rankingFigure(const StudyResult& study) {
 NamedFigure learningFigure(const StudyResult& study) {
   NamedFigure out;
   out.name = "learning";
-  out.caption = fmt::format("Success in groups of {} trials, in the order they were made, with Wilson's 95 % interval. A broken line parts sessions.",
-                            study.options.learningBin);
+  out.caption =
+      fmt::format("Success in groups of {} trials, in the order they were made, with Wilson's 95 % interval. A broken line parts sessions.",
+                  study.options.learningBin);
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
     Panel panel;
     panel.title = shortened(study.conditions[c].name);

@@ -48,8 +48,7 @@ double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3
 
 /// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it.
 Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, TrialSignals& signals) {
-  if (!std::isfinite(trial.taskEnd))
-    return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
+  if (!std::isfinite(trial.taskEnd)) return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
   // Rows are 10 ms apart, the trial ends between two of them; where the next was never taken it is continued in a straight line.
   const auto last = static_cast<std::size_t>(std::max(0.0, std::ceil(trial.taskEnd * trial.rate - 1e-9)));
   for (auto* signal : {&signals.speed, &signals.handVelocity, &signals.objectVelocity})

@@ -11,18 +11,18 @@ struct MeasureOptions {
 
 /// Everything that docs/analysis.md defines for one trial; NaN where it does not exist (no movement, no go signal …).
 struct TrialMeasures {
-  double reactionTime = kNotMeasured;       // [s] go signal to onset
-  double onset = kNotMeasured, offset = kNotMeasured;  // [s] since arming
-  double duration = kNotMeasured;           // [s] onset to offset
-  double movementTime = kNotMeasured;       // [s] the task's own: t_e
-  double peakSpeed = kNotMeasured;          // [m/s] of the hand
-  double timeToPeak = kNotMeasured;         // [s] from onset
-  double timeToPeakPercent = kNotMeasured;  // [%] of the duration
-  double symmetryRatio = kNotMeasured;      // time to peak / time from peak to offset
-  double pathLength = kNotMeasured;         // [m] of the hand, onset to offset
-  double speedPeaks = kNotMeasured;         // local maxima of the hand's speed
-  double handEndpointError = kNotMeasured;    // [m] hand's displacement at offset against the asked one
-  double objectEndpointError = kNotMeasured;  // [m] last mass to target at the trial's end
+  double reactionTime = kNotMeasured;                                   // [s] go signal to onset
+  double onset = kNotMeasured, offset = kNotMeasured;                   // [s] since arming
+  double duration = kNotMeasured;                                       // [s] onset to offset
+  double movementTime = kNotMeasured;                                   // [s] the task's own: t_e
+  double peakSpeed = kNotMeasured;                                      // [m/s] of the hand
+  double timeToPeak = kNotMeasured;                                     // [s] from onset
+  double timeToPeakPercent = kNotMeasured;                              // [%] of the duration
+  double symmetryRatio = kNotMeasured;                                  // time to peak / time from peak to offset
+  double pathLength = kNotMeasured;                                     // [m] of the hand, onset to offset
+  double speedPeaks = kNotMeasured;                                     // local maxima of the hand's speed
+  double handEndpointError = kNotMeasured;                              // [m] hand's displacement at offset against the asked one
+  double objectEndpointError = kNotMeasured;                            // [m] last mass to target at the trial's end
   double handOvershoot = kNotMeasured, objectOvershoot = kNotMeasured;  // [m] farthest beyond the target, straight tasks only, >= 0
   double sparc = kNotMeasured, ldlj = kNotMeasured;
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] coupling force

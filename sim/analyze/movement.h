@@ -16,17 +16,17 @@ std::string_view nameOf(OnsetRule rule);  // "percent", "absolute", "task"
 
 struct OnsetOptions {
   OnsetRule rule = OnsetRule::Percent;
-  double percent = 5;            // of peak speed
-  double speed = 0.01;           // [m/s] for Absolute
-  double holdSeconds = 0.04;     // [s] a crossing shorter than this is a twitch, not a movement
+  double percent = 5;         // of peak speed
+  double speed = 0.01;        // [m/s] for Absolute
+  double holdSeconds = 0.04;  // [s] a crossing shorter than this is a twitch, not a movement
 };
 
 /// A movement inside a sampled signal, on the signal's own clock: sample i is at i / rate.
 struct Movement {
   bool found = false;
-  double onset = 0, offset = 0;  // [s] crossings, interpolated between samples
-  double peak = 0;               // [unit of the signal] largest value
-  double peakTime = 0;           // [s] of the largest sample, refined by the parabola through its neighbours
+  double onset = 0, offset = 0;               // [s] crossings, interpolated between samples
+  double peak = 0;                            // [unit of the signal] largest value
+  double peakTime = 0;                        // [s] of the largest sample, refined by the parabola through its neighbours
   bool cutAtStart = false, cutAtEnd = false;  // already under way at the first sample, still at the last
   double duration() const { return offset - onset; }
 };

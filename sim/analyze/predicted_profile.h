@@ -25,9 +25,9 @@ PredictedSignal recordPrediction(const Prediction& prediction, const MeasureOpti
 /// From onset to the end, 101 instants.
 struct PredictedProfile {
   Criterion criterion{};
-  double taskDuration = 0;             // [s] T it was predicted for
-  double duration = 0;                 // [s] onset to end
-  std::vector<double> hand, object;    // [m/s] along the path, at 0 … 100 % of `duration`
+  double taskDuration = 0;           // [s] T it was predicted for
+  double duration = 0;               // [s] onset to end
+  std::vector<double> hand, object;  // [m/s] along the path, at 0 … 100 % of `duration`
   std::vector<std::string> warnings;
 };
 

@@ -30,13 +30,13 @@ struct RankingOptions {
 
 /// One criterion's place. Differences are to the criterion that ranks first, from the same resamples (paired).
 struct RankedCriterion {
-  std::size_t criterion = 0;        // index into TrialErrors::squares
-  double epsilon = 0;               // paper's formula over all samples of the accepted trials
-  Interval interval;                // of epsilon, bootstrap percentiles
-  double difference = 0;            // epsilon - epsilon of the first
+  std::size_t criterion = 0;  // index into TrialErrors::squares
+  double epsilon = 0;         // paper's formula over all samples of the accepted trials
+  Interval interval;          // of epsilon, bootstrap percentiles
+  double difference = 0;      // epsilon - epsilon of the first
   Interval differenceInterval;
-  double firstShare = 0;            // of resamples in which it was first
-  bool apartFromFirst = false;      // the difference's interval excludes 0
+  double firstShare = 0;        // of resamples in which it was first
+  bool apartFromFirst = false;  // the difference's interval excludes 0
 };
 
 struct Ranking {

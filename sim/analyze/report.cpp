@@ -47,7 +47,8 @@ void addFigure(Html& html, const std::vector<NamedFigure>& figures, const std::s
   for (std::size_t i = 0; i < figures.size(); ++i) {
     if (figures[i].name != name) continue;
     html.add("<figure>" + inlineSvg(figures[i], i + 1));
-    html.add("<figcaption>" + escaped(figures[i].caption) + " <span class=\"quiet\">" + escaped(name) + ".svg, .pdf</span></figcaption></figure>");
+    html.add("<figcaption>" + escaped(figures[i].caption) + " <span class=\"quiet\">" + escaped(name) +
+             ".svg, .pdf</span></figcaption></figure>");
   }
 }
 
@@ -73,33 +74,37 @@ void addSuccessTable(Html& html, const StudyResult& study) {
           html.add("<td>–</td>");
           continue;
         }
-        html.add(fmt::format("<td title=\"{} of {}; 95 % interval {:.0f} to {:.0f} %\">{:.0f} <span class=\"quiet\">/{}</span></td>", cell->successes,
-                             cell->trials, 100 * cell->interval.low, 100 * cell->interval.high,
+        html.add(fmt::format("<td title=\"{} of {}; 95 % interval {:.0f} to {:.0f} %\">{:.0f} <span class=\"quiet\">/{}</span></td>",
+                             cell->successes, cell->trials, 100 * cell->interval.low, 100 * cell->interval.high,
                              100.0 * static_cast<double>(cell->successes) / static_cast<double>(cell->trials), cell->trials));
       }
     html.add("</tr>");
   }
   html.add("</tbody></table>");
-  html.paragraph("Percent of the trials that ended as success or failure (their number behind the stroke); aborted and interrupted trials are no "
-                 "attempts. Intervals are in success_table.csv.",
-                 "quiet");
+  html.paragraph(
+      "Percent of the trials that ended as success or failure (their number behind the stroke); aborted and interrupted trials are no "
+      "attempts. Intervals are in success_table.csv.",
+      "quiet");
 }
 
 void addRankingTable(Html& html, const ConditionResult& result) {
   const Ranking& ranking = result.handRanking;
   if (ranking.places.empty()) return;
-  html.add("<table><thead><tr><th>Criterion</th><th>predicted for T (s)</th><th>ε (m/s)</th><th>95 % interval</th><th>farther than the first by (m/s)</th><th>95 % interval</th>"
-           "<th class=\"text\">told apart</th></tr></thead><tbody>");
+  html.add(
+      "<table><thead><tr><th>Criterion</th><th>predicted for T (s)</th><th>ε (m/s)</th><th>95 % interval</th><th>farther than the first by "
+      "(m/s)</th><th>95 % interval</th>"
+      "<th class=\"text\">told apart</th></tr></thead><tbody>");
   const auto speed = [](double v) { return fmt::format("{:.5f}", v); };
   for (std::size_t i = 0; i < ranking.places.size(); ++i) {
     const RankedCriterion& p = ranking.places[i];
     const PredictedProfile& predicted = result.predictions[p.criterion];
     html.add(fmt::format("<tr{}><td>{}</td><td>{:.3f}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "",
-                         escaped(numberedName(predicted.criterion)), predicted.taskDuration, speed(p.epsilon), speed(p.interval.low), speed(p.interval.high)));
+                         escaped(numberedName(predicted.criterion)), predicted.taskDuration, speed(p.epsilon), speed(p.interval.low),
+                         speed(p.interval.high)));
     if (i == 0) html.add("<td></td><td></td><td class=\"text\"></td></tr>");
     else
-      html.add(fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td></tr>", speed(p.difference), speed(p.differenceInterval.low),
-                           speed(p.differenceInterval.high), p.apartFromFirst ? "yes" : "no"));
+      html.add(fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td></tr>", speed(p.difference),
+                           speed(p.differenceInterval.low), speed(p.differenceInterval.high), p.apartFromFirst ? "yes" : "no"));
   }
   html.add("</tbody></table>");
 }
@@ -152,8 +157,10 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   html.heading(2, study.conditions[c].name);
   html.paragraph(describeCounts(r));
   if (r.onlyFailures)
-    html.paragraph("No trial succeeded. Profiles, errors and ranking below are of the failed trials, for description only; the paper's error is of successful ones.",
-                   "warning");
+    html.paragraph(
+        "No trial succeeded. Profiles, errors and ranking below are of the failed trials, for description only; the paper's error is of "
+        "successful ones.",
+        "warning");
   const std::string durations = describeDurations(r);
   if (!durations.empty()) html.paragraph(durations, "warning");
   addFigure(html, figures, "velocity_" + file);
@@ -178,13 +185,17 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
 
 void addProvenance(Html& html, const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes) {
   html.heading(2, "Recordings");
-  html.add("<table><thead><tr><th>Subject</th><th>session</th><th>run</th><th class=\"text\">condition</th><th>trials</th><th class=\"text\">device</th>"
-           "<th class=\"text\">method</th><th>seed</th><th>samples (Hz)</th><th class=\"text\">started (UTC)</th><th class=\"text\">software</th></tr></thead><tbody>");
+  html.add(
+      "<table><thead><tr><th>Subject</th><th>session</th><th>run</th><th class=\"text\">condition</th><th>trials</th><th "
+      "class=\"text\">device</th>"
+      "<th class=\"text\">method</th><th>seed</th><th>samples (Hz)</th><th class=\"text\">started (UTC)</th><th "
+      "class=\"text\">software</th></tr></thead><tbody>");
   for (const RunProvenance& r : runs)
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td>"
-                         "<td>{}</td><td>{:g}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
-                         escaped(r.subject), escaped(r.session), r.run, escaped(r.condition), r.practice ? " (practice)" : "", r.trials,
-                         escaped(r.device), escaped(r.method), r.seed, r.samplingHz, escaped(r.startedUtc), escaped(r.software)));
+    html.add(fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td>"
+        "<td>{}</td><td>{:g}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
+        escaped(r.subject), escaped(r.session), r.run, escaped(r.condition), r.practice ? " (practice)" : "", r.trials, escaped(r.device),
+        escaped(r.method), r.seed, r.samplingHz, escaped(r.startedUtc), escaped(r.software)));
   html.add("</tbody></table>");
   for (const std::string& note : notes) html.paragraph(note, "warning");
 }
@@ -208,28 +219,32 @@ std::string escaped(const std::string& text) {
 std::string makeReport(const ReportHeader& header, const StudyResult& study, const std::vector<NamedFigure>& figures,
                        const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes) {
   Html html;
-  html.add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">");
+  html.add(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">");
   html.add("<title>Reaching: " + escaped(header.dataset) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>");
   html.heading(1, "Reaching movements: analysis of " + header.dataset);
   std::size_t trials = 0;
   for (const RunProvenance& run : runs) trials += run.trials;
   html.paragraph(fmt::format("{} subject{}, {} run{}, {} trials recorded, {} condition{}. Reachlab {}.", study.subjects.size(),
-                             study.subjects.size() == 1 ? "" : "s", runs.size(), runs.size() == 1 ? "" : "s", trials, study.conditions.size(),
-                             study.conditions.size() == 1 ? "" : "s", header.version),
+                             study.subjects.size() == 1 ? "" : "s", runs.size(), runs.size() == 1 ? "" : "s", trials,
+                             study.conditions.size(), study.conditions.size() == 1 ? "" : "s", header.version),
                  "quiet");
   if (!study.overall.places.empty()) {
     html.heading(2, "Which criterion is nearest?");
-    html.paragraph((study.conditions.size() > 1 ? "All conditions together, hand velocity, over trials: " : "Hand velocity, over trials: ") +
-                       describeRanking(study.overall, study.common),
-                   "finding");
+    html.paragraph(
+        (study.conditions.size() > 1 ? "All conditions together, hand velocity, over trials: " : "Hand velocity, over trials: ") +
+            describeRanking(study.overall, study.common),
+        "finding");
     if (study.overallOverSubjects) html.paragraph("Over subjects: " + describeRanking(*study.overallOverSubjects, study.common), "finding");
     else html.paragraph("With one subject nothing can be said about other people: there is no interval over subjects.");
     addFigure(html, figures, "ranking");
   } else {
     html.heading(2, "Which criterion is nearest?");
-    const bool succeeded = std::any_of(study.results.begin(), study.results.end(), [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; });
-    html.paragraph(succeeded ? "Nothing to rank: no criterion can be predicted in every condition."
-                             : "Nothing to rank: no trial succeeded. What the failed ones were like is described below, condition by condition.",
+    const bool succeeded =
+        std::any_of(study.results.begin(), study.results.end(), [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; });
+    html.paragraph(succeeded
+                       ? "Nothing to rank: no criterion can be predicted in every condition."
+                       : "Nothing to rank: no trial succeeded. What the failed ones were like is described below, condition by condition.",
                    "warning");
   }
   addSuccessTable(html, study);
@@ -237,7 +252,8 @@ std::string makeReport(const ReportHeader& header, const StudyResult& study, con
   for (std::size_t c = 0; c < study.conditions.size(); ++c) addCondition(html, study, c, figures);
   html.heading(2, "How it was computed");
   html.paragraph(describeMethods(study.options));
-  html.paragraph("Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
+  html.paragraph(
+      "Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
   html.paragraph("Command: " + header.command, "quiet");
   addProvenance(html, runs, notes);
   html.add("</body>\n</html>");

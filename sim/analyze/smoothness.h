@@ -6,9 +6,9 @@
 namespace reachlab {
 
 struct SparcOptions {
-  int padding = 4;               // powers of two of zeros appended
-  double cutoff = 10;            // [Hz] nothing above is looked at
-  double amplitude = 0.05;       // of the largest amplitude: what is below at either end of the band is left out
+  int padding = 4;          // powers of two of zeros appended
+  double cutoff = 10;       // [Hz] nothing above is looked at
+  double amplitude = 0.05;  // of the largest amplitude: what is below at either end of the band is left out
 };
 
 /// Spectral arc length (Balasubramanian et al. 2015, J. NeuroEng. Rehab. 12:112): minus the length of the amplitude spectrum's curve,

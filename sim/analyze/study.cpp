@@ -106,7 +106,8 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
   how.handDamping = options.handDamping;
   for (const Criterion criterion : wantedCriteria(options)) {
     try {
-      result.signals.push_back(recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
+      result.signals.push_back(
+          recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
     } catch (const Error& error) {
       const std::string what = error.what();
       result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
@@ -114,7 +115,8 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
   }
   if (result.used > 0 && !result.signals.empty()) {
     std::vector<double> ratios;
-    for (const PredictedSignal& signal : result.signals) ratios.push_back(result.duration.mean / profileUntil(signal, result.endLevel).duration);
+    for (const PredictedSignal& signal : result.signals)
+      ratios.push_back(result.duration.mean / profileUntil(signal, result.endLevel).duration);
     std::sort(ratios.begin(), ratios.end());
     result.durationRatio = quantileOfSorted(ratios, 0.5);
     result.predictedForMoved = options.predictFor == PredictionDuration::Moved ||
@@ -241,7 +243,8 @@ void check(const StudyOptions& options) {
   const auto refuse = [](bool bad, const char* text) {
     if (bad) throw UsageError(text);
   };
-  refuse(!(options.measure.onset.percent > 0 && options.measure.onset.percent < 100), "onset percent: allowed: more than 0 and less than 100");
+  refuse(!(options.measure.onset.percent > 0 && options.measure.onset.percent < 100),
+         "onset percent: allowed: more than 0 and less than 100");
   refuse(!(options.measure.onset.speed > 0), "onset speed: allowed: more than 0 m/s");
   refuse(!(options.measure.cutoff >= 0), "cut-off: allowed: 0 (none) or more Hz");
   refuse(options.ranking.resamples < 100, "resamples: allowed: 100 or more");
@@ -264,7 +267,8 @@ StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const St
   }
   study.results.resize(study.conditions.size());
   useFailuresWhereNothingSucceeded(study);
-  std::stable_sort(study.trials.begin(), study.trials.end(), [](const StudyTrial& a, const StudyTrial& b) { return orderOf(a) < orderOf(b); });
+  std::stable_sort(study.trials.begin(), study.trials.end(),
+                   [](const StudyTrial& a, const StudyTrial& b) { return orderOf(a) < orderOf(b); });
   for (std::size_t c = 0; c < study.conditions.size(); ++c) summarise(study.trials, c, study.conditions[c], options, study.results[c]);
   for (StudyTrial& trial : study.trials) addErrors(trial, study.results[trial.condition]);
   for (std::size_t c = 0; c < study.conditions.size(); ++c) rankCondition(study.trials, c, options, study.results[c]);

@@ -20,12 +20,12 @@ enum class PredictionDuration { Auto, Task, Moved };
 struct StudyOptions {
   MeasureOptions measure;
   bool includePractice = false;
-  std::vector<Criterion> criteria;      // empty: all that are defined for the object
-  std::optional<double> handMass;       // [kg] of the predictions; nullopt: the experiment's
-  double handDamping = 0;               // [N s/m]
+  std::vector<Criterion> criteria;  // empty: all that are defined for the object
+  std::optional<double> handMass;   // [kg] of the predictions; nullopt: the experiment's
+  double handDamping = 0;           // [N s/m]
   PredictionDuration predictFor = PredictionDuration::Auto;
   RankingOptions ranking;
-  int learningBin = 10;                 // trials a point of the learning curve
+  int learningBin = 10;  // trials a point of the learning curve
 };
 
 /// What a condition asks, and the experiment it was recorded with.
@@ -47,11 +47,11 @@ struct StudyTrial {
   std::size_t condition = 0;
   TrialResult result;
   bool practice = false;
-  std::string exclusion;              // why it is not in the profiles and errors; empty: it is
-  bool counted = false;               // success or failure of a proper trial: it counts for success rates
+  std::string exclusion;  // why it is not in the profiles and errors; empty: it is
+  bool counted = false;   // success or failure of a proper trial: it counts for success rates
   TrialMeasures measures;
-  std::vector<double> hand, object;   // [m/s] 101 points over its own duration; empty without a movement
-  double endLevel = 0;                // the hand's speed at its end, as a part of its peak
+  std::vector<double> hand, object;            // [m/s] 101 points over its own duration; empty without a movement
+  double endLevel = 0;                         // the hand's speed at its end, as a part of its peak
   std::vector<double> handError, objectError;  // [m/s] epsilon against each criterion of its condition; empty if excluded
   bool used() const { return exclusion.empty(); }
 };
@@ -70,16 +70,16 @@ struct ConditionResult {
   std::map<std::string, std::size_t> reasons;  // of failures and aborts, by machine-readable name
   std::map<std::string, std::size_t> exclusions;
   std::size_t used = 0;
-  bool onlyFailures = false;                   // no trial succeeded: what is used are the failed ones, for description
-  MeanSd duration, movementTime;               // [s] over the used trials: by the onset rule, by the task
+  bool onlyFailures = false;      // no trial succeeded: what is used are the failed ones, for description
+  MeanSd duration, movementTime;  // [s] over the used trials: by the onset rule, by the task
   MeanProfile hand, object;
-  double endLevel = 0;                         // mean of the used trials
-  std::vector<PredictedSignal> signals;        // one a prediction
-  std::vector<PredictedProfile> predictions;   // until endLevel, scaled to duration.mean
-  double durationRatio = 1;                    // trials' mean duration / that predicted for the task's T (median over the criteria)
-  bool predictedForMoved = false;              // predictions are for the duration that was moved
-  std::vector<std::string> refusals;           // criteria that cannot be predicted here, and why
-  Ranking handRanking, objectRanking;          // over trials
+  double endLevel = 0;                        // mean of the used trials
+  std::vector<PredictedSignal> signals;       // one a prediction
+  std::vector<PredictedProfile> predictions;  // until endLevel, scaled to duration.mean
+  double durationRatio = 1;                   // trials' mean duration / that predicted for the task's T (median over the criteria)
+  bool predictedForMoved = false;             // predictions are for the duration that was moved
+  std::vector<std::string> refusals;          // criteria that cannot be predicted here, and why
+  Ranking handRanking, objectRanking;         // over trials
   std::optional<Ranking> handOverSubjects, objectOverSubjects;
 };
 
@@ -113,8 +113,8 @@ struct StudyResult {
   std::vector<SeriesResult> series;
   std::vector<SuccessCell> success;
   std::vector<LearningPoint> learning;
-  std::vector<Criterion> common;         // criteria predicted in every condition that has used trials
-  Ranking overall;                       // hand, all conditions with successes together, places index `common`
+  std::vector<Criterion> common;  // criteria predicted in every condition that has used trials
+  Ranking overall;                // hand, all conditions with successes together, places index `common`
   std::optional<Ranking> overallOverSubjects;
   std::vector<std::string> subjects;
 };

@@ -37,11 +37,39 @@ double errorFor(const std::vector<double>& errors, const ConditionResult& result
 }
 
 std::string trialsTable(const StudyResult& study) {
-  std::vector<std::string> columns{"subject", "session", "run", "block", "trial", "day", "condition", "phase", "outcome", "reason", "mass", "by", "used",
-                                   "exclusion", "reaction_time_s", "onset_s", "offset_s", "duration_s", "movement_time_s",
-                                   "peak_speed_m_per_s", "time_to_peak_s", "time_to_peak_percent", "symmetry_ratio", "path_length_m",
-                                   "speed_peaks", "hand_endpoint_error_m", "object_endpoint_error_m", "hand_overshoot_m",
-                                   "object_overshoot_m", "sparc", "ldlj", "peak_force_n", "mean_force_n"};
+  std::vector<std::string> columns{"subject",
+                                   "session",
+                                   "run",
+                                   "block",
+                                   "trial",
+                                   "day",
+                                   "condition",
+                                   "phase",
+                                   "outcome",
+                                   "reason",
+                                   "mass",
+                                   "by",
+                                   "used",
+                                   "exclusion",
+                                   "reaction_time_s",
+                                   "onset_s",
+                                   "offset_s",
+                                   "duration_s",
+                                   "movement_time_s",
+                                   "peak_speed_m_per_s",
+                                   "time_to_peak_s",
+                                   "time_to_peak_percent",
+                                   "symmetry_ratio",
+                                   "path_length_m",
+                                   "speed_peaks",
+                                   "hand_endpoint_error_m",
+                                   "object_endpoint_error_m",
+                                   "hand_overshoot_m",
+                                   "object_overshoot_m",
+                                   "sparc",
+                                   "ldlj",
+                                   "peak_force_n",
+                                   "mean_force_n"};
   const std::vector<Criterion> criteria = allCriteria(study);
   for (const char* what : {"hand", "object"})
     for (const Criterion c : criteria) columns.push_back(std::string("epsilon_") + what + "_" + columnOf(c) + "_m_per_s");
@@ -78,8 +106,8 @@ std::string profilesTable(const StudyResult& study) {
 }
 
 std::string meanProfilesTable(const StudyResult& study) {
-  TableText table = csv({"condition", "percent", "time_s", "trials", "hand_mean_m_per_s", "hand_sd_m_per_s", "object_mean_m_per_s",
-                         "object_sd_m_per_s"});
+  TableText table =
+      csv({"condition", "percent", "time_s", "trials", "hand_mean_m_per_s", "hand_sd_m_per_s", "object_mean_m_per_s", "object_sd_m_per_s"});
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
     for (std::size_t i = 0; i < r.hand.mean.size(); ++i) {
@@ -183,17 +211,42 @@ std::string learningTable(const StudyResult& study) {
 
 std::string conditionsTable(const StudyResult& study) {
   const StudyOptions& o = study.options;
-  TableText table = csv({"condition", "experiment", "task_duration_s", "success", "failure", "aborted", "interrupted", "practice", "catch", "used", "used_outcome",
-                         "mean_duration_s", "sd_duration_s", "mean_movement_time_s", "sd_movement_time_s", "onset_rule", "onset_percent",
-                         "onset_speed_m_per_s", "cutoff_hz", "hand_mass_kg", "resamples", "bootstrap_seed"});
+  TableText table = csv({"condition",
+                         "experiment",
+                         "task_duration_s",
+                         "success",
+                         "failure",
+                         "aborted",
+                         "interrupted",
+                         "practice",
+                         "catch",
+                         "used",
+                         "used_outcome",
+                         "mean_duration_s",
+                         "sd_duration_s",
+                         "mean_movement_time_s",
+                         "sd_movement_time_s",
+                         "onset_rule",
+                         "onset_percent",
+                         "onset_speed_m_per_s",
+                         "cutoff_hz",
+                         "hand_mass_kg",
+                         "resamples",
+                         "bootstrap_seed"});
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
     const Experiment& e = study.conditions[c].experiment;
     table.cell(study.conditions[c].name).cell(e.name).number(e.task ? e.task->duration : kNotMeasured);
-    for (const std::size_t n : {r.counts.success, r.counts.failure, r.counts.aborted, r.counts.interrupted, r.counts.practice,
-                                r.counts.catchTrials, r.used})
+    for (const std::size_t n :
+         {r.counts.success, r.counts.failure, r.counts.aborted, r.counts.interrupted, r.counts.practice, r.counts.catchTrials, r.used})
       count(table, n);
-    table.cell(r.used == 0 ? "" : r.onlyFailures ? "failure" : "success").number(r.duration.mean).number(r.duration.sd).number(r.movementTime.mean).number(r.movementTime.sd);
+    table.cell(r.used == 0      ? ""
+               : r.onlyFailures ? "failure"
+                                : "success")
+        .number(r.duration.mean)
+        .number(r.duration.sd)
+        .number(r.movementTime.mean)
+        .number(r.movementTime.sd);
     table.cell(nameOf(o.measure.onset.rule)).number(o.measure.onset.percent).number(o.measure.onset.speed).number(o.measure.cutoff);
     table.number(o.handMass.value_or(e.handMass)).whole(o.ranking.resamples).whole(static_cast<long long>(o.ranking.seed)).endRow();
   }

@@ -23,13 +23,13 @@ struct TrialData {
   TrialKey key;
   bool practice = false, catchTrial = false;
   TrialResult result;
-  double rate = 100;              // [Hz]
-  double goTime = kNotMeasured;   // [s] go signal
-  double taskOnset = kNotMeasured, taskEnd = kNotMeasured;  // [s] the task's own window: t = 0 and t_e (or where it was broken off)
-  std::vector<Vec3> hand;            // [m] HIP as the coupling saw it
-  std::vector<Vec3> object;          // [m] last mass
-  std::vector<Vec3> objectVelocity;  // [m/s] of the simulation
-  std::vector<double> force;         // [N] coupling force on the object
+  double rate = 100;                                          // [Hz]
+  double goTime = kNotMeasured;                               // [s] go signal
+  double taskOnset = kNotMeasured, taskEnd = kNotMeasured;    // [s] the task's own window: t = 0 and t_e (or where it was broken off)
+  std::vector<Vec3> hand;                                     // [m] HIP as the coupling saw it
+  std::vector<Vec3> object;                                   // [m] last mass
+  std::vector<Vec3> objectVelocity;                           // [m/s] of the simulation
+  std::vector<double> force;                                  // [N] coupling force on the object
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] over every tick, where the log has them
   /// Direction of the path: one for a straight task, one a sample on a curve, none where only speed makes sense (a surface).
   std::vector<Vec3> along;

@@ -10,8 +10,8 @@
 
 namespace reachlab::bench {
 
-inline constexpr double kTick = 0.001;        // [s] a result is due this often
-inline constexpr int kTicksPerSample = 10;    // errors are taken at 100 Hz
+inline constexpr double kTick = 0.001;      // [s] a result is due this often
+inline constexpr int kTicksPerSample = 10;  // errors are taken at 100 Hz
 
 /// What one run of a scene gave. Rows are laid out as in Reference; empty unless asked for.
 struct Trajectory {
@@ -39,8 +39,6 @@ Segments makeSegments(const BenchScene& scene, double step);
 Contender makePlantContender(const BenchScene& scene, const std::string& method, double step, double tolerance);
 
 /// Keeps `value` from being optimised away.
-inline void consume(double value) {
-  asm volatile("" : : "x"(value) : "memory");
-}
+inline void consume(double value) { asm volatile("" : : "x"(value) : "memory"); }
 
 }  // namespace reachlab::bench

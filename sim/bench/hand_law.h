@@ -9,9 +9,9 @@ namespace reachlab::bench {
 struct HandLaw {
   enum class Kind { None, Straight, Ellipse, Epitrochoid };
   Kind kind = Kind::None;
-  double duration = 1;        // [s] T
-  Vec3 from, by;              // [m] Straight: from + by mj(t/T)
-  double phi0 = 0, sweep = 0; // curves: r(phi0 + sweep mj(t/T))
+  double duration = 1;         // [s] T
+  Vec3 from, by;               // [m] Straight: from + by mj(t/T)
+  double phi0 = 0, sweep = 0;  // curves: r(phi0 + sweep mj(t/T))
   EllipseShape ellipse{};
   EpitrochoidShape epitrochoid{};
 };

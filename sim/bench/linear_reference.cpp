@@ -15,8 +15,12 @@ struct HandTerms {
 
 HandTerms handTerms(const HandLaw& law, const Quad& t) {
   const Quad p = t / law.duration;
-  const Quad d[kHandTerms] = {p * p * p * (10 + p * (6 * p - 15)), 30 * p * p * (1 - p) * (1 - p), 60 * p * (1 - p) * (1 - 2 * p),
-                              60 - 360 * p + 360 * p * p,          720 * p - 360,                  720};
+  const Quad d[kHandTerms] = {p * p * p * (10 + p * (6 * p - 15)),
+                              30 * p * p * (1 - p) * (1 - p),
+                              60 * p * (1 - p) * (1 - 2 * p),
+                              60 - 360 * p + 360 * p * p,
+                              720 * p - 360,
+                              720};
   HandTerms out;
   Quad scale = law.by.x;
   for (int k = 0; k < kHandTerms; ++k) {
@@ -177,8 +181,8 @@ Reference modalChainReference(const BenchScene& scene) {
       const auto [sine, cosine] = sineCosine(angle);
       const Quad w4 = mode.w2 * mode.w2;
       const Quad q = mode.gain / mode.w2 * (h[0] - h[2] / mode.w2 + h[4] / w4) + mode.cosineAmplitude * cosine + mode.sineAmplitude * sine;
-      const Quad qRate = mode.gain / mode.w2 * (h[1] - h[3] / mode.w2 + h[5] / w4) +
-                         mode.w * (mode.sineAmplitude * cosine - mode.cosineAmplitude * sine);
+      const Quad qRate =
+          mode.gain / mode.w2 * (h[1] - h[3] / mode.w2 + h[5] / w4) + mode.w * (mode.sineAmplitude * cosine - mode.cosineAmplitude * sine);
       for (int i = 0; i < n; ++i) y[i] += q * mode.shape[i], y[n + i] += qRate * mode.shape[i];
     }
     append(out, y, scene.hand.from.x);

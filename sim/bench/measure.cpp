@@ -42,7 +42,8 @@ Deviation computeError(const Trajectory& trajectory, const Reference& reference)
   return {largestDifference(trajectory.states, reference.states), largestDifference(trajectory.positions, reference.positions)};
 }
 
-std::vector<Row> measure(const BenchScene& scene, const Reference& reference, const std::vector<Contender>& contenders, const Effort& effort) {
+std::vector<Row> measure(const BenchScene& scene, const Reference& reference, const std::vector<Contender>& contenders,
+                         const Effort& effort) {
   const double ticks = std::round(scene.duration / kTick);
   std::vector<Row> rows;
   std::vector<int> repeats;

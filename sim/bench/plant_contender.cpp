@@ -78,8 +78,8 @@ struct PlantRun {
 Contender makePlantContender(const BenchScene& scene, const std::string& method, double step, double tolerance) {
   SceneOptions options;
   options.method = method, options.step = step, options.tolerance = tolerance;
-  auto run = std::make_shared<PlantRun>(
-      PlantRun{scene, compileScene(scene.experiment, options), makeSegments(scene, step), step, static_cast<int>(std::lround(kTick / step))});
+  auto run = std::make_shared<PlantRun>(PlantRun{scene, compileScene(scene.experiment, options), makeSegments(scene, step), step,
+                                                 static_cast<int>(std::lround(kTick / step))});
   Contender out;
   out.method = method, out.step = step, out.tolerance = tolerance;
   const MethodChoice& choice = run->compiled.choice;

@@ -16,8 +16,8 @@ struct Reference {
 };
 
 struct ReferenceSettings {
-  int columns = 13;         // of the extrapolation table: order 26
-  double tolerance = 1e-29; // of a step, relative to the largest state
+  int columns = 13;          // of the extrapolation table: order 26
+  double tolerance = 1e-29;  // of a step, relative to the largest state
 };
 
 /// A scene's reference by the quickest sure way: the great circle, the chain's modes, the matrix exponential, or extrapolation. Well over

@@ -39,16 +39,17 @@ std::vector<const Row*> worthwhile(const std::vector<Row>& rows, const std::stri
 }  // namespace
 
 std::string formatTable(const std::vector<Row>& rows) {
-  std::string out = fmt::format("{:<7} {:<18} {:<10} {:>9} {:>11} {:>9} {:>19} {:>7} {:>8} {:>6}  {}\n", "scene", "method", "setting", "state",
-                                "position_m", "ns_per_ms", "quartiles", "steps", "rhs", "worst", "form");
+  std::string out = fmt::format("{:<7} {:<18} {:<10} {:>9} {:>11} {:>9} {:>19} {:>7} {:>8} {:>6}  {}\n", "scene", "method", "setting",
+                                "state", "position_m", "ns_per_ms", "quartiles", "steps", "rhs", "worst", "form");
   for (const Row& row : rows) {
     const std::string head = fmt::format("{:<7} {:<18} {:<10} ", row.scene, row.method, setting(row));
     if (!row.failure.empty()) {
       out += head + "failed: " + row.failure + "\n";
       continue;
     }
-    out += head + fmt::format("{:>9.1e} {:>11.1e} {:>9.1f} {:>19} {:>7} {:>8} {:>6}  {}\n", row.error.state, row.error.position, row.nsPerMs,
-                              fmt::format("{:.1f} - {:.1f}", row.nsLow, row.nsHigh), row.steps, row.rhsEvaluations, row.worstTick, row.form);
+    out +=
+        head + fmt::format("{:>9.1e} {:>11.1e} {:>9.1f} {:>19} {:>7} {:>8} {:>6}  {}\n", row.error.state, row.error.position, row.nsPerMs,
+                           fmt::format("{:.1f} - {:.1f}", row.nsLow, row.nsHigh), row.steps, row.rhsEvaluations, row.worstTick, row.form);
   }
   return out;
 }

@@ -100,8 +100,8 @@ std::vector<SampledRow> measureSampledHand(const std::function<void(const std::s
 
 std::string formatSampledHand(const std::vector<SampledRow>& rows) {
   static constexpr const char* kPath[] = {"", "held", "line", "parabola", "cubic"};
-  std::string out = fmt::format("{:<6} {:<9} {:<9} {:>10} {:>12} {:>16}   position error, m\n", "scene", "method", "path", "clean", "noise 10 um",
-                                "quantised 60 um");
+  std::string out = fmt::format("{:<6} {:<9} {:<9} {:>10} {:>12} {:>16}   position error, m\n", "scene", "method", "path", "clean",
+                                "noise 10 um", "quantised 60 um");
   for (const SampledRow& row : rows)
     out += fmt::format("{:<6} {:<9} {:<9} {:>10.1e} {:>12.1e} {:>16.1e}\n", row.scene, row.method, kPath[row.samples], row.clean, row.noise,
                        row.quantised);

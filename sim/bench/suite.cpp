@@ -19,7 +19,9 @@ std::vector<Setting> settingsOf(const std::string& method, bool quick) {
   return {{1e-3, 0}, {5e-4, 0}, {2.5e-4, 0}};
 }
 
-bool contains(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
 
 const std::vector<std::string>& peerNames() {
   static const std::vector<std::string> names{"odeint-rk4", "odeint-dopri5", "odeint-fehlberg78", "cvode-adams", "cvode-bdf"};
@@ -33,7 +35,8 @@ void checkNames(const SuiteOptions& options) {
   for (const std::string& m : options.methods) {
     if (contains(peerNames(), m) && !peersBuilt())
       throw ResourceError("bench: --method " + m + " is another library; configure the build with -DREACHLAB_BENCH_PEERS=ON to measure it");
-    if (!contains(methodNames(), m) && !contains(peerNames(), m)) throw UsageError("bench: --method " + m + " is not known; allowed: " + allowed);
+    if (!contains(methodNames(), m) && !contains(peerNames(), m))
+      throw UsageError("bench: --method " + m + " is not known; allowed: " + allowed);
   }
 }
 

@@ -10,7 +10,7 @@ struct SuiteOptions {
   std::vector<std::string> scenes;   // empty: all
   std::vector<std::string> methods;  // empty: all of ours, and the peers if built; a peer may be named too
   Effort effort;
-  bool quick = false;                // only 1 ms and the default tolerance, no scan
+  bool quick = false;  // only 1 ms and the default tolerance, no scan
 };
 
 /// Our methods by name, `auto` first.

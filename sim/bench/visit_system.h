@@ -29,11 +29,14 @@ auto visitSystem(const BenchScene& scene, F&& f) {
   if (n == "S5" || n == "S5h")
     return f(CurveBead<EpitrochoidShape, 3>{{shape.at("a_m"), shape.at("d_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S3")
-    return f(SurfaceBead<TorusShape, true>{{shape.at("major_m"), shape.at("minor_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(
+        SurfaceBead<TorusShape, true>{{shape.at("major_m"), shape.at("minor_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S4")
-    return f(SurfaceBead<SaddleShape, true>{{shape.at("width_m"), shape.at("depth_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(SurfaceBead<SaddleShape, true>{
+        {shape.at("width_m"), shape.at("depth_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S7d" || n == "S7e") return f(SurfaceBead<SphereShape, false>{{shape.at("R")}, mass, 0, 0, 0});
-  if (n == "S8") return f(CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
+  if (n == "S8")
+    return f(CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
   throw UsageError("bench: no right-hand side for scene " + n);
 }
 

@@ -17,8 +17,8 @@ namespace reachlab {
 namespace adams {
 inline constexpr int kHistory = 7;
 inline constexpr double kGamma[kHistory + 1] = {1.0, 1.0 / 2, 5.0 / 12, 3.0 / 8, 251.0 / 720, 95.0 / 288, 19087.0 / 60480, 5257.0 / 17280};
-inline constexpr double kCorrectorError = 275.0 / 24192;         // of order 7, |gamma*_7|
-inline constexpr double kSparedShare = 0.1;                   // of the largest good correction: below, f(p) serves as f(y)
+inline constexpr double kCorrectorError = 275.0 / 24192;  // of order 7, |gamma*_7|
+inline constexpr double kSparedShare = 0.1;               // of the largest good correction: below, f(p) serves as f(y)
 
 template <int Width>
 struct PackOf;  // written out: g++ 12 drops a vector size that depends on a parameter

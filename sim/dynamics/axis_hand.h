@@ -13,8 +13,8 @@ struct AxisHand {
   const double* velocity = nullptr;  // k = 0 … degree [m/s]; only where the hand is damped
   double origin = 0;                 // [m] coefficient 0 of the position, from the axis' origin
   int degree = 0;
-  double extraForce = 0;             // [N] on mass 1
-  double gravity = 0;                // [m/s^2]
+  double extraForce = 0;  // [N] on mass 1
+  double gravity = 0;     // [m/s^2]
 
   double r(int k) const noexcept { return position[k * kStride]; }
   double v(int k) const noexcept { return velocity[k * kStride]; }

@@ -6,7 +6,8 @@ namespace reachlab {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
-  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z, m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
 }
 
 /// A rigid body in free space: the hand's force acts at the FP, at `fpOffset` from the centre of mass in body axes, so that it turns the
@@ -30,8 +31,8 @@ struct BodySystem {
   Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   struct Pose {
-    Vec3 r, v, turn;             // turn: angular velocity, body axes
-    double w, x, y, z;           // unit quaternion
+    Vec3 r, v, turn;    // turn: angular velocity, body axes
+    double w, x, y, z;  // unit quaternion
     /// Body axes to world and back.
     Vec3 toWorld(const Vec3& a) const noexcept {
       const Vec3 u{x, y, z}, t = 2.0 * cross(u, a);
@@ -59,10 +60,19 @@ struct BodySystem {
     const Vec3 moment = cross(fpOffset, p.toBody(held)) - cross(p.turn, times(inertia, p.turn));
     const Vec3 spin = times(inverseInertia, moment);
     const Vec3& o = p.turn;
-    ds.values = {p.v.x, p.v.y, p.v.z, a.x, a.y, a.z,
-                 0.5 * (-p.x * o.x - p.y * o.y - p.z * o.z), 0.5 * (p.w * o.x + p.y * o.z - p.z * o.y),
-                 0.5 * (p.w * o.y + p.z * o.x - p.x * o.z), 0.5 * (p.w * o.z + p.x * o.y - p.y * o.x),
-                 spin.x, spin.y, spin.z};
+    ds.values = {p.v.x,
+                 p.v.y,
+                 p.v.z,
+                 a.x,
+                 a.y,
+                 a.z,
+                 0.5 * (-p.x * o.x - p.y * o.y - p.z * o.z),
+                 0.5 * (p.w * o.x + p.y * o.z - p.z * o.y),
+                 0.5 * (p.w * o.y + p.z * o.x - p.x * o.z),
+                 0.5 * (p.w * o.z + p.x * o.y - p.y * o.x),
+                 spin.x,
+                 spin.y,
+                 spin.z};
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
   Settled settle(const State&, State& s) const noexcept {

@@ -105,8 +105,8 @@ ChainModes computeModes(const ObjectModel& model, bool coupled) {
     const Real c = quotient(damping, x);
     modes.damping.push_back(static_cast<double>(c));
     for (int i = 0; i < n; ++i) {
-      const Real residual = damping.diagonal[i] * x[i] + (i > 0 ? damping.off[i - 1] * x[i - 1] : 0) +
-                            (i + 1 < n ? damping.off[i] * x[i + 1] : 0) - c * x[i];
+      const Real residual =
+          damping.diagonal[i] * x[i] + (i > 0 ? damping.off[i - 1] * x[i - 1] : 0) + (i + 1 < n ? damping.off[i] * x[i + 1] : 0) - c * x[i];
       if (std::abs(residual) > Real(1e-13) * rate) modes.proportional = false;
       const Real root = std::sqrt(Real(model.mass[i]));
       modes.toMasses(i, j) = static_cast<double>(x[i] / root);

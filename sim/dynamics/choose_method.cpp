@@ -25,13 +25,17 @@ void requireRk4(const std::vector<std::complex<double>>& eigenvalues, MethodChoi
     for (const auto& value : eigenvalues)
       if (const double growth = rk4Amplification(value * facts.step); growth > worst) worst = growth, z = value * facts.step;
     const bool real = std::abs(z.real()) > std::abs(z.imag());
-    throw RefusedError(fmt::format("method rk4 is unstable here: the fastest mode times the step is {:.4g}, its limit {:.4g} ({}), and every step multiplies that mode by {:.4g}; "
-                                   "use method auto, or a step below {:.3g} s", std::abs(z), real ? kRk4RealLimit : kRk4ImaginaryLimit,
-                                   real ? "a real mode: light mass, strong damper" : "an undamped mode", worst, findRk4StepLimit(eigenvalues)));
+    throw RefusedError(
+        fmt::format("method rk4 is unstable here: the fastest mode times the step is {:.4g}, its limit {:.4g} ({}), and every step "
+                    "multiplies that mode by {:.4g}; "
+                    "use method auto, or a step below {:.3g} s",
+                    std::abs(z), real ? kRk4RealLimit : kRk4ImaginaryLimit,
+                    real ? "a real mode: light mass, strong damper" : "an undamped mode", worst, findRk4StepLimit(eigenvalues)));
   }
   if (choice.predictedError > kAccurate)
-    choice.warnings.push_back(fmt::format("rk4 is stable but not accurate here: fastest mode times step {:.3g}, predicted error {:.2g} m; use method auto, or a smaller step",
-                                          choice.fastestMode * facts.step, choice.predictedError));
+    choice.warnings.push_back(fmt::format(
+        "rk4 is stable but not accurate here: fastest mode times step {:.3g}, predicted error {:.2g} m; use method auto, or a smaller step",
+        choice.fastestMode * facts.step, choice.predictedError));
   if (facts.hardCurve)
     choice.warnings.push_back("rk4 at a fixed step cannot follow a curve through places where |r_phi| is small; use method auto");
 }
@@ -52,12 +56,16 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
     } else if (facts.elasticEnds || reach > kMultistepReach) {
       choice.method = reach > kExplicitReach && model.count() <= kMostStiff ? "stiff" : "adaptive";
       choice.reason = numbers + (facts.elasticEnds ? "; the ends are elastic, which the exact propagator does not know" : "") +
-                      (choice.method == "stiff" ? fmt::format(": beyond {} only an L-stable method is affordable", kExplicitReach)
-                                              : fmt::format(": sub-steps of an embedded pair of order 8 (one step a tick up to {})", kMultistepReach));
+                      (choice.method == "stiff"
+                           ? fmt::format(": beyond {} only an L-stable method is affordable", kExplicitReach)
+                           : fmt::format(": sub-steps of an embedded pair of order 8 (one step a tick up to {})", kMultistepReach));
     } else {
       choice.method = "abm";
-      choice.reason = numbers + fmt::format(": within {}, Adams-Bashforth-Moulton of order 8 in one step a tick; ticks whose error estimate is too large are done by {}",
-                                            kMultistepReach, facts.hardCurve ? "sub-steps in a fictitious time, which passes cusps" : "an embedded pair of order 8");
+      choice.reason =
+          numbers +
+          fmt::format(
+              ": within {}, Adams-Bashforth-Moulton of order 8 in one step a tick; ticks whose error estimate is too large are done by {}",
+              kMultistepReach, facts.hardCurve ? "sub-steps in a fictitious time, which passes cusps" : "an embedded pair of order 8");
     }
   } else {
     choice.method = asked;
@@ -65,22 +73,29 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
   }
 
   if (choice.method == "exact") {
-    if (!facts.linear) throw RefusedError("method exact is for linear scenes (a straight line, free space without rotation); use auto, abm or adaptive here");
+    if (!facts.linear)
+      throw RefusedError(
+          "method exact is for linear scenes (a straight line, free space without rotation); use auto, abm or adaptive here");
     if (facts.elasticEnds) throw RefusedError("method exact does not know elastic ends; use auto or adaptive here");
     choice.predictedError = 1e-14;
   } else if (choice.method == "rk4") {
     requireRk4(eigenvalues, choice, facts);
   } else if (choice.method == "stiff") {
     if (model.count() > kMostStiff)
-      throw RefusedError(fmt::format("method stiff solves dense systems for up to {} masses, and here are {}; use auto, or fewer masses", kMostStiff, model.count()));
+      throw RefusedError(fmt::format("method stiff solves dense systems for up to {} masses, and here are {}; use auto, or fewer masses",
+                                     kMostStiff, model.count()));
     choice.predictedError = 1e-9;
   } else {
     if (choice.method != "abm" && choice.method != "adaptive")
       throw RefusedError("there is no method '" + choice.method + "'; allowed: auto, rk4, exact, abm, adaptive, stiff");
     if (reach > kRefusedReach)
-      throw RefusedError(fmt::format("method {} would need more than 1000 right-hand sides a tick: fastest mode times step {:.4g}, limit {}; use {}, or a smaller step",
-                                     choice.method, reach, kRefusedReach,
-                                     facts.linear ? "method exact" : model.count() <= kMostStiff ? "method stiff" : fmt::format("method stiff with at most {} masses", kMostStiff)));
+      throw RefusedError(
+          fmt::format("method {} would need more than 1000 right-hand sides a tick: fastest mode times step {:.4g}, limit {}; use {}, or a "
+                      "smaller step",
+                      choice.method, reach, kRefusedReach,
+                      facts.linear                  ? "method exact"
+                      : model.count() <= kMostStiff ? "method stiff"
+                                                    : fmt::format("method stiff with at most {} masses", kMostStiff)));
     choice.predictedError = 1e-11;
   }
   return choice;

@@ -7,11 +7,11 @@ namespace reachlab {
 /// What the choice of a method looks at.
 struct SceneFacts {
   bool linear = false;
-  bool elasticEnds = false;       // a straight line whose ends throw the masses back
-  bool hardCurve = false;         // |r_phi| falls far below its largest somewhere
-  double step = 0.001;            // [s]
-  double length = 0.2;            // [m] of a reach
-  double duration = 1.35;         // [s]
+  bool elasticEnds = false;  // a straight line whose ends throw the masses back
+  bool hardCurve = false;    // |r_phi| falls far below its largest somewhere
+  double step = 0.001;       // [s]
+  double length = 0.2;       // [m] of a reach
+  double duration = 1.35;    // [s]
 };
 
 /// Fills method, reason, fastestMode, predictedError and warnings for `asked` (auto or a method's name). Throws RefusedError with

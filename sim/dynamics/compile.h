@@ -23,7 +23,8 @@ struct CurveForm {
   bool tangential = false;
   double largestSpeed = 1;  // [m] |r_phi|
 };
-std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form, const MethodRequest& request);
+std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form,
+                                      const MethodRequest& request);
 std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const Constraint& constraint, const MethodRequest& request);
 /// `edges`: some end of the domain is an edge and not a pole.
 std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const Constraint& constraint, const Quadric& quadric, bool edges,

@@ -23,7 +23,8 @@ std::unique_ptr<Plant> make(const ObjectModel& model, const Constraint& constrai
 
 }  // namespace
 
-std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form, const MethodRequest& request) {
+std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form,
+                                      const MethodRequest& request) {
   if (model.kind == ObjectKind::Parallel)
     return model.count() == 2 ? make<2, true>(model, constraint, form, request) : make<0, true>(model, constraint, form, request);
   switch (model.count()) {

@@ -73,9 +73,7 @@ class CuspAdaptive {
       d[lead.mass] = at[system.n() + lead.mass] / c;
       d[n] = factor;
     };
-    const auto unit = [&](int i, double value) {
-      return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_;
-    };
+    const auto unit = [&](int i, double value) { return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_; };
     auto k = dop853::makeStages<kSize>(n + 1);
     int rhs = 0;
     StepStatus status = StepStatus::Ok;

@@ -11,9 +11,9 @@ namespace reachlab {
 /// Where a linear object lives: one axis of a straight line r(phi) = origin + phi * tangent, or the three axes of free space.
 struct LinearSpace {
   int axes = 1;
-  Vec3 origin;          // [m] r(0)
-  Vec3 tangent;         // [m] r_phi, constant
-  Domain domain;        // of phi
+  Vec3 origin;    // [m] r(0)
+  Vec3 tangent;   // [m] r_phi, constant
+  Domain domain;  // of phi
 };
 
 /// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore): the state is that of the differential equation at each tick to
@@ -89,9 +89,7 @@ class LinearPlant final : public PlantBase {
       masses[i].a = Axes == 1 ? dot(a, axis_) * axis_ : a;
     }
   }
-  std::string stopReason() const override {
-    return fraction_ < 1 ? "a mass reached the end of the line's domain" : std::string();
-  }
+  std::string stopReason() const override { return fraction_ < 1 ? "a mass reached the end of the line's domain" : std::string(); }
 
  private:
   struct Cores {
@@ -187,13 +185,13 @@ class LinearPlant final : public PlantBase {
   double length_;  // [m] |r_phi|
   Vec3 axis_;
   bool bounded_ = false, alongX_ = false;
-  std::array<double, Axes> origin_{}, gravity_{};    // [m], [m/s^2] along the axes
+  std::array<double, Axes> origin_{}, gravity_{};  // [m], [m/s^2] along the axes
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
   std::array<std::vector<typename Core::State>, 2> states_;  // now and after the step, by turns; one an axis
   int now_ = 0;
-  mutable std::vector<double> x_, v_;                // scratch
-  mutable bool fresh_ = false;                       // one axis: the masses' places now, read once a step (N^2 from modes)
+  mutable std::vector<double> x_, v_;  // scratch
+  mutable bool fresh_ = false;         // one axis: the masses' places now, read once a step (N^2 from modes)
 };
 
 }  // namespace reachlab

@@ -13,7 +13,8 @@ void requireUsable(const std::vector<double>& values, const char* what, bool pos
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]) || values[i] < 0 || (positive && values[i] == 0))
       throw RefusedError(std::string(what) + " of " + (positive ? "mass " : "spring ") + std::to_string(i + 1) + " is " +
-                         std::to_string(values[i]) + (positive ? ": a mass must be positive, or it has no equation of motion" : ": must be 0 or more"));
+                         std::to_string(values[i]) +
+                         (positive ? ": a mass must be positive, or it has no equation of motion" : ": must be 0 or more"));
 }
 
 }  // namespace
@@ -33,7 +34,8 @@ ObjectModel makeObjectModel(const Experiment& experiment) {
   std::vector<double> damping = object.damping;
   damping.resize(object.stiffness.size(), 0.0);
   if (object.stiffness.size() != (parallel ? n : n - 1))
-    throw RefusedError("stiffness_n_per_m has " + std::to_string(object.stiffness.size()) + " numbers where " + std::to_string(parallel ? n : n - 1) + " are needed");
+    throw RefusedError("stiffness_n_per_m has " + std::to_string(object.stiffness.size()) + " numbers where " +
+                       std::to_string(parallel ? n : n - 1) + " are needed");
   requireUsable(model.mass, "the mass", true);
   requireUsable(object.stiffness, "the stiffness", false);
   requireUsable(damping, "the damping", false);
@@ -58,8 +60,10 @@ double boundFastestMode(const ObjectModel& model) {
   double fastest = 0;
   for (int i = 0; i < model.count(); ++i) {
     const bool springs = !model.stiffness.empty();
-    const double k = model.handStiffness[i] + 2 * ((springs && i > 0 ? model.stiffness[i - 1] : 0) + (springs && i + 1 < model.count() ? model.stiffness[i] : 0));
-    const double b = model.viscosity + model.handDamping[i] + 2 * ((springs && i > 0 ? model.damping[i - 1] : 0) + (springs && i + 1 < model.count() ? model.damping[i] : 0));
+    const double k = model.handStiffness[i] +
+                     2 * ((springs && i > 0 ? model.stiffness[i - 1] : 0) + (springs && i + 1 < model.count() ? model.stiffness[i] : 0));
+    const double b = model.viscosity + model.handDamping[i] +
+                     2 * ((springs && i > 0 ? model.damping[i - 1] : 0) + (springs && i + 1 < model.count() ? model.damping[i] : 0));
     fastest = std::max(fastest, std::max(std::sqrt(k / model.mass[i]), b / model.mass[i]));
   }
   return fastest;

@@ -118,7 +118,7 @@ bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& ne
   Lanes check = broadcast(0);
   const Group* group = groups_.data();
   const Lanes *x = state.x.data(), *v = state.v.data();
-  Lanes *__restrict nextX = next.x.data(), *__restrict nextV = next.v.data();
+  Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
   const std::size_t count = groups_.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Group& g = group[i];

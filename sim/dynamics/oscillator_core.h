@@ -31,14 +31,14 @@ class OscillatorCore {
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
 
   struct Group {
-    Lanes xx, xv, vx, vv;                                              // exp(A dt) - 1
-    Lanes rest;                                                        // e at rest for a hand at 1 m
+    Lanes xx, xv, vx, vv;  // exp(A dt) - 1
+    Lanes rest;            // e at rest for a hand at 1 m
     Lanes extraX, extraV, gravityX, gravityV;
-    std::array<Lanes, kForceTerms> handX{}, handV{};                   // by position coefficients
-    std::array<Lanes, kForceTerms> rateX{}, rateV{};                   // by velocity coefficients
+    std::array<Lanes, kForceTerms> handX{}, handV{};  // by position coefficients
+    std::array<Lanes, kForceTerms> rateX{}, rateV{};  // by velocity coefficients
   };
   int n_ = 0;
-  bool damped_ = false;            // the hand's velocity matters
+  bool damped_ = false;  // the hand's velocity matters
   std::vector<Group> groups_;
   Eigen::MatrixXd toModes_, toMasses_;  // empty for a parallel object
 };

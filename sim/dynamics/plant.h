@@ -71,18 +71,18 @@ class Plant {
 
 /// What `method: auto` chose and why; shown before the trial and stored in the recording.
 struct MethodChoice {
-  std::string method;    // rk4 | exact | abm | adaptive | stiff
-  std::string form;      // "line, 10 states" / "curve in phi" / "surface in ambient coordinates" …
-  std::string reason;    // one sentence with the numbers
-  double fastestMode = 0;          // [1/s] largest |eigenvalue| at the start
-  double predictedError = 0;       // [m] position, over one reach
+  std::string method;         // rk4 | exact | abm | adaptive | stiff
+  std::string form;           // "line, 10 states" / "curve in phi" / "surface in ambient coordinates" …
+  std::string reason;         // one sentence with the numbers
+  double fastestMode = 0;     // [1/s] largest |eigenvalue| at the start
+  double predictedError = 0;  // [m] position, over one reach
   std::vector<std::string> warnings;
 };
 
 struct SceneOptions {
-  std::string method;     // empty: the experiment's
-  double step = 0.001;    // [s]
-  double tolerance = 0;   // adaptive methods; 0: default
+  std::string method;    // empty: the experiment's
+  double step = 0.001;   // [s]
+  double tolerance = 0;  // adaptive methods; 0: default
 };
 
 struct Scene {

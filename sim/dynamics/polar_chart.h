@@ -8,9 +8,9 @@ namespace reachlab {
 /// there and its equations of motion are those of any other chart. Angles must have the period 2 pi.
 struct PolarChart {
   Surface base;
-  int fixed = 1;        // which parameter is constant on the pole's line
-  double pole = 0;      // its value there
-  double side = 1;      // +1: the surface lies at larger values
+  int fixed = 1;          // which parameter is constant on the pole's line
+  double pole = 0;        // its value there
+  double side = 1;        // +1: the surface lies at larger values
   double nearest = 1e-6;  // closer, the derivatives are taken at this radius: rounding would grow like 1/radius
 
   /// The chart as a surface of its own; `this` must outlive it.

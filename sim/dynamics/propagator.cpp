@@ -102,8 +102,8 @@ Propagator compute(const ObjectModel& model, bool coupled, double dt) {
   // Velocities are scaled by the fastest mode, which balances the blocks of A.
   double fastest = 1;
   for (int i = 0; i < n; ++i)
-    fastest = std::max({fastest, dt * std::sqrt(static_cast<double>(system.stiffness[i * n + i])),
-                        dt * static_cast<double>(system.damping[i * n + i])});
+    fastest = std::max(
+        {fastest, dt * std::sqrt(static_cast<double>(system.stiffness[i * n + i])), dt * static_cast<double>(system.damping[i * n + i])});
   const T unit = T(dt) / T(std::exp2(std::ceil(std::log2(fastest))));  // velocities in x per unit
   Matrix<T> a(m * m, T(0));
   for (int i = 0; i < n; ++i) {

@@ -14,9 +14,9 @@ namespace reachlab {
 struct Propagator {
   int n = 0;
   double dt = 0;
-  std::vector<double> d;                                // (2n)^2, column after column
-  std::array<std::vector<double>, kForceTerms> force;   // Q_k for the input vector
-  std::vector<double> gravity;                          // G: unit acceleration of every mass
+  std::vector<double> d;                               // (2n)^2, column after column
+  std::array<std::vector<double>, kForceTerms> force;  // Q_k for the input vector
+  std::vector<double> gravity;                         // G: unit acceleration of every mass
 };
 
 /// By Taylor series of a halved step, doubled back with 2D + D^2 and Q_k(2h) = 2^-k (E Q_k + sum_j C(k,j) Q_j), in 113 bits (64 bits

@@ -19,7 +19,7 @@ struct QuadricSystem {
   Quadric quadric;
   Surface surface;
   std::array<Domain, 2> domain;
-  bool edges = false;                          // the domain has an edge that is not a pole: parameters are followed
+  bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
 

@@ -76,7 +76,8 @@ void requireStart(const Constraint& c, const std::vector<double>& start) {
   for (std::size_t k = 0; k < start.size(); ++k) {
     if (!std::isfinite(start[k])) throw RefusedError("the start is not finite");
     if (c.kind != ConstraintKind::Free && !c.domain[k].periodic && (start[k] < c.domain[k].lo || start[k] > c.domain[k].hi))
-      throw RefusedError(fmt::format("the start {} lies outside the constraint's domain, {} to {}", start[k], c.domain[k].lo, c.domain[k].hi));
+      throw RefusedError(
+          fmt::format("the start {} lies outside the constraint's domain, {} to {}", start[k], c.domain[k].lo, c.domain[k].hi));
   }
 }
 
@@ -87,8 +88,10 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   scene.constraint = makeConstraint(experiment.constraint);
   const Constraint& constraint = scene.constraint;
   const ObjectModel model = makeObjectModel(experiment);
-  if (!(options.step > 0) || !std::isfinite(options.step)) throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
-  const std::vector<double> start = experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == ConstraintKind::Free ? 3 : 2, 0.0);
+  if (!(options.step > 0) || !std::isfinite(options.step))
+    throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
+  const std::vector<double> start =
+      experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == ConstraintKind::Free ? 3 : 2, 0.0);
   if (experiment.task) requireStart(constraint, start);
 
   const bool linear = isLinear(constraint, model);
@@ -98,7 +101,8 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   double speedRatio = 1;
   if (linear) {
     const LinearSpace space = linearSpace(constraint);
-    if (space.axes == 1 && !(norm(space.tangent) > 0)) throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
+    if (space.axes == 1 && !(norm(space.tangent) > 0))
+      throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
     facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == AtEnd::Bounce &&
                         (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
   } else if (constraint.kind == ConstraintKind::Curve) {
@@ -107,7 +111,8 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
     form = {speedRatio < kHardSpeedRatio, speeds.most};
     facts.hardCurve = form.tangential;
     if (experiment.task && !(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
-      throw RefusedError(fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
+      throw RefusedError(
+          fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
   }
   scene.choice = chooseMethod(options.method.empty() ? experiment.method : options.method, model, facts);
   MethodChoice& choice = scene.choice;
@@ -116,20 +121,20 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   if (linear) {
     const LinearSpace space = linearSpace(constraint);
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
-    if (choice.method == "exact")
-      scene.plant = makeExactPlant(model, space, options.step);
-    else
-      scene.plant = space.axes == 1 ? makeLinePlant(model, space, request) : makeFreePlant(model, request);
+    if (choice.method == "exact") scene.plant = makeExactPlant(model, space, options.step);
+    else scene.plant = space.axes == 1 ? makeLinePlant(model, space, request) : makeFreePlant(model, request);
   } else if (constraint.kind == ConstraintKind::Free) {
     choice.form = "rigid body, 13 states";
     scene.plant = makeBodyPlant(model, experiment.object, request);
   } else if (constraint.kind == ConstraintKind::Curve) {
     if (model.kind == ObjectKind::Body) throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
-    choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", speedRatio, 2 * model.count())
-                             : fmt::format("curve in phi, {} states", 2 * model.count());
+    choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", speedRatio,
+                                                2 * model.count())
+                                  : fmt::format("curve in phi, {} states", 2 * model.count());
     scene.plant = makeCurvePlant(model, constraint, form, request);
   } else {
-    if (model.count() != 1 || model.kind == ObjectKind::Body) throw RefusedError("on a surface only a point moves; use a curve, or one mass");
+    if (model.count() != 1 || model.kind == ObjectKind::Body)
+      throw RefusedError("on a surface only a point moves; use a curve, or one mass");
     const auto quadric = fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]});
     if (quadric) {
       choice.form = "surface of second degree in world coordinates, 6 states";

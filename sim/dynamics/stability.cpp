@@ -38,7 +38,8 @@ double rk4Amplification(std::complex<double> z) { return std::abs(1.0 + z * (1.0
 
 bool isRk4Stable(const std::vector<std::complex<double>>& eigenvalues, double step) {
   constexpr double kRounding = 1e-9;  // an undamped slow mode comes out of the solver with a real part of this relative size
-  return std::all_of(eigenvalues.begin(), eigenvalues.end(), [&](const auto& value) { return rk4Amplification(value * step) <= 1 + kRounding; });
+  return std::all_of(eigenvalues.begin(), eigenvalues.end(),
+                     [&](const auto& value) { return rk4Amplification(value * step) <= 1 + kRounding; });
 }
 
 double findRk4StepLimit(const std::vector<std::complex<double>>& eigenvalues) {

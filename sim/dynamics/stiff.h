@@ -19,8 +19,8 @@ class Stiff {
  public:
   using State = typename System::State;
   Stiff(const System& system, double tolerance)
-      : n_(system.states()), tolerance_(tolerance > 0 ? tolerance : kStiffTolerance), jacobian_(n_ * n_), matrix_(9 * n_ * n_), pivots_(3 * n_),
-        stages_(3 * n_), right_(3 * n_) {}
+      : n_(system.states()), tolerance_(tolerance > 0 ? tolerance : kStiffTolerance), jacobian_(n_ * n_), matrix_(9 * n_ * n_),
+        pivots_(3 * n_), stages_(3 * n_), right_(3 * n_) {}
   void restart() noexcept { last_ = 0; }
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, StepReport& report) noexcept {

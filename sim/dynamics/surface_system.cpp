@@ -5,9 +5,9 @@
 namespace reachlab {
 namespace {
 
-constexpr int kLookEvery = 4;         // ticks between looks for a pole
-constexpr int kWaitAfterNothing = 16; // looks to leave out where there was none
-constexpr double kNear = 0.3;         // of the largest |r_u| (or |r_v|) seen
+constexpr int kLookEvery = 4;                 // ticks between looks for a pole
+constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
+constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
 constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
 
 }  // namespace
@@ -44,7 +44,9 @@ Settled SurfaceSystem::settle(const State&, State& y) noexcept {
 }
 
 bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
-  const auto at = [&](double angle, double across) { return fixed == 1 ? evaluate(surface, angle, across) : evaluate(surface, across, angle); };
+  const auto at = [&](double angle, double across) {
+    return fixed == 1 ? evaluate(surface, angle, across) : evaluate(surface, across, angle);
+  };
   const double angle = fixed == 1 ? y[0] : y[1], from = fixed == 1 ? y[1] : y[0];
   double across = from;
   for (int round = 0; round < 12; ++round) {
@@ -61,7 +63,8 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   const SurfacePoint pole = at(angle, across), beside = at(angle, across + reach), again = at(angle + 2 * std::numbers::pi, across + reach);
   if (norm(again.r - beside.r) > 1e-12 * largest) return false;
   for (int i = 0; i < 8; ++i) {
-    const SurfacePoint a = at(angle + 0.25 * std::numbers::pi * i, across), b = at(angle + 0.25 * std::numbers::pi * i + std::numbers::pi, across);
+    const SurfacePoint a = at(angle + 0.25 * std::numbers::pi * i, across),
+                       b = at(angle + 0.25 * std::numbers::pi * i + std::numbers::pi, across);
     const Vec3 outA = fixed == 1 ? a.rV : a.rU, outB = fixed == 1 ? b.rV : b.rU;
     if (norm(a.r - pole.r) > 1e-12 * largest || norm(outA + outB) > 1e-9 * largest) return false;
   }

@@ -9,17 +9,18 @@ namespace reachlab {
 struct SurfaceSystem {
   static constexpr int kStates = 4;
   static constexpr bool kEnds = true;
-  static constexpr const char* kNoContinuation = "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
+  static constexpr const char* kNoContinuation =
+      "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   using State = Numbers<4>;
   using Hand = HandSample;
 
   Springs<1, true> springs;
-  Surface surface;   // as defined
-  Surface active;    // what the state's parameters are: `surface`, or `polar` while `inPolar`
+  Surface surface;  // as defined
+  Surface active;   // what the state's parameters are: `surface`, or `polar` while `inPolar`
   std::array<Domain, 2> domain;
   PolarChart polar;
   bool inPolar = false;
-  int ticks = 0, waiting = 0;                 // between looks for a pole
+  int ticks = 0, waiting = 0;                          // between looks for a pole
   double largestU = 0, largestV = 0, largestArea = 0;  // [m], [m], [m^2] |r_u|, |r_v|, |r_u x r_v| seen so far
 
   SurfaceSystem(const ObjectModel& model, const Constraint& constraint)
@@ -36,7 +37,8 @@ struct SurfaceSystem {
     const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
     const Vec3 velocity = du * p.rU + dv * p.rV;
     const Vec3 bend = (du * du) * p.rUu + (2 * du * dv) * p.rUv + (dv * dv) * p.rVv;
-    const Vec3 force = springs.handStiffness[0] * (hand.position - p.r) + springs.handDamping[0] * (hand.velocity - velocity) + springs.extraForce;
+    const Vec3 force =
+        springs.handStiffness[0] * (hand.position - p.r) + springs.handDamping[0] * (hand.velocity - velocity) + springs.extraForce;
     const Vec3 drive = springs.inverseMass[0] * force + springs.gravity - bend;
     const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), determinant = e * g - f * f;
     const double a = dot(p.rU, drive), b = dot(p.rV, drive), inverse = 1 / determinant;

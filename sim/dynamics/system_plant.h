@@ -16,8 +16,8 @@ class SystemPlant : public PlantBase {
   using State = typename System::State;
 
   SystemPlant(const ObjectModel& model, System system, double tolerance)
-      : PlantBase(model), system_(std::move(system)), method_(system_, tolerance), locator_(system_, tolerance),
-        states_{State(system_.states()), State(system_.states())} {
+      : PlantBase(model), system_(std::move(system)), method_(system_, tolerance),
+        locator_(system_, tolerance), states_{State(system_.states()), State(system_.states())} {
     for (int i = 0; i < system_.states(); ++i) now()[i] = 0;
   }
 
@@ -47,7 +47,7 @@ class SystemPlant : public PlantBase {
     StepStatus status = method_.step(system_, hand, dt, now(), next(), report);
     if constexpr (System::kEnds)
       if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()))) status = meetEnds(hand, dt, status, report);
-    if constexpr (requires(System& s, State& y) { s.settle(y, y); })
+    if constexpr (requires(System & s, State & y) { s.settle(y, y); })
       if (status == StepStatus::Ok) {
         const Settled settled = system_.settle(now(), next());
         if (settled != Settled::Same) method_.restart();

@@ -16,13 +16,13 @@ enum class ObjectKind { Point, Chain, Parallel, Body };
 /// hand by its own spring. Body: one mass with inertia, driven at an offset from its centre.
 struct Object {
   ObjectKind kind = ObjectKind::Point;
-  std::vector<double> masses;                          // [kg]
-  std::vector<double> stiffness;                       // [N/m]
-  std::vector<double> damping;                         // [N s/m], as many as stiffness
-  double viscosity = 0;                                // [N s/m] lambda of Eq. (9), on every mass
-  Vec3 gravity;                                        // [m/s^2]
-  std::array<std::array<double, 3>, 3> inertia{};      // [kg m^2] body frame, body only
-  Vec3 fpOffset;                                       // [m] body frame, body only
+  std::vector<double> masses;                      // [kg]
+  std::vector<double> stiffness;                   // [N/m]
+  std::vector<double> damping;                     // [N s/m], as many as stiffness
+  double viscosity = 0;                            // [N s/m] lambda of Eq. (9), on every mass
+  Vec3 gravity;                                    // [m/s^2]
+  std::array<std::array<double, 3>, 3> inertia{};  // [kg m^2] body frame, body only
+  Vec3 fpOffset;                                   // [m] body frame, body only
 };
 
 /// Spring-damper between HIP and FP, Eq. (8).
@@ -41,20 +41,20 @@ struct Task {
   std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object
   double duration = 1.35;             // [s] T
   Tolerance tolerance;
-  double onset = 0.001;      // [m] t = 0 is when the HIP has moved this far
-  double armRadius = 0.01;   // [m]
-  double timeout = 10;       // [s] no onset by then: aborted
+  double onset = 0.001;     // [m] t = 0 is when the HIP has moved this far
+  double armRadius = 0.01;  // [m]
+  double timeout = 10;      // [s] no onset by then: aborted
 };
 
 /// Two-link planar arm for criterion 2 (criteria.md 6); defaults unverified, after Uno 1989.
 struct Arm {
-  std::array<double, 2> length{0.25, 0.35};       // [m]
-  std::array<double, 2> centre{0.11, 0.15};       // [m] from the proximal joint
-  std::array<double, 2> mass{0.9, 1.1};           // [kg]
-  std::array<double, 2> inertia{0.065, 0.100};    // [kg m^2] about the proximal joint
-  std::array<double, 2> damping{0.08, 0.08};      // [N m s/rad]
-  std::array<double, 2> shoulder{0.0, -0.45};     // [m] of the shoulder in the task plane: along the line, across it (chest side negative)
-  bool elbowLeft = false;                         // which of the two postures
+  std::array<double, 2> length{0.25, 0.35};     // [m]
+  std::array<double, 2> centre{0.11, 0.15};     // [m] from the proximal joint
+  std::array<double, 2> mass{0.9, 1.1};         // [kg]
+  std::array<double, 2> inertia{0.065, 0.100};  // [kg m^2] about the proximal joint
+  std::array<double, 2> damping{0.08, 0.08};    // [N m s/rad]
+  std::array<double, 2> shoulder{0.0, -0.45};   // [m] of the shoulder in the task plane: along the line, across it (chest side negative)
+  bool elbowLeft = false;                       // which of the two postures
 };
 
 /// How v_HIP is estimated from device samples.
@@ -77,7 +77,7 @@ struct Experiment {
   bool forceLimitEndsTrial = false;
   VelocityEstimatorSpec velocityEstimator;
   Arm arm;
-  std::string text;                  // the file as read: goes into the recording unchanged
+  std::string text;  // the file as read: goes into the recording unchanged
 };
 
 /// Reads an experiment file, or a shipped one by name. Throws UsageError with every fault, one a line,

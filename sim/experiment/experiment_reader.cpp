@@ -22,7 +22,9 @@ std::optional<std::array<Domain, 2>> placesInUse(const JsonNode& tree) {
   const JsonNode* task = tree.find("task");
   const JsonNode* start = task == nullptr ? nullptr : task->find("start");
   const JsonNode* target = task == nullptr ? nullptr : task->find("target");
-  if (start == nullptr || target == nullptr || start->items.empty() || start->items.size() > 2 || start->items.size() != target->items.size()) return {};
+  if (start == nullptr || target == nullptr || start->items.empty() || start->items.size() > 2 ||
+      start->items.size() != target->items.size())
+    return {};
   std::array<Domain, 2> range{Domain{0, 0}, Domain{0, 0}};
   for (std::size_t k = 0; k < start->items.size(); ++k) {
     const JsonNode &a = start->items[k], &b = target->items[k];

@@ -41,8 +41,10 @@ Experiment readExperiment(const std::string& fileOrName) {
     const std::string file = (fs::path(resourceFolder()) / "experiments" / (fileOrName + ".json")).string();
     return parseExperiment(readTextFile(file), file);
   }
-  if (fs::is_directory(fileOrName, ignored)) throw UsageError(fmt::format("{}: is a folder; allowed: an experiment file or name", fileOrName));
-  if (looksLikeFile) throw UsageError(fmt::format("{}: there is no such file; allowed: an experiment file, or one of {}", fileOrName, listOf(names)));
+  if (fs::is_directory(fileOrName, ignored))
+    throw UsageError(fmt::format("{}: is a folder; allowed: an experiment file or name", fileOrName));
+  if (looksLikeFile)
+    throw UsageError(fmt::format("{}: there is no such file; allowed: an experiment file, or one of {}", fileOrName, listOf(names)));
   const std::string nearest = nearestName(fileOrName, names);
   throw UsageError(fmt::format("{}: is neither a file nor a shipped experiment{}; allowed: a file, or one of {}", fileOrName,
                                nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), listOf(names)));

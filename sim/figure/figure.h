@@ -33,13 +33,13 @@ inline constexpr double kThin = 0.45, kNormal = 1.0, kThick = 2.0;  // [pt]
 
 /// A line, points, or both. Gaps are where x or y is not finite (or not positive on a logarithmic axis).
 struct Series {
-  std::string label;               // empty: not in the legend
-  std::vector<double> x, y;        // same length, in the axes' units
+  std::string label;         // empty: not in the legend
+  std::vector<double> x, y;  // same length, in the axes' units
   Color color = palette::kBlack;
-  double width = kNormal;          // [pt]; 0: no line
+  double width = kNormal;  // [pt]; 0: no line
   Dash dash = Dash::Solid;
   Marker marker = Marker::None;
-  double markerSize = 4;           // [pt] diameter
+  double markerSize = 4;                      // [pt] diameter
   std::vector<double> errorLow, errorHigh;    // vertical error bars from … to, in y's units; empty: none
   std::vector<double> errorLeft, errorRight;  // the same along x
 };
@@ -63,9 +63,9 @@ struct Rule {
 enum class Scale { Linear, Log };
 
 struct Axis {
-  std::string label;                // with its unit: "Hand velocity (m/s)"
+  std::string label;  // with its unit: "Hand velocity (m/s)"
   Scale scale = Scale::Linear;
-  std::optional<double> from, to;   // nullopt: from the data, rounded to ticks
+  std::optional<double> from, to;                     // nullopt: from the data, rounded to ticks
   std::vector<std::pair<double, std::string>> ticks;  // named places, e.g. categories; empty: chosen
 };
 
@@ -76,7 +76,7 @@ struct Panel {
   std::string title;
   Axis x, y;
   std::vector<Band> bands;
-  std::vector<Series> series;       // drawn in order: later ones on top
+  std::vector<Series> series;  // drawn in order: later ones on top
   std::vector<Rule> rules;
   LegendPlace legend = LegendPlace::Auto;  // Auto: the corner with the fewest data
   bool equalScale = false;                 // one metre along x is as long as one along y
@@ -84,7 +84,7 @@ struct Panel {
 
 /// Panels in rows of `columns`, each `panelWidth` by `panelHeight` of plotting area.
 struct Figure {
-  std::string title;                // above everything; usually empty: a caption says it
+  std::string title;  // above everything; usually empty: a caption says it
   std::vector<Panel> panels;
   int columns = 1;
   double panelWidth = 75, panelHeight = 50;  // [mm] between the axes

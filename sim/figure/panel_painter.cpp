@@ -8,9 +8,9 @@ namespace reachlab {
 namespace {
 
 constexpr double kTickFont = 7, kLabelFont = 8, kTitleFont = 8.5, kLegendFont = 7;  // [pt]
-constexpr double kTickLength = 3, kGap = 3;                                        // [pt]
-constexpr double kEdge = 1;                                                        // [pt] that a line on the border may reach beyond it
-constexpr double kSample = 20, kLegendLine = 10.5, kLegendPad = 4;                 // [pt] of the legend
+constexpr double kTickLength = 3, kGap = 3;                                         // [pt]
+constexpr double kEdge = 1;                                                         // [pt] that a line on the border may reach beyond it
+constexpr double kSample = 20, kLegendLine = 10.5, kLegendPad = 4;                  // [pt] of the legend
 constexpr Color kInk{0.15, 0.15, 0.15};
 
 struct Extent {
@@ -214,7 +214,9 @@ void PanelPainter::drawAxes(double topMargin) {
 void PanelPainter::drawBand(const Band& band) {
   cairo_t* context = canvas_.context();
   const std::size_t n = std::min({band.x.size(), band.low.size(), band.high.size()});
-  const auto good = [&](std::size_t i) { return std::isfinite(xAt(band.x[i])) && std::isfinite(yAt(band.low[i])) && std::isfinite(yAt(band.high[i])); };
+  const auto good = [&](std::size_t i) {
+    return std::isfinite(xAt(band.x[i])) && std::isfinite(yAt(band.low[i])) && std::isfinite(yAt(band.high[i]));
+  };
   canvas_.setColor(band.color);
   for (std::size_t i = 0; i < n;) {
     if (!good(i)) {
@@ -297,7 +299,10 @@ void PanelPainter::drawLegend() {
   switch (place_) {
     case LegendPlace::TopRight: x = left_ + width_ - legendWidth_; break;
     case LegendPlace::BottomLeft: y = top_ + height_ - legendHeight_ - 2; break;
-    case LegendPlace::BottomRight: x = left_ + width_ - legendWidth_; y = top_ + height_ - legendHeight_ - 2; break;
+    case LegendPlace::BottomRight:
+      x = left_ + width_ - legendWidth_;
+      y = top_ + height_ - legendHeight_ - 2;
+      break;
     case LegendPlace::Right: x = left_ + width_ + 6; break;
     case LegendPlace::Below: {
       x = left_ + (width_ - legendWidth_) / 2;

@@ -61,7 +61,8 @@ AxisTicks logTicks(const Axis& axis, double low, double high, double length) {
   out.from = axis.from.value_or(round(low, true));
   out.to = axis.to.value_or(round(high, false));
   if (!(out.to > out.from)) out.to = 10 * out.from;
-  const int first = static_cast<int>(std::ceil(std::log10(out.from) - 1e-9)), last = static_cast<int>(std::floor(std::log10(out.to) + 1e-9));
+  const int first = static_cast<int>(std::ceil(std::log10(out.from) - 1e-9)),
+            last = static_cast<int>(std::floor(std::log10(out.to) + 1e-9));
   const int room = std::max(2, static_cast<int>(length / 26));
   const int every = std::max(1, (last - first + room) / room);
   const bool fewDecades = last - first < 2;
@@ -71,10 +72,8 @@ AxisTicks logTicks(const Axis& axis, double low, double high, double length) {
       if (at < out.from * (1 - 1e-9) || at > out.to * (1 + 1e-9)) continue;
       if (digit == 1 && (e - first) % every == 0)
         out.major.emplace_back(at, fewDecades && std::abs(e) <= 3 ? fmt::format("{:g}", at) : "10" + superscript(e));
-      else if (fewDecades && (digit == 2 || digit == 5))
-        out.major.emplace_back(at, fmt::format("{:g}", at));
-      else if (every == 1 || digit == 1)
-        out.minor.push_back(at);
+      else if (fewDecades && (digit == 2 || digit == 5)) out.major.emplace_back(at, fmt::format("{:g}", at));
+      else if (every == 1 || digit == 1) out.minor.push_back(at);
     }
   }
   return out;

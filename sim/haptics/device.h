@@ -8,8 +8,8 @@ namespace reachlab {
 
 /// What a device delivers at one tick. World frame, SI. A lost device repeats its last sample with valid = false.
 struct DeviceSample {
-  Vec3 position;                // [m] raw, unfiltered
-  Vec3 velocity;                // [m/s] if the device measures it (hasVelocity)
+  Vec3 position;  // [m] raw, unfiltered
+  Vec3 velocity;  // [m/s] if the device measures it (hasVelocity)
   std::uint32_t buttons = 0;
   bool hasVelocity = false;
   bool valid = true;
@@ -17,9 +17,9 @@ struct DeviceSample {
 
 struct DeviceInfo {
   std::string name, version;
-  double maxForce = 12;          // [N] the limit applied when the experiment gives none
-  double maxContinuousForce = 0; // [N] 0: unknown
-  bool virtualHand = false;      // moves by tick count, so it may run on a virtual clock
+  double maxForce = 12;           // [N] the limit applied when the experiment gives none
+  double maxContinuousForce = 0;  // [N] 0: unknown
+  bool virtualHand = false;       // moves by tick count, so it may run on a virtual clock
 };
 
 /// A trial's cue to a hand that is simulated or replayed.

@@ -29,7 +29,7 @@ class ForceSafety {
   double limit_;
   double rampTicks_ = 0;  // since force was allowed again
   bool latched_ = false;
-  Vec3 last_;             // [N] what the device got at the tick before
+  Vec3 last_;  // [N] what the device got at the tick before
 };
 
 }  // namespace reachlab

@@ -14,19 +14,19 @@
 namespace reachlab {
 
 struct LoopOptions {
-  bool virtualClock = false;       // no thread and no waiting: whoever calls `advance` is the haptic thread
-  int priority = 80;               // SCHED_FIFO where it is allowed
-  std::int64_t spinNs = 50'000;    // the last part of each wait is spun, not slept: removes the wake-up latency for 5 % of a core
+  bool virtualClock = false;     // no thread and no waiting: whoever calls `advance` is the haptic thread
+  int priority = 80;             // SCHED_FIFO where it is allowed
+  std::int64_t spinNs = 50'000;  // the last part of each wait is spun, not slept: removes the wake-up latency for 5 % of a core
 };
 
 /// How well the loop kept time. Lateness: from deadline to the start of the tick.
 struct LoopReport {
   std::uint64_t ticks = 0;
-  double seconds = 0;              // [s] from the first tick to the latest
-  double rate = 0;                 // [1/s] achieved
+  double seconds = 0;                                        // [s] from the first tick to the latest
+  double rate = 0;                                           // [1/s] achieved
   double latenessP50 = 0, latenessP99 = 0, latenessMax = 0;  // [us]
   LoopFaults faults;
-  std::string mode;                // "SCHED_FIFO 80, memory locked", or what was not allowed
+  std::string mode;  // "SCHED_FIFO 80, memory locked", or what was not allowed
 };
 
 /// Runs one engine on one device. With the real clock: an own thread at absolute deadlines 1 ms apart; a tick that comes a whole period

@@ -32,8 +32,7 @@ std::int64_t threadProcessorTime() noexcept { return read(CLOCK_THREAD_CPUTIME_I
 
 void sleepUntil(std::int64_t deadline) noexcept {
   const timespec t{deadline / kNsPerSecond, deadline % kNsPerSecond};
-  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
-  }
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {}
 }
 
 std::string requestRealTime(int priority) {

@@ -19,9 +19,7 @@ const Task& taskOf(const Experiment& experiment) {
 struct Blend {
   double value, rate;
 };
-Blend fadeOut(double x) noexcept {
-  return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x)};
-}
+Blend fadeOut(double x) noexcept { return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x)}; }
 
 }  // namespace
 
@@ -118,7 +116,14 @@ void TickEngine::tick(const TickInput& input) noexcept {
 
   const bool wasGone = protocol_.gone;
   advance(settings_,
-          {state_.tick, input.command, input.planned, input.device.position, hand.valid, handBroken_, clamped_, status,
+          {state_.tick,
+           input.command,
+           input.planned,
+           input.device.position,
+           hand.valid,
+           handBroken_,
+           clamped_,
+           status,
            {state_.masses.data(), static_cast<std::size_t>(state_.massCount)}},
           protocol_);
   if (before == Phase::Waiting && protocol_.phase == Phase::Armed) {

@@ -17,9 +17,9 @@ namespace reachlab {
 struct TickInput {
   DeviceSample device;
   Command command = Command::None;
-  PlannedTrial planned;            // of the trial that NextTrial puts up
-  std::uint32_t missedTicks = 0;   // whole periods that were skipped before this tick
-  std::int64_t measuredNs = 0;     // for the record only
+  PlannedTrial planned;           // of the trial that NextTrial puts up
+  std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
+  std::int64_t measuredNs = 0;    // for the record only
 };
 
 struct EngineOptions {
@@ -64,21 +64,21 @@ class TickEngine {
   void exertForce(const HandSample& hand, StepStatus status, std::uint32_t missedTicks) noexcept;
 
   Scene scene_;
-  std::vector<double> start_;          // constraint parameters
+  std::vector<double> start_;  // constraint parameters
   ProtocolSettings settings_;
   bool virtualHand_;
   VelocityEstimator estimator_;
   HandPath path_;
   ForceSafety safety_;
-  Vec3 fpInBody_;                      // [m] the FP from mass 1 as the object is put up
+  Vec3 fpInBody_;  // [m] the FP from mass 1 as the object is put up
   ProtocolState protocol_;
-  Vec3 fpOffset_;                      // [m] HIP minus FP at arming, fixed in world axes
-  Vec3 anchor_;                        // [m] the hand after a gap: seen minus true, at the gap
-  int anchorTicks_ = 0;                // left of the blend
-  Vec3 lastSeen_, lastRaw_;            // [m] where the hand was last seen by the coupling, and by the device
-  bool handBroken_ = false;            // the device gave something that is not finite; until the next trial
-  bool handLost_ = true;               // at the tick before
-  bool clamped_ = false;               // at the tick before, by the force limit
+  Vec3 fpOffset_;            // [m] HIP minus FP at arming, fixed in world axes
+  Vec3 anchor_;              // [m] the hand after a gap: seen minus true, at the gap
+  int anchorTicks_ = 0;      // left of the blend
+  Vec3 lastSeen_, lastRaw_;  // [m] where the hand was last seen by the coupling, and by the device
+  bool handBroken_ = false;  // the device gave something that is not finite; until the next trial
+  bool handLost_ = true;     // at the tick before
+  bool clamped_ = false;     // at the tick before, by the force limit
   StepStatus forceStatus_ = StepStatus::Ok;
   std::optional<Cue> cue_;
   TickState state_;

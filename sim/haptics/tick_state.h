@@ -15,11 +15,11 @@ enum class Command : std::uint8_t { None, NextTrial, Abort, Interrupt };
 
 /// Counted, shown, recorded.
 struct LoopFaults {
-  std::uint64_t lateTicks = 0;      // woke more than a period after the deadline
-  std::uint64_t missedTicks = 0;    // whole periods that were skipped
+  std::uint64_t lateTicks = 0;    // woke more than a period after the deadline
+  std::uint64_t missedTicks = 0;  // whole periods that were skipped
   std::uint64_t longestGapNs = 0;
-  std::uint64_t droppedRecords = 0; // the recorder's queue was full
-  std::uint64_t clampedTicks = 0;   // the device got less force than the object gave
+  std::uint64_t droppedRecords = 0;  // the recorder's queue was full
+  std::uint64_t clampedTicks = 0;    // the device got less force than the object gave
   std::array<std::uint64_t, kStepStatusCount> steps{};
 };
 
@@ -33,13 +33,13 @@ struct TickState {
   Phase phase = Phase::Idle;
   Semaphore semaphore = Semaphore::Neutral;
   StepStatus status = StepStatus::Ok;
-  std::int32_t trial = 0;       // from 1
-  double trialTime = 0;         // [s] since onset; 0 before
-  Vec3 couplingForce;           // [N] on the object, unclamped
-  Vec3 feedbackForce;           // [N] to the device, unclamped (the negative)
-  Vec3 deviceForce;             // [N] to the device, after the safety layer
-  double energy = 0;            // [J]
-  TrialResult result;           // valid in phase Done
+  std::int32_t trial = 0;  // from 1
+  double trialTime = 0;    // [s] since onset; 0 before
+  Vec3 couplingForce;      // [N] on the object, unclamped
+  Vec3 feedbackForce;      // [N] to the device, unclamped (the negative)
+  Vec3 deviceForce;        // [N] to the device, after the safety layer
+  double energy = 0;       // [J]
+  TrialResult result;      // valid in phase Done
   LoopFaults faults;
   std::int32_t massCount = 0;
   BodyState body;

@@ -50,8 +50,13 @@ TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks, std::
   const std::uint64_t allocated = countAllocations ? countAllocations() - allocatedBefore : 0;
   std::sort(costs.begin(), costs.end());
   std::sort(looks.begin(), looks.end());
-  return {costs.size(), percentile(costs, 0.5), percentile(costs, 0.99), percentile(costs, 0.999), static_cast<double>(costs.back()),
-          static_cast<double>(looks[looks.size() / 2]), allocated};
+  return {costs.size(),
+          percentile(costs, 0.5),
+          percentile(costs, 0.99),
+          percentile(costs, 0.999),
+          static_cast<double>(costs.back()),
+          static_cast<double>(looks[looks.size() / 2]),
+          allocated};
 }
 
 }  // namespace reachlab

@@ -39,9 +39,9 @@ class TripleBuffer {
     T value{};
   };
   std::unique_ptr<std::array<Slot, 3>> slots_ = std::make_unique<std::array<Slot, 3>>();
-  alignas(kCacheLine) std::uint8_t back_ = 0;                 // writer only
+  alignas(kCacheLine) std::uint8_t back_ = 0;  // writer only
   alignas(kCacheLine) std::atomic<std::uint8_t> waiting_{1};
-  alignas(kCacheLine) std::uint8_t front_ = 2;                // reader only
+  alignas(kCacheLine) std::uint8_t front_ = 2;  // reader only
 };
 
 }  // namespace reachlab

@@ -10,9 +10,9 @@
 namespace reachlab {
 namespace {
 
-constexpr int kFirstPieces = 6;   // of the way
-constexpr int kDeepest = 24;      // halvings of a piece; what is still not smooth then is a cusp
-constexpr double kBeyond = 0.5;   // of the way, before the start and behind the target
+constexpr int kFirstPieces = 6;      // of the way
+constexpr int kDeepest = 24;         // halvings of a piece; what is still not smooth then is a cusp
+constexpr double kBeyond = 0.5;      // of the way, before the start and behind the target
 constexpr double kResolved = 2e-13;  // the last two terms of a piece, of its largest
 constexpr double kNoise = 1e-14;     // the same, of the piece's length, for what is nearly straight
 constexpr int kProbes = 400;         // for places where the curve is run slowly
@@ -31,8 +31,7 @@ constexpr std::array<std::array<double, Count>, Count> legendrePowers() {
   power[0][0] = 1;
   power[1][1] = 1;
   for (int n = 1; n + 1 < Count; ++n)
-    for (int k = 0; k <= n + 1; ++k)
-      power[n + 1][k] = ((2 * n + 1) * (k > 0 ? power[n][k - 1] : 0.0) - n * power[n - 1][k]) / (n + 1);
+    for (int k = 0; k <= n + 1; ++k) power[n + 1][k] = ((2 * n + 1) * (k > 0 ? power[n][k - 1] : 0.0) - n * power[n - 1][k]) / (n + 1);
   return power;
 }
 
@@ -50,8 +49,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
   unevenness_ = fastest / slowest;
   if (!(unevenness_ < kCusp)) throw RefusedError(kNoWay);
   for (int i = 0; i < kFirstPieces; ++i)
-    if (!append(curve.curve, start + way * i / kFirstPieces, start + way * (i + 1) / kFirstPieces, 0))
-      throw RefusedError(kNoWay);
+    if (!append(curve.curve, start + way * i / kFirstPieces, start + way * (i + 1) / kFirstPieces, 0)) throw RefusedError(kNoWay);
   length_ = pieces_.back().to;
   std::vector<Piece> forward = std::move(pieces_);
   const Domain& domain = curve.domain[0];
@@ -60,8 +58,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
   pieces_.clear();
   const auto walk = [&](double from, double to) {
     for (int i = 0; i < kFirstPieces && to != from; ++i)
-      if (!append(curve.curve, from + (to - from) * i / kFirstPieces, from + (to - from) * (i + 1) / kFirstPieces, kDeepest / 2))
-        break;
+      if (!append(curve.curve, from + (to - from) * i / kFirstPieces, from + (to - from) * (i + 1) / kFirstPieces, kDeepest / 2)) break;
   };
   walk(start, within(start - kBeyond * way));
   std::reverse(pieces_.begin(), pieces_.end());
@@ -104,15 +101,13 @@ bool ArcCurve::append(const Curve& curve, double phi, double phiEnd, int depth) 
     }
     const CurvePoint p = evaluate(curve, phi + half * (x + 1));
     const double square = dot(p.rPhi, p.rPhi);
-    const Vec3 c = along_ == Along::Parameter
-                       ? half * half * p.rPhiPhi
-                       : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
+    const Vec3 c = along_ == Along::Parameter ? half * half * p.rPhiPhi
+                                              : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
     for (int k = 0; k < 3; ++k) bend[static_cast<size_t>(k)].push_back(coordinate(c, k));
     sharpest = std::max(sharpest, norm(c));
   }
   const CurvePoint begin = evaluate(curve, phi);
-  const Vec3 tangent =
-      along_ == Along::Parameter ? half * begin.rPhi : (half > 0 ? 1 : -1) * way / 2 / norm(begin.rPhi) * begin.rPhi;
+  const Vec3 tangent = along_ == Along::Parameter ? half * begin.rPhi : (half > 0 ? 1 : -1) * way / 2 / norm(begin.rPhi) * begin.rPhi;
   if (!isFinite(tangent) || !std::isfinite(sharpest)) return halves();
   Piece piece;
   piece.from = pieces_.empty() ? 0 : pieces_.back().to;

@@ -29,10 +29,9 @@ std::array<S, 2> computeTorqueRates(const Arm& arm, const JointMotion<S>& m, con
   const S bs = coupled * s2, bc = coupled * c2, both = m.w1 + w12;  // both = 2 w1 + w2
   const S high = l1 * sin(m.q1) + l2 * sin(q12), far = l1 * cos(m.q1) * m.w1 + l2 * cos(q12) * w12;
   const S first = (alone + 2.0 * bc) * m.j1 - 2.0 * bs * m.w2 * m.a1 + (i2 + bc) * m.j2 - bs * m.w2 * m.a2 -
-                  ((2.0 * m.a1 + m.a2) * m.w2 + both * m.a2) * bs - both * m.w2 * m.w2 * bc + b1 * m.a1 - far * force -
-                  high * forceRate;
-  const S second = (i2 + bc) * m.j1 - bs * m.w2 * m.a1 + i2 * m.j2 + bc * m.w2 * m.w1 * m.w1 + 2.0 * bs * m.w1 * m.a1 +
-                   b2 * m.a2 - l2 * cos(q12) * w12 * force - l2 * sin(q12) * forceRate;
+                  ((2.0 * m.a1 + m.a2) * m.w2 + both * m.a2) * bs - both * m.w2 * m.w2 * bc + b1 * m.a1 - far * force - high * forceRate;
+  const S second = (i2 + bc) * m.j1 - bs * m.w2 * m.a1 + i2 * m.j2 + bc * m.w2 * m.w1 * m.w1 + 2.0 * bs * m.w1 * m.a1 + b2 * m.a2 -
+                   l2 * cos(q12) * w12 * force - l2 * sin(q12) * forceRate;
   return {first, second};
 }
 
@@ -61,8 +60,7 @@ JointMotion<S> computeJointMotion(const Arm& arm, const S& x, double y, const S&
   const S w12 = m.w1 + m.w2, w1w1 = m.w1 * m.w1, w12w12 = w12 * w12;
   solve(a + c1 * w1w1 + c12 * w12w12, s1 * w1w1 + s12 * w12w12, m.a1, m.a2);
   const S turn1 = 3.0 * m.w1 * m.a1, turn12 = 3.0 * w12 * (m.a1 + m.a2), cube1 = w1w1 * m.w1, cube12 = w12w12 * w12;
-  solve(j + c1 * turn1 + c12 * turn12 - s1 * cube1 - s12 * cube12, s1 * turn1 + s12 * turn12 + c1 * cube1 + c12 * cube12, m.j1,
-        m.j2);
+  solve(j + c1 * turn1 + c12 * turn12 - s1 * cube1 - s12 * cube12, s1 * turn1 + s12 * turn12 + c1 * cube1 + c12 * cube12, m.j1, m.j2);
   return m;
 }
 
@@ -72,13 +70,11 @@ void store(const std::array<Jet<Locals>, 2>& rates, double* r, double* ra, doubl
 }
 
 void requireReach(const Arm& arm, double x, double y) {
-  const double distance = std::hypot(x, y), shortest = std::abs(arm.length[0] - arm.length[1]),
-               longest = arm.length[0] + arm.length[1];
+  const double distance = std::hypot(x, y), shortest = std::abs(arm.length[0] - arm.length[1]), longest = arm.length[0] + arm.length[1];
   constexpr double kMargin = 1e-3;  // [m] at a stretched elbow the joint speeds have no bound
   if (distance < shortest + kMargin || distance > longest - kMargin)
-    throw RefusedError(
-        fmt::format("the arm cannot reach: the hand would be {:.3f} m from the shoulder, the arm spans {:.3f} to {:.3f} m",
-                    distance, shortest, longest));
+    throw RefusedError(fmt::format("the arm cannot reach: the hand would be {:.3f} m from the shoulder, the arm spans {:.3f} to {:.3f} m",
+                                   distance, shortest, longest));
 }
 
 }  // namespace
@@ -127,8 +123,7 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const Arm& arm, const ArmTask&
   const SeriesOfOne hand = makeSeriesOfVelocity(projectOnLegendre(speed, rule.node, rule.weight), task.duration);
   auto prediction = makeLegendrePrediction(hand, std::vector<SeriesOfOne>(massCount, hand), task.duration);
   describeMotion(motion, *prediction);
-  prediction->warnings.push_back(
-      "free arm: the hand carries nothing, the masses go with it; positions are those along the chord");
+  prediction->warnings.push_back("free arm: the hand carries nothing, the masses go with it; positions are those along the chord");
   return prediction;
 }
 
@@ -172,8 +167,7 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask&
     using S = Jet<kLocals>;
     const auto v = [&](int i) { return S::variable(i, a[i]); };
     if (ra == nullptr) {
-      const JointMotion<double> m =
-          computeJointMotion<double>(arm, start + along * a[0], across, along * a[1], along * a[2], along * a[3]);
+      const JointMotion<double> m = computeJointMotion<double>(arm, start + along * a[0], across, along * a[1], along * a[2], along * a[3]);
       const auto rates = computeTorqueRates<double>(arm, m, along * a[4], along * a[5]);
       std::copy(rates.begin(), rates.end(), r);
       return;
@@ -193,8 +187,7 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask&
   };
   std::vector<SeriesOfOne> masses;
   for (const int i : object.source) masses.push_back({apply(node[i + 1], 0), apply(node[i + 1], 1), {}});
-  auto prediction =
-      makeLegendrePrediction({apply(node[0], 0), apply(node[0], 1), apply(node[0], 2)}, std::move(masses), task.duration);
+  auto prediction = makeLegendrePrediction({apply(node[0], 0), apply(node[0], 1), apply(node[0], 2)}, std::move(masses), task.duration);
   describeMotion(motion, *prediction);
   return prediction;
 }

@@ -19,7 +19,7 @@ class CracklePrediction final : public Prediction {
     fastest_ = 2.0 * power_ / seconds;  // z and its derivatives have no more zeros than their degree
     // Times H^-k, so that rows multiply derivatives with respect to sigma.
     for (FlatPolynomial& p : node_)
-      for (Real scale = 1; Real& c : p) c /= scale, scale *= half_;
+      for (Real scale = 1; Real & c : p) c /= scale, scale *= half_;
     Real scale = 0.5L;  // (2n+1)! / (n!^2 2^(2n+1))
     for (int i = 1; i <= power_; ++i) scale *= (2 * i + 1) / (2.0L * i);
     slope_ = scale * distance_;

@@ -14,7 +14,7 @@ constexpr int kStages = CurveMotion::kStages;
 // Gauss's collocation on [0, 1]: after Hairer, Lubich and Wanner, Geometric Numerical Integration, II.1.
 struct Collocation {
   std::array<double, kStages> node{}, weight{};
-  std::array<double, kStages> twice{};  // of the accelerations in the position at the end
+  std::array<double, kStages> twice{};                        // of the accelerations in the position at the end
   Eigen::Matrix<double, kStages, kStages> once, twiceInside;  // integrals from 0 to every node, and of those
 };
 
@@ -42,12 +42,7 @@ const Collocation& collocation() {
 }  // namespace
 
 CurveMotion::CurveMotion(const ArcCurve& curve, const CurveObject& object, double duration, int panels)
-    : curve_(curve),
-      object_(object),
-      panels_(panels),
-      n_(object.count()),
-      width_(duration / panels),
-      panel_(static_cast<size_t>(panels)) {
+    : curve_(curve), object_(object), panels_(panels), n_(object.count()), width_(duration / panels), panel_(static_cast<size_t>(panels)) {
   for (Panel& panel : panel_) {
     panel.position = panel.speed = Vector::Zero(n_);
     panel.acceleration = Vector::Zero(n_ * kStages);
@@ -55,9 +50,7 @@ CurveMotion::CurveMotion(const ArcCurve& curve, const CurveObject& object, doubl
   }
 }
 
-double CurveMotion::timeOf(int node) const {
-  return width_ * (node / kStages + collocation().node[static_cast<size_t>(node % kStages)]);
-}
+double CurveMotion::timeOf(int node) const { return width_ * (node / kStages + collocation().node[static_cast<size_t>(node % kStages)]); }
 
 // Arc lengths and speeds of hand and masses at one stage, from the accelerations.
 void CurveMotion::locateStage(const Panel& panel, int first, int stage, Vector& s, Vector& v) const {
@@ -79,8 +72,8 @@ CurveMotion::Matrix CurveMotion::stageSystem(const Panel& panel) const {
   for (int k = 0; k < kStages; ++k) {
     const Matrix& slope = panel.slope[static_cast<size_t>(k)];
     for (int l = 0; l < kStages; ++l)
-      system.block(k * n_, l * n_, n_, n_) -= width_ * width_ * c.twiceInside(k, l) * slope.middleCols(1, n_) +
-                                              width_ * c.once(k, l) * slope.middleCols(nodes + 1, n_);
+      system.block(k * n_, l * n_, n_, n_) -=
+          width_ * width_ * c.twiceInside(k, l) * slope.middleCols(1, n_) + width_ * c.once(k, l) * slope.middleCols(nodes + 1, n_);
   }
   return system;
 }
@@ -192,8 +185,7 @@ CurveMotion::Matrix CurveMotion::computeBend(const Vector& multiplier) const {
       locateStage(panel, first, k, s, v);
       bend.setZero();
       expandAccelerations(curve_, object_, s.data(), v.data(), a.data(), nullptr, &weight[k * n_], &bend);
-      bent.middleRows(2 * nodes * (first + k), 2 * nodes).noalias() =
-          bend * local_.middleRows(2 * nodes * (first + k), 2 * nodes);
+      bent.middleRows(2 * nodes * (first + k), 2 * nodes).noalias() = bend * local_.middleRows(2 * nodes * (first + k), 2 * nodes);
     }
   }
   Matrix result(local_.cols(), local_.cols());

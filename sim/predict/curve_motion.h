@@ -38,9 +38,9 @@ class CurveMotion {
   using Matrix = Eigen::MatrixXd;
   using Vector = Eigen::VectorXd;
   struct Panel {
-    Vector position, speed;             // N, at its beginning
-    Vector acceleration;                // N a stage, stage by stage
-    std::vector<Matrix> slope;          // of the accelerations at every stage, see expandAccelerations
+    Vector position, speed;     // N, at its beginning
+    Vector acceleration;        // N a stage, stage by stage
+    std::vector<Matrix> slope;  // of the accelerations at every stage, see expandAccelerations
     Eigen::PartialPivLU<Matrix> factor;
   };
   void locateStage(const Panel& panel, int first, int stage, Vector& s, Vector& v) const;

@@ -20,14 +20,14 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostIterations = 25;
 constexpr int kMostUnknowns = 300, kMostPanels = 4000;
-constexpr double kSettled = 3e-6;        // change of the unknowns, relative: Newton's error is its square
-constexpr double kProfile = 2e-9;        // error of the profile, of its peak, that is aimed at
-constexpr double kArrived = 1e-11;       // of the way, by any mass on the finer panels
-constexpr double kRounding = 1e-9;       // of the way, beyond the end of a curve whose target is its end
-constexpr double kPanelPhase = 2.5;     // fastest rate times the width of a panel
+constexpr double kSettled = 3e-6;    // change of the unknowns, relative: Newton's error is its square
+constexpr double kProfile = 2e-9;    // error of the profile, of its peak, that is aimed at
+constexpr double kArrived = 1e-11;   // of the way, by any mass on the finer panels
+constexpr double kRounding = 1e-9;   // of the way, beyond the end of a curve whose target is its end
+constexpr double kPanelPhase = 2.5;  // fastest rate times the width of a panel
 constexpr int kFinerPanels = 4;
 constexpr double kUnknownsPerPhase = 0.45;  // fewer do not follow the fastest mode of the object
-constexpr double kLeastBend = 1.0 / 64;  // step of the continuation from the straight line below which it is given up
+constexpr double kLeastBend = 1.0 / 64;     // step of the continuation from the straight line below which it is given up
 
 // What the masses must meet at T, each condition in the same unit: clamped modes and their rates (criteria.md 5).
 Matrix makeConditionScale(const LineObject& object) {
@@ -47,8 +47,7 @@ struct HandTable {
 
 HandTable tabulateHand(const RestToRestBasis& basis, const CurveMotion& motion, double length, double duration) {
   const int unknowns = basis.columns() - 1, width = basis.order() + 1;
-  HandTable table{Matrix(motion.nodes(), unknowns), Matrix(motion.nodes(), unknowns), Vector(motion.nodes()),
-                  Vector(motion.nodes())};
+  HandTable table{Matrix(motion.nodes(), unknowns), Matrix(motion.nodes(), unknowns), Vector(motion.nodes()), Vector(motion.nodes())};
   Matrix at(width, basis.columns());
   for (int node = 0; node < motion.nodes(); ++node) {
     basis.tabulate(2 * motion.timeOf(node) / duration - 1, 2 / duration, at.data());
@@ -78,9 +77,7 @@ class Search {
   Optimum solve(int unknowns, int panels, const Vector& guess, const Vector& multiplier) const;
   /// Follows the optimum on finer panels.
   CurveMotion follow(const Optimum& optimum, int panels) const;
-  double missOf(const CurveMotion& motion) const {
-    return (motion.end() - target_).head(object_.count()).lpNorm<Eigen::Infinity>();
-  }
+  double missOf(const CurveMotion& motion) const { return (motion.end() - target_).head(object_.count()).lpNorm<Eigen::Infinity>(); }
   double fastest() const { return object_.boundRate(); }
 
  private:
@@ -94,17 +91,14 @@ class Search {
 
 Optimum Search::solve(int unknowns, int panels, const Vector& guess, const Vector& multiplier) const {
   Optimum found{RestToRestBasis(problem_.order, unknowns), Vector::Zero(unknowns), multiplier};
-  found.unknowns.head(std::min<Eigen::Index>(guess.size(), unknowns)) =
-      guess.head(std::min<Eigen::Index>(guess.size(), unknowns));
+  found.unknowns.head(std::min<Eigen::Index>(guess.size(), unknowns)) = guess.head(std::min<Eigen::Index>(guess.size(), unknowns));
   const TranscribedCost cost(problem_, found.basis);
   CurveMotion motion(curve_, object_, duration_, panels);
   const HandTable hand = tabulateHand(found.basis, motion, curve_.length(), duration_);
   const auto follow = [&](const Vector& c) {
     return motion.follow(hand.fixedPosition + hand.position * c, hand.fixedSpeed + hand.speed * c);
   };
-  const auto refuse = [&] {
-    throw RefusedError("the object cannot follow the hand: springs would turn over on a way that is so bent");
-  };
+  const auto refuse = [&] { throw RefusedError("the object cannot follow the hand: springs would turn over on a way that is so bent"); };
   if (!follow(found.unknowns)) refuse();
   const int conditions = static_cast<int>(target_.size());
   Vector gradient;
@@ -137,8 +131,8 @@ Optimum Search::solve(int unknowns, int panels, const Vector& guess, const Vecto
     size = step.norm(), miss = off.norm();
     const double small = kSettled * (found.unknowns.norm() + 1e-3 * curve_.length());
     double length = 1;
-    while (!(follow(found.unknowns + length * step) &&
-             (scale_ * (motion.end() - target_)).norm() <= 2 * miss + 0.1 * std::sqrt(found.cost))) {
+    while (
+        !(follow(found.unknowns + length * step) && (scale_ * (motion.end() - target_)).norm() <= 2 * miss + 0.1 * std::sqrt(found.cost))) {
       length /= 2;
       if (length < 1e-3) refuse();
     }
@@ -181,8 +175,7 @@ Optimum continueFromStraight(const ArcCurve& curve, const LineObject& object, do
     } catch (const RefusedError& refused) {
       step /= 4;
       if (step < kLeastBend)
-        throw RefusedError(
-            fmt::format("the straight line could be bent only to {:.0f} % of the way: {}", 100 * part, refused.what()));
+        throw RefusedError(fmt::format("the straight line could be bent only to {:.0f} % of the way: {}", 100 * part, refused.what()));
     }
   }
   return best;
@@ -237,20 +230,17 @@ double compare(const LegendreSeries& coarse, const LegendreSeries& fine) {
 
 }  // namespace
 
-std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration,
-                                                      int unknowns) {
+std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration, int unknowns) {
   const Search search(curve, object, duration);
   const int conditions = 2 * object.count();
   const double phase = search.fastest() * duration;
   double asked = std::max(8.0, phase / kPanelPhase);
   if (asked > kMostPanels)
-    throw RefusedError(
-        fmt::format("the object is too fast for the movement time: {:.3g} rad/s for {:.3g} s; allowed: a product of {}",
-                    search.fastest(), duration, kMostPanels * kPanelPhase));
+    throw RefusedError(fmt::format("the object is too fast for the movement time: {:.3g} rad/s for {:.3g} s; allowed: a product of {}",
+                                   search.fastest(), duration, kMostPanels * kPanelPhase));
   int panels = static_cast<int>(std::ceil(asked));
   int n = unknowns > 0 ? unknowns : std::max(conditions + 14, static_cast<int>(kUnknownsPerPhase * phase));
-  if (n <= conditions)
-    throw UsageError(fmt::format("--unknowns: allowed: more than {} here, twice the number of masses", conditions));
+  if (n <= conditions) throw UsageError(fmt::format("--unknowns: allowed: more than {} here, twice the number of masses", conditions));
 
   Optimum best = continueFromStraight(curve, object, duration, n, panels);
   SeriesOfOne hand = seriesOf(best, curve.length(), duration);
@@ -276,19 +266,18 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, con
   }
   const double rounding = kRounding * curve.length();
   if (fine->lowest() < curve.lowest() - rounding || fine->highest() > curve.highest() + rounding)
-    throw RefusedError(fmt::format(
-        "the object would leave the smooth part of the curve: it moves from {:.3g} to {:.3g} m of arc length, the curve "
-        "is smooth from {:.3g} to {:.3g} m; allow more time",
-        fine->lowest(), fine->highest(), curve.lowest(), curve.highest()));
-  auto prediction = std::make_unique<CurveObjectPrediction>(seriesOf(best, curve.length(), duration), fine->makeProfile(),
-                                                            object.source, duration, search.fastest());
+    throw RefusedError(
+        fmt::format("the object would leave the smooth part of the curve: it moves from {:.3g} to {:.3g} m of arc length, the curve "
+                    "is smooth from {:.3g} to {:.3g} m; allow more time",
+                    fine->lowest(), fine->highest(), curve.lowest(), curve.highest()));
+  auto prediction = std::make_unique<CurveObjectPrediction>(seriesOf(best, curve.length(), duration), fine->makeProfile(), object.source,
+                                                            duration, search.fastest());
   prediction->distance = curve.length();
   prediction->cost = best.cost;
   prediction->condition = best.condition;
   if (error >= kProfile)
-    prediction->warnings.push_back(
-        fmt::format("the profile is known to {:.0e} of its peak only: the way bends too sharply for {} unknowns", error,
-                    best.unknowns.size()));
+    prediction->warnings.push_back(fmt::format("the profile is known to {:.0e} of its peak only: the way bends too sharply for {} unknowns",
+                                               error, best.unknowns.size()));
   if (miss > 1e-8) prediction->warnings.push_back(fmt::format("the masses miss the target by {:.0e} of the way", miss));
   return prediction;
 }

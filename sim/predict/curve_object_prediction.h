@@ -14,7 +14,6 @@ namespace reachlab {
 /// 1e-8 of its peak and the masses, followed on panels four times as fine, arrive. On a straight line it is the linear
 /// prediction. Throws RefusedError, with the numbers, when no minimum is found or the object would run off the known part of the
 /// curve.
-std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration,
-                                                      int unknowns);
+std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration, int unknowns);
 
 }  // namespace reachlab

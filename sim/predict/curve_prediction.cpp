@@ -17,9 +17,7 @@ TranscribedProblem makeCurveJerkProblem(const ArcCurve& curve, double duration) 
   problem.local = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
   problem.residual = [&curve](const double* a, double* r, double* ra, double* raa) {
     const double v = a[1], w = a[2], cube = v * v * v, turn = 3 * v * w;
-    const auto put = [](const Vec3& from, double* to, int stride) {
-      to[0] = from.x, to[stride] = from.y, to[2 * stride] = from.z;
-    };
+    const auto put = [](const Vec3& from, double* to, int stride) { to[0] = from.x, to[stride] = from.y, to[2 * stride] = from.z; };
     if (ra == nullptr) {
       const auto d = curve.expand<3>(a[0]);
       put(cube * d[3] + turn * d[2] + a[3] * d[1], r, 1);
@@ -27,12 +25,9 @@ TranscribedProblem makeCurveJerkProblem(const ArcCurve& curve, double duration) 
     }
     const auto d = curve.expand<5>(a[0]);
     put(cube * d[3] + turn * d[2] + a[3] * d[1], r, 1);
-    const std::array<Vec3, kLocals> slope{cube * d[4] + turn * d[3] + a[3] * d[2], 3 * v * v * d[3] + 3 * w * d[2], 3 * v * d[2],
-                                          d[1]};
-    const std::array<std::array<Vec3, kLocals>, kLocals> bend{{{cube * d[5] + turn * d[4] + a[3] * d[3]},
-                                                              {3 * v * v * d[4] + 3 * w * d[3], 6 * v * d[3]},
-                                                              {3 * v * d[3], 3 * d[2]},
-                                                              {d[2]}}};
+    const std::array<Vec3, kLocals> slope{cube * d[4] + turn * d[3] + a[3] * d[2], 3 * v * v * d[3] + 3 * w * d[2], 3 * v * d[2], d[1]};
+    const std::array<std::array<Vec3, kLocals>, kLocals> bend{
+        {{cube * d[5] + turn * d[4] + a[3] * d[3]}, {3 * v * v * d[4] + 3 * w * d[3], 6 * v * d[3]}, {3 * v * d[3], 3 * d[2]}, {d[2]}}};
     for (int i = 0; i < kLocals; ++i) {
       put(slope[i], ra + i, kLocals);
       for (int j = 0; j < kLocals; ++j) put(bend[std::max(i, j)][std::min(i, j)], raa + i * kLocals + j, kLocals * kLocals);

@@ -48,9 +48,7 @@ void resizeObject(Experiment& experiment, double value, bool keepTotal) {
   const auto n = static_cast<size_t>(value);
   const double total = std::accumulate(object.masses.begin(), object.masses.end(), 0.0);
   const bool parallel = object.kind == ObjectKind::Parallel;
-  const double spring = !object.stiffness.empty() ? object.stiffness[0]
-                        : experiment.coupling     ? experiment.coupling->stiffness
-                                                  : 0;
+  const double spring = !object.stiffness.empty() ? object.stiffness[0] : experiment.coupling ? experiment.coupling->stiffness : 0;
   const double damper = object.damping.empty() ? 0 : object.damping[0];
   object.masses.assign(n, keepTotal ? total / value : object.masses.at(0));
   object.stiffness.assign(parallel ? n : n - 1, spring);
@@ -93,8 +91,7 @@ std::vector<double> Sweep::values() const {
 
 Sweep parseSweep(const std::string& text) {
   const std::string_view all = text;
-  const size_t equal = all.find('='), first = all.find(':', equal),
-               second = first == all.npos ? all.npos : all.find(':', first + 1);
+  const size_t equal = all.find('='), first = all.find(':', equal), second = first == all.npos ? all.npos : all.find(':', first + 1);
   if (equal == all.npos || second == all.npos) throw UsageError(fmt::format("--sweep {}: allowed: KEY=FROM:TO:STEP", text));
   Sweep sweep;
   sweep.key = all.substr(0, equal);
@@ -149,8 +146,8 @@ void applySweepValue(const std::string& key, double value, Experiment& experimen
   }
 }
 
-std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options,
-                                     const Sweep& sweep, const std::function<void(int, int)>& progress) {
+std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options, const Sweep& sweep,
+                                     const std::function<void(int, int)>& progress) {
   const std::vector<double> values = sweep.values();
   const int total = static_cast<int>(values.size());
   std::vector<FamilyRow> rows(values.size());

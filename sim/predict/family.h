@@ -38,7 +38,7 @@ struct FamilyRow {
 };
 /// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the
 /// threads, one at a time, with how many are done.
-std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options,
-                                     const Sweep& sweep, const std::function<void(int done, int total)>& progress = {});
+std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options, const Sweep& sweep,
+                                     const std::function<void(int done, int total)>& progress = {});
 
 }  // namespace reachlab

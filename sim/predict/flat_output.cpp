@@ -47,8 +47,7 @@ std::vector<FlatPolynomial> computeParallel(const LineObject& object) {
   std::vector<FlatPolynomial> node(n + 1, FlatPolynomial{1});
   for (int j = 0; j < n; ++j) {
     const long double k = object.springs[j];
-    const FlatPolynomial oscillator{1, (static_cast<long double>(object.dampers[j]) + object.viscosity[j]) / k,
-                                    object.masses[j] / k};
+    const FlatPolynomial oscillator{1, (static_cast<long double>(object.dampers[j]) + object.viscosity[j]) / k, object.masses[j] / k};
     for (int i = 0; i <= n; ++i)
       node[i] = node[i] * (i == j + 1 ? FlatPolynomial{1, static_cast<long double>(object.dampers[j]) / k} : oscillator);
   }

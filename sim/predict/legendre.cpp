@@ -36,8 +36,7 @@ std::vector<double> legendreValues(int count, double x) {
   return values;
 }
 
-LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node,
-                                 const std::vector<double>& weight) {
+LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node, const std::vector<double>& weight) {
   const auto count = static_cast<int>(node.size());
   LegendreSeries series(node.size(), 0);
   for (size_t i = 0; i < node.size(); ++i) {

@@ -13,8 +13,7 @@ LegendreSeries integrate(const LegendreSeries& series);
 /// P_0(x) … P_(count-1)(x).
 std::vector<double> legendreValues(int count, double x);
 /// The polynomial of degree values.size() - 1 through values at the nodes of the Gauss rule of as many points.
-LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node,
-                                 const std::vector<double>& weight);
+LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node, const std::vector<double>& weight);
 
 /// Motions y from rest to rest on x in [-1, 1] with derivatives 1 … order-1 zero at both ends: y^(order) = g P_(order-1) +
 /// sum_k c_k sqrt(2n+1) P_n, n = order + k. The first column goes from 0 to 1, the others from 0 to 0, so that the ends hold for

@@ -16,9 +16,8 @@ constexpr double kEqualPhase = 1e-9;  // |w_i - w_j| T below which two frequenci
 void requirePositive(const std::vector<double>& values, const char* what, const char* unit) {
   for (size_t i = 0; i < values.size(); ++i)
     if (!(values[i] > 0) || !std::isfinite(values[i]))
-      throw RefusedError(
-          fmt::format("{} {} is {} {}: the masses behind it cannot be brought to rest by the hand; give it a value above 0", what,
-                      i + 1, values[i], unit));
+      throw RefusedError(fmt::format("{} {} is {} {}: the masses behind it cannot be brought to rest by the hand; give it a value above 0",
+                                     what, i + 1, values[i], unit));
 }
 
 }  // namespace
@@ -79,10 +78,9 @@ LineObject mergeEqualFrequencies(const LineObject& object, double duration, std:
       merged.dampers.push_back(object.dampers[i]);
       merged.viscosity.push_back(object.viscosity[i]);
     } else {
-      warnings.push_back(
-          fmt::format("masses {} and {} have equal frequencies ({:.6g} rad/s): they move as one mass",
-                      std::find(merged.source.begin(), merged.source.begin() + i, place) - merged.source.begin() + 1, i + 1,
-                      frequency(object, i)));
+      warnings.push_back(fmt::format("masses {} and {} have equal frequencies ({:.6g} rad/s): they move as one mass",
+                                     std::find(merged.source.begin(), merged.source.begin() + i, place) - merged.source.begin() + 1, i + 1,
+                                     frequency(object, i)));
       merged.masses[place] += object.masses[i];
       merged.springs[place] += object.springs[i];
       merged.dampers[place] += object.dampers[i];

@@ -10,17 +10,17 @@ namespace reachlab {
 /// Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the hand.
 struct LineObject {
   bool parallel = false;
-  std::vector<double> masses;   // [kg]
-  std::vector<double> springs;  // [N/m], as many as masses
-  std::vector<double> dampers;  // [N s/m], as many as masses
+  std::vector<double> masses;     // [kg]
+  std::vector<double> springs;    // [N/m], as many as masses
+  std::vector<double> dampers;    // [N s/m], as many as masses
   std::vector<double> viscosity;  // [N s/m] of the surroundings, on each mass
-  double handMass = 0;          // [kg]
-  double handDamping = 0;       // [N s/m]
-  std::vector<int> source;      // mass i of the experiment is masses[source[i]] here: equal parallel frequencies are one mass
+  double handMass = 0;            // [kg]
+  double handDamping = 0;         // [N s/m]
+  std::vector<int> source;        // mass i of the experiment is masses[source[i]] here: equal parallel frequencies are one mass
 
   int count() const { return static_cast<int>(masses.size()); }
   bool damped(bool withHand = true) const;
-  double totalMass() const;     // [kg] with the hand
+  double totalMass() const;  // [kg] with the hand
 };
 
 /// Takes the object out of the experiment. Throws UsageError for an object that has no form on a line, RefusedError for a spring

@@ -188,8 +188,7 @@ class Builder {
     }
     finishByForce(o.masses, distance);
     Row<Real> hand = centre();
-    for (int i = 0; i < n; ++i)
-      add(hand, stretch[i], Real(o.masses[i]) / Real(o.totalMass()) / sqrt(Real(o.springs[i])));
+    for (int i = 0; i < n; ++i) add(hand, stretch[i], Real(o.masses[i]) / Real(o.totalMass()) / sqrt(Real(o.springs[i])));
     s.output = {hand};
     for (int i = 0; i < n; ++i) {
       Row<Real> mass = hand;

@@ -13,11 +13,11 @@ namespace reachlab {
 template <class Real>
 struct LineSystem {
   int size = 0, controlled = 0;
-  int elongations = 0, velocities = 0;   // states 0 … elongations-1, then the velocities
-  std::vector<Real> a;                   // size x size, row by row
-  std::vector<Real> b, target;           // size
-  std::vector<std::vector<Real>> output; // positions of the hand, then of the masses [m]: size + 1 coefficients, the last of u
-  bool handJumps = false;                // the control reaches the hand's position at once
+  int elongations = 0, velocities = 0;    // states 0 … elongations-1, then the velocities
+  std::vector<Real> a;                    // size x size, row by row
+  std::vector<Real> b, target;            // size
+  std::vector<std::vector<Real>> output;  // positions of the hand, then of the masses [m]: size + 1 coefficients, the last of u
+  bool handJumps = false;                 // the control reaches the hand's position at once
   bool handVelocityJumps = false;
 };
 

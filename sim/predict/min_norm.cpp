@@ -20,8 +20,8 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   const double fastest = frequency.size() > 0 ? frequency.maxCoeff() : 0.0;
   const GaussRule<double>& rule = gaussRule16();
   const auto points = static_cast<Eigen::Index>(rule.node.size());
-  const auto panels = static_cast<Eigen::Index>(
-      std::ceil(std::max({fastest * halfTime / kPhasePerPanel, static_cast<double>(unknowns) / 12, 1.0})));
+  const auto panels =
+      static_cast<Eigen::Index>(std::ceil(std::max({fastest * halfTime / kPhasePerPanel, static_cast<double>(unknowns) / 12, 1.0})));
   const double width = halfTime / static_cast<double>(panels);
 
   Eigen::MatrixXd basis(panels * points, unknowns);

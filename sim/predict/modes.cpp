@@ -47,9 +47,7 @@ std::vector<Spring> springsOf(const LineObject& object, int hand) {
   return springs;
 }
 
-Eigen::VectorXd massesOf(const LineObject& object) {
-  return Eigen::Map<const Eigen::VectorXd>(object.masses.data(), object.count());
-}
+Eigen::VectorXd massesOf(const LineObject& object) { return Eigen::Map<const Eigen::VectorXd>(object.masses.data(), object.count()); }
 
 // Massless hand between parallel springs: the hub follows the masses, h = sum k_i x_i / sum k, and each spring pulls towards it.
 Modes computeHubModes(const LineObject& object) {

@@ -177,8 +177,7 @@ Eigen::RowVectorXd asRow(const OddMotion& motion) {
 
 }  // namespace
 
-std::unique_ptr<Prediction> makeParityPrediction(const LineObject& object, Criterion criterion, double distance,
-                                                 double duration) {
+std::unique_ptr<Prediction> makeParityPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
   const bool byHand = criterion == Criterion::MinHandJerk || criterion == Criterion::MinHandCrackle;
   const bool byForceChange = criterion == Criterion::MinHandForceChange;
   const int order = criterion == Criterion::MinHandCrackle ? 5 : criterion == Criterion::MinHandJerk || byForceChange ? 3 : 2;

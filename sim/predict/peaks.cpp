@@ -59,8 +59,7 @@ Peak largest(const std::vector<double>& samples, double duration, const Refine& 
   Peak best{samples.front(), 0};
   for (int i = 0; i <= last; ++i) {
     const double here = std::abs(samples[i]);
-    if (here < kWorthRefining * most || (i > 0 && std::abs(samples[i - 1]) > here) ||
-        (i < last && std::abs(samples[i + 1]) > here))
+    if (here < kWorthRefining * most || (i > 0 && std::abs(samples[i - 1]) > here) || (i < last && std::abs(samples[i + 1]) > here))
       continue;
     Peak peak{samples[i], duration * i / last};
     if (i > 0 && i < last) {

@@ -39,9 +39,8 @@ StraightTask computeStraightTask(const Constraint& constraint, const Task& task)
 }
 
 // The arm moves in the plane of x, along, and -z, away from the chest.
-std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, const Constraint& constraint,
-                                              const StraightTask& straight, const LineObject& object, double duration,
-                                              int unknowns) {
+std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, const Constraint& constraint, const StraightTask& straight,
+                                              const LineObject& object, double duration, int unknowns) {
   const ArmTask task{{straight.start.x, -straight.start.z}, {straight.target.x, -straight.target.z}, duration};
   if (constraint.kind == ConstraintKind::Free)
     return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), unknowns);
@@ -51,8 +50,7 @@ std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, cons
   return makeLineArmPrediction(experiment.arm, task, object, unknowns);
 }
 
-std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance,
-                                                 double duration) {
+std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
   if (criterion == Criterion::MinCrackle) return makeCracklePrediction(object, distance, duration);
   const bool byHand = criterion == Criterion::MinHandJerk || criterion == Criterion::MinHandCrackle;
   const bool handDampingMatters = !byHand && !(criterion == Criterion::MinComAcceleration && object.handMass == 0);
@@ -88,10 +86,10 @@ void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
   for (int i = 0; i <= kProbes; ++i) {
     const double along = dot(curve.expand<2>(curve.length() * i / kProbes)[1], gravity);
     if (std::abs(along) > 1e-9)
-      throw RefusedError(fmt::format(
-          "min-hand-jerk: gravity has {:.3g} m/s^2 along the curve, so that the masses rest neither at the start nor at "
-          "the target; allowed: gravity across the curve, or none",
-          along));
+      throw RefusedError(
+          fmt::format("min-hand-jerk: gravity has {:.3g} m/s^2 along the curve, so that the masses rest neither at the start nor at "
+                      "the target; allowed: gravity across the curve, or none",
+                      along));
   }
 }
 
@@ -99,8 +97,8 @@ void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
 std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, const Constraint& constraint, Criterion criterion,
                                                double duration, const std::optional<LineObject>& object, int unknowns) {
   if (criterion != Criterion::MinHandJerk)
-    throw RefusedError(fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces",
-                                   nameOf(criterion)));
+    throw RefusedError(
+        fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces", nameOf(criterion)));
   const Task& task = *experiment.task;
   if (constraint.kind == ConstraintKind::Curve) {
     if (!object) return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, unknowns);
@@ -109,8 +107,7 @@ std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, con
     return makeCurveObjectPrediction(curve, *object, duration, unknowns);
   }
   if (object)
-    throw RefusedError(
-        "min-hand-jerk: on surfaces it is computed for a single mass that moves with the hand; chains need a curve");
+    throw RefusedError("min-hand-jerk: on surfaces it is computed for a single mass that moves with the hand; chains need a curve");
   return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, 1, unknowns);
 }
 
@@ -132,11 +129,10 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
   std::optional<LineObject> object;
   if (experiment.object.kind == ObjectKind::Body) throw UsageError("object: the criteria are not defined for a body that turns");
   const auto makeObject = [&] {
-    return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping),
-                                 duration, warnings);
+    return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
+                                 warnings);
   };
-  const bool straight =
-      constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
+  const bool straight = constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
   if (straight) {
     const StraightTask way = computeStraightTask(constraint, task);
     if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");

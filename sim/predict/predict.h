@@ -11,15 +11,7 @@
 namespace reachlab {
 
 /// The optimality criteria of the paper's Table 1, in its order, and the literal hand-crackle variant.
-enum class Criterion {
-  MinHandJerk,
-  MinTorqueChange,
-  MinCrackle,
-  MinHandForce,
-  MinHandForceChange,
-  MinComAcceleration,
-  MinHandCrackle
-};
+enum class Criterion { MinHandJerk, MinTorqueChange, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle };
 inline constexpr int kCriterionCount = 7;
 std::string_view nameOf(Criterion criterion);  // "min-hand-jerk", "min-torque-change", …
 /// One line of plain words with the paper's equation number.
@@ -27,10 +19,10 @@ std::string_view describe(Criterion criterion);
 std::optional<Criterion> criterionFromName(std::string_view name);
 
 struct PredictOptions {
-  double duration = 0;               // [s] 0: the task's
-  std::optional<double> handMass;    // [kg] nullopt: the experiment's
-  double handDamping = 0;            // [N s/m] of the hand itself
-  int unknowns = 0;                  // transcribed cases; 0: chosen for 1e-8
+  double duration = 0;             // [s] 0: the task's
+  std::optional<double> handMass;  // [kg] nullopt: the experiment's
+  double handDamping = 0;          // [N s/m] of the hand itself
+  int unknowns = 0;                // transcribed cases; 0: chosen for 1e-8
 };
 
 /// One instant of a predicted movement: metres along the line (or of arc length along a curve) from the start.
@@ -54,15 +46,15 @@ class Prediction {
   int scanCount() const { return 48 + static_cast<int>(1.2 * fastest_ * duration); }
 
   Criterion criterion{};
-  double duration = 0;      // [s]
-  double distance = 0;      // [m]
-  double cost = 0;          // integral of u^2, no 1/2
-  double condition = 0;     // of the linear solve
-  std::optional<double> travelTime;   // [s] T*, chain only
-  double handPeak = 0, handPeakTime = 0;  // [m/s], [s] largest |v| on [0+, T-], signed, earliest if equal
-  double objectPeak = 0;                  // [m/s] last mass
+  double duration = 0;                               // [s]
+  double distance = 0;                               // [m]
+  double cost = 0;                                   // integral of u^2, no 1/2
+  double condition = 0;                              // of the linear solve
+  std::optional<double> travelTime;                  // [s] T*, chain only
+  double handPeak = 0, handPeakTime = 0;             // [m/s], [s] largest |v| on [0+, T-], signed, earliest if equal
+  double objectPeak = 0;                             // [m/s] last mass
   std::optional<double> handJump, handVelocityJump;  // [m], [m/s] at t = 0+; nullopt where a pulse makes it meaningless
-  std::vector<std::string> warnings;      // T < T*, condition, merged frequencies …
+  std::vector<std::string> warnings;                 // T < T*, condition, merged frequencies …
 
  protected:
   int massCount_ = 0;

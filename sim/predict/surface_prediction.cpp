@@ -12,11 +12,10 @@ namespace {
 
 // Central differences on nine points, eighth order for the first and second derivative, sixth for the third (which only shapes
 // the Newton matrix). [derivative][offset + 4]
-constexpr double kDifference[4][9] = {
-    {0, 0, 0, 0, 1, 0, 0, 0, 0},
-    {1.0 / 280, -4.0 / 105, 1.0 / 5, -4.0 / 5, 0, 4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280},
-    {-1.0 / 560, 8.0 / 315, -1.0 / 5, 8.0 / 5, -205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560},
-    {-7.0 / 240, 3.0 / 10, -169.0 / 120, 61.0 / 30, 0, -61.0 / 30, 169.0 / 120, -3.0 / 10, 7.0 / 240}};
+constexpr double kDifference[4][9] = {{0, 0, 0, 0, 1, 0, 0, 0, 0},
+                                      {1.0 / 280, -4.0 / 105, 1.0 / 5, -4.0 / 5, 0, 4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280},
+                                      {-1.0 / 560, 8.0 / 315, -1.0 / 5, 8.0 / 5, -205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560},
+                                      {-7.0 / 240, 3.0 / 10, -169.0 / 120, 61.0 / 30, 0, -61.0 / 30, 169.0 / 120, -3.0 / 10, 7.0 / 240}};
 constexpr double kStep = 0.02;  // of the parameter's natural scale, 1 for angles: truncation and rounding both near 1e-12
 
 double component(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
@@ -57,8 +56,7 @@ double stepFor(const Domain& domain) {
 }  // namespace
 
 std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface, const std::vector<double>& start,
-                                                      const std::vector<double>& target, double duration, int massCount,
-                                                      int unknowns) {
+                                                      const std::vector<double>& target, double duration, int massCount, int unknowns) {
   constexpr int kLocals = 8;
   TranscribedProblem problem;
   problem.duration = duration;
@@ -104,8 +102,7 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface,
     store<kLocals>(jerk, r, ra, raa);
   };
   const TranscribedMotion motion = solveFromStarts(problem, unknowns);
-  const LegendreSeries u = motion.derivative(0, 0), v = motion.derivative(1, 0), du = motion.derivative(0, 1),
-                       dv = motion.derivative(1, 1);
+  const LegendreSeries u = motion.derivative(0, 0), v = motion.derivative(1, 0), du = motion.derivative(0, 1), dv = motion.derivative(1, 1);
   // Arc length along the motion from its speed.
   const GaussRule<double> rule = makeGaussRule<double>(3 * motion.basis.columns() + 40);
   std::vector<double> speed;

@@ -10,7 +10,6 @@ namespace reachlab {
 /// between them is free: u(t) and v(t) are both unknown. Rest: r', r'' zero at both ends. Hand and mass are one; positions are
 /// metres of arc length.
 std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface, const std::vector<double>& start,
-                                                      const std::vector<double>& target, double duration, int massCount,
-                                                      int unknowns);
+                                                      const std::vector<double>& target, double duration, int massCount, int unknowns);
 
 }  // namespace reachlab

@@ -9,8 +9,7 @@ using Vector = Eigen::VectorXd;
 
 TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestToRestBasis& basis)
     : problem_(problem), rule_(makeGaussRule<double>(3 * (basis.columns() - 1 + problem.order) / 2 + 8)) {
-  const int unknowns = basis.columns() - 1, motions = static_cast<int>(problem.from.size()),
-            nodes = static_cast<int>(rule_.node.size());
+  const int unknowns = basis.columns() - 1, motions = static_cast<int>(problem.from.size()), nodes = static_cast<int>(rule_.node.size());
   const int locals = problem.locals, width = problem.order + 1;
   rows_.resize(nodes * locals, motions * unknowns);
   fixed_ = Vector::Zero(nodes * locals);
@@ -19,8 +18,8 @@ TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestTo
     basis.tabulate(rule_.node[static_cast<size_t>(node)], 2 / problem.duration, table.data());
     for (int motion = 0; motion < motions; ++motion) {
       const auto m = static_cast<size_t>(motion);
-      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> local(
-          problem.local[m].data(), locals, width);
+      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> local(problem.local[m].data(), locals,
+                                                                                                           width);
       const Matrix all = local * table;
       fixed_.segment(node * locals, locals) += all.col(0) * (problem.to[m] - problem.from[m]) + local.col(0) * problem.from[m];
       rows_.block(node * locals, motion * unknowns, locals, unknowns) = all.rightCols(unknowns);

@@ -11,8 +11,8 @@ namespace reachlab {
 /// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions: the problem of
 /// criterion 2 and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
 struct TranscribedProblem {
-  double duration = 0;      // [s]
-  int order = 3;            // conditions per end of each motion
+  double duration = 0;  // [s]
+  int order = 3;        // conditions per end of each motion
   int locals = 0, residuals = 0;
   std::vector<double> from, to;  // ends of each unknown motion
   /// locals x (order+1) for each motion: a = sum over motions and m of local[motion][l*(order+1)+m] * y^(m)(t), time derivatives.

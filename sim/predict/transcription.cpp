@@ -31,8 +31,7 @@ LegendreSeries TranscribedMotion::derivative(int motion, int m) const {
   return series;
 }
 
-TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns,
-                                     const std::vector<std::vector<double>>& guess) {
+TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
   const int motions = static_cast<int>(problem.from.size()), total = motions * unknowns;
   TranscribedMotion motion{RestToRestBasis(problem.order, unknowns), {}, problem.from, problem.duration};
   const TranscribedCost cost(problem, motion.basis);
@@ -58,8 +57,7 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
     double length = 1;
     const double slope = gradient.dot(step), small = kSettled * (c.norm() + 1e-3 * std::abs(problem.to[0] - problem.from[0]));
     settled = damping == 0 && step.norm() <= small;
-    while (!settled && length > 1e-6 &&
-           !(cost.evaluate(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost))
+    while (!settled && length > 1e-6 && !(cost.evaluate(c + length * step) <= motion.cost + 1e-4 * length * slope + 1e-14 * motion.cost))
       length /= 2;
     c += length * step;
     damping = length < 0.1 ? std::max(10 * damping, 1e-6) : damping < 1e-5 ? 0 : damping / 10;
@@ -71,8 +69,8 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
     }
   }
   if (!settled)
-    throw RefusedError(fmt::format(
-        "no minimum was found within {} Newton steps; another posture, a longer time or another path may help", kMostIterations));
+    throw RefusedError(fmt::format("no minimum was found within {} Newton steps; another posture, a longer time or another path may help",
+                                   kMostIterations));
   for (int m = 0; m < motions; ++m) {
     std::vector<double> all{problem.to[m] - problem.from[m]};
     all.insert(all.end(), c.data() + m * unknowns, c.data() + (m + 1) * unknowns);
@@ -111,9 +109,8 @@ TranscribedMotion solveTranscriptionAdaptively(const TranscribedProblem& problem
     }
   }
   if (!(motion.uncertainty < kUseless))
-    throw RefusedError(
-        fmt::format("the profile still changes by {:.1e} of its peak with {} unknowns; another path or start may help",
-                    motion.uncertainty, kMost));
+    throw RefusedError(fmt::format("the profile still changes by {:.1e} of its peak with {} unknowns; another path or start may help",
+                                   motion.uncertainty, kMost));
   return motion;
 }
 
@@ -191,9 +188,8 @@ void describeMotion(const TranscribedMotion& motion, Prediction& prediction) {
   prediction.cost = motion.cost;
   prediction.condition = motion.condition;
   if (motion.uncertainty > 0)
-    prediction.warnings.push_back(
-        fmt::format("the profile is known to {:.0e} of its peak only: the path bends too sharply for {} unknowns",
-                    motion.uncertainty, motion.basis.columns() - 1));
+    prediction.warnings.push_back(fmt::format("the profile is known to {:.0e} of its peak only: the path bends too sharply for {} unknowns",
+                                              motion.uncertainty, motion.basis.columns() - 1));
 }
 
 std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration) {

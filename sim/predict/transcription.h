@@ -23,8 +23,7 @@ struct TranscribedMotion {
 
 /// Newton's method with exact second derivatives and a line search, from `guess` (unknowns of each motion, as many as given; the
 /// rest 0). Throws RefusedError when it does not settle.
-TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns,
-                                     const std::vector<std::vector<double>>& guess);
+TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess);
 
 /// Error of a profile after its unknowns were raised by half for the last time, when the last two raises changed it by `before`
 /// and `change`: the error falls geometrically with the number of unknowns, and the last raise was half as large again as the one

@@ -94,11 +94,10 @@ void AppendFile::sync() {
   if (!os::syncFile(descriptor_)) fail("cannot be synced to the disk", path_);
   struct stat open {
   }, named{};
-  const bool there = ::fstat(descriptor_, &open) == 0 && ::stat(path_.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-                     open.st_dev == named.st_dev;
+  const bool there =
+      ::fstat(descriptor_, &open) == 0 && ::stat(path_.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
   if (!there)
-    throw ResourceError(path_ +
-                        ": is no longer there: its disk was taken away or it was deleted; put it back before the next run");
+    throw ResourceError(path_ + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run");
 }
 
 void writeFileAtomically(const std::string& path, std::string_view text) {

@@ -27,8 +27,7 @@ class AppendFile {
   const std::string& path() const { return path_; }
 
  private:
-  AppendFile(int descriptor, std::string path, std::uint64_t size)
-      : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
+  AppendFile(int descriptor, std::string path, std::uint64_t size) : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
   int descriptor_ = -1;
   std::string path_;
   std::uint64_t size_ = 0;

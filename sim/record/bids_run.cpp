@@ -48,8 +48,7 @@ std::string motionJson(const RunLog& run) {
   const RunConfiguration& c = run.configuration();
   const SampleRows rows = run.allRows();
   const auto count = [&](const std::string& type) {
-    return std::count_if(c.table.channels.begin(), c.table.channels.end(),
-                         [&](const Channel& channel) { return channel.type == type; });
+    return std::count_if(c.table.channels.begin(), c.table.channels.end(), [&](const Channel& channel) { return channel.type == type; });
   };
   std::set<std::string> points;
   for (const Channel& channel : c.table.channels)
@@ -83,8 +82,7 @@ std::string channelsTsv(const RunConfiguration& c) {
   table.row({"name", "component", "type", "tracked_point", "units", "placement", "reference_frame", "description"});
   for (const Channel& channel : c.table.channels) {
     const std::string frame = isSpatial(channel) ? "world" : "n/a";
-    table.row(
-        {channel.name, channel.component, channel.type, channel.trackedPoint, channel.units, "n/a", frame, channel.description});
+    table.row({channel.name, channel.component, channel.type, channel.trackedPoint, channel.units, "n/a", frame, channel.description});
   }
   return table.text();
 }
@@ -104,8 +102,8 @@ std::string channelsJson() {
 std::string eventsTsv(const RunLog& run) {
   const RunConfiguration& c = run.configuration();
   TableText table('\t', "n/a");
-  table.row({"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by",
-             "movement_time", "reaction_time", "go", "foreperiod", "peak_hand_speed", "hand_path", "peak_force", "missed_ticks"});
+  table.row({"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by", "movement_time",
+             "reaction_time", "go", "foreperiod", "peak_hand_speed", "hand_path", "peak_force", "missed_ticks"});
   for (const RecordedTrial& trial : run.trials()) {
     const TrialTimes times = timesOf(trial);
     const double onset = std::isfinite(times.onset) ? times.onset : times.start;

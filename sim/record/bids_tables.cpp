@@ -84,8 +84,7 @@ std::string descriptionJson(const std::string& version) {
 std::string participantsJson() {
   Json j;
   j["age"] = {{"Description", "Age of the participant"}, {"Units", "years"}};
-  j["sex"] = {{"Description", "Sex as reported by the participant"},
-              {"Levels", {{"F", "female"}, {"M", "male"}, {"O", "other"}}}};
+  j["sex"] = {{"Description", "Sex as reported by the participant"}, {"Levels", {{"F", "female"}, {"M", "male"}, {"O", "other"}}}};
   j["handedness"] = {{"Description", "Handedness as reported by the participant"},
                      {"Levels", {{"R", "right"}, {"L", "left"}, {"A", "ambidextrous"}}}};
   return j.dump(2) + "\n";

@@ -19,8 +19,7 @@ struct Quantity {
 
 void addVector(std::vector<Channel>& out, const Quantity& q) {
   for (const char* axis : kAxes)
-    out.push_back(
-        {q.name + "_" + axis, axis, q.type, q.trackedPoint, q.units, q.description, fmt::format(fmt::runtime(q.column), axis)});
+    out.push_back({q.name + "_" + axis, axis, q.type, q.trackedPoint, q.units, q.description, fmt::format(fmt::runtime(q.column), axis)});
 }
 
 void addScalar(std::vector<Channel>& out, const Quantity& q) {
@@ -34,8 +33,7 @@ void addMass(std::vector<Channel>& out, int mass, int parameterCount) {
   addVector(out, {id + "_vel", id + "_v{}_m_per_s", "VEL", id, "m/s", what + ", velocity"});
   addVector(out, {id + "_acc", id + "_a{}_m_per_s2", "ACCEL", id, "m/s^2", what + ", acceleration"});
   for (int k = 1; k <= parameterCount; ++k)
-    addScalar(out,
-              {fmt::format("{}_q{}", id, k), fmt::format("{}_q{}", id, k), "MISC", id, "n/a", what + ", constraint parameter"});
+    addScalar(out, {fmt::format("{}_q{}", id, k), fmt::format("{}_q{}", id, k), "MISC", id, "n/a", what + ", constraint parameter"});
   for (int k = 1; k <= parameterCount; ++k)
     addScalar(out, {fmt::format("{}_q{}_rate", id, k), fmt::format("{}_q{}_per_s", id, k), "MISC", id, "1/s",
                     what + ", rate of the constraint parameter"});
@@ -46,8 +44,7 @@ void addBody(std::vector<Channel>& out) {
   for (const char* part : {"w", "x", "y", "z"})
     out.push_back({fmt::format("body_quat_{}", part), fmt::format("quat_{}", part), "ORNT", "mass1", "n/a", description,
                    fmt::format("body_quat_{}", part)});
-  addVector(out,
-            {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
+  addVector(out, {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
 }
 
 constexpr std::size_t kTrialColumn = 21;  // latency, measured time, six vectors, energy
@@ -73,8 +70,8 @@ ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount) 
   table.parameterCount = parameterCount;
   table.body = experiment.object.kind == ObjectKind::Body;
   auto& out = table.channels;
-  addScalar(out, {"latency", "time_s", "LATENCY", "n/a", "s",
-                  "time since the run began: ticks of 1 ms, the clock of protocol and physics"});
+  addScalar(out,
+            {"latency", "time_s", "LATENCY", "n/a", "s", "time since the run began: ticks of 1 ms, the clock of protocol and physics"});
   addScalar(out, {"measured_time", "measured_s", "MISC", "n/a", "s", "monotonic clock of the computer since the run began"});
   addVector(out, {"hand_pos", "hand_{}_m", "POS", "hand", "m", "haptic interface point as the coupling sees it"});
   addVector(out, {"hand_vel", "hand_v{}_m_per_s", "VEL", "hand", "m/s", "haptic interface point, estimated velocity"});

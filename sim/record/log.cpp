@@ -42,8 +42,7 @@ std::vector<std::uint8_t> makeHeader() {
 }
 
 bool isKnown(std::uint16_t type) {
-  return type >= static_cast<std::uint16_t>(RecordType::Configuration) &&
-         type <= static_cast<std::uint16_t>(RecordType::TrialSetup);
+  return type >= static_cast<std::uint16_t>(RecordType::Configuration) && type <= static_cast<std::uint16_t>(RecordType::TrialSetup);
 }
 
 }  // namespace
@@ -112,15 +111,14 @@ LogReader::LogReader(const std::string& path) : path_(path) {
   void* memory = regular && size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0) : MAP_FAILED;
   ::close(descriptor);
   if (memory != MAP_FAILED) bytes_ = {static_cast<const std::uint8_t*>(memory), size};
-  const bool signature = bytes_.size() >= kLogHeaderBytes &&
-                         std::memcmp(bytes_.data(), kSignature.data(), kSignature.size()) == 0 &&
+  const bool signature = bytes_.size() >= kLogHeaderBytes && std::memcmp(bytes_.data(), kSignature.data(), kSignature.size()) == 0 &&
                          checksum(bytes_.data(), 12) == load<std::uint32_t>(bytes_.data() + 12);
   if (signature) version_ = load<std::uint32_t>(bytes_.data() + 8);
   if (!signature || version_ > kLogSchemaVersion) {
     if (memory != MAP_FAILED) ::munmap(memory, size);
     bytes_ = {};
-    throw UsageError(signature ? fmt::format("{}: log of schema version {}; this program reads up to {}: use a newer one", path,
-                                             version_, kLogSchemaVersion)
+    throw UsageError(signature ? fmt::format("{}: log of schema version {}; this program reads up to {}: use a newer one", path, version_,
+                                             kLogSchemaVersion)
                                : path + ": not a log of reachlab, or its first 16 bytes are damaged");
   }
 }
@@ -130,10 +128,7 @@ LogReader::~LogReader() {
 }
 
 LogReader::LogReader(LogReader&& other) noexcept
-    : path_(std::move(other.path_)),
-      bytes_(std::exchange(other.bytes_, {})),
-      at_(other.at_),
-      sequence_(other.sequence_),
+    : path_(std::move(other.path_)), bytes_(std::exchange(other.bytes_, {})), at_(other.at_), sequence_(other.sequence_),
       version_(other.version_) {}
 
 LogReader& LogReader::operator=(LogReader&& other) noexcept {

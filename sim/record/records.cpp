@@ -48,10 +48,8 @@ void TickBlock::add(const RecordedTick& tick) {
   if (first) bytes_.put(std::uint32_t{0});
   bytes_.put(flags);
   if (flags & kTickJump) bytes_.put(tick.tick);
-  if (flags & kTimeJump)
-    bytes_.put(tick.measuredNs);
-  else
-    bytes_.put(static_cast<std::uint32_t>(passed));
+  if (flags & kTimeJump) bytes_.put(tick.measuredNs);
+  else bytes_.put(static_cast<std::uint32_t>(passed));
   if (!(flags & kSamePosition)) put(bytes_, tick.device.position);
   if (flags & kHasVelocity) put(bytes_, tick.device.velocity);
   if (flags & kButtons) bytes_.put(tick.device.buttons);
@@ -181,8 +179,7 @@ void encode(const RecordedTrial& t, const TrialLink& previous, ByteWriter& out) 
   out.put(static_cast<std::uint8_t>(t.result.reason));
   out.put(static_cast<std::int32_t>(t.result.mass));
   for (const double value : {t.result.by, t.result.movementTime}) out.put(value);
-  for (const std::uint64_t tick : {t.startTick, t.armedTick, t.goTick, t.result.onsetTick, t.result.endTick, t.lastTick})
-    out.put(tick);
+  for (const std::uint64_t tick : {t.startTick, t.armedTick, t.goTick, t.result.onsetTick, t.result.endTick, t.lastTick}) out.put(tick);
   for (const double value : {t.peakHandSpeed, t.handPathLength, t.peakForce, t.meanForce}) out.put(value);
   out.put(t.clampedTicks);
   out.put(t.missedTicks);

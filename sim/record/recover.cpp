@@ -67,8 +67,7 @@ Recovery recoverLog(const std::string& path) {
     error.clear();
     fs::copy_file(path, recovery.damagedOriginal, error);
   }
-  if (error)
-    throw ResourceError(fmt::format("{}: the damaged original cannot be kept: {}", recovery.damagedOriginal, error.message()));
+  if (error) throw ResourceError(fmt::format("{}: the damaged original cannot be kept: {}", recovery.damagedOriginal, error.message()));
   fs::rename(mended, path, error);
   if (error) throw ResourceError(fmt::format("{}: cannot be replaced: {}", path, error.message()));
   recovery.mended = true;

@@ -25,10 +25,7 @@ bool sameResult(const TrialResult& a, const TrialResult& b) {
 class RowCheck {
  public:
   explicit RowCheck(const RunLog& log)
-      : table_(log.configuration().table),
-        firstTrial_(log.configuration().firstTrial),
-        recorded_(log.allRows()),
-        row_(table_.size()) {}
+      : table_(log.configuration().table), firstTrial_(log.configuration().firstTrial), recorded_(log.allRows()), row_(table_.size()) {}
 
   void look(const TickState& state, Replay& replay) {
     if (next_ >= recorded_.size() || recorded_.ticks[next_] != state.tick) return;
@@ -39,8 +36,8 @@ class RowCheck {
       const double recorded = recorded_.at(next_, column);
       if (column == kMeasuredTime || sameBits(recorded, row_[column])) continue;
       if (replay.firstDifference.empty())
-        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick,
-                                             table_.channels[column].name, recorded, row_[column]);
+        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick, table_.channels[column].name,
+                                             recorded, row_[column]);
       ++replay.rowsThatDiffer;
       break;
     }
@@ -92,8 +89,8 @@ Replay replayRun(const RunLog& log) {
     const TickState& state = engine.state();
     if (replay.ticks == 0) expected = tick.tick;
     if (tick.tick != expected || state.tick != tick.tick)
-      throw UsageError(fmt::format("{}: tick {} is missing (dropped while recording), so the run cannot be simulated past it",
-                                   log.path(), expected));
+      throw UsageError(
+          fmt::format("{}: tick {} is missing (dropped while recording), so the run cannot be simulated past it", log.path(), expected));
     ++expected;
     ++replay.ticks;
     rows.look(state, replay);

@@ -19,8 +19,7 @@ json toJson(const Channel& c) {
 }
 
 Channel channelFrom(const json& j) {
-  return {j.at("name"),  j.at("component"),   j.at("type"),  j.at("tracked_point"),
-          j.at("units"), j.at("description"), j.at("column")};
+  return {j.at("name"), j.at("component"), j.at("type"), j.at("tracked_point"), j.at("units"), j.at("description"), j.at("column")};
 }
 
 json toJson(const Participant& p) {
@@ -39,8 +38,7 @@ Participant participantFrom(const json& j) {
 
 json toJson(const std::vector<PlannedTrial>& trials) {
   json list = json::array();
-  for (const PlannedTrial& t : trials)
-    list.push_back({{"index", t.index}, {"foreperiod_ms", t.foreperiodTicks}, {"catch", t.catchTrial}});
+  for (const PlannedTrial& t : trials) list.push_back({{"index", t.index}, {"foreperiod_ms", t.foreperiodTicks}, {"catch", t.catchTrial}});
   return list;
 }
 
@@ -53,8 +51,7 @@ std::vector<PlannedTrial> trialsFrom(const json& list) {
 json tableToJson(const ChannelTable& table) {
   json channels = json::array();
   for (const Channel& channel : table.channels) channels.push_back(toJson(channel));
-  return {
-      {"mass_count", table.massCount}, {"parameter_count", table.parameterCount}, {"body", table.body}, {"channels", channels}};
+  return {{"mass_count", table.massCount}, {"parameter_count", table.parameterCount}, {"body", table.body}, {"channels", channels}};
 }
 
 ChannelTable tableFrom(const json& j) {
@@ -161,13 +158,10 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   }
 }
 
-Experiment recordedExperiment(const RunConfiguration& c) {
-  return parseExperiment(c.experimentText, c.experimentName, c.definitionText);
-}
+Experiment recordedExperiment(const RunConfiguration& c) { return parseExperiment(c.experimentText, c.experimentName, c.definitionText); }
 
 void checkLabel(const std::string& label, const std::string& what) {
-  const bool good =
-      !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
+  const bool good = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
   if (!good) throw UsageError(fmt::format("{} \"{}\": not a label; allowed: letters and digits only", what, label));
 }
 

@@ -14,9 +14,7 @@ namespace {
 
 constexpr std::uint64_t kNoTick = std::numeric_limits<std::uint64_t>::max();
 
-std::string_view textOf(const RecordView& record) {
-  return {reinterpret_cast<const char*>(record.payload.data()), record.payload.size()};
-}
+std::string_view textOf(const RecordView& record) { return {reinterpret_cast<const char*>(record.payload.data()), record.payload.size()}; }
 
 // The trial that was under way when the log broke off, put together from what was logged of it.
 struct OpenTrial {
@@ -108,10 +106,8 @@ bool RunLog::readChain(LogReader& reader) {
   closed_ = fileBytes_ > kEndPayloadBytes + kRecordFrameBytes + kLogHeaderBytes &&
             reader.looksLike(endOffset, RecordType::End, kEndPayloadBytes) &&
             readAt(reader, endOffset, reader.sequenceAt(endOffset), RecordType::End, record);
-  if (closed_)
-    link = decodeEnd(record.payload);
-  else if (!findLastTrial(reader, link))
-    return false;
+  if (closed_) link = decodeEnd(record.payload);
+  else if (!findLastTrial(reader, link)) return false;
   const TrialLink last = link;
   while (link.offset != 0) {
     if (!readAt(reader, link.offset, link.sequence, RecordType::Trial, record)) return false;
@@ -168,8 +164,7 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   LogReader reader(path_);
   const auto after = std::upper_bound(trials_.begin(), trials_.end(), firstTick,
                                       [](std::uint64_t tick, const RecordedTrial& trial) { return tick < trial.startTick; });
-  if (after != trials_.begin() && std::prev(after)->offset != 0)
-    reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
+  if (after != trials_.begin() && std::prev(after)->offset != 0) reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
   RecordView record;
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))

@@ -3,14 +3,11 @@
 namespace reachlab {
 namespace {
 
-constexpr auto kFlushEvery =
-    std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
+constexpr auto kFlushEvery = std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
 constexpr std::uint32_t kTicksPerBlock = 1000;
 constexpr std::uint32_t kTicksPerClockLook = 16;
 
-std::span<const std::uint8_t> bytesOf(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
+std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
 }  // namespace
 

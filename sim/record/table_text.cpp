@@ -33,10 +33,8 @@ TableText& TableText::number(double value) {
   if (rowBegun_) text_ += separator_;
   rowBegun_ = true;
   // 17 significant digits for CSV as everywhere on the command line; the shortest that reads back equal for TSV.
-  if (separator_ == ',')
-    fmt::format_to(std::back_inserter(text_), "{:.17g}", value);
-  else
-    fmt::format_to(std::back_inserter(text_), "{}", value);
+  if (separator_ == ',') fmt::format_to(std::back_inserter(text_), "{:.17g}", value);
+  else fmt::format_to(std::back_inserter(text_), "{}", value);
   return *this;
 }
 
@@ -66,12 +64,9 @@ TsvTable parseTsv(const std::string& text) {
     cells.assign(1, "");
   };
   for (const char c : text) {
-    if (c == '\t')
-      cells.emplace_back();
-    else if (c == '\n')
-      finishRow();
-    else if (c != '\r')
-      cells.back() += c;
+    if (c == '\t') cells.emplace_back();
+    else if (c == '\n') finishRow();
+    else if (c != '\r') cells.back() += c;
   }
   finishRow();
   return table;

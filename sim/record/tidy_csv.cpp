@@ -86,15 +86,11 @@ void addTrial(TableText& table, const RunConfiguration& c, const Task& task, con
 
 std::string unitOf(Reason reason) {
   switch (reason) {
-    case Reason::Position:
-      return "m";
-    case Reason::Velocity:
-      return "m/s";
+    case Reason::Position: return "m";
+    case Reason::Velocity: return "m/s";
     case Reason::TimeShort:
-    case Reason::TimeLong:
-      return "s";
-    default:
-      return "";
+    case Reason::TimeLong: return "s";
+    default: return "";
   }
 }
 

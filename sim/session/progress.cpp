@@ -12,14 +12,14 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
     try {
       const RunLog log = RunLog::open(run.path, LogCheck::Trials);
       const RunConfiguration& configuration = log.configuration();
-      auto block = std::find_if(blocks.begin(), blocks.end(),
-                                [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
+      auto block =
+          std::find_if(blocks.begin(), blocks.end(), [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
       if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{configuration, {}, 0, 0});
       block->lastRun = configuration.run;
       for (const RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
-        const bool again = trial.result.outcome == Outcome::Interrupted ||
-                           (trial.result.outcome == Outcome::Aborted && configuration.repeatAborted);
+        const bool again =
+            trial.result.outcome == Outcome::Interrupted || (trial.result.outcome == Outcome::Aborted && configuration.repeatAborted);
         if (!again) block->done.insert(trial.planned.index);
       }
     } catch (const Error& error) {

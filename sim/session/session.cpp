@@ -32,18 +32,16 @@ Plan planOf(const SessionRequest& request) {
 
 // A session is one day: the one asked for, else the session's label when that is a number.
 int dayOf(const SessionRequest& request, const Plan& plan) {
-  const bool daysMatter =
-      std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
+  const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
   if (!daysMatter) return 0;
   int day = 0;
   const std::string& label = request.place.session;
   const auto [end, fault] = std::from_chars(label.data(), label.data() + label.size(), day);
   const bool number = fault == std::errc{} && end == label.data() + label.size();
-  if (request.day)
-    day = *request.day;
+  if (request.day) day = *request.day;
   else if (!number)
-    throw UsageError(fmt::format("{}: the plan has days and session \"{}\" is no number; allowed: --session 01, 02 …, or --day N",
-                                 plan.name, label));
+    throw UsageError(
+        fmt::format("{}: the plan has days and session \"{}\" is no number; allowed: --session 01, 02 …, or --day N", plan.name, label));
   return day;
 }
 
@@ -52,8 +50,7 @@ bool isRunOf(const RunConfiguration& c, const Experiment& experiment) {
          (c.definitionText.empty() || c.definitionText == definitionTextOf(experiment));
 }
 
-const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number,
-                                  const Experiment& experiment) {
+const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number, const Experiment& experiment) {
   const BlockProgress* found = nullptr;
   for (const BlockProgress& block : progress) {
     const RunConfiguration& c = block.configuration;
@@ -86,8 +83,7 @@ void checkSameWishes(const SessionRequest& request, const BlockProgress& block) 
                                  block.configuration.run, block.configuration.sessionSeed, block.configuration.sessionSeed));
 }
 
-RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block,
-                                    const Experiment& experiment) {
+RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block, const Experiment& experiment) {
   RunConfiguration c;
   c.subject = request.place.subject;
   c.session = request.place.session;
@@ -123,10 +119,8 @@ int firstTrialOf(const std::vector<PlannedTrial>& remaining, const BlockProgress
 
 // The seed of the session that is resumed, before that the one asked for, else a drawn one.
 void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, SessionToRun& session) {
-  if (resumed != nullptr)
-    session.seed = resumed->configuration.sessionSeed;
-  else if (request.seed)
-    session.seed = *request.seed;
+  if (resumed != nullptr) session.seed = resumed->configuration.sessionSeed;
+  else if (request.seed) session.seed = *request.seed;
   else {
     session.seed = drawSeed();
     session.seedDrawn = true;
@@ -137,16 +131,14 @@ void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, Ses
 
 std::uint64_t drawSeed() {
   std::random_device entropy;
-  return (static_cast<std::uint64_t>(entropy()) << 21) ^
-         entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
+  return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
 }
 
 SessionToRun planSession(const SessionRequest& request) {
   checkLabel(request.place.subject, "--subject");
   checkLabel(request.place.session, "--session");
   const Plan plan = planOf(request);
-  if (!plan.text.empty() && request.trials)
-    throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
+  if (!plan.text.empty() && request.trials) throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
   const int day = dayOf(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
   if (order.empty())
@@ -164,8 +156,7 @@ SessionToRun planSession(const SessionRequest& request) {
       throw UsageError(block.experiment + ": task: is missing, and a run needs one; allowed: { start, target, … }");
     recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiments.back()));
   }
-  const auto anyRecorded =
-      std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
+  const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
   const BlockProgress* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
   if (request.resume && resumed == nullptr) refuseChanged(progress, plan, experiments.front());
   if (resumed != nullptr) checkSameWishes(request, *resumed);
@@ -200,8 +191,7 @@ SessionToRun planSession(const SessionRequest& request) {
     session.blocks.push_back(std::move(block));
     run = chooseRun(request.place, run + 1);
   }
-  for (std::size_t k = 0; k < session.blocks.size(); ++k)
-    session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
+  for (std::size_t k = 0; k < session.blocks.size(); ++k) session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
   const bool unfinished =
       std::any_of(recorded.begin(), recorded.end(), [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
   if (!request.resume && unfinished)

@@ -25,8 +25,7 @@ std::string partOf(const std::string& name, const std::string& key) {
 }  // namespace
 
 std::string logPath(const SessionPlace& place, const std::string& task, int run) {
-  return fmt::format("{}/sourcedata/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, place.subject, place.session, task, run,
-                     kEnding);
+  return fmt::format("{}/sourcedata/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, place.subject, place.session, task, run, kEnding);
 }
 
 std::string labelOf(const std::string& name) {
@@ -58,10 +57,10 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
   if (!asked) return free;
   const auto taken = std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == *asked; });
   if (taken != runs.end())
-    throw UsageError(fmt::format(
-        "--run {}: subject {}, session {} has this run already ({}), and nothing is overwritten; allowed: --run {}, the "
-        "next free one, or no --run",
-        *asked, place.subject, place.session, taken->path, free));
+    throw UsageError(
+        fmt::format("--run {}: subject {}, session {} has this run already ({}), and nothing is overwritten; allowed: --run {}, the "
+                    "next free one, or no --run",
+                    *asked, place.subject, place.session, taken->path, free));
   return *asked;
 }
 

@@ -26,16 +26,13 @@ std::vector<PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed)
   // The catch trials are those with the smallest drawn numbers; the first trial is never one, nobody would know what to do.
   std::vector<std::size_t> byDraw(count > 0 ? count - 1 : 0);
   std::iota(byDraw.begin(), byDraw.end(), std::size_t{1});
-  std::sort(byDraw.begin(), byDraw.end(), [&](std::size_t a, std::size_t b) {
-    return seededBits(seed ^ kCatchStream, a) < seededBits(seed ^ kCatchStream, b);
-  });
+  std::sort(byDraw.begin(), byDraw.end(),
+            [&](std::size_t a, std::size_t b) { return seededBits(seed ^ kCatchStream, a) < seededBits(seed ^ kCatchStream, b); });
   const auto catches = static_cast<std::size_t>(std::lround(block.catchShare * static_cast<double>(count)));
   for (std::size_t k = 0; k < std::min(catches, byDraw.size()); ++k) trials[byDraw[k]].catchTrial = true;
   return trials;
 }
 
-std::uint64_t blockSeed(std::uint64_t seed, int block) {
-  return block == 1 ? seed : seededBits(seed, static_cast<std::uint64_t>(block));
-}
+std::uint64_t blockSeed(std::uint64_t seed, int block) { return block == 1 ? seed : seededBits(seed, static_cast<std::uint64_t>(block)); }
 
 }  // namespace reachlab

@@ -7,7 +7,19 @@ namespace reachlab {
 
 enum class Outcome : std::uint8_t { None, Success, Failure, Aborted, Interrupted };
 enum class Reason : std::uint8_t {
-  None, Position, Velocity, TimeShort, TimeLong, ForceLimit, DeviceLost, NoOnset, Experimenter, EndOfConstraint, Computation, Program, FalseStart
+  None,
+  Position,
+  Velocity,
+  TimeShort,
+  TimeLong,
+  ForceLimit,
+  DeviceLost,
+  NoOnset,
+  Experimenter,
+  EndOfConstraint,
+  Computation,
+  Program,
+  FalseStart
 };
 std::string_view nameOf(Outcome outcome);  // "success", "failure", "aborted", "interrupted"
 std::string_view nameOf(Reason reason);    // "position", "velocity", "time_short", …
@@ -16,9 +28,9 @@ std::string_view nameOf(Reason reason);    // "position", "velocity", "time_shor
 struct TrialResult {
   Outcome outcome = Outcome::None;
   Reason reason = Reason::None;
-  int mass = 0;               // from 1; 0 where no mass is to blame
-  double by = 0;              // excess over the tolerance, [m], [m/s] or [s]
-  double movementTime = 0;    // [s] t_e, or the time since onset at which the trial ended
+  int mass = 0;             // from 1; 0 where no mass is to blame
+  double by = 0;            // excess over the tolerance, [m], [m/s] or [s]
+  double movementTime = 0;  // [s] t_e, or the time since onset at which the trial ended
   std::uint64_t onsetTick = 0, endTick = 0;
 };
 

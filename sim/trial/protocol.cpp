@@ -83,8 +83,7 @@ void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, Protoco
   if (arrival.complete()) {
     if (moved < s.earliestTick)
       end(state, in.tick, Outcome::Failure, Reason::TimeShort, {0, s.earliest - static_cast<double>(moved) * kTickSeconds});
-    else
-      end(state, in.tick, Outcome::Success, Reason::None);
+    else end(state, in.tick, Outcome::Success, Reason::None);
     return;
   }
   if (moved < s.latestTick) return;

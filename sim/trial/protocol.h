@@ -37,14 +37,14 @@ inline constexpr int kLostTicks = 20;  // a driver may skip a packet or two; lon
 
 /// A task in metres and ticks.
 struct ProtocolSettings {
-  Vec3 start, target;              // [m] r(start), r(target)
-  double armRadius = 0.01;         // [m]
-  double onset = 0.001;            // [m]
-  double positionTolerance = 0;    // [m] dx
-  double velocityTolerance = 0;    // [m/s] dv
-  double earliest = 0;             // [s] T - dT
-  std::int64_t earliestTick = 0;   // first tick since onset that is not before T - dT
-  std::int64_t latestTick = 0;     // last tick since onset that is not after T + dT
+  Vec3 start, target;             // [m] r(start), r(target)
+  double armRadius = 0.01;        // [m]
+  double onset = 0.001;           // [m]
+  double positionTolerance = 0;   // [m] dx
+  double velocityTolerance = 0;   // [m/s] dv
+  double earliest = 0;            // [s] T - dT
+  std::int64_t earliestTick = 0;  // first tick since onset that is not before T - dT
+  std::int64_t latestTick = 0;    // last tick since onset that is not after T + dT
   std::int64_t timeoutTicks = 0;
   bool forceLimitEndsTrial = false;
 };
@@ -58,11 +58,11 @@ Vec3 placeOn(const Constraint& constraint, std::span<const double> q);
 struct ProtocolInput {
   std::uint64_t tick = 0;
   Command command = Command::None;
-  PlannedTrial planned;                 // used with NextTrial
-  Vec3 hip;                             // [m] raw
+  PlannedTrial planned;  // used with NextTrial
+  Vec3 hip;              // [m] raw
   bool handValid = true;
-  bool handBroken = false;              // the device gave something that is not finite
-  bool clamped = false;                 // at the tick before
+  bool handBroken = false;  // the device gave something that is not finite
+  bool clamped = false;     // at the tick before
   StepStatus status = StepStatus::Ok;
   std::span<const MassState> masses;
 };
@@ -70,13 +70,13 @@ struct ProtocolInput {
 struct ProtocolState {
   Phase phase = Phase::Idle;
   Semaphore semaphore = Semaphore::Neutral;
-  std::int32_t trial = 0;               // from 1
+  std::int32_t trial = 0;  // from 1
   PlannedTrial planned;
-  bool gone = false;                    // the go signal was given
-  Vec3 armedAt;                         // [m] the HIP at arming
+  bool gone = false;  // the go signal was given
+  Vec3 armedAt;       // [m] the HIP at arming
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
-  int lostTicks = 0;                    // in a row
-  TrialResult result;                   // in Done
+  int lostTicks = 0;   // in a row
+  TrialResult result;  // in Done
 };
 
 /// Haptic thread, once a tick, after the step; neither allocates nor throws.

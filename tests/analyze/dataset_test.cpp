@@ -38,7 +38,8 @@ TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
   EXPECT_EQ(dataset.input.conditions.size(), 2u);
   EXPECT_TRUE(dataset.notes.empty());
   std::size_t i = 0;
-  for (const char* file : {"sub-01_ses-01_task-chainmoderate_run-01", "sub-01_ses-02_task-chainmoderate_run-01", "sub-02_ses-01_task-chainfast_run-01"}) {
+  for (const char* file :
+       {"sub-01_ses-01_task-chainmoderate_run-01", "sub-01_ses-02_task-chainmoderate_run-01", "sub-02_ses-01_task-chainfast_run-01"}) {
     const RunLog log = RunLog::open(folder.path() + "/sourcedata/" + file + "_log.reach");
     for (const RecordedTrial& trial : log.trials()) {
       EXPECT_EQ(dataset.input.trials[i].result.outcome, trial.result.outcome);

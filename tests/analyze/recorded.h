@@ -25,7 +25,8 @@ struct RunToRecord {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    path_ = (std::filesystem::temp_directory_path() / ("reachlab_analyze_" + std::to_string(getpid()) + "_" + std::to_string(counter()++))).string();
+    path_ = (std::filesystem::temp_directory_path() / ("reachlab_analyze_" + std::to_string(getpid()) + "_" + std::to_string(counter()++)))
+                .string();
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() {

@@ -9,8 +9,10 @@ namespace {
 
 TEST(WilsonInterval, HasItsTextbookValues) {
   // Newcombe 1998, table I: 81 of 263 and 15 of 148 to four digits, 0 of 20 and 29 of 29.
-  const struct { std::size_t r, n; double low, high; } cases[] = {
-      {81, 263, 0.2553, 0.3662}, {15, 148, 0.0624, 0.1605}, {0, 20, 0.0000, 0.1611}, {1, 29, 0.0061, 0.1718}};
+  const struct {
+    std::size_t r, n;
+    double low, high;
+  } cases[] = {{81, 263, 0.2553, 0.3662}, {15, 148, 0.0624, 0.1605}, {0, 20, 0.0000, 0.1611}, {1, 29, 0.0061, 0.1718}};
   for (const auto& c : cases) {
     const Interval i = computeWilsonInterval(c.r, c.n);
     EXPECT_NEAR(i.low, c.low, 5e-5);

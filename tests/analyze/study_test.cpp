@@ -86,7 +86,8 @@ TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
 }
 
 TEST(Study, LearningPointsNeverSpanTwoSessions) {
-  const StudyResult study = analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
+  const StudyResult study =
+      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
   ASSERT_EQ(study.learning.size(), 4u);  // 10 + 5 trials on each of two days
   EXPECT_EQ(study.learning[1].firstTrial, 11);
   EXPECT_EQ(study.learning[1].lastTrial, 15);
@@ -95,7 +96,8 @@ TEST(Study, LearningPointsNeverSpanTwoSessions) {
 }
 
 TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
-  const StudyResult study = analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
+  const StudyResult study =
+      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
   ASSERT_EQ(study.series.size(), 4u);
   double sum = 0;
   int n = 0;

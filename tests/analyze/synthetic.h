@@ -9,12 +9,13 @@
 namespace reachlab {
 
 struct Scatter {
-  double duration = 0.06;      // relative SD of the movement's duration
-  double shape = 0.04;         // relative SD of a slow wave on the velocity
-  double position = 20e-6;     // [m] white noise of the measured position
+  double duration = 0.06;   // relative SD of the movement's duration
+  double shape = 0.04;      // relative SD of a slow wave on the velocity
+  double position = 20e-6;  // [m] white noise of the measured position
 };
 
-inline Experiment lineExperiment(ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness, double coupling, double duration) {
+inline Experiment lineExperiment(ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness, double coupling,
+                                 double duration) {
   Experiment e;
   e.constraint.name = "line";
   e.constraint.shape = {{"length_m", 0.2}};
@@ -69,8 +70,8 @@ inline TrialData followPlan(const Prediction& plan, const Scatter& scatter, std:
 }
 
 /// `subjects` x `days` x conditions, `trials` each, every movement planned by `criterion`.
-inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, Criterion criterion, double handMass, int subjects, int days,
-                                 int trials, std::uint64_t seed, const Scatter& scatter = {}) {
+inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, Criterion criterion, double handMass, int subjects,
+                                 int days, int trials, std::uint64_t seed, const Scatter& scatter = {}) {
   StudyInput input;
   input.conditions = conditions;
   std::mt19937_64 random(seed);

@@ -9,8 +9,6 @@
 namespace reachlab::bench {
 namespace {
 
-
-
 /// Ten states, sixteen columns: y' = P (y, c). The rows are padded to two vectors of eight.
 struct ExactForm {
   static constexpr int kStates = 10, kMasses = 5, kHand = 6, kColumns = kStates + kHand, kRhsPerStep = 0;

@@ -150,9 +150,7 @@ struct SaddleModel {
     acceleration[1] = (right - pv * common) * inverse - drag * dv;
   }
   void state(const double* q, const double* v, double* out) const { out[0] = q[0], out[1] = q[1], out[2] = v[0], out[3] = v[1]; }
-  void positions(const double* s, double* r) const {
-    r[0] = a * s[0], r[1] = a * s[1], r[2] = h * s[0] * (s[0] * s[0] - 3 * s[1] * s[1]);
-  }
+  void positions(const double* s, double* r) const { r[0] = a * s[0], r[1] = a * s[1], r[2] = h * s[0] * (s[0] * s[0] - 3 * s[1] * s[1]); }
 };
 
 /// Five masses on the ellipse in the lanes of one vector; lanes 5 to 7 rest at phi = 0 and pull on nothing.
@@ -201,8 +199,7 @@ Contender makeMultistepLimit(const BenchScene& scene) {
       return makeAdams<double, 2>(scene, SaddleModel{s.shape.a, s.shape.h, s.mass, s.kHand, s.bHand, (s.bHand + s.lambda) / s.mass});
     else if constexpr (std::is_same_v<System, CurveChain<EllipseShape, 5, 6>>)
       return makeAdams<V8, 1>(scene, EllipseChainModel{s.shape.a, s.shape.b, s.mass, s.k, s.b, s.kHand, s.bHand});
-    else
-      throw UsageError("bench: no multistep form of scene " + scene.name);
+    else throw UsageError("bench: no multistep form of scene " + scene.name);
   });
 }
 

@@ -59,15 +59,14 @@ TEST(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
   EXPECT_NE(ended.err.find("bad.json:1:"), std::string::npos) << ended.err;
 }
 
-
 // sin(10 u) sin(10 v) …: singular along 40 lines and between them at more points than are listed.
 TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   const Folder folder;
   const auto check = [&](const std::string& name, const std::string& kind, const std::string& lines, const std::string& domain) {
     const std::string place = kind == "curve" ? "[0]" : "[0, 0]";
-    return reach("constraint check " + folder.write(name + ".json", R"({"schema_version": 1, "name": ")" + name + R"(", "kind": ")" + kind + R"(", ")" + kind +
-                                                                       "\": " + lines + R"(, "domain": )" + domain + R"(, "start": )" + place +
-                                                                       R"(, "target": )" + place + "}"));
+    return reach("constraint check " + folder.write(name + ".json", R"({"schema_version": 1, "name": ")" + name + R"(", "kind": ")" + kind +
+                                                                        R"(", ")" + kind + "\": " + lines + R"(, "domain": )" + domain +
+                                                                        R"(, "start": )" + place + R"(, "target": )" + place + "}"));
   };
   const Ended many = check("many", "surface", R"j(["sin(10*u)*sin(10*v)/10", "sin(10*u)^2/10", "sin(10*v)^2/10"])j", "[[-3, 3], [-3, 3]]");
   EXPECT_EQ(many.exitCode, 0) << many.err;
@@ -76,7 +75,8 @@ TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   const Ended one = check("umbrella", "surface", R"(["u*v/10", "u/10", "v^2/10"])", "[[-1, 1], [-1, 1]]");
   EXPECT_NE(one.out.find("pinch     u = 0, v = 0"), std::string::npos) << one.out;
   EXPECT_EQ(one.out.find("there may be more"), std::string::npos) << one.out;
-  EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate place"), std::string::npos);
+  EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate place"),
+            std::string::npos);
   EXPECT_NE(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out.find("no cusp"), std::string::npos);
   EXPECT_EQ(check("point", "curve", R"(["1", "2", "3"])", "[0, 1]").exitCode, 2);
   const Ended infinite = check("hole", "curve", R"j(["1/(phi - 0.3)", "phi", "0"])j", "[0, 1]");
@@ -90,8 +90,9 @@ TEST(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
   std::string sum = "phi";
   while (sum.size() < 10000) sum += "+phi";
   for (const std::string& formula : {open + "phi" + close, open, sum, std::string(10000, '-') + "phi"}) {
-    const Ended ended = reach("constraint check " + folder.write("long.json", R"({"schema_version": 1, "name": "long", "kind": "curve", "curve": [")" + formula +
-                                                                                  R"(", "phi", "0"], "domain": [0, 1], "start": [0], "target": [1]})"));
+    const Ended ended = reach("constraint check " +
+                              folder.write("long.json", R"({"schema_version": 1, "name": "long", "kind": "curve", "curve": [")" + formula +
+                                                            R"(", "phi", "0"], "domain": [0, 1], "start": [0], "target": [1]})"));
     EXPECT_EQ(ended.exitCode, 2) << ended.exitCode;
     EXPECT_NE(ended.err.find("allowed: 2000"), std::string::npos) << ended.err.substr(0, 200);
   }

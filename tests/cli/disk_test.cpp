@@ -31,8 +31,8 @@ Ending runWithFileLimit(const std::string& data, const std::string& folder, rlim
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 1);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 2);
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    ::execl(REACH_PROGRAM, REACH_PROGRAM, "run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1",
-            "--fast", "--data", data.c_str(), nullptr);
+    ::execl(REACH_PROGRAM, REACH_PROGRAM, "run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--fast",
+            "--data", data.c_str(), nullptr);
     ::_exit(127);
   }
   int status = 0;
@@ -42,8 +42,7 @@ Ending runWithFileLimit(const std::string& data, const std::string& folder, rlim
 
 std::size_t linesThatBegin(const std::string& text, const std::string& with) {
   std::size_t count = 0;
-  for (std::size_t at = 0; (at = text.find(with, at)) != std::string::npos; at += with.size())
-    count += at == 0 || text[at - 1] == '\n';
+  for (std::size_t at = 0; (at = text.find(with, at)) != std::string::npos; at += with.size()) count += at == 0 || text[at - 1] == '\n';
   return count;
 }
 

@@ -158,8 +158,7 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
         }
     }
     ASSERT_EQ(done.size(), 30u) << "kill " << k;
-    for (const RecordedTrial& trial : good.trials())
-      EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
+    for (const RecordedTrial& trial : good.trials()) EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
 
     EXPECT_NO_THROW(recoverLog(runs[0].path));
     const RunLog mended = RunLog::open(runs[0].path);
@@ -170,8 +169,8 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
   }
   std::sort(silences.begin(), silences.end());
   if (!silences.empty())
-    std::printf("%zu kills within a run, %d within a trial; last write before the kill: median %.1f ms, longest %.1f ms\n",
-                silences.size(), midTrial, silences[silences.size() / 2], silences.back());
+    std::printf("%zu kills within a run, %d within a trial; last write before the kill: median %.1f ms, longest %.1f ms\n", silences.size(),
+                midTrial, silences[silences.size() / 2], silences.back());
 }
 
 TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {

@@ -49,7 +49,8 @@ TEST(PredictCommand, WritesTheNumbersAsJson) {
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json.at("criterion"), "min-hand-jerk");
   EXPECT_NEAR(json.at("cost").get<double>(), 6.76284544993, 1e-10);
-  for (const char* key : {"hand_peak_m_per_s", "hand_peak_s", "object_peak_m_per_s", "hand_jump_m", "hand_jump_m_per_s", "condition", "travel_time_s"})
+  for (const char* key :
+       {"hand_peak_m_per_s", "hand_peak_s", "object_peak_m_per_s", "hand_jump_m", "hand_jump_m_per_s", "condition", "travel_time_s"})
     EXPECT_TRUE(json.at(key).is_number()) << key;
 }
 

@@ -25,8 +25,7 @@ TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
   for (const std::string& name : shippedExperiments()) {
     if (!readExperiment(name).task) continue;
     const std::string data = folder / name;
-    ASSERT_EQ(
-        reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0)
+    ASSERT_EQ(reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0)
         << name;
     const std::string log = recordedRuns({data}).at(0).path;
     EXPECT_EQ(reach("replay " + log + " --check"), 0) << name;

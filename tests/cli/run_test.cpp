@@ -58,7 +58,9 @@ TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     EXPECT_EQ(table.rows[i][table.column("outcome")], trials[i].at("outcome"));
     EXPECT_EQ(table.at(i, "trial"), static_cast<double>(i + 1));
-    if (trials[i].at("outcome") == "failure") { EXPECT_EQ(table.rows[i][table.column("reason")], trials[i].at("reason")); }
+    if (trials[i].at("outcome") == "failure") {
+      EXPECT_EQ(table.rows[i][table.column("reason")], trials[i].at("reason"));
+    }
   }
   EXPECT_EQ(reach("replay --check " + logOf(folder)).exitCode, 0);
 }
@@ -78,7 +80,8 @@ TEST(Run, TakesTheNextFreeRunAndRefusesOneThatExists) {
 
 TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {
   const Folder folder;
-  const Ended ended = reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.string());
+  const Ended ended =
+      reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.string());
   EXPECT_EQ(ended.exitCode, 3) << ended.err;
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
 }

@@ -72,8 +72,8 @@ TEST(Simulate, ATypedFormulaEqualsItsCatalogueTwin) {
   const Folder folder;
   const std::string task = R"(, "task": {"start": [0.3], "target": [2], "duration_s": 1,
     "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
-  const std::string typed = folder.write(
-      "typed.json", onePoint(R"j({"curve": ["0", "a*cos(phi)", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j", "", task));
+  const std::string typed =
+      folder.write("typed.json", onePoint(R"j({"curve": ["0", "a*cos(phi)", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j", "", task));
   const Ended ended = reach("simulate " + typed + " --hand min-jerk");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Table table = parseCsv(ended.out);

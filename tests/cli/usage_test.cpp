@@ -7,7 +7,8 @@ using Json = nlohmann::json;
 
 TEST(Usage, HelpAndVersionEndWithZero) {
   EXPECT_EQ(reach("--version").exitCode, 0);
-  for (const char* command : {"", "list", "validate", "run", "simulate", "predict", "analyze", "replay", "export", "recover", "constraint", "bench"}) {
+  for (const char* command :
+       {"", "list", "validate", "run", "simulate", "predict", "analyze", "replay", "export", "recover", "constraint", "bench"}) {
     const Ended help = reach(std::string(command) + " --help");
     EXPECT_EQ(help.exitCode, 0) << command;
     EXPECT_NE(help.out.find("xample"), std::string::npos) << command << " has no example in its help";
@@ -15,9 +16,10 @@ TEST(Usage, HelpAndVersionEndWithZero) {
 }
 
 TEST(Usage, WrongWordsEndWithTwoAndASentence) {
-  for (const char* words : {"", "fly", "run", "run chain-moderate", "run nothing-like-it --device simulated", "simulate chain-moderate --hand fly",
-                            "predict chain-moderate --criterion min-effort", "list planets", "run chain-moderate --device teleport:x --fast",
-                            "run chain-moderate --device simulated --fast --subject a_b", "simulate chain-moderate --hand none --until -1"}) {
+  for (const char* words :
+       {"", "fly", "run", "run chain-moderate", "run nothing-like-it --device simulated", "simulate chain-moderate --hand fly",
+        "predict chain-moderate --criterion min-effort", "list planets", "run chain-moderate --device teleport:x --fast",
+        "run chain-moderate --device simulated --fast --subject a_b", "simulate chain-moderate --hand none --until -1"}) {
     const Ended ended = reach(words);
     EXPECT_EQ(ended.exitCode, 2) << words << "\n" << ended.err;
     EXPECT_FALSE(ended.err.empty()) << words;

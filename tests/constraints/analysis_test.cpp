@@ -74,7 +74,9 @@ TEST(HigherDerivatives, OfTheAstroidMatchItsMultipleAngles) {
   const std::vector<Vec3> d = computeDerivatives(named("astroid"), phi, 4);
   ASSERT_EQ(d.size(), 5u);
   for (int n = 0; n <= 4; ++n)
-    EXPECT_NEAR(d[static_cast<std::size_t>(n)].x, 0.12 * (3 * std::cos(phi + n * kPi / 2) + std::pow(3, n) * std::cos(3 * phi + n * kPi / 2)) / 4, 1e-14) << n;
+    EXPECT_NEAR(d[static_cast<std::size_t>(n)].x,
+                0.12 * (3 * std::cos(phi + n * kPi / 2) + std::pow(3, n) * std::cos(3 * phi + n * kPi / 2)) / 4, 1e-14)
+        << n;
   EXPECT_THROW(computeDerivatives(named("astroid"), 0, 5), RefusedError);
   EXPECT_THROW(computeDerivatives(named("torus"), 0, 1), RefusedError);
 }
@@ -112,10 +114,16 @@ TEST(DegeneratePlaces, AreToldApartByKind) {
 }
 
 TEST(Usable, FormulasThatDegenerateEverywhereAreRefused) {
-  EXPECT_NE(refusal({.name = {}, .curve = {"a", "b", "c"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.2}, {"c", 0.3}}}).find("degenerates everywhere"), std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {"0", "sin(phi)^2 + cos(phi)^2", "1"}, .surface = {}, .shape = {}}).find("degenerates everywhere"), std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {}, .surface = {"u + v", "2*(u + v)", "(u + v)^2"}, .shape = {}}).find("degenerates everywhere"), std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {}, .surface = {"u", "u^2", "1"}, .shape = {}}).find("degenerates everywhere"), std::string::npos);
+  EXPECT_NE(refusal({.name = {}, .curve = {"a", "b", "c"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.2}, {"c", 0.3}}})
+                .find("degenerates everywhere"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal({.name = {}, .curve = {"0", "sin(phi)^2 + cos(phi)^2", "1"}, .surface = {}, .shape = {}}).find("degenerates everywhere"),
+      std::string::npos);
+  EXPECT_NE(refusal({.name = {}, .curve = {}, .surface = {"u + v", "2*(u + v)", "(u + v)^2"}, .shape = {}}).find("degenerates everywhere"),
+            std::string::npos);
+  EXPECT_NE(refusal({.name = {}, .curve = {}, .surface = {"u", "u^2", "1"}, .shape = {}}).find("degenerates everywhere"),
+            std::string::npos);
 }
 
 TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
@@ -129,8 +137,8 @@ TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
   expect("log(abs(phi - 1.1))", "1.1");
   expect("tan(phi)", "1.5707963");
   expect("1/(phi - 1.3)^2", "1.3");
-  expect("sqrt(phi)", "0");           // its derivative
-  expect("sqrt(4 - phi)", "4");       // from where on it has no value
+  expect("sqrt(phi)", "0");                    // its derivative
+  expect("sqrt(4 - phi)", "4");                // from where on it has no value
   expect("exp(exp(exp(phi)))", "2.35619449");  // the first of the places looked at beyond 1.88
   expect("sin(phi)/phi", "0");
   const std::string surface = refusal({.name = {}, .curve = {}, .surface = {"u", "v", "1/(u^2 + v^2)"}, .shape = {}});
@@ -157,7 +165,9 @@ TEST(Usable, HarmlessDenominatorsAndRootsAreAccepted) {
 }
 
 TEST(TypedFormula, UnusedShapeIsNamed) {
-  EXPECT_NE(refusal({.name = {}, .curve = {"a*phi", "0", "0"}, .surface = {}, .shape = {{"a", 1}, {"b", 1}}}).find("shape.b is used by no coordinate"), std::string::npos);
+  EXPECT_NE(refusal({.name = {}, .curve = {"a*phi", "0", "0"}, .surface = {}, .shape = {{"a", 1}, {"b", 1}}})
+                .find("shape.b is used by no coordinate"),
+            std::string::npos);
   EXPECT_NE(refusal({.name = {}, .curve = {"phi", "0", "0"}, .surface = {}, .shape = {{"phi", 1}}}).find("variable"), std::string::npos);
   EXPECT_NE(refusal({.name = {}, .curve = {"phi", "0"}, .surface = {}, .shape = {}}).find("allowed: three"), std::string::npos);
 }

@@ -16,13 +16,57 @@ TEST(Catalogue, HoldsTheNamedCurvesAndSurfacesAndMore) {
   for (const Definition& d : catalogue()) ++(d.kind == ConstraintKind::Curve ? curves : surfaces);
   EXPECT_GE(curves, 24);
   EXPECT_GE(surfaces, 20);
-  for (const char* name :
-       {"line", "circle", "ellipse", "parabola", "cycloid", "epicycloid", "epitrochoid", "hypocycloid", "hypotrochoid", "deltoid", "astroid",
-        "cardioid", "nephroid", "limacon", "lissajous", "lemniscate", "rose", "catenary", "sine", "archimedean-spiral", "logarithmic-spiral",
-        "helix", "conical-helix", "trefoil", "torus-knot", "viviani", "spherical-spiral", "lissajous-3d", "plane", "cylinder", "cone", "sphere",
-        "ellipsoid", "torus", "paraboloid", "hyperbolic-paraboloid", "hyperboloid", "monkey-saddle", "helicoid", "catenoid", "moebius-strip",
-        "klein-bottle", "enneper", "pseudosphere", "dini", "egg-crate", "gaussian-hill", "whitney-umbrella", "cross-cap", "roman-surface",
-        "dupin-cyclide"})
+  for (const char* name : {"line",
+                           "circle",
+                           "ellipse",
+                           "parabola",
+                           "cycloid",
+                           "epicycloid",
+                           "epitrochoid",
+                           "hypocycloid",
+                           "hypotrochoid",
+                           "deltoid",
+                           "astroid",
+                           "cardioid",
+                           "nephroid",
+                           "limacon",
+                           "lissajous",
+                           "lemniscate",
+                           "rose",
+                           "catenary",
+                           "sine",
+                           "archimedean-spiral",
+                           "logarithmic-spiral",
+                           "helix",
+                           "conical-helix",
+                           "trefoil",
+                           "torus-knot",
+                           "viviani",
+                           "spherical-spiral",
+                           "lissajous-3d",
+                           "plane",
+                           "cylinder",
+                           "cone",
+                           "sphere",
+                           "ellipsoid",
+                           "torus",
+                           "paraboloid",
+                           "hyperbolic-paraboloid",
+                           "hyperboloid",
+                           "monkey-saddle",
+                           "helicoid",
+                           "catenoid",
+                           "moebius-strip",
+                           "klein-bottle",
+                           "enneper",
+                           "pseudosphere",
+                           "dini",
+                           "egg-crate",
+                           "gaussian-hill",
+                           "whitney-umbrella",
+                           "cross-cap",
+                           "roman-surface",
+                           "dupin-cyclide"})
     EXPECT_NE(findInCatalogue(name), nullptr) << name;
 }
 
@@ -45,7 +89,8 @@ TEST(Catalogue, EveryDefinitionIsUsableAndFitsAHand) {
 TEST(Catalogue, EveryDefinitionStandsTheEndsOfItsShape) {
   for (const Definition& d : catalogue()) {
     for (const ShapeParameter& p : d.shape)
-      for (const double value : {p.min, p.max}) EXPECT_NO_THROW(makeConstraint(d, {{p.name, value}})) << d.name << " " << p.name << " " << value;
+      for (const double value : {p.min, p.max})
+        EXPECT_NO_THROW(makeConstraint(d, {{p.name, value}})) << d.name << " " << p.name << " " << value;
   }
 }
 
@@ -85,9 +130,12 @@ TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
     return std::string("accepted");
   };
   EXPECT_NE(message({.name = "elipse", .curve = {}, .surface = {}, .shape = {}}).find("did you mean ellipse?"), std::string::npos);
-  EXPECT_NE(message({.name = "torus", .curve = {}, .surface = {}, .shape = {{"mayor_m", 0.1}}}).find("did you mean major_m?"), std::string::npos);
-  EXPECT_NE(message({.name = "circle", .curve = {}, .surface = {}, .shape = {{"radius_m", -1}}}).find("allowed: 0.01 to 1000 m"), std::string::npos);
-  EXPECT_NE(message({.name = "torus-knot", .curve = {}, .surface = {}, .shape = {{"p", 1.5}}}).find("allowed: a whole number"), std::string::npos);
+  EXPECT_NE(message({.name = "torus", .curve = {}, .surface = {}, .shape = {{"mayor_m", 0.1}}}).find("did you mean major_m?"),
+            std::string::npos);
+  EXPECT_NE(message({.name = "circle", .curve = {}, .surface = {}, .shape = {{"radius_m", -1}}}).find("allowed: 0.01 to 1000 m"),
+            std::string::npos);
+  EXPECT_NE(message({.name = "torus-knot", .curve = {}, .surface = {}, .shape = {{"p", 1.5}}}).find("allowed: a whole number"),
+            std::string::npos);
   EXPECT_NE(message({.name = "../secret", .curve = {}, .surface = {}, .shape = {}}).find("there is no constraint"), std::string::npos);
 }
 

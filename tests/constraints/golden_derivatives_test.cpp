@@ -75,7 +75,8 @@ TEST(Derivatives, OfEveryDefinitionMatchSymPyInBothForms) {
       ASSERT_EQ(row.numbers.size(), dimensions + 2 * numbers.size());
       for (std::size_t i = 0; i < numbers.size(); ++i) {
         const double exact = row.numbers[dimensions + 2 * i], terms = row.numbers[dimensions + 2 * i + 1];
-        EXPECT_LE(std::abs(numbers[i] - exact), kRelative * terms) << row.name << " (" << c.name << ") number " << i << " at " << row.numbers[0];
+        EXPECT_LE(std::abs(numbers[i] - exact), kRelative * terms)
+            << row.name << " (" << c.name << ") number " << i << " at " << row.numbers[0];
       }
     }
   }
@@ -101,8 +102,9 @@ TEST(Derivatives, GeneratedAndTypedFormsAgreeInEveryBit) {
 TEST(Derivatives, MatchFiniteDifferencesOfTheRandomFormulas) {
   // Central differences of step 1e-5: error of order h^2 in the third derivative plus rounding 1e-16/h, for numbers of order 1.
   constexpr double kStep = 1e-5, kDifference = 2e-8;
-  for (const char* formula : {"sin(phi)^3*exp(-phi)", "phi^2.5/(1 + phi)", "atan2(sin(phi), 2 + cos(phi))", "log(1 + phi^2)*sqrt(phi)", "tanh(phi)*cosh(phi/3)",
-                              "asin(phi/4) + acos(phi/5)", "tan(phi/3) + atan(phi)", "abs(sin(phi))*sign(phi)", "2^phi + phi^phi/10", "sinh(phi)/(phi*phi + 1)"}) {
+  for (const char* formula : {"sin(phi)^3*exp(-phi)", "phi^2.5/(1 + phi)", "atan2(sin(phi), 2 + cos(phi))", "log(1 + phi^2)*sqrt(phi)",
+                              "tanh(phi)*cosh(phi/3)", "asin(phi/4) + acos(phi/5)", "tan(phi/3) + atan(phi)", "abs(sin(phi))*sign(phi)",
+                              "2^phi + phi^phi/10", "sinh(phi)/(phi*phi + 1)"}) {
     ConstraintSpec spec{.name = {}, .curve = {formula, "phi", "0"}, .surface = {}, .shape = {}};
     spec.inUse = {Domain{0.5, 2.5}, Domain{0, 0}};
     const Constraint c = makeConstraint(spec);

@@ -41,9 +41,11 @@ TEST(Formula, PowersBindTighterThanSignsAndGroupToTheRight) {
 TEST(Formula, EveryFunctionIsWhatItsNameSays) {
   const double x = 0.7, a = 0.5;
   EXPECT_NEAR(value("sin(phi) + cos(phi)*tan(phi)"), std::sin(x) + std::cos(x) * std::tan(x), kRounding);
-  EXPECT_NEAR(value("asin(a) - acos(a) + atan(phi) + atan2(phi, -a)"), std::asin(a) - std::acos(a) + std::atan(x) + std::atan2(x, -a), 4 * kRounding);
+  EXPECT_NEAR(value("asin(a) - acos(a) + atan(phi) + atan2(phi, -a)"), std::asin(a) - std::acos(a) + std::atan(x) + std::atan2(x, -a),
+              4 * kRounding);
   EXPECT_NEAR(value("sinh(phi)*cosh(phi)/tanh(phi)"), std::sinh(x) * std::cosh(x) / std::tanh(x), 4 * kRounding);
-  EXPECT_NEAR(value("exp(phi) + log(phi) + sqrt(phi) + abs(-phi) + sign(-phi)"), std::exp(x) + std::log(x) + std::sqrt(x) + x - 1, 4 * kRounding);
+  EXPECT_NEAR(value("exp(phi) + log(phi) + sqrt(phi) + abs(-phi) + sign(-phi)"), std::exp(x) + std::log(x) + std::sqrt(x) + x - 1,
+              4 * kRounding);
   EXPECT_NEAR(value("phi^a + phi^2.5 + a^phi"), std::pow(x, a) + std::pow(x, 2.5) + std::pow(a, x), 4 * kRounding);
   EXPECT_EQ(value("pi"), std::numbers::pi);
   EXPECT_EQ(value("2.5e-1 + .5 + 1E2"), 100.75);
@@ -93,7 +95,8 @@ TEST(Formula, ALongSumIsNoDepth) {
 }
 
 TEST(Formula, ParameterNamesMayNotClash) {
-  for (const char* name : {"phi", "u", "v", "pi", "e", "sin", "sqrt", "2a", "a-b", "", "ä"}) EXPECT_FALSE(parameterNameFault(name, {"phi"}).empty()) << name;
+  for (const char* name : {"phi", "u", "v", "pi", "e", "sin", "sqrt", "2a", "a-b", "", "ä"})
+    EXPECT_FALSE(parameterNameFault(name, {"phi"}).empty()) << name;
   for (const char* name : {"a", "length_m", "R2", "_x", "int"}) EXPECT_TRUE(parameterNameFault(name, {"phi"}).empty()) << name;
 }
 

@@ -12,7 +12,8 @@ namespace {
 constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
 
 TEST(TypedFormula, EllipseGivesItsDerivatives) {
-  const Constraint c = makeConstraint({.name = "", .curve = {"0", "a*cos(phi)", "b*sin(phi)"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.06}}});
+  const Constraint c =
+      makeConstraint({.name = "", .curve = {"0", "a*cos(phi)", "b*sin(phi)"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.06}}});
   for (const double phi : {-20.0, -1.0, 0.0, 0.3, 2.0, 1e4, 3e6}) {
     const CurvePoint p = evaluate(c.curve, phi);
     EXPECT_NEAR(p.r.y, 0.1 * std::cos(phi), kRounding);

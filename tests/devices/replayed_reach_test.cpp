@@ -123,7 +123,8 @@ TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}), ResourceError);
   EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
-  for (const char* rows : {"", "0,0,0,0\n", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
+  for (const char* rows :
+       {"", "0,0,0,0\n", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
     EXPECT_THROW(readReach(write("bad.csv", header + rows)), UsageError) << rows;
   EXPECT_THROW(readReach(write("bad.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n")), UsageError);
   const std::string still = write("still.csv", header + "0,1,1,1\n1,1,1,1\n");

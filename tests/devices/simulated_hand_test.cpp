@@ -11,7 +11,8 @@
 namespace reachlab {
 namespace {
 
-std::vector<ConductedTrial> conduct(const Experiment& experiment, const std::string& device, std::uint64_t seed, int trials, int first = 0) {
+std::vector<ConductedTrial> conduct(const Experiment& experiment, const std::string& device, std::uint64_t seed, int trials,
+                                    int first = 0) {
   LoopOptions options;
   options.virtualClock = true;
   std::vector<PlannedTrial> planned;
@@ -43,7 +44,8 @@ TEST(SimulatedHand, WithoutNoiseItBringsEveryShippedObjectToRestEveryTime) {
     const Experiment experiment = readExperiment(name);
     if (!experiment.task) continue;
     for (const ConductedTrial& t : conduct(experiment, "simulated:noise=0", 1, 2))
-      EXPECT_EQ(t.result.outcome, Outcome::Success) << name << " " << nameOf(t.result.reason) << " mass " << t.result.mass << " by " << t.result.by;
+      EXPECT_EQ(t.result.outcome, Outcome::Success)
+          << name << " " << nameOf(t.result.reason) << " mass " << t.result.mass << " by " << t.result.by;
   }
 }
 
@@ -77,8 +79,7 @@ TEST(SimulatedHand, WithoutNoiseItMovesAsTheCriterionPredicts) {
     PredictOptions options;
     options.handMass = 1;
     const auto prediction = predict(experiment, *criterionFromName(criterion), options);
-    const auto device =
-        makeDevice(std::string("simulated:noise=0,reaction=0,hand-mass=1,criterion=") + criterion, experiment, 1);
+    const auto device = makeDevice(std::string("simulated:noise=0,reaction=0,hand-mass=1,criterion=") + criterion, experiment, 1);
     const auto motion = motionOf(*device, 0);
     for (const int tick : {100, 400, 675, 1000, 1349})
       EXPECT_NEAR(motion[tick].x + 0.1, prediction->handAt(tick * 1e-3).position, 1e-12) << criterion << ": sums of a thousand steps";

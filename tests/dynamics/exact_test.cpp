@@ -11,7 +11,11 @@ TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
   const Scene scene = compileScene(makeExperiment(ObjectKind::Point, {m}, {}, {k, 0}));
   scene.plant->placeAtRest(std::array{0.0});
   for (int i = 0; i < 1000; ++i) {
-    const HandSegment hand = makeSegment([&](double t) { return HandSample{{-0.1 + speed * t, 0, 0}, {speed, 0, 0}, true}; }, i * 1e-3, 1e-3);
+    const HandSegment hand = makeSegment(
+        [&](double t) {
+          return HandSample{{-0.1 + speed * t, 0, 0}, {speed, 0, 0}, true};
+        },
+        i * 1e-3, 1e-3);
     ASSERT_EQ(scene.plant->step(hand, 1e-3), StepStatus::Ok);
   }
   MassState mass;

@@ -16,7 +16,9 @@ std::string numbers(const std::vector<double>& values) {
 
 std::string outcome(const FreeRun& run) {
   if (run.status == StepStatus::Ok) return fmt::format("10 | {:.1e}", run.drift);
-  const char* why = run.status == StepStatus::AtEnd ? "end" : run.status == StepStatus::NoContinuation ? "degenerate" : describe(run.status).data();
+  const char* why = run.status == StepStatus::AtEnd            ? "end"
+                    : run.status == StepStatus::NoContinuation ? "degenerate"
+                                                               : describe(run.status).data();
   return fmt::format("{:.3f} {} | {:.1e}", run.seconds, why, run.drift);
 }
 

@@ -18,7 +18,8 @@ double interpolationError(int samples) {
   double worst = 0;
   for (int i = 0; i < 1350; ++i) {
     path.push(reachAt((i + 1) * 1e-3));
-    if (sampled.plant->step(path.segment(), 1e-3) != StepStatus::Ok || exact.plant->step(makeSegment(reachAt, i * 1e-3, 1e-3), 1e-3) != StepStatus::Ok)
+    if (sampled.plant->step(path.segment(), 1e-3) != StepStatus::Ok ||
+        exact.plant->step(makeSegment(reachAt, i * 1e-3, 1e-3), 1e-3) != StepStatus::Ok)
       return std::numeric_limits<double>::infinity();
     const auto a = observed(*sampled.plant), b = observed(*exact.plant);
     for (int m = 0; m < 5; ++m) worst = std::max(worst, norm(a[m].r - b[m].r));
@@ -65,7 +66,8 @@ TEST(HandPath, ANumberThatIsNoneIsNotTaken) {
 
 TEST(HandSegment, PartIsTheSamePolynomial) {
   const HandSegment whole = makeSegment(reachAt, 0.5, 0.01), later = part(whole, 0.25, 0.75);
-  for (const double s : {0.0, 0.3, 1.0}) EXPECT_NEAR(sampleAt(later, s).position.x, reachAt(0.5 + 0.01 * (0.25 + 0.5 * s)).position.x, 1e-15);
+  for (const double s : {0.0, 0.3, 1.0})
+    EXPECT_NEAR(sampleAt(later, s).position.x, reachAt(0.5 + 0.01 * (0.25 + 0.5 * s)).position.x, 1e-15);
 }
 
 }  // namespace

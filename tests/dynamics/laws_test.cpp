@@ -17,7 +17,13 @@ TEST(Rk4, ErrorFallsSixteenfoldWhenTheStepIsHalved) {
   const auto at = [&](const char* method, double dt) {
     const Scene scene = compileScene(e, {method, dt, 0});
     scene.plant->place(std::array{0.3}, std::array{1.0});
-    EXPECT_EQ(run(*scene.plant, [](double) { return HandSample{{0.1, 0, 0}, {}, true}; }, 0.2, dt), StepStatus::Ok);
+    EXPECT_EQ(run(
+                  *scene.plant,
+                  [](double) {
+                    return HandSample{{0.1, 0, 0}, {}, true};
+                  },
+                  0.2, dt),
+              StepStatus::Ok);
     const MassState mass = observed(*scene.plant)[0];
     return std::array{mass.q[0], mass.qRate[0]};
   };
@@ -131,7 +137,9 @@ TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
   const Scene scene = compileScene(onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"));
   scene.plant->placeAtRest(std::array{0.0});
   const HandSample hand{{0.05, 0.02, 0}, {}, true};  // it pulls along the tangent of the tip and across
-  EXPECT_EQ(run(*scene.plant, [&](double) { return hand; }, 0.1), StepStatus::NoContinuation);
+  EXPECT_EQ(run(
+                *scene.plant, [&](double) { return hand; }, 0.1),
+            StepStatus::NoContinuation);
   EXPECT_NE(scene.plant->stopReason().find("cusp"), std::string::npos);
   const MassState mass = observed(*scene.plant, hand)[0];
   EXPECT_TRUE(isFinite(mass.r) && isFinite(mass.v));
@@ -173,11 +181,17 @@ TEST(Laws, AChainOnAHugeCircleAgreesWithTheLine) {
   straight.plant->placeAtRest(std::array{0.0});
   bent.plant->placeAtRest(std::array{-0.1});
   ASSERT_EQ(run(*straight.plant, reachAt, 1), StepStatus::Ok);
-  ASSERT_EQ(run(*bent.plant, [&](double t) {
-              const HandSample h = reachAt(t);
-              const double s = h.position.x / radius;
-              return HandSample{{radius * std::sin(s), radius * (std::cos(s) - 1), 0}, {h.velocity.x * std::cos(s), -h.velocity.x * std::sin(s), 0}, true};
-            }, 1), StepStatus::Ok);
+  ASSERT_EQ(run(
+                *bent.plant,
+                [&](double t) {
+                  const HandSample h = reachAt(t);
+                  const double s = h.position.x / radius;
+                  return HandSample{{radius * std::sin(s), radius * (std::cos(s) - 1), 0},
+                                    {h.velocity.x * std::cos(s), -h.velocity.x * std::sin(s), 0},
+                                    true};
+                },
+                1),
+            StepStatus::Ok);
   const auto a = observed(*straight.plant), b = observed(*bent.plant);
   const double tolerance = 0.2 * (0.2 / radius) * (0.2 / radius) + 1e-11;
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(a[i].r.x, b[i].q[0], tolerance);
@@ -209,7 +223,9 @@ TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
   scene.plant->placeAtRest(std::array{0.0, 0.0, 0.0});
   const HandSample hand{{0.1, 0.05, 0.02}, {}, true};
   const double before = scene.plant->energy(hand);
-  ASSERT_EQ(run(*scene.plant, [&](double) { return hand; }, 5), StepStatus::Ok);
+  ASSERT_EQ(run(
+                *scene.plant, [&](double) { return hand; }, 5),
+            StepStatus::Ok);
   EXPECT_NEAR(scene.plant->energy(hand) / before, 1, kEnergyDrift) << "the spring turns and moves it, and takes nothing";
   EXPECT_GT(norm(scene.plant->body().angularVelocity), 0.1) << "the force has a moment about the centre";
 }

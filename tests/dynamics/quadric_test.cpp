@@ -15,28 +15,36 @@ Surface sphere() {
   return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
             p.r = {0.1 * std::sin(v) * std::cos(u), 0.1 * std::sin(v) * std::sin(u), 0.1 * std::cos(v)};
           },
-          nullptr, {}};
+          nullptr,
+          {}};
 }
 Surface ellipsoid() {
   return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
             p.r = {0.2 + 0.1 * std::sin(v) * std::cos(u), 0.07 * std::sin(v) * std::sin(u) - 0.1, 0.04 * std::cos(v)};
           },
-          nullptr, {}};
+          nullptr,
+          {}};
 }
 Surface torus() {
   return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
             p.r = {(0.1 + 0.04 * std::cos(v)) * std::cos(u), (0.1 + 0.04 * std::cos(v)) * std::sin(u), 0.04 * std::sin(v)};
           },
-          nullptr, {}};
+          nullptr,
+          {}};
 }
 Surface plane() {
-  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept { p.r = {0.1 * u, 0.1 * v, 0.02 * u}; }, nullptr, {}};
+  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
+            p.r = {0.1 * u, 0.1 * v, 0.02 * u};
+          },
+          nullptr,
+          {}};
 }
 Surface monkeySaddle() {
   return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
             p.r = {0.1 * u, 0.1 * v, 0.05 * (u * u * u - 3 * u * v * v)};
           },
-          nullptr, {}};
+          nullptr,
+          {}};
 }
 
 const std::array<Domain, 2> kAnywhere{};

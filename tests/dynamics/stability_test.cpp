@@ -24,8 +24,16 @@ std::vector<Limit> limits() {
     e.object.damping.assign(4, b);
     return e;
   };
-  return {{"k, k_h = 600", [](double k) { return makeChain(5, 0.6, k, {600, 0}); }, 1e5, 1e7, 1.327e6},
-          {"k = k_h", [](double k) { return makeChain(5, 0.6, k, {k, 0}); }, 1e5, 1e7, 1.303e6},
+  return {{"k, k_h = 600",
+           [](double k) {
+             return makeChain(5, 0.6, k, {600, 0});
+           },
+           1e5, 1e7, 1.327e6},
+          {"k = k_h",
+           [](double k) {
+             return makeChain(5, 0.6, k, {k, 0});
+           },
+           1e5, 1e7, 1.303e6},
           {"m", [](double m) { return makeChain(5, m, 600); }, 0.6, 1e-5, 0.276e-3},
           {"b, b_h = 0", [=](double b) { return damped(b, 0); }, 1, 1e4, 462},
           {"b = b_h", [=](double b) { return damped(b, b); }, 1, 1e4, 454}};
@@ -84,9 +92,7 @@ TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
   EXPECT_NO_THROW((void)compileScene(e, {"rk4", kStep, 0}));
 }
 
-TEST(Stability, AutoTakesTheExactPropagatorForAnyLinearScene) {
-  EXPECT_EQ(compileScene(makeChain(5, 0.01, 1e8)).choice.method, "exact");
-}
+TEST(Stability, AutoTakesTheExactPropagatorForAnyLinearScene) { EXPECT_EQ(compileScene(makeChain(5, 0.01, 1e8)).choice.method, "exact"); }
 
 }  // namespace
 }  // namespace reachlab

@@ -65,7 +65,9 @@ TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
       [](Json& j) { j["force_limit_n"] = 0; },
       [](Json& j) { j["velocity_estimator"] = "guess"; },
       [](Json& j) { j["arm"]["link_length_m"] = {1}; },
-      [](Json& j) { j["constraint"]["curve"] = {"0", "0", "phi"}; },
+      [](Json& j) {
+        j["constraint"]["curve"] = {"0", "0", "phi"};
+      },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) {
     Json bad = good;

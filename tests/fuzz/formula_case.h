@@ -29,7 +29,9 @@ inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
   FormulaText formula{lines.size() == 3 ? ConstraintKind::Surface : ConstraintKind::Curve, {}, {"a"}};
   for (std::size_t k = 0; k < 3; ++k) formula.coordinates[k] = lines.size() == 3 ? spec.surface[k] : spec.curve[k];
   for (const FormulaFault& fault : formulaFaults(formula))
-    if (fault.coordinate >= 0 && fault.position > std::max<std::size_t>(formula.coordinates[static_cast<std::size_t>(fault.coordinate)].size(), kMaxFormulaCharacters))
+    if (fault.coordinate >= 0 &&
+        fault.position >
+            std::max<std::size_t>(formula.coordinates[static_cast<std::size_t>(fault.coordinate)].size(), kMaxFormulaCharacters))
       throw std::logic_error("a fault is placed beyond the text");
   try {
     const Constraint c = makeConstraint(spec);

@@ -13,10 +13,16 @@ constexpr double kTurn = 2 * std::numbers::pi;
 // Only the positions are asked for here.
 Curve curveOf(CurveFunction function) { return {function, nullptr, {}}; }
 
-void ellipse(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{0.1 * std::cos(phi), 0.02 * std::sin(phi), 0}, {}, {}}; }
-void bump(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{phi, 1 / (1 + 2000 * (phi - 3) * (phi - 3)), 0}, {}, {}}; }
+void ellipse(const void*, const double*, double phi, CurvePoint& out) noexcept {
+  out = {{0.1 * std::cos(phi), 0.02 * std::sin(phi), 0}, {}, {}};
+}
+void bump(const void*, const double*, double phi, CurvePoint& out) noexcept {
+  out = {{phi, 1 / (1 + 2000 * (phi - 3) * (phi - 3)), 0}, {}, {}};
+}
 void buzz(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{phi, std::sin(5000 * phi), 0}, {}, {}}; }
-void pole(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{phi, phi == std::numbers::pi ? NAN : 1 / (phi - std::numbers::pi), 0}, {}, {}}; }
+void pole(const void*, const double*, double phi, CurvePoint& out) noexcept {
+  out = {{phi, phi == std::numbers::pi ? NAN : 1 / (phi - std::numbers::pi), 0}, {}, {}};
+}
 void half(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{phi, std::sqrt(phi - 1), 0}, {}, {}}; }
 void ball(const void*, const double*, double u, double v, SurfacePoint& out) noexcept {
   out.r = {std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), std::cos(u)};

@@ -62,12 +62,14 @@ TEST(TrialTexts, TheSemaphoreIsTheStates) {
 }
 
 TEST(NumberList, ReadsBackWhatItShows) {
-  for (const std::vector<double>& numbers : {std::vector<double>{0.6, 0.6, 0.6}, {1, 2.5e-7}, {600}, {}, {0.1 + 0.2, -3}}) EXPECT_EQ(numbersOf(textOf(numbers)), numbers);
+  for (const std::vector<double>& numbers : {std::vector<double>{0.6, 0.6, 0.6}, {1, 2.5e-7}, {600}, {}, {0.1 + 0.2, -3}})
+    EXPECT_EQ(numbersOf(textOf(numbers)), numbers);
   EXPECT_EQ(textOf({0.6, 0.6, 0.6, 0.6, 0.6}), QStringLiteral("5 x 0.6"));
 }
 
 TEST(NumberList, RefusesWhatIsNoNumber) {
-  for (const char* text : {"0,6", "abc", "1 nan", "inf", "3 x", "999999 x 1"}) EXPECT_FALSE(numbersOf(QString::fromLatin1(text)).has_value()) << text;
+  for (const char* text : {"0,6", "abc", "1 nan", "inf", "3 x", "999999 x 1"})
+    EXPECT_FALSE(numbersOf(QString::fromLatin1(text)).has_value()) << text;
 }
 
 TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {

@@ -61,11 +61,13 @@ TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {
 }
 
 TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
-  const std::string line = R"j("constraint": {"name": "line", "shape": {"length_m": 0.2}})j",
-                    ellipse = R"j("constraint": {"curve": ["a*cos(phi)", "0", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j",
-                    torus = R"j("constraint": {"surface": ["(0.1+0.04*cos(u))*cos(v)", "(0.1+0.04*cos(u))*sin(v)", "0.04*sin(u)"], "shape": {}})j",
-                    free = R"j("constraint": {"name": "free"})j";
-  const std::string chain = R"j("object": {"kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600], "damping_n_s_per_m": [1]})j",
+  const std::string
+      line = R"j("constraint": {"name": "line", "shape": {"length_m": 0.2}})j",
+      ellipse = R"j("constraint": {"curve": ["a*cos(phi)", "0", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j",
+      torus = R"j("constraint": {"surface": ["(0.1+0.04*cos(u))*cos(v)", "(0.1+0.04*cos(u))*sin(v)", "0.04*sin(u)"], "shape": {}})j",
+      free = R"j("constraint": {"name": "free"})j";
+  const std::string chain =
+                        R"j("object": {"kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600], "damping_n_s_per_m": [1]})j",
                     point = R"j("object": {"kind": "point", "masses_kg": [1]})j";
   const auto task = [](const char* start, const char* target) {
     return std::string(R"j("task": {"start": )j") + start + R"(, "target": )" + target +
@@ -83,7 +85,8 @@ TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
   for (const Case& c : cases)
     for (const std::string method : c.methods) {
       const std::string text = R"j({"schema_version": 1, )j" + c.constraint + ", " + c.object +
-                               R"(, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 1}, )" + c.task + R"(, "method": ")" + method + "\"}";
+                               R"(, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 1}, )" + c.task + R"(, "method": ")" +
+                               method + "\"}";
       EXPECT_EQ(allocationsOfThreeTrials(parseExperiment(text, "case")), 0u) << text;
     }
 }

@@ -134,7 +134,8 @@ TEST_F(Engine, TheNextTrialBeginsLikeTheFirst) {
     move(500);
     const TickState& state = engine.state();
     std::vector<double> numbers{state.couplingForce.x, state.energy};
-    for (int m = 0; m < state.massCount; ++m) numbers.insert(numbers.end(), {state.masses[m].r.x, state.masses[m].v.x, state.masses[m].a.x});
+    for (int m = 0; m < state.massCount; ++m)
+      numbers.insert(numbers.end(), {state.masses[m].r.x, state.masses[m].v.x, state.masses[m].a.x});
     tick(Command::Abort);
     return numbers;
   };

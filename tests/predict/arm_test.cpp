@@ -34,10 +34,11 @@ double computeCost(const Arm& arm, double duration, const LineMotion& motion, do
     const double a1 = (after[0] - 2 * q[0] + before[0]) / (step * step), a2 = (after[1] - 2 * q[1] + before[1]) / (step * step);
     const double i1 = arm.inertia[0], i2 = arm.inertia[1], m2 = arm.mass[1], l1 = arm.length[0], s2 = arm.centre[1];
     const double c = std::cos(q[1]), s = std::sin(q[1]), f = motion.force(t);
-    const double first = (i1 + i2 + 2 * m2 * l1 * s2 * c + m2 * l1 * l1) * a1 + (i2 + m2 * l1 * s2 * c) * a2 - m2 * l1 * s2 * (2 * w1 + w2) * w2 * s +
-                         arm.damping[0] * w1 - (l1 * std::sin(q[0]) + arm.length[1] * std::sin(q[0] + q[1])) * f;
-    const double second =
-        (i2 + m2 * l1 * s2 * c) * a1 + i2 * a2 + m2 * l1 * s2 * s * w1 * w1 + arm.damping[1] * w2 - arm.length[1] * std::sin(q[0] + q[1]) * f;
+    const double first = (i1 + i2 + 2 * m2 * l1 * s2 * c + m2 * l1 * l1) * a1 + (i2 + m2 * l1 * s2 * c) * a2 -
+                         m2 * l1 * s2 * (2 * w1 + w2) * w2 * s + arm.damping[0] * w1 -
+                         (l1 * std::sin(q[0]) + arm.length[1] * std::sin(q[0] + q[1])) * f;
+    const double second = (i2 + m2 * l1 * s2 * c) * a1 + i2 * a2 + m2 * l1 * s2 * s * w1 * w1 + arm.damping[1] * w2 -
+                          arm.length[1] * std::sin(q[0] + q[1]) * f;
     return std::array<double, 2>{first, second};
   };
   const int steps = static_cast<int>(duration / step);

@@ -32,7 +32,8 @@ INSTANTIATE_TEST_SUITE_P(Table, KnownValues,
                          testing::Values(KnownCase{dingwell, Criterion::MinHandJerk, 16.5196433594, 0.2096247949, 0.444958, 0.3792369},
                                          KnownCase{dingwell, Criterion::MinHandForceChange, 57.8050997194, 0.2168114617, 0.675, 0.2777778},
                                          KnownCase{chainModerate, Criterion::MinHandJerk, 6.76284544993, 0.2881958938, 0.675, 0.4106285},
-                                         KnownCase{parallelPair, Criterion::MinHandJerk, 0.378717793518, 0.1315335137, 1.18458, 0.1419976}));
+                                         KnownCase{parallelPair, Criterion::MinHandJerk, 0.378717793518, 0.1315335137, 1.18458,
+                                                   0.1419976}));
 
 }  // namespace
 }  // namespace reachlab

@@ -109,17 +109,19 @@ Arrival simulate(const Experiment& e, const Prediction& p) {
 }
 
 TEST(CurveObject, ArrivesAtRestInTheSimulator) {
-  constexpr double kAtRest = 1e-10;  // [m], [m/s]
+  constexpr double kAtRest = 1e-10;   // [m], [m/s]
   constexpr double kOnTheWay = 1e-9;  // [m] between the masses' collocation points
-  for (const Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(chainModerate())), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
-                              onCurve(damped(parallelPair()), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
+  for (const Experiment& e :
+       {onEllipse(chainModerate()), onEllipse(damped(chainModerate())), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
+        onCurve(damped(parallelPair()), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
     const auto p = predict(e, Criterion::MinHandJerk);
     const Arrival arrival = simulate(e, *p);
     EXPECT_LT(arrival.position, kAtRest);
     EXPECT_LT(arrival.velocity, kAtRest);
     EXPECT_LT(arrival.along, kOnTheWay);
     const PredictedHand first = p->handAt(0), last = p->handAt(p->duration);
-    for (const double rest : {first.position, first.velocity, first.acceleration, last.position - p->distance, last.velocity, last.acceleration})
+    for (const double rest :
+         {first.position, first.velocity, first.acceleration, last.position - p->distance, last.velocity, last.acceleration})
       EXPECT_NEAR(rest, 0, kAtRest);
   }
 }
@@ -147,7 +149,8 @@ TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
     options.unknowns = unknowns;
     return predict(e, Criterion::MinHandJerk, options);
   };
-  const Experiment bent = onEllipse(chainModerate()), straight = onCurve(chainModerate(), {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1);
+  const Experiment bent = onEllipse(chainModerate()),
+                   straight = onCurve(chainModerate(), {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1);
   const auto settled = with(bent, 130), linear = predict(chainModerate(), Criterion::MinHandJerk);
   double before = INFINITY;
   for (const int unknowns : {24, 36, 54, 81}) {

@@ -92,7 +92,9 @@ TEST(Laws, UndampedProfilesAreSymmetricAboutTheMiddle) {
       EXPECT_NEAR(p->handAt(T / 2).position, 0.1, 0.1 * kSame);
       EXPECT_LT(difference(T, handOf(*p), [&](double t) { return p->handAt(T - t).velocity; }), kSame);
       for (int m = 0; m < p->massCount(); ++m)
-        EXPECT_LT(difference(T, [&](double t) { return massVelocity(*p, m, t); }, [&](double t) { return massVelocity(*p, m, T - t); }), kSame);
+        EXPECT_LT(difference(
+                      T, [&](double t) { return massVelocity(*p, m, t); }, [&](double t) { return massVelocity(*p, m, T - t); }),
+                  kSame);
     }
 }
 
@@ -111,7 +113,9 @@ TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
   // The lag behind a spring is a (w T)^-2 part of the profile: 1e9 N/m leaves 1e-8.
   const Experiment stiff = makeChain(2, 0.5, 1e9, 1);
   const auto jerk = predict(stiff, MinHandJerk);
-  EXPECT_LT(difference(1, [](double t) { return minimumJerk(0.2, 1, t); }, handOf(*jerk)), 1e-6);
+  EXPECT_LT(difference(
+                1, [](double t) { return minimumJerk(0.2, 1, t); }, handOf(*jerk)),
+            1e-6);
   EXPECT_NEAR(jerk->cost / (720 * 0.04), 1, 1e-6);
   EXPECT_NEAR(predict(stiff, MinComAcceleration)->cost / (12 * 0.04), 1, 1e-6);
 }
@@ -119,12 +123,15 @@ TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
 TEST(Laws, OneMassUnderForceChangeMovesWithMinimumJerkItself) {
   const auto p = predict(dingwell(), MinHandForceChange);
   EXPECT_NEAR(p->cost / (9 * 720 * 0.04 / std::pow(1.35, 5)), 1, kSame);
-  EXPECT_LT(difference(1.35, [](double t) { return minimumJerk(0.2, 1.35, t); }, [&](double t) { return massVelocity(*p, 0, t); }), kSame);
+  EXPECT_LT(difference(
+                1.35, [](double t) { return minimumJerk(0.2, 1.35, t); }, [&](double t) { return massVelocity(*p, 0, t); }),
+            kSame);
 }
 
 TEST(Laws, CentreOfMassAndForceDifferByTheMassSquaredAlone) {
   for (const double handMass : {0.0, 1.0}) {
-    const auto force = predictWith(parallelPair(), MinHandForce, handMass), centre = predictWith(parallelPair(), MinComAcceleration, handMass);
+    const auto force = predictWith(parallelPair(), MinHandForce, handMass),
+               centre = predictWith(parallelPair(), MinComAcceleration, handMass);
     EXPECT_NEAR(force->cost / (std::pow(6 + handMass, 2) * centre->cost), 1, kSame);
     EXPECT_LT(difference(2.5, handOf(*force), handOf(*centre)), kSame);
   }

@@ -88,7 +88,8 @@ TEST_P(Optimality, NoAdmissibleMotionCostsLess) {
       double sum = 0;
       for (size_t k = 0; k < control.polynomial.size(); ++k)
         if (control.polynomial[k] != 0)
-          sum += static_cast<double>(control.polynomial[k]) * std::pow(2 / T, static_cast<double>(k)) * evaluate(basis.derivative(column, static_cast<int>(k)), rule.node[i]);
+          sum += static_cast<double>(control.polynomial[k]) * std::pow(2 / T, static_cast<double>(k)) *
+                 evaluate(basis.derivative(column, static_cast<int>(k)), rule.node[i]);
       u(i, column) = sum * std::sqrt(rule.weight[i] * T / 2);
     }
   const Eigen::VectorXd straight = u.col(0) * 0.2;
@@ -112,9 +113,10 @@ INSTANTIATE_TEST_SUITE_P(
     Cases, Optimality,
     testing::Values(OptimalityCase{"jerk", chainModerate(), MinHandJerk}, OptimalityCase{"jerkPair", parallelPair(), MinHandJerk},
                     OptimalityCase{"jerkDamped", damped(makeChain(3, 0.6, 300, 1.35)), MinHandJerk},
-                    OptimalityCase{"jerkPairDamped", damped(parallelPair()), MinHandJerk}, OptimalityCase{"crackle", dingwell(), MinCrackle},
-                    OptimalityCase{"handCrackle", parallelPair(), MinHandCrackle}, OptimalityCase{"force", chainModerate(), MinHandForce},
-                    OptimalityCase{"forceHand", parallelPair(), MinHandForce, 1}, OptimalityCase{"forceChange", parallelPair(), MinHandForceChange},
+                    OptimalityCase{"jerkPairDamped", damped(parallelPair()), MinHandJerk},
+                    OptimalityCase{"crackle", dingwell(), MinCrackle}, OptimalityCase{"handCrackle", parallelPair(), MinHandCrackle},
+                    OptimalityCase{"force", chainModerate(), MinHandForce}, OptimalityCase{"forceHand", parallelPair(), MinHandForce, 1},
+                    OptimalityCase{"forceChange", parallelPair(), MinHandForceChange},
                     OptimalityCase{"forceChangeHand", chainModerate(), MinHandForceChange, 1},
                     OptimalityCase{"forceChangeHandDamped", damped(makeChain(3, 0.6, 300, 1.35)), MinHandForceChange, 1},
                     OptimalityCase{"centre", dingwell(), MinComAcceleration, 1}),
@@ -150,8 +152,8 @@ TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
   Experiment hardCoupling = damped(chainModerate()), viscous = chainModerate(), viscousTwins = makeParallel({2, 2, 1}, {80, 80, 250}, 2);
   hardCoupling.coupling->damping = 0;
   viscous.object.viscosity = viscousTwins.object.viscosity = 0.7;
-  for (const Experiment& e : {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2), damped(chainModerate()),
-                              damped(parallelPair()), hardCoupling, viscous, viscousTwins})
+  for (const Experiment& e : {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2),
+                              damped(chainModerate()), damped(parallelPair()), hardCoupling, viscous, viscousTwins})
     for (const double handMass : {0.0, 1.0})
       for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
         PredictOptions options;

@@ -46,12 +46,14 @@ void expectMinimumJerk(const Prediction& p, double length) {
 }
 
 TEST(CurveJerk, OnAStraightLineUnevenlyRunIsTheMinimumJerk) {
-  expectMinimumJerk(*predict(makeCurveExperiment({"0.05*(phi + 0.3*sin(phi))", "0", "0.02*(phi + 0.3*sin(phi))"}, 0.5, 4, 1.2), Criterion::MinHandJerk),
-                    std::hypot(0.05, 0.02) * (3.5 + 0.3 * (std::sin(4) - std::sin(0.5))));
+  expectMinimumJerk(
+      *predict(makeCurveExperiment({"0.05*(phi + 0.3*sin(phi))", "0", "0.02*(phi + 0.3*sin(phi))"}, 0.5, 4, 1.2), Criterion::MinHandJerk),
+      std::hypot(0.05, 0.02) * (3.5 + 0.3 * (std::sin(4) - std::sin(0.5))));
 }
 
 TEST(SurfaceJerk, OnAPlaneUnevenlyCoveredIsTheMinimumJerkAlongTheChord) {
-  const auto p = predict(makeSurfaceExperiment({"0.1*(u + u^3/5)", "0.1*v + 0.02*(u + u^3/5)", "0.05*v"}, {-0.8, 0.1}, {0.7, 0.9}, 0.9), Criterion::MinHandJerk);
+  const auto p = predict(makeSurfaceExperiment({"0.1*(u + u^3/5)", "0.1*v + 0.02*(u + u^3/5)", "0.05*v"}, {-0.8, 0.1}, {0.7, 0.9}, 0.9),
+                         Criterion::MinHandJerk);
   const double x = 0.1 * (1.5 + (0.343 + 0.512) / 5), y = 0.1 * 0.8 + 0.2 * x, z = 0.05 * 0.8;
   expectMinimumJerk(*p, std::sqrt(x * x + y * y + z * z));
 }
@@ -67,7 +69,8 @@ double computeCost(double curvature, double torsion, double T, const std::functi
     const Motion m = motion(T * (rule.node[i] + 1) / 2);
     const double cube = m.rate * m.rate * m.rate;
     sum += rule.weight[i] * T / 2 *
-           (std::pow(m.jerk - curvature * curvature * cube, 2) + std::pow(3 * curvature * m.rate * m.acceleration, 2) + std::pow(curvature * torsion * cube, 2));
+           (std::pow(m.jerk - curvature * curvature * cube, 2) + std::pow(3 * curvature * m.rate * m.acceleration, 2) +
+            std::pow(curvature * torsion * cube, 2));
   }
   return sum;
 }
@@ -102,7 +105,8 @@ TEST_P(Helix, CostIsTheFormulaInCurvatureAndTorsionAndNoneIsLower) {
   const double length = p->distance;
   EXPECT_GT(computeCost(curvature, torsion, 1,
                         [&](double t) {
-                          return Motion{30 * length * t * t * (1 - t) * (1 - t), 60 * length * t * (1 - t) * (1 - 2 * t), 60 * length * (1 - 6 * t + 6 * t * t)};
+                          return Motion{30 * length * t * t * (1 - t) * (1 - t), 60 * length * t * (1 - t) * (1 - 2 * t),
+                                        60 * length * (1 - 6 * t + 6 * t * t)};
                         }),
             p->cost * 1.0001);
   std::mt19937 random(7);

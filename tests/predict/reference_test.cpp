@@ -22,7 +22,7 @@ const Real kNegligible("1e-85");
 
 struct Reference {
   int n = 0;
-  std::vector<Row> a;       // n rows of n + 1 coefficients, the last of u
+  std::vector<Row> a;  // n rows of n + 1 coefficients, the last of u
   Row goal;
   std::vector<Row> output;  // positions of hand and masses, n + 1 coefficients
   double distance = 0.2, duration = 0;
@@ -345,7 +345,8 @@ Polynomial solveBoundarySystem(int conditions, const Real& distance) {
 }
 
 TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
-  for (const Experiment& e : {dingwell(), chainModerate(), makeChain(10, 0.3, 600, 1.35), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2)}) {
+  for (const Experiment& e :
+       {dingwell(), chainModerate(), makeChain(10, 0.3, 600, 1.35), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2)}) {
     const auto prediction = predict(e, Criterion::MinCrackle);
     const int n = prediction->massCount();
     const Real T = prediction->duration;

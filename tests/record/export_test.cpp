@@ -120,8 +120,8 @@ TEST_F(Exported, SamplesCsvHasUniqueColumnsThatCarryTheirUnits) {
   const auto rows = cellsOf(samplesCsv(RunLog::open(path_)), ',');
   std::set<std::string> columns(rows[0].begin(), rows[0].end());
   EXPECT_EQ(columns.size(), rows[0].size());
-  for (const char* column : {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1",
-                             "coupling_x_n", "device_force_z_n"})
+  for (const char* column :
+       {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1", "coupling_x_n", "device_force_z_n"})
     EXPECT_TRUE(columns.contains(column)) << column;
 }
 

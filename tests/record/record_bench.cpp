@@ -58,8 +58,8 @@ void measureOpening(int trials) {
     for (const RunLog& run : runs)
       for (const RecordedTrial& trial : run.trials()) sum += run.rows(trial).at(0, 2);
     if (warm)
-      fmt::print("{} trials ({} successes): outcomes in {:.1f} ms, a profile of each in {:.1f} ms{}\n", listed, successes,
-                 1e3 * listing, 1e3 * secondsSince(start), std::isfinite(sum) ? "" : " (not finite)");
+      fmt::print("{} trials ({} successes): outcomes in {:.1f} ms, a profile of each in {:.1f} ms{}\n", listed, successes, 1e3 * listing,
+                 1e3 * secondsSince(start), std::isfinite(sum) ? "" : " (not finite)");
   }
 }
 

@@ -14,9 +14,7 @@ namespace {
 
 std::string bytesOf(const std::string& path) { return readWholeFile(path); }
 
-void writeBytes(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-}
+void writeBytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes; }
 
 void expectSameTrial(const RecordedTrial& a, const RecordedTrial& b) {
   EXPECT_EQ(a.trial, b.trial);
@@ -158,20 +156,11 @@ std::string damaged(const std::string& good, std::mt19937_64& random, std::size_
   const std::size_t at = below(good.size());
   const std::size_t length = std::min(good.size() - at, 1 + below(4000));
   switch (random() % 5) {
-    case 0:
-      bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
-      break;
-    case 1:
-      bytes.resize(at);
-      break;
-    case 2:
-      bytes.erase(at, length);
-      break;
-    case 3:
-      bytes.insert(at, good.substr(at, length));
-      break;
-    default:
-      std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length, '\0');
+    case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
+    case 1: bytes.resize(at); break;
+    case 2: bytes.erase(at, length); break;
+    case 3: bytes.insert(at, good.substr(at, length)); break;
+    default: std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length, '\0');
   }
   firstTouched = std::min(bytes.size(), good.size());
   for (std::size_t i = 0; i < firstTouched; ++i)

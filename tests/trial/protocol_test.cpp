@@ -256,11 +256,10 @@ TEST_F(Protocol, AHandThatIsNotANumberEndsTheTrialAtOnce) {
 }
 
 TEST_F(Protocol, AFailedStepEndsTheTrial) {
-  const std::pair<StepStatus, std::pair<Outcome, Reason>> cases[] = {
-      {StepStatus::NotFinite, {Outcome::Aborted, Reason::Computation}},
-      {StepStatus::Capped, {Outcome::Aborted, Reason::Computation}},
-      {StepStatus::NoContinuation, {Outcome::Aborted, Reason::Computation}},
-      {StepStatus::AtEnd, {Outcome::Failure, Reason::EndOfConstraint}}};
+  const std::pair<StepStatus, std::pair<Outcome, Reason>> cases[] = {{StepStatus::NotFinite, {Outcome::Aborted, Reason::Computation}},
+                                                                     {StepStatus::Capped, {Outcome::Aborted, Reason::Computation}},
+                                                                     {StepStatus::NoContinuation, {Outcome::Aborted, Reason::Computation}},
+                                                                     {StepStatus::AtEnd, {Outcome::Failure, Reason::EndOfConstraint}}};
   for (const auto& [fault, end] : cases) {
     state = {};
     status = StepStatus::Ok;
@@ -362,9 +361,7 @@ TEST(ProtocolSettings, WindowInTicksIsExactForDecimalTimes) {
   EXPECT_NEAR(s.target.x, 0.1, 1e-15);
 }
 
-TEST(ProtocolSettings, RefusesAnExperimentWithoutATask) {
-  EXPECT_THROW(makeProtocolSettings(Experiment{}, Constraint{}), UsageError);
-}
+TEST(ProtocolSettings, RefusesAnExperimentWithoutATask) { EXPECT_THROW(makeProtocolSettings(Experiment{}, Constraint{}), UsageError); }
 
 }  // namespace
 }  // namespace reachlab
