@@ -1,8 +1,28 @@
+#include <cctype>
 #include <clocale>
 #include <cstdio>
+#include <string>
 
 #include "cli/commands.h"
 #include "constraints/error.h"
+
+namespace {
+
+/// No option takes "nan" or "inf" for a number: what reads like a default would be recorded.
+void refuseNonFinite(CLI::App& command) {
+  const CLI::Validator finite(
+      [](std::string& text) {
+        std::string word;
+        for (const char c : text)
+          if (c != '+' && c != '-') word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return word.starts_with("nan") || word.starts_with("inf") ? "is " + text + "; allowed: a finite number" : std::string();
+      },
+      "");
+  for (CLI::Option* option : command.get_options())
+    if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(finite);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace reachlab;
@@ -14,6 +34,7 @@ int main(int argc, char** argv) {
   for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
                     addReplayCommand, addExportCommand, addRecoverCommand, addConstraintCommand, addBenchCommand})
     add(app, exitCode);
+  for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -53,3 +53,15 @@ TEST(Usage, ValidateAcceptsEveryShippedFile) {
                             "/resources/plans/*.json " REACHLAB_SOURCE_DIR "/constraints/definitions/*.json");
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
 }
+
+// A number that reads like a default would be recorded, or silently replaced by one.
+TEST(Usage, RefusesNumbersThatAreNotFinite) {
+  for (const char* arguments :
+       {"run chain-moderate --device simulated --fast --trials 1 --age NaN --data not-made",
+        "predict chain-moderate --criterion min-hand-jerk --duration nan",
+        "predict chain-moderate --criterion min-hand-jerk --hand-mass nan", "simulate chain-moderate --hand min-jerk --until -inf"}) {
+    const Ended ended = reach(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << arguments;
+    EXPECT_FALSE(ended.err.empty()) << arguments;
+  }
+}
