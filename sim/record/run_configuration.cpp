@@ -165,4 +165,9 @@ void checkLabel(const std::string& label, const std::string& what) {
   if (!good) throw UsageError(fmt::format("{} \"{}\": not a label; allowed: letters and digits only", what, label));
 }
 
+void checkParticipant(const Participant& participant) {
+  if (participant.age && !(*participant.age >= 0 && *participant.age <= 130))
+    throw UsageError(fmt::format("--age {}: allowed: 0 to 130 years", *participant.age));
+}
+
 }  // namespace reachlab

@@ -61,5 +61,7 @@ Experiment recordedExperiment(const RunConfiguration& configuration);
 
 /// Labels are letters and digits only (BIDS). Throws UsageError otherwise.
 void checkLabel(const std::string& label, const std::string& what);
+/// An age is 0 to 130 years, so that the record can be written and read. Throws UsageError otherwise.
+void checkParticipant(const Participant& participant);
 
 }  // namespace reachlab

@@ -137,6 +137,7 @@ std::uint64_t drawSeed() {
 SessionToRun planSession(const SessionRequest& request) {
   checkLabel(request.place.subject, "--subject");
   checkLabel(request.place.session, "--session");
+  checkParticipant(request.participant);
   const Plan plan = planOf(request);
   if (!plan.text.empty() && request.trials) throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
   const int day = dayOf(request, plan);

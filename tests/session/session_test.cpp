@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "constraints/error.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
@@ -50,6 +52,16 @@ class PlannedSession : public testing::Test {
   }
   TemporaryFolder folder_{"session"};
 };
+
+TEST_F(PlannedSession, RefusesAnAgeThatTheRecordCouldNotHold) {
+  SessionRequest r = request("chain-moderate");
+  for (const double age : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -4.0, 131.0}) {
+    r.participant.age = age;
+    EXPECT_THROW(planSession(r), UsageError) << age;
+  }
+  r.participant.age = 24;
+  EXPECT_NO_THROW(planSession(r));
+}
 
 TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
   SessionRequest r = request("chain-moderate");
