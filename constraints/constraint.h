@@ -39,10 +39,10 @@ struct Surface {
 };
 static_assert(std::is_trivially_copyable_v<Curve> && std::is_trivially_copyable_v<Surface>);
 
-/// Room for a point that a function is about to fill: nothing is written twice.
-template <class Point>
+/// Room for what is about to be written whole, by a curve's or surface's function, say: it is not cleared beforehand.
+template <class T>
 union Unfilled {
-  Point point;
+  T value;
   Unfilled() noexcept {}
 };
 inline CurvePoint evaluate(const Curve& curve, double phi) noexcept {

@@ -10,6 +10,7 @@
 
 #include "constraints/definition.h"
 #include "constraints/error.h"
+#include "gui/fault_label.h"
 #include "gui/shape_sliders.h"
 
 namespace reachlab {
@@ -54,10 +55,7 @@ ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Co
   formula_->setProperty("role", "quiet");
   formula_->setWordWrap(true);
   sliders_ = new ShapeSliders;
-  faults_ = new QLabel;
-  faults_->setProperty("role", "fault");
-  faults_->setWordWrap(true);
-  faults_->hide();
+  faults_ = new FaultLabel;
   auto* choose = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
   choose->setObjectName(QStringLiteral("choose"));
   choose->setFocusPolicy(Qt::NoFocus);
@@ -95,9 +93,6 @@ void ConstraintDock::setConstraint(const ConstraintSpec& spec, const Constraint&
   faults_->hide();
 }
 
-void ConstraintDock::setFaults(const QStringList& faults) {
-  faults_->setText(faults.join(QLatin1Char('\n')));
-  faults_->setVisible(!faults.isEmpty());
-}
+void ConstraintDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
 }  // namespace reachlab

@@ -9,6 +9,7 @@ class QLabel;
 
 namespace reachlab {
 
+class FaultLabel;
 class ShapeSliders;
 
 /// The constraint in use: its name, its shape's sliders, and the way to another. Knows definitions, not the simulator.
@@ -24,7 +25,8 @@ class ConstraintDock : public QDockWidget {
   void chooseRequested();
 
  private:
-  QLabel *name_, *formula_, *faults_;
+  QLabel *name_, *formula_;
+  FaultLabel* faults_;
   ShapeSliders* sliders_;
   ConstraintSpec shown_;
 };

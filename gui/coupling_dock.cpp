@@ -1,8 +1,8 @@
 #include "gui/coupling_dock.h"
 
 #include <QFormLayout>
-#include <QLabel>
 
+#include "gui/fault_label.h"
 #include "gui/unit_spin_box.h"
 
 namespace reachlab {
@@ -16,10 +16,7 @@ CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupli
   damping_ = new UnitSpinBox(0, 1e5, QStringLiteral("N s/m"));
   form->addRow(QStringLiteral("stiffness"), stiffness_);
   form->addRow(QStringLiteral("damping"), damping_);
-  faults_ = new QLabel;
-  faults_->setProperty("role", "fault");
-  faults_->setWordWrap(true);
-  faults_->hide();
+  faults_ = new FaultLabel;
   form->addRow(faults_);
   setWidget(body);
   const auto tell = [this] { Q_EMIT edited({stiffness_->value(), damping_->value()}); };
@@ -34,9 +31,6 @@ void CouplingDock::setCoupling(const std::optional<Coupling>& coupling) {
   damping_->show(coupling ? coupling->damping : 0);
 }
 
-void CouplingDock::setFaults(const QStringList& faults) {
-  faults_->setText(faults.join(QLatin1Char('\n')));
-  faults_->setVisible(!faults.isEmpty());
-}
+void CouplingDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
 }  // namespace reachlab

@@ -4,10 +4,9 @@
 
 #include "sim/experiment/experiment.h"
 
-class QLabel;
-
 namespace reachlab {
 
+class FaultLabel;
 class UnitSpinBox;
 
 /// Edits the coupling (8) between hand and driven mass. Knows widgets and Coupling, not the simulator.
@@ -24,7 +23,7 @@ class CouplingDock : public QDockWidget {
 
  private:
   UnitSpinBox *stiffness_, *damping_;
-  QLabel* faults_;
+  FaultLabel* faults_;
 };
 
 }  // namespace reachlab

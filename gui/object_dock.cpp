@@ -3,9 +3,9 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QSignalBlocker>
 
+#include "gui/fault_label.h"
 #include "gui/number_list_edit.h"
 #include "gui/unit_spin_box.h"
 
@@ -48,11 +48,8 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   form->addRow(QStringLiteral("dampers [N s/m]"), damping_);
   form->addRow(QStringLiteral("viscosity"), viscosity_);
   form->addRow(QStringLiteral("gravity [m/s²]"), gravity);
-  faults_ = new QLabel;
-  faults_->setProperty("role", "fault");
+  faults_ = new FaultLabel;
   faults_->setObjectName(QStringLiteral("objectFaults"));
-  faults_->setWordWrap(true);
-  faults_->hide();
   form->addRow(faults_);
   masses_->setToolTip(QStringLiteral("first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6"));
   stiffness_->setToolTip(QStringLiteral("chain: between neighbours, one fewer than masses; parallel: each mass to the hand"));
@@ -100,10 +97,7 @@ void ObjectDock::setObject(const Object& object) {
   for (std::size_t i = 0; i < 3; ++i) gravity_[i]->show(g[i]);
 }
 
-void ObjectDock::setFaults(const QStringList& faults) {
-  faults_->setText(faults.join(QLatin1Char('\n')));
-  faults_->setVisible(!faults.isEmpty());
-}
+void ObjectDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
 void ObjectDock::tell() { Q_EMIT edited(object_); }
 

@@ -5,10 +5,10 @@
 #include "sim/experiment/experiment.h"
 
 class QComboBox;
-class QLabel;
 
 namespace reachlab {
 
+class FaultLabel;
 class NumberListEdit;
 class UnitSpinBox;
 
@@ -31,7 +31,7 @@ class ObjectDock : public QDockWidget {
   NumberListEdit *masses_, *stiffness_, *damping_;
   UnitSpinBox* viscosity_;
   std::array<UnitSpinBox*, 3> gravity_{};
-  QLabel* faults_;
+  FaultLabel* faults_;
 };
 
 }  // namespace reachlab

@@ -1,8 +1,8 @@
 #include "gui/task_dock.h"
 
 #include <QFormLayout>
-#include <QLabel>
 
+#include "gui/fault_label.h"
 #include "gui/number_list_edit.h"
 #include "gui/unit_spin_box.h"
 
@@ -28,10 +28,7 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   const QString places = QStringLiteral("parameters of the constraint: phi, or u and v; three metres when free");
   start_->setToolTip(places);
   target_->setToolTip(places);
-  faults_ = new QLabel;
-  faults_->setProperty("role", "fault");
-  faults_->setWordWrap(true);
-  faults_->hide();
+  faults_ = new FaultLabel;
   form->addRow(faults_);
   setWidget(body);
 
@@ -65,9 +62,6 @@ void TaskDock::setTask(const Task& task) {
   velocity_->show(task.tolerance.velocity);
 }
 
-void TaskDock::setFaults(const QStringList& faults) {
-  faults_->setText(faults.join(QLatin1Char('\n')));
-  faults_->setVisible(!faults.isEmpty());
-}
+void TaskDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
 }  // namespace reachlab

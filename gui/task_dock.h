@@ -3,10 +3,9 @@
 
 #include "sim/experiment/experiment.h"
 
-class QLabel;
-
 namespace reachlab {
 
+class FaultLabel;
 class NumberListEdit;
 class UnitSpinBox;
 
@@ -25,7 +24,7 @@ class TaskDock : public QDockWidget {
   Task task_;
   NumberListEdit *start_, *target_;
   UnitSpinBox *duration_, *time_, *position_, *velocity_;
-  QLabel* faults_;
+  FaultLabel* faults_;
 };
 
 }  // namespace reachlab

@@ -12,8 +12,9 @@ namespace reachlab {
 /// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): at most two right-hand sides and one
 /// hand sample a tick. Predictor of order 7, corrector of order 8: y = p + dt gamma_7 nabla^7 f(p). Where the correction is near
 /// rounding, f(p) stands for f(y) and the second right-hand side is spared: PEC, whose smaller range of stability does no harm, since a
-/// correction that grows brings PECE back. That range is why the order is not higher: at order 8 a bead at 4 Hz left it every few ticks. The correction also estimates the error; where it is too large, and in the first ticks after
-/// a start or a break, the tick is done by `Fallback` instead (the adaptive pair), and f at the ticks keeps its place in the history.
+/// correction that grows brings PECE back. That range is why the order is not higher: at order 8 a bead at 4 Hz left it every few ticks.
+/// The correction also estimates the error; where it is too large, and in the first ticks after a start or a break, the tick is done by
+/// `Fallback` instead (the adaptive pair), and f at the ticks keeps its place in the history.
 namespace adams {
 inline constexpr int kHistory = 7;
 inline constexpr double kGamma[kHistory + 1] = {1.0, 1.0 / 2, 5.0 / 12, 3.0 / 8, 251.0 / 720, 95.0 / 288, 19087.0 / 60480, 5257.0 / 17280};

@@ -11,7 +11,7 @@
 namespace reachlab {
 namespace {
 
-constexpr double kMultistepReach = 0.3;  // |eigenvalue| times step up to which order 8 in one step a tick is accurate and stable
+constexpr double kMultistepReach = 0.3;  // |eigenvalue| times step up to which order 7 in one step a tick is accurate and stable
 constexpr double kExplicitReach = 100;   // up to which sub-steps of an explicit pair keep well below the cap of a tick
 constexpr double kRefusedReach = 450;    // beyond which they exceed it
 constexpr int kMostStiff = 24;           // masses of the L-stable method's dense systems
@@ -64,7 +64,7 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
       choice.reason =
           numbers +
           fmt::format(
-              ": within {}, Adams-Bashforth-Moulton of order 8 in one step a tick; ticks whose error estimate is too large are done by {}",
+              ": within {}, Adams-Bashforth-Moulton of order 7 in one step a tick; ticks whose error estimate is too large are done by {}",
               kMultistepReach, facts.hardCurve ? "sub-steps in a fictitious time, which passes cusps" : "an embedded pair of order 8");
     }
   } else {

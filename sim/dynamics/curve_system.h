@@ -29,28 +29,22 @@ struct CurveSystem {
   Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
   Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
-  /// A vector for each mass, not cleared beforehand.
+  /// A vector for each mass.
   struct Vectors {
-    union {
-      std::array<Vec3, kMostMasses<N>> value;
-    };
-    Vectors() noexcept {}
-    Vec3& operator[](int i) noexcept { return value[i]; }
-    const Vec3& operator[](int i) const noexcept { return value[i]; }
-    void set(int i, const Vec3& v) noexcept { value[i].x = v.x, value[i].y = v.y, value[i].z = v.z; }
+    Unfilled<std::array<Vec3, kMostMasses<N>>> all;
+    Vec3& operator[](int i) noexcept { return all.value[i]; }
+    const Vec3& operator[](int i) const noexcept { return all.value[i]; }
+    void set(int i, const Vec3& v) noexcept { all.value[i].x = v.x, all.value[i].y = v.y, all.value[i].z = v.z; }
   };
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     // Each point stays where the curve wrote it; what follows is copied component by component.
-    union Points {
-      std::array<CurvePoint, kMostMasses<N>> all;
-      Points() noexcept {}  // not cleared: the curve's function writes every number
-    } points;
+    Unfilled<std::array<CurvePoint, kMostMasses<N>>> points;
     Vectors r, v, force, tangent;
     std::array<double, kMostMasses<N>> measure, bend;  // Tangential: 1/|r_phi| or 1/|r_phi|^2, r_phi.r_phiphi
-    for (int i = 0; i < n(); ++i) curve.function(curve.program, curve.shape.data(), y[i], points.all[i]);
+    for (int i = 0; i < n(); ++i) curve.function(curve.program, curve.shape.data(), y[i], points.value[i]);
     for (int i = 0; i < n(); ++i) {
-      const CurvePoint& p = points.all[i];
+      const CurvePoint& p = points.value[i];
       const double square = dot(p.rPhi, p.rPhi);
       if constexpr (Tangential) {
         measure[i] = 1 / std::fmax(std::sqrt(square), 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it

@@ -32,8 +32,8 @@ struct SurfaceSystem {
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     Unfilled<SurfacePoint> room;
-    active.function(active.program, active.shape.data(), y[0], y[1], room.point);
-    const SurfacePoint& p = room.point;
+    active.function(active.program, active.shape.data(), y[0], y[1], room.value);
+    const SurfacePoint& p = room.value;
     const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
     const Vec3 velocity = du * p.rU + dv * p.rV;
     const Vec3 bend = (du * du) * p.rUu + (2 * du * dv) * p.rUv + (dv * dv) * p.rVv;

@@ -1,35 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "cli/allocation_count.h"
 #include "sim/haptics/haptic_loop.h"
 #include "tests/haptics/scripted_device.h"
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return std::malloc(size == 0 ? 1 : size);
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace reachlab {
 namespace {
@@ -44,7 +17,7 @@ std::uint64_t allocationsOfThreeTrials(const Experiment& experiment) {
   LoopOptions options;
   options.virtualClock = true;
   HapticLoop loop(std::move(engine), device, &sink, options);
-  const std::uint64_t before = allocations.load();
+  const std::uint64_t before = countAllocations();
   for (int i = 0; i < 3000; ++i) {
     if (i % 1000 == 0) loop.tryCommand(i == 0 ? Command::NextTrial : Command::Abort);
     if (i % 1000 == 1) loop.tryCommand(Command::NextTrial);
@@ -53,7 +26,7 @@ std::uint64_t allocationsOfThreeTrials(const Experiment& experiment) {
   }
   EXPECT_GE(loop.engine().state().trial, 1);
   EXPECT_GT(loop.engine().state().faults.steps[0], 400u) << "steps were taken";
-  return allocations.load() - before;
+  return countAllocations() - before;
 }
 
 TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {

@@ -16,15 +16,6 @@ namespace {
 
 constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
 
-Experiment onCurve(Experiment e, std::vector<std::string> formula, double from, double to) {
-  e.constraint = {};
-  e.constraint.name.clear();
-  e.constraint.curve = std::move(formula);
-  e.task->start = {from};
-  e.task->target = {to};
-  return e;
-}
-
 Experiment onCircle(Experiment e, double radius) {
   const std::string r = std::to_string(radius);
   return onCurve(std::move(e), {r + "*sin(phi)", r + "*(1 - cos(phi))", "0"}, 0, 0.2 / radius);

@@ -42,4 +42,14 @@ inline Experiment dingwell() { return makeChain(1, 3, 120, 1.35); }
 inline Experiment chainModerate() { return makeChain(5, 0.6, 600, 1.35); }
 inline Experiment parallelPair() { return makeParallel({3, 3}, {50, 250}, 2.5); }
 
+/// The same object along a typed curve, from one parameter to another.
+inline Experiment onCurve(Experiment e, std::vector<std::string> formula, double from, double to) {
+  e.constraint = {};
+  e.constraint.name.clear();
+  e.constraint.curve = std::move(formula);
+  e.task->start = {from};
+  e.task->target = {to};
+  return e;
+}
+
 }  // namespace reachlab

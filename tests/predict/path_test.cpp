@@ -17,13 +17,7 @@ namespace {
 constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
 
 Experiment makeCurveExperiment(std::vector<std::string> formula, double from, double to, double duration) {
-  Experiment e = makeChain(1, 1, 600, duration);
-  e.constraint = {};
-  e.constraint.name.clear();
-  e.constraint.curve = std::move(formula);
-  e.task->start = {from};
-  e.task->target = {to};
-  return e;
+  return onCurve(makeChain(1, 1, 600, duration), std::move(formula), from, to);
 }
 
 Experiment makeSurfaceExperiment(std::vector<std::string> formula, std::vector<double> from, std::vector<double> to, double duration) {
