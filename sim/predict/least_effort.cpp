@@ -8,6 +8,7 @@
 
 #include "constraints/error.h"
 #include "sim/predict/gauss_legendre.h"
+#include "sim/predict/sparse_rows.h"
 
 namespace reachlab {
 namespace {
@@ -26,52 +27,6 @@ struct Precision<double> {
 template <>
 struct Precision<DoubleDouble> {
   static constexpr int kTerms = 42, kNodes = 16;
-};
-
-// y = A x, over the first `rows` states; zeros are skipped by the compressed rows.
-template <class Real>
-class SparseRows {
- public:
-  SparseRows(const LineSystem<Real>& system, int rows, bool transposed) : begin_(1, 0) {
-    for (int i = 0; i < rows; ++i) {
-      for (int j = 0; j < rows; ++j) {
-        const Real& value =
-            transposed ? system.a[static_cast<size_t>(j) * system.size + i] : system.a[static_cast<size_t>(i) * system.size + j];
-        if (static_cast<double>(value) == 0) continue;
-        column_.push_back(j);
-        value_.push_back(value);
-      }
-      begin_.push_back(static_cast<int>(value_.size()));
-    }
-  }
-
-  void multiply(const std::vector<Real>& x, Real factor, std::vector<Real>& y) const {
-    for (size_t i = 0; i + 1 < begin_.size(); ++i) {
-      Real sum = 0.0;
-      for (int p = begin_[i]; p < begin_[i + 1]; ++p) sum += value_[p] * x[column_[p]];
-      y[i] = factor * sum;
-    }
-  }
-
-  /// Square root of the product of row and column sums, an upper bound of the spectral norm.
-  double norm() const {
-    std::vector<double> columns(begin_.size(), 0.0);
-    double most = 0;
-    for (size_t i = 0; i + 1 < begin_.size(); ++i) {
-      double row = 0;
-      for (int p = begin_[i]; p < begin_[i + 1]; ++p) {
-        const double size = std::abs(static_cast<double>(value_[p]));
-        row += size;
-        columns[column_[p]] += size;
-      }
-      most = std::max(most, row);
-    }
-    return std::sqrt(most * *std::max_element(columns.begin(), columns.end()));
-  }
-
- private:
-  std::vector<int> begin_, column_;
-  std::vector<Real> value_;
 };
 
 // terms[k] = (width A)^k x / k!
@@ -262,6 +217,7 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
         .noalias() = plain.transpose() * output.transpose();
   }
   for (int i = 0; i < m; ++i) result.miss = std::max(result.miss, std::abs(static_cast<double>(state[i] - system.target[i])));
+  result.fastest = a.norm();
   result.cost = static_cast<double>(cost);
   result.condition = computeCondition(r);
   return result;

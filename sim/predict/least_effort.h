@@ -8,6 +8,7 @@ struct LeastEffort {
   SeriesProfile profile;
   double cost = 0;       // int u^2
   double condition = 0;  // of the triangular factor, columns of unit norm
+  double fastest = 0;    // [1/s] bound of the object's rates
   double miss = 0;       // how far the states end from the target, in their own units: the computation checks itself
 };
 

@@ -79,15 +79,21 @@ double Prediction::objectVelocityAt(double t) const {
   return v.back();
 }
 
+void Prediction::sampleVelocities(std::span<double> hand, std::span<double> object) const {
+  const auto last = static_cast<double>(hand.size() - 1);
+  for (size_t i = 0; i < hand.size(); ++i) {
+    const double t = duration * static_cast<double>(i) / last;
+    hand[i] = handAt(t).velocity;
+    object[i] = objectVelocityAt(t);
+  }
+}
+
 void findPeaks(Prediction& prediction) {
   const double T = prediction.duration;
   const int count = prediction.scanCount();
   std::vector<double> hand(count + 1), mass(count + 1);
   const auto massVelocity = [&](double t) { return prediction.objectVelocityAt(t); };
-  for (int i = 0; i <= count; ++i) {
-    hand[i] = prediction.handAt(T * i / count).velocity;
-    mass[i] = massVelocity(T * i / count);
-  }
+  prediction.sampleVelocities(hand, mass);
   const Peak handPeak = largest(hand, T, [&](double lo, double hi) {
     const double t = findTurn([&](double s) { return prediction.handAt(s).acceleration; }, lo, hi);
     return Peak{prediction.handAt(t).velocity, t};

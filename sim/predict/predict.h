@@ -41,6 +41,8 @@ class Prediction {
   virtual void massesAt(double t, std::span<double> position, std::span<double> velocity) const = 0;
   /// Velocity of the last mass [m/s].
   virtual double objectVelocityAt(double t) const;
+  /// Velocities of hand and last mass at equally spaced times from 0 to T; as many places in both, two or more.
+  virtual void sampleVelocities(std::span<double> hand, std::span<double> object) const;
   int massCount() const { return massCount_; }
   /// Equal parts of [0, T] that are fine enough to see every wave of the profiles.
   int scanCount() const { return 48 + static_cast<int>(1.2 * fastest_ * duration); }

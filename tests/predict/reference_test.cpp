@@ -237,6 +237,19 @@ Experiment damped(Experiment e, double springs, double coupling, double viscosit
   return e;
 }
 
+// Four parallel masses whose modes are all double.
+Experiment manyCriticallyDamped() {
+  std::vector<double> masses, springs, dampers;
+  for (int i = 0; i < 4; ++i) {
+    masses.push_back(0.5);
+    springs.push_back(20 + 30 * i);
+    dampers.push_back(2 * std::sqrt(masses[i] * springs[i]));
+  }
+  Experiment e = makeParallel(masses, springs, 1.35);
+  e.object.damping = dampers;
+  return e;
+}
+
 std::vector<Case> cases() {
   using enum Criterion;
   const Experiment near = makeParallel({3, 3}, {50, 50.5}, 2.5), three = makeParallel({3, 2, 1}, {50, 250, 100}, 2);
@@ -276,6 +289,19 @@ std::vector<Case> cases() {
       {"pairForceSlowHand", damped(parallelPair(), 2, 0), MinHandForce},
       {"chain5ForceSlowHand", chainModerate(), MinHandForceChange, 0, 5},
       {"pairCentreDamped", damped(parallelPair(), 2, 0, 0.5), MinComAcceleration, 1, 5},
+      {"chain10JerkDamped", damped(makeChain(10, 0.3, 600, 1.35), 2, 2), MinHandJerk},
+      {"chain10JerkDampedShort", damped(makeChain(10, 0.3, 600, 0.7), 2, 2), MinHandJerk},
+      {"chain10CrackleDamped", damped(makeChain(10, 0.3, 600, 1.35), 1, 5), MinHandCrackle},
+      {"chain10ForceDamped", damped(makeChain(10, 0.3, 600, 1.35), 2, 0), MinHandForce},
+      {"chain10ForceChangeDampedHand", damped(makeChain(10, 0.3, 600, 1.35), 2, 5), MinHandForceChange, 1, 5},
+      {"chain20JerkLightlyDamped", damped(makeChain(20, 0.15, 600, 1.35), 0.5, 0.5), MinHandJerk},
+      {"chain20JerkDamped", damped(makeChain(20, 0.15, 600, 1.35), 2, 2), MinHandJerk},
+      {"chain20JerkViscous", damped(makeChain(20, 0.15, 600, 1.35), 2, 0, 0.5), MinHandJerk},
+      {"chain20CentreDampedHand", damped(makeChain(20, 0.15, 600, 1.35), 2, 2), MinComAcceleration, 1, 5},
+      {"criticallyDampedShort", damped(makeChain(1, 3, 120, 0.2), 0, 2 * std::sqrt(360.0)), MinHandJerk},
+      {"manyCriticallyDamped", manyCriticallyDamped(), MinHandJerk},
+      {"threeForceChangeDampedHand", damped(three, 3, 0), MinHandForceChange, 1, 5},
+      {"nearJerkDamped", damped(near, 0.3, 0), MinHandJerk},
       {"pairForceViscous", damped(parallelPair(), 0, 0, 0.7), MinHandForce},
   };
 }
