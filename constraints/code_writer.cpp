@@ -38,29 +38,54 @@ std::string formulaLine(const FormulaText& text) {
   return "{" + text.coordinates[0] + ", " + text.coordinates[1] + ", " + text.coordinates[2] + "}";
 }
 
+/// What the evaluators of one formula have in common.
+class EvaluatorText {
+ public:
+  EvaluatorText(const CompiledFormula& formula, const std::string& sinCos)
+      : graph_(formula.graph), names_{variablesOf(formula.text.kind), identifiersFor(formula.text.parameters, kTaken), sinCos},
+        writer_(graph_, formula.roots, names_) {}
+  /// The shape's numbers by name.
+  std::string shape() const {
+    std::string text;
+    for (std::size_t i = 0; i < names_.parameters.size(); ++i)
+      text += fmt::format("const double {} = shape[{}];\n", names_.parameters[i], i);
+    return text;
+  }
+  const std::string& statements() const { return writer_.statements(); }
+  std::string expression(std::size_t root) const { return writer_.expression(root); }
+
+ private:
+  inline static const std::vector<std::string> kTaken{"phi", "phis", "u", "v", "p", "shape", "lane", "far"};
+  ExpressionGraph graph_;
+  CppWriter::Names names_;
+  CppWriter writer_;
+};
+
 }  // namespace
 
 std::string writeEvaluator(const CompiledFormula& formula, const std::string& functionName) {
   const bool curve = formula.text.kind == ConstraintKind::Curve;
-  ExpressionGraph graph = formula.graph;
-  CppWriter::Names names;
-  names.variables = variablesOf(formula.text.kind);
-  names.parameters = identifiersFor(formula.text.parameters, {"phi", "u", "v", "p", "shape"});
-  names.sharedSinCos = true;
-  const CppWriter writer(graph, formula.roots, names);
-
-  std::string body;
-  for (std::size_t i = 0; i < names.parameters.size(); ++i) body += fmt::format("const double {} = shape[{}];\n", names.parameters[i], i);
-  body += writer.statements();
+  const EvaluatorText text(formula, "sinCos");
+  std::string body = text.shape() + text.statements();
   const std::vector<std::string>& members = curve ? kCurveMembers : kSurfaceMembers;
   for (std::size_t k = 0; k < members.size(); ++k)
-    body += fmt::format("p.{} = {{{}, {}, {}}};\n", members[k], writer.expression(3 * k), writer.expression(3 * k + 1),
-                        writer.expression(3 * k + 2));
-  const auto used = [&](const std::string& name) { return body.find(name) != std::string::npos; };
+    body +=
+        fmt::format("p.{} = {{{}, {}, {}}};\n", members[k], text.expression(3 * k), text.expression(3 * k + 1), text.expression(3 * k + 2));
   const std::string variables =
       curve ? "[[maybe_unused]] double phi, CurvePoint& p" : "[[maybe_unused]] double u, [[maybe_unused]] double v, SurfacePoint& p";
-  return fmt::format("// {}\nvoid {}(const void*, const double*{}, {}) noexcept {{\n{}}}\n", formulaLine(formula.text), functionName,
-                     used("shape[") ? " shape" : "", variables, indented(body));
+  return fmt::format("// {}\nvoid {}(const void*, [[maybe_unused]] const double* shape, {}) noexcept {{\n{}}}\n", formulaLine(formula.text),
+                     functionName, variables, indented(body));
+}
+
+std::string writeOctetEvaluator(const CompiledFormula& formula, const std::string& functionName) {
+  const EvaluatorText text(formula, "far |= sinCosNear");
+  std::string loop = "[[maybe_unused]] const double phi = phis[lane];\n" + text.statements();
+  for (std::size_t k = 0; k < 9; ++k) loop += fmt::format("p.{}[{}][lane] = {};\n", kCurveMembers[k / 3], k % 3, text.expression(k));
+  const std::string body = text.shape() + "std::uint64_t far = 0;\nfor (int lane = 0; lane < kOctet; ++lane) {\n" + indented(loop) + "}\n" +
+                           fmt::format("if (far != 0) evaluateSingly({}, nullptr, shape, phis, p);\n", functionName);
+  return fmt::format(
+      "void {}Octet(const void*, const double* shape, const double* __restrict phis, CurveOctet& __restrict p) noexcept {{\n{}}}\n",
+      functionName, indented(body));
 }
 
 std::string writeDynamicsCode(const CompiledFormula& formula, const std::string& name, const std::vector<double>& defaults) {

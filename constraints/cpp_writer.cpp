@@ -114,14 +114,14 @@ void CppWriter::nameWave(int id) {
   const int argument = graph_.node(id).a;
   const std::string inner = print(argument).text;
   const std::string suffix = waveSuffix(argument);
-  if (!names_.sharedSinCos) {
+  if (names_.sinCos.empty()) {
     const bool isSine = graph_.node(id).op == Op::Sin;
     named_[id] = freshName((isSine ? "sin" : "cos") + suffix);
     statements_ += fmt::format("const double {} = std::{}({});\n", named_[id], isSine ? "sin" : "cos", inner);
     return;
   }
   const std::string sine = freshName("sin" + suffix), cosine = freshName("cos" + suffix);
-  statements_ += fmt::format("double {0}, {1};\nsinCos({2}, {0}, {1});\n", sine, cosine, inner);
+  statements_ += fmt::format("double {0}, {1};\n{3}({2}, {0}, {1});\n", sine, cosine, inner, names_.sinCos);
   for (int other = 0; other < graph_.size(); ++other) {
     const ExpressionNode& n = graph_.node(other);
     if (n.op == Op::Sin && n.a == argument) named_[other] = sine;

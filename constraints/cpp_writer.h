@@ -13,7 +13,7 @@ class CppWriter {
  public:
   struct Names {
     std::vector<std::string> variables, parameters;  // C++ identifiers
-    bool sharedSinCos = false;                       // sinCos() of sincos.h instead of std::sin and std::cos
+    std::string sinCos;                              // call for both at once, of sincos.h; empty: std::sin and std::cos
   };
   /// `roots` will be asked for by expression(). Integer powers become products in `graph`.
   CppWriter(ExpressionGraph& graph, const std::vector<int>& roots, Names names);
@@ -49,6 +49,8 @@ std::string cppIdentifier(const std::string& name, const std::vector<std::string
 
 /// The function of a catalogue entry, `evaluate<Name>` in UpperCamel, with the signature of CurveFunction or SurfaceFunction.
 std::string writeEvaluator(const CompiledFormula& formula, const std::string& functionName);
+/// The same for a curve at eight parameter values, `<functionName>Octet`, with the signature of CurveOctetFunction; stands after it.
+std::string writeOctetEvaluator(const CompiledFormula& formula, const std::string& functionName);
 
 /// A self-contained C++ function with the coordinates, the derivatives and the coefficients of the dynamic equations: M, L, V, Q of
 /// Eq. (11) for a curve, G, C, Q of Eq. (13) for a surface, simplified as expressions of m, lambda and the force.

@@ -68,9 +68,10 @@ std::array<Domain, 2> domainOf(const Definition& definition, const std::array<do
 double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
                   const std::string& origin);
 
-/// The definition's generated code if it is of the catalogue; both null otherwise.
+/// The definition's generated code if it is of the catalogue; all null otherwise.
 struct GeneratedFunctions {
   CurveFunction curve = nullptr;
+  CurveOctetFunction curveOctet = nullptr;
   SurfaceFunction surface = nullptr;
 };
 GeneratedFunctions generatedFunctions(const Definition& definition);

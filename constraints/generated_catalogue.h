@@ -5,10 +5,11 @@
 
 namespace reachlab {
 
-/// One shipped definition: its file's text, and the function generated from it (the other null).
+/// One shipped definition: its file's text, and the functions generated from it (those of the other kind null).
 struct GeneratedEntry {
   const char* text;
   CurveFunction curve;
+  CurveOctetFunction curveOctet;
   SurfaceFunction surface;
 };
 /// Defined by the generated file in the build folder; by name.

@@ -88,6 +88,7 @@ class Compiler {
     i.c = static_cast<std::uint16_t>(c);
     i.out = static_cast<std::uint16_t>(out);
     program_.instructions.push_back(i);
+    program_.codes.push_back(code);
   }
   void put(int id, Code code, int a, int b = 0, int c = 0, double number = 0) {
     const std::uint16_t out = registerFor(id);

@@ -64,6 +64,7 @@ inline constexpr int kMaxRegisters = 1024 + kMaxOutputs;
 /// Immutable once made; evaluated by any thread, without allocation, recursion or loops.
 struct Program {
   std::vector<Instruction> instructions;
+  std::vector<Code> codes;  // of the instructions, before pairs were made
   std::uint16_t parameterCount = 0;
   std::array<double, kMaxOutputs> constants{};  // results that never change
   // Results that are the same as another, or as a parameter or variable.
@@ -79,6 +80,7 @@ Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int p
 
 /// The interpreter, as the functions of constraint.h; `program` points to a Program.
 void evaluateCurveProgram(const void* program, const double* shape, double phi, CurvePoint& out) noexcept;
+void evaluateCurveOctetProgram(const void* program, const double* shape, const double* phi, CurveOctet& out) noexcept;
 void evaluateSurfaceProgram(const void* program, const double* shape, double u, double v, SurfacePoint& out) noexcept;
 
 /// Address that the interpreter jumps to for an operation.

@@ -34,13 +34,9 @@ inline constexpr double kCos[6] = {0x1.555555555554cp-5,   -0x1.6c16c16c1524bp-1
 }
 }  // namespace sincosDetail
 
-[[gnu::always_inline]] inline void sinCos(double x, double& sine, double& cosine) noexcept {
+/// Without a branch, for loops over lanes: 1 where x is beyond the limit and the result of no use, else 0. (g++ 12 keeps no bool in lanes.)
+[[gnu::always_inline]] inline std::uint64_t sinCosNear(double x, double& sine, double& cosine) noexcept {
   using namespace sincosDetail;
-  if (!(std::abs(x) <= kSinCosLimit)) [[unlikely]] {
-    sine = std::sin(x);
-    cosine = std::cos(x);
-    return;
-  }
   const double shifted = mulAdd(x, kTwoOverPi, kRound);
   const double quadrant = shifted - kRound;
   const std::uint64_t q = std::bit_cast<std::uint64_t>(shifted);
@@ -57,6 +53,16 @@ inline constexpr double kCos[6] = {0x1.555555555554cp-5,   -0x1.6c16c16c1524bp-1
   const std::uint64_t cosBits = std::bit_cast<std::uint64_t>(swap ? s : c) ^ (((q + 1) & 2) << 62);
   sine = std::bit_cast<double>(sinBits);
   cosine = std::bit_cast<double>(cosBits);
+  return std::abs(x) <= kSinCosLimit ? 0 : 1;
+}
+
+[[gnu::always_inline]] inline void sinCos(double x, double& sine, double& cosine) noexcept {
+  if (!(std::abs(x) <= kSinCosLimit)) [[unlikely]] {
+    sine = std::sin(x);
+    cosine = std::cos(x);
+    return;
+  }
+  sinCosNear(x, sine, cosine);
 }
 
 inline double sine(double x) noexcept {

@@ -23,10 +23,12 @@ std::string generate(const std::vector<std::string>& files) {
     if (fmt::format("/{}.json", definition.name) != file.substr(file.find_last_of('/')))
       throw UsageError(fmt::format("{}: name: is {}; allowed: the file's name", file, definition.name));
     const std::string function = "evaluate" + upperCamel(definition.name);
-    functions += writeEvaluator(*compileFormula(formulaOf(definition), file), function) + "\n";
+    const auto formula = compileFormula(formulaOf(definition), file);
     const bool curve = definition.kind == ConstraintKind::Curve;
-    table += fmt::format("    {{R\"definition({})definition\",\n     {}, {}}},\n", text, curve ? function : "nullptr",
-                         curve ? "nullptr" : function);
+    functions += writeEvaluator(*formula, function) + "\n";
+    if (curve) functions += writeOctetEvaluator(*formula, function) + "\n";
+    table += fmt::format("    {{R\"definition({})definition\",\n     {}}},\n", text,
+                         curve ? fmt::format("{0}, {0}Octet, nullptr", function) : "nullptr, nullptr, " + function);
   }
   return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
          "#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab {\nnamespace {\n\n" +

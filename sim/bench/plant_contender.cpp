@@ -21,12 +21,6 @@ void takeSample(const BenchScene& scene, const Plant& plant, const HandSample& h
   for (const MassState& m : masses) out.positions.insert(out.positions.end(), {m.r.x, m.r.y, m.r.z});
 }
 
-HandSample endOf(const HandSegment& segment) {
-  HandSample hand;
-  for (int k = segment.degree; k >= 0; --k) hand.position += segment.position[k], hand.velocity += segment.velocity[k];
-  return hand;
-}
-
 struct PlantRun {
   BenchScene scene;
   Scene compiled;

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -11,15 +12,15 @@ namespace reachlab {
 
 /// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): at most two right-hand sides and one
 /// hand sample a tick. Predictor of order 7, corrector of order 8: y = p + dt gamma_7 nabla^7 f(p). Where the correction is near
-/// rounding, f(p) stands for f(y) and the second right-hand side is spared: PEC, whose smaller range of stability does no harm, since a
-/// correction that grows brings PECE back. That range is why the order is not higher: at order 8 a bead at 4 Hz left it every few ticks.
-/// The correction also estimates the error; where it is too large, and in the first ticks after a start or a break, the tick is done by
+/// rounding, f(p) stands for f(y) and the second right-hand side is spared (PEC), but for q' of y = (q, q'), which costs nothing: that
+/// keeps an undamped mode stable up to |eigenvalue| dt = 0.1, where f(p) alone would up to 0.025. Beyond, the correction grows and brings
+/// PECE back. The correction also estimates the error; where it is too large, and in the first ticks after a start or a break, the tick is done by
 /// `Fallback` instead (the adaptive pair), and f at the ticks keeps its place in the history.
 namespace adams {
 inline constexpr int kHistory = 7;
 inline constexpr double kGamma[kHistory + 1] = {1.0, 1.0 / 2, 5.0 / 12, 3.0 / 8, 251.0 / 720, 95.0 / 288, 19087.0 / 60480, 5257.0 / 17280};
 inline constexpr double kCorrectorError = 275.0 / 24192;  // of order 7, |gamma*_7|
-inline constexpr double kSparedShare = 0.1;               // of the largest good correction: below, f(p) serves as f(y)
+inline constexpr double kSparedShare = 0.5;  // of the largest good correction: below, f(p) is wrong by less than the tick's own error
 
 template <int Width>
 struct PackOf;  // written out: g++ 12 drops a vector size that depends on a parameter
@@ -42,13 +43,31 @@ template <int S>
 struct Packs {
   static constexpr int kWidth = S == 0 ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
   static constexpr int kMost = ((S == 0 ? kMostStates : S) + kWidth - 1) / kWidth;
+  static constexpr bool kFull = S > 0 && S % kWidth == 0;
   using Pack = typename PackOf<kWidth>::Type;
 
   static constexpr int count(int states) noexcept { return S == 0 ? (states + kWidth - 1) / kWidth : kMost; }
-  static Pack load(const Numbers<S>& y, int c) noexcept { return gather(y, c * kWidth, std::make_index_sequence<kWidth>()); }
+  static Pack load(const Numbers<S>& y, int c) noexcept {
+    if constexpr (kFull) {
+      Pack pack;
+      std::memcpy(&pack, &y[c * kWidth], sizeof(Pack));
+      return pack;
+    }
+    return gather(y, c * kWidth, std::make_index_sequence<kWidth>());
+  }
   static void store(const Pack& pack, Numbers<S>& y, int c) noexcept {
+    if constexpr (kFull) {
+      std::memcpy(&y[c * kWidth], &pack, sizeof(Pack));
+      return;
+    }
     for (int i = 0; i < kWidth; ++i)
       if (c * kWidth + i < y.size()) y[c * kWidth + i] = pack[i];
+  }
+
+  /// Number kBy + i in lane i of the first kBy, zero in the others.
+  template <int kBy, std::size_t... I>
+  static Pack shifted(const Pack& pack, std::index_sequence<I...>) noexcept {
+    return __builtin_shufflevector(pack, Pack{}, (static_cast<int>(I) < kBy ? kBy + static_cast<int>(I) : kWidth)...);
   }
 
  private:
@@ -98,7 +117,7 @@ class AbmWith {
                                    StepReport& report) noexcept {
     if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
     if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
-    const auto end = system.handAt(hand, 1);
+    const auto end = system.handOf(endOf(hand));
     const int n = system.states();
     State predicted(n), f(n);
     for (int c = 0; c < packs(); ++c) Packs::store(Packs::load(y, c) + dt * rows_[c].ahead, predicted, c);
@@ -119,8 +138,14 @@ class AbmWith {
       if (adams::anyLane(bad)) return stepOtherwise(system, hand, y, next, report);
       system.rate(end, next, f);
       report.rhs += 1;
-      if (!isFinite(f)) return failed(StepStatus::NotFinite);
-      for (int c = 0; c < packs(); ++c) deviation[c] = Packs::load(f, c) - rows_[c].sums[0];
+      Mask broken{};
+      for (int c = 0; c < packs(); ++c) {
+        deviation[c] = Packs::load(f, c) - rows_[c].sums[0];
+        broken |= ~(deviation[c] * 0.0 == 0.0);
+      }
+      if (adams::anyLane(broken)) return failed(StepStatus::NotFinite);
+    } else if constexpr (System::kSecondOrder) {
+      addCorrectedRates(adams::kGamma[adams::kHistory] * dt, n, deviation);
     }
     for (int c = 0; c < packs(); ++c) rows_[c].keep(deviation[c]);
     return StepStatus::Ok;
@@ -152,6 +177,21 @@ class AbmWith {
       weighted = total;
     }
   };
+
+  /// q' of the corrected state in place of the predicted one's.
+  [[gnu::always_inline]] static void addCorrectedRates(double factor, int n, Pack* deviation) noexcept {
+    constexpr int kWidth = Packs::kWidth, kHalf = System::kStates / 2;
+    if constexpr (kHalf > 0 && Packs::kMost == 1) {
+      deviation[0] += factor * Packs::template shifted<kHalf>(deviation[0], std::make_index_sequence<kWidth>());
+    } else if constexpr (kHalf > 0 && kHalf % kWidth == 0) {
+      for (int c = 0; c < kHalf / kWidth; ++c) deviation[c] += factor * deviation[c + kHalf / kWidth];
+    } else {
+      for (int i = 0; i < n / 2; ++i) {
+        const int from = n / 2 + i;
+        deviation[i / kWidth][i % kWidth] += factor * deviation[from / kWidth][from % kWidth];
+      }
+    }
+  }
 
   int packs() const noexcept { return System::kStates > 0 ? Packs::kMost : static_cast<int>(rows_.size()); }
 

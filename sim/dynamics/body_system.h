@@ -15,6 +15,7 @@ inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
 ///   m r'' = F + m g - lambda v,   q' = q (0, w)/2,   I w' = R^T ((R offset) x F) - w x I w
 struct BodySystem {
   static constexpr int kStates = 13;
+  static constexpr bool kSecondOrder = false;
   static constexpr bool kEnds = false;
   static constexpr const char* kNoContinuation = "there is no continuation here";
   using State = Numbers<13>;

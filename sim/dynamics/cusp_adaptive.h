@@ -1,5 +1,4 @@
 #pragma once
-#include "sim/dynamics/abm.h"
 #include "sim/dynamics/adaptive.h"
 #include "sim/dynamics/curve_system.h"
 
@@ -70,7 +69,7 @@ class CuspAdaptive {
       system.rate(system.handAt(hand, at[n] / dt), plain, rates);
       const double factor = system.speedAt(at[lead.mass]) / c;
       for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
-      d[lead.mass] = at[system.n() + lead.mass] / c;
+      d[lead.mass] = at[system.rates() + lead.mass] / c;
       d[n] = factor;
     };
     const auto unit = [&](int i, double value) { return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_; };
@@ -83,7 +82,7 @@ class CuspAdaptive {
       if (fresh) {
         for (int i = 0; i < n; ++i) plain[i] = y[i];
         lead = nearest(system, plain);
-        const double speed = std::abs(y[system.n() + lead.mass]);
+        const double speed = std::abs(y[system.rates() + lead.mass]);
         if (lead.speed <= 1e-13 * c && speed <= 1e-14) return StepStatus::NoContinuation;  // at rest on a cusp: which way?
         rate(0, y, k[0]);
         ++rhs;
@@ -106,7 +105,7 @@ class CuspAdaptive {
               error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
               rhs += dop853::kStages - 1;
               const double miss = phi - trial[lead.mass];
-              const double speed = trial[system.n() + lead.mass] / c;
+              const double speed = trial[system.rates() + lead.mass] / c;
               if (std::abs(miss) <= 4e-16 * (1 + std::abs(phi)) || speed == 0) break;
               tau += miss / speed;
               if (!(tau > 0 && tau <= h)) break;
@@ -189,8 +188,5 @@ class CuspAdaptive {
   double tolerance_;
   double last_ = 0;  // size of the last sub-step in tau
 };
-
-template <class System>
-using CuspAbm = AbmWith<System, CuspAdaptive>;
 
 }  // namespace reachlab

@@ -7,6 +7,7 @@ namespace reachlab {
 template <int N, bool Parallel>
 struct FreeSystem {
   static constexpr int kStates = 6 * N;
+  static constexpr bool kSecondOrder = true;
   static constexpr bool kEnds = false;
   static constexpr const char* kNoContinuation = "there is no continuation here";
   using State = Numbers<kStates>;

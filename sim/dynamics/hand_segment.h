@@ -7,7 +7,8 @@ namespace reachlab {
 
 /// The HIP during one step, a polynomial in s = t/dt in [0, 1]: r(s) = sum position[k] s^k [m], v(s) = sum velocity[k] s^k [m/s].
 /// Velocity has its own polynomial, because for a device it comes from an estimator and not from the positions; for a hand given as a
-/// function it is the exact derivative. Degree 3 carries device samples, 7 a smooth function to rounding at 1 ms.
+/// function it is the exact derivative. Degree 3 carries device samples, 7 a smooth function to rounding at 1 ms. Coefficients beyond
+/// the degree are zero.
 struct HandSegment {
   static constexpr int kMaxDegree = 7;
   int degree = 0;
@@ -33,6 +34,16 @@ struct HandSample {
 
 inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
   return {valueAt(hand.position, hand.degree, s), valueAt(hand.velocity, hand.degree, s), true};
+}
+
+/// At s = 1, where multistep methods need it: without a loop of unknown length.
+inline HandSample endOf(const HandSegment& hand) noexcept {
+  Vec3 position = hand.position[0], velocity = hand.velocity[0];
+  for (int k = 1; k <= HandSegment::kMaxDegree; ++k) {
+    position += hand.position[k];
+    velocity += hand.velocity[k];
+  }
+  return {position, velocity, true};
 }
 
 }  // namespace reachlab

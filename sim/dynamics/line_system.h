@@ -9,6 +9,7 @@ namespace reachlab {
 template <int N, bool Parallel>
 struct LineSystem {
   static constexpr int kStates = 2 * N;
+  static constexpr bool kSecondOrder = true;
   static constexpr bool kEnds = true;
   static constexpr const char* kNoContinuation = "the line has no continuation here";
   using State = Numbers<kStates>;

@@ -9,6 +9,7 @@ namespace reachlab {
 /// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for.
 struct QuadricSystem {
   static constexpr int kStates = 6;
+  static constexpr bool kSecondOrder = true;
   static constexpr bool kEnds = true;
   static constexpr int kProjectEvery = 8;  // ticks
   static constexpr const char* kNoContinuation = "the surface has no tangent plane here (a cone's apex): there is no unique continuation";

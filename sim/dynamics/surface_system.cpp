@@ -5,14 +5,13 @@
 namespace reachlab {
 namespace {
 
-constexpr int kLookEvery = 4;                 // ticks between looks for a pole
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
 constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
 constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
 
 }  // namespace
 
-Settled SurfaceSystem::settle(const State&, State& y) noexcept {
+Settled SurfaceSystem::chooseChart(State& y) noexcept {
   if (inPolar) {
     if (y[0] * y[0] + y[1] * y[1] < kLeave * kLeave) return Settled::Same;
     const SurfacePoint local = evaluate(active, y[0], y[1]);
@@ -24,11 +23,10 @@ Settled SurfaceSystem::settle(const State&, State& y) noexcept {
     inPolar = false;
     return Settled::OtherChart;
   }
-  if (++ticks % kLookEvery != 0) return Settled::Same;
   const SurfacePoint p = evaluate(surface, y[0], y[1]);
   look(p);
   if (waiting > 0) --waiting;
-  const int fixed = norm(p.rU) < kNear * largestU ? 1 : norm(p.rV) < kNear * largestV ? 0 : -1;
+  const int fixed = dot(p.rU, p.rU) < kNear * kNear * largestU ? 1 : dot(p.rV, p.rV) < kNear * kNear * largestV ? 0 : -1;
   if (fixed < 0 || waiting > 0) return Settled::Same;
   if (!findPole(y, fixed)) {
     waiting = kWaitAfterNothing;
@@ -59,7 +57,7 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   }
   if (!std::isfinite(across) || std::abs(across - from) > kEnter || across == from) return false;
   // A pole: the whole line is one point, 2 pi is a period, and opposite sides continue each other.
-  const double largest = std::fmax(largestU, largestV), reach = 0.1 * (from - across);
+  const double largest = std::sqrt(std::max(largestU, largestV)), reach = 0.1 * (from - across);
   const SurfacePoint pole = at(angle, across), beside = at(angle, across + reach), again = at(angle + 2 * std::numbers::pi, across + reach);
   if (norm(again.r - beside.r) > 1e-12 * largest) return false;
   for (int i = 0; i < 8; ++i) {

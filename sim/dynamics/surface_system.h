@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "sim/dynamics/polar_chart.h"
 #include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
@@ -8,6 +10,7 @@ namespace reachlab {
 /// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
 struct SurfaceSystem {
   static constexpr int kStates = 4;
+  static constexpr bool kSecondOrder = true;
   static constexpr bool kEnds = true;
   static constexpr const char* kNoContinuation =
       "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
@@ -21,7 +24,7 @@ struct SurfaceSystem {
   PolarChart polar;
   bool inPolar = false;
   int ticks = 0, waiting = 0;                          // between looks for a pole
-  double largestU = 0, largestV = 0, largestArea = 0;  // [m], [m], [m^2] |r_u|, |r_v|, |r_u x r_v| seen so far
+  double largestU = 0, largestV = 0, largestArea = 0;  // [m^2], [m^2], [m^4] the largest |r_u|^2, |r_v|^2, |r_u x r_v|^2 seen so far
 
   SurfaceSystem(const ObjectModel& model, const Constraint& constraint)
       : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
@@ -68,17 +71,23 @@ struct SurfaceSystem {
   }
 
   /// Every few ticks: is a pole near, or has it been left?
-  Settled settle(const State& before, State& y) noexcept;
+  Settled settle(const State&, State& y) noexcept {
+    constexpr int kLookEvery = 4;
+    return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
+  }
+  Settled chooseChart(State& y) noexcept;
   /// Beside a place where r_u and r_v do not span a plane.
   bool lost(const State& y) const noexcept {
     const SurfacePoint p = evaluate(active, y[0], y[1]);
-    return norm(cross(p.rU, p.rV)) < 0.25 * largestArea;
+    const Vec3 area = cross(p.rU, p.rV);
+    return dot(area, area) < 0.25 * 0.25 * largestArea;
   }
   void look(const SurfacePoint& p) noexcept {
-    if (!isFinite(p.rU) || !isFinite(p.rV)) return;
-    largestU = std::fmax(largestU, norm(p.rU));
-    largestV = std::fmax(largestV, norm(p.rV));
-    largestArea = std::fmax(largestArea, norm(cross(p.rU, p.rV)));
+    const double uu = dot(p.rU, p.rU), uv = dot(p.rU, p.rV), vv = dot(p.rV, p.rV), area = uu * vv - uv * uv;
+    if (!std::isfinite(area)) return;
+    largestU = std::max(largestU, uu);
+    largestV = std::max(largestV, vv);
+    largestArea = std::max(largestArea, area);
   }
   /// The pole ahead where the lines of parameter `fixed` = const collapse, if there is one: Newton on r_(other) = 0 along it, then a look
   /// round the whole line.

@@ -9,6 +9,7 @@
 
 // A System is what a method integrates: a state of kStates numbers (0: known when compiled), the hand as it enters, and
 //   rate(hand, y, dy)            the equations of motion (7)
+//   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y
 //   scale(i)                     the size below which an error of number i counts as absolute
 //   place, locate, accelerate    between the state and the masses' places
 //   inside(y), reflect(y)        ends of the constraint (kEnds)

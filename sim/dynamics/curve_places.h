@@ -1,0 +1,88 @@
+#pragma once
+#include <cmath>
+#include <span>
+
+#include "sim/dynamics/system.h"
+
+namespace reachlab {
+
+/// Where the masses of a curve's system are: phi_i is number i of its state, omega_i (Tangential: the speed v_i) number rates() + i.
+/// `N` masses, 0: as many as the model has; `Room` numbers for the phi, 0: as many as masses.
+template <int N, int Room, bool Tangential>
+struct CurvePlaces {
+  static constexpr bool kTangential = Tangential;
+  static constexpr bool kSecondOrder = !Tangential;
+  static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation = "the mass rests on a cusp of the curve: which way it would leave is not determined";
+
+  Curve curve;
+  Domain domain;
+  double speedScale;  // [m] typical |r_phi|
+  int count, room;
+
+  CurvePlaces(const ObjectModel& model, const Constraint& constraint, double typicalSpeed, int roomForPhi)
+      : curve(constraint.curve), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()), room(roomForPhi) {}
+  constexpr int n() const noexcept { return N > 0 ? N : count; }
+  constexpr int rates() const noexcept { return Room > 0 ? Room : room; }
+  constexpr int states() const noexcept { return 2 * rates(); }
+  double speedAt(double phi) const noexcept { return norm(evaluate(curve, phi).rPhi); }
+  double scale(int i) const noexcept { return i < rates() ? 0.1 : Tangential ? 0.1 : 1.0; }
+
+  /// All masses at one place; room beyond them rests there too.
+  template <class State>
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+    for (int i = 0; i < rates(); ++i) {
+      y[i] = q[0];
+      y[rates() + i] = i >= n() ? 0 : Tangential ? qRate[0] * speedAt(q[0]) : qRate[0];
+    }
+  }
+  template <class State>
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      const double phi = y[static_cast<int>(k)], rate = y[rates() + static_cast<int>(k)];
+      const CurvePoint p = evaluate(curve, phi);
+      const double omega = Tangential ? rate / std::fmax(norm(p.rPhi), 1e-290) : rate;
+      masses[k].q = {phi, 0};
+      masses[k].qRate = {omega, 0};
+      masses[k].r = p.r;
+      masses[k].v = omega * p.rPhi;
+    }
+  }
+  template <class State>
+  void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      const int i = static_cast<int>(k);
+      const double rate = y[rates() + i], slope = dy[rates() + i];
+      const CurvePoint p = evaluate(curve, y[i]);
+      if constexpr (Tangential) {
+        // a = v' T + v^2 times the curvature vector, whose tangential part is left out
+        const double square = std::fmax(dot(p.rPhi, p.rPhi), 1e-290);
+        const Vec3 curvature = (p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square;
+        masses[k].a = slope / std::sqrt(square) * p.rPhi + rate * rate * curvature;
+      } else {
+        masses[k].a = slope * p.rPhi + rate * rate * p.rPhiPhi;
+      }
+    }
+  }
+
+  bool bounded() const noexcept { return !domain.periodic && (std::isfinite(domain.lo) || std::isfinite(domain.hi)); }
+  bool bounces() const noexcept { return domain.atEnd == AtEnd::Bounce; }
+  template <class State>
+  bool inside(const State& y) const noexcept {
+    for (int i = 0; i < n(); ++i)
+      if (!(y[i] >= domain.lo && y[i] <= domain.hi)) return false;
+    return true;
+  }
+  template <class State>
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
+    for (int i = 0; i < n(); ++i) {
+      const bool low = beyond[i] < domain.lo;
+      if (!low && !(beyond[i] > domain.hi)) continue;
+      y[i] = low ? domain.lo : domain.hi;
+      double& rate = y[rates() + i];
+      if (bounce) rate = low ? std::abs(rate) : -std::abs(rate);
+    }
+  }
+};
+
+}  // namespace reachlab

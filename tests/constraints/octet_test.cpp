@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+#include <random>
+
+#include "constraints/constraint.h"
+#include "constraints/definition.h"
+
+namespace reachlab {
+namespace {
+
+/// Bits are compared: lanes do the operations of one point in their order.
+void expectSameBits(const Curve& curve, const std::array<double, kOctet>& phi, const std::string& name) {
+  CurveOctet octet;
+  curve.octet(curve.program, curve.shape.data(), phi.data(), octet);
+  for (int lane = 0; lane < kOctet; ++lane) {
+    const CurvePoint p = evaluate(curve, phi[lane]);
+    const Vec3 single[3] = {p.r, p.rPhi, p.rPhiPhi};
+    for (int k = 0; k < 3; ++k) {
+      const auto& lanes = k == 0 ? octet.r : k == 1 ? octet.rPhi : octet.rPhiPhi;
+      const double values[3] = {single[k].x, single[k].y, single[k].z};
+      for (int c = 0; c < 3; ++c) {
+        if (std::isnan(values[c])) EXPECT_TRUE(std::isnan(lanes[c][lane])) << name << " at " << phi[lane];
+        else
+          EXPECT_EQ(std::bit_cast<std::uint64_t>(lanes[c][lane]), std::bit_cast<std::uint64_t>(values[c])) << name << " at " << phi[lane];
+      }
+    }
+  }
+}
+
+void expectSameBitsEverywhere(const Curve& curve, const std::string& name) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> near(-7, 7);
+  std::array<double, kOctet> phi{};
+  for (int round = 0; round < 50; ++round) {
+    for (double& value : phi) value = near(random);
+    expectSameBits(curve, phi, name);
+  }
+  phi[3] = 3e6;  // beyond the inlined sine
+  expectSameBits(curve, phi, name);
+  phi[5] = std::numeric_limits<double>::quiet_NaN();
+  phi[6] = std::numeric_limits<double>::infinity();
+  expectSameBits(curve, phi, name);
+}
+
+TEST(Octet, OfEveryCurveOfTheCatalogueHasTheBitsOfSinglePoints) {
+  int curves = 0;
+  for (const Definition& definition : catalogue()) {
+    if (definition.kind != ConstraintKind::Curve) continue;
+    expectSameBitsEverywhere(makeConstraint(definition, {}, definition.name).curve, definition.name);
+    ++curves;
+  }
+  EXPECT_GT(curves, 30);
+}
+
+TEST(Octet, OfTypedFormulasHasTheBitsOfSinglePoints) {
+  const std::vector<std::vector<std::string>> formulas{
+      {"0.1*cos(phi)", "0.06*sin(phi)", "0"},
+      {"phi", "exp(-phi^2)*tanh(phi)", "sqrt(1 + phi^2)"},
+      {"atan2(sin(phi), 2 + cos(phi))", "abs(phi)*sign(phi - 20)", "3/(2 + cos(3*phi)) - phi"},
+      {"sinh(phi/10) + cosh(phi/9)", "atan(phi) + asin(cos(phi)/3) + acos(sin(phi)/3)", "log(9 + phi)^2.5 + tan(phi/40)"},
+      {"1 - phi", "2*phi*(3*phi)", "-(phi*phi) + 4 - phi*phi*sin(phi)"}};
+  for (const auto& formula : formulas)
+    expectSameBitsEverywhere(makeConstraint({.name = "", .curve = formula, .surface = {}, .shape = {}}).curve, formula[1]);
+  const Constraint shaped =
+      makeConstraint({.name = "", .curve = {"a*cos(phi)", "b*sin(phi)", "a - b*phi"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.06}}});
+  expectSameBitsEverywhere(shaped.curve, "with a shape");
+}
+
+}  // namespace
+}  // namespace reachlab
