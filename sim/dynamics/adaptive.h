@@ -1,134 +1,12 @@
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 
+#include "sim/dynamics/dense_output.h"
 #include "sim/dynamics/hand_segment.h"
-#include "sim/dynamics/numbers.h"
 #include "sim/dynamics/step_report.h"
 
 namespace reachlab {
-
-/// Dormand and Prince's pair of order 8 with error estimators of order 5 and 3 (Hairer, Norsett, Wanner: Solving Ordinary Differential
-/// Equations I, 2nd ed., II.5 and II.10), sub-stepping inside a tick; steps end at the tick, so no dense output is needed.
-namespace dop853 {
-inline constexpr int kStages = 12;
-inline constexpr double kC[kStages] = {0,
-                                       0.05260015195876773,
-                                       0.0789002279381516,
-                                       0.1183503419072274,
-                                       0.2816496580927726,
-                                       0.3333333333333333,
-                                       0.25,
-                                       0.3076923076923077,
-                                       0.6512820512820513,
-                                       0.6,
-                                       0.8571428571428571,
-                                       1.0};
-inline constexpr double kA[kStages][kStages - 1] = {
-    {},
-    {0.05260015195876773},
-    {0.0197250569845379, 0.0591751709536137},
-    {0.02958758547680685, 0.0, 0.08876275643042054},
-    {0.2413651341592667, 0.0, -0.8845494793282861, 0.924834003261792},
-    {0.037037037037037035, 0.0, 0.0, 0.17082860872947386, 0.12546768756682242},
-    {0.037109375, 0.0, 0.0, 0.17025221101954405, 0.06021653898045596, -0.017578125},
-    {0.03709200011850479, 0.0, 0.0, 0.17038392571223998, 0.10726203044637328, -0.015319437748624402, 0.008273789163814023},
-    {0.6241109587160757, 0.0, 0.0, -3.3608926294469414, -0.868219346841726, 27.59209969944671, 20.154067550477894, -43.48988418106996},
-    {0.47766253643826434, 0.0, 0.0, -2.4881146199716677, -0.590290826836843, 21.230051448181193, 15.279233632882423, -33.28821096898486,
-     -0.020331201708508627},
-    {-0.9371424300859873, 0.0, 0.0, 5.186372428844064, 1.0914373489967295, -8.149787010746927, -18.52006565999696, 22.739487099350505,
-     2.4936055526796523, -3.0467644718982196},
-    {2.273310147516538, 0.0, 0.0, -10.53449546673725, -2.0008720582248625, -17.9589318631188, 27.94888452941996, -2.8589982771350235,
-     -8.87285693353063, 12.360567175794303, 0.6433927460157636}};
-inline constexpr double kB[kStages] = {0.054293734116568765,
-                                       0,
-                                       0,
-                                       0,
-                                       0,
-                                       4.450312892752409,
-                                       1.8915178993145003,
-                                       -5.801203960010585,
-                                       0.3111643669578199,
-                                       -0.1521609496625161,
-                                       0.20136540080403034,
-                                       0.04471061572777259};
-inline constexpr double kError3[kStages] = {-0.18980075407240762,
-                                            0,
-                                            0,
-                                            0,
-                                            0,
-                                            4.450312892752409,
-                                            1.8915178993145003,
-                                            -5.801203960010585,
-                                            -0.4226823213237919,
-                                            -0.1521609496625161,
-                                            0.20136540080403034,
-                                            0.02265179219836082};
-inline constexpr double kError5[kStages] = {0.01312004499419488,
-                                            0,
-                                            0,
-                                            0,
-                                            0,
-                                            -1.2251564463762044,
-                                            -0.4957589496572502,
-                                            1.6643771824549864,
-                                            -0.35032884874997366,
-                                            0.3341791187130175,
-                                            0.08192320648511571,
-                                            -0.022355307863886294};
-
-template <int S>
-using Stages = std::array<Numbers<S>, kStages>;
-template <int S, std::size_t... I>
-Stages<S> makeStages(int n, std::index_sequence<I...>) noexcept {
-  return {((void)I, Numbers<S>(n))...};
-}
-template <int S>
-Stages<S> makeStages(int n) noexcept {
-  return makeStages<S>(n, std::make_index_sequence<kStages>());
-}
-
-/// One trial of h from y at t: k[0] holds the rate there. Returns the estimated error over `unit(i, y_i)`, 1 being the most allowed;
-/// infinite when the result is not finite. Eleven right-hand sides.
-template <int S, class Rate, class Unit>
-double attempt(const Rate& rate, const Unit& unit, double t, double h, const Numbers<S>& y, Stages<S>& k, Numbers<S>& next) noexcept {
-  const int n = y.size();
-  Numbers<S> at(n);
-  for (int stage = 1; stage < kStages; ++stage) {
-    for (int i = 0; i < n; ++i) {
-      double sum = 0;
-      for (int j = 0; j < stage; ++j) sum += kA[stage][j] * k[j][i];
-      at[i] = y[i] + h * sum;
-    }
-    rate(t + kC[stage] * h, at, k[stage]);
-  }
-  double fifth = 0, third = 0;
-  for (int i = 0; i < n; ++i) {
-    double sum = 0, e3 = 0, e5 = 0;
-    for (int j = 0; j < kStages; ++j) {
-      sum += kB[j] * k[j][i];
-      e3 += kError3[j] * k[j][i];
-      e5 += kError5[j] * k[j][i];
-    }
-    next[i] = y[i] + h * sum;
-    const double size = unit(i, y[i]);
-    fifth += e5 / size * (e5 / size) + next[i] * 0.0;
-    third += e3 / size * (e3 / size);
-  }
-  if (fifth == 0) return 0;
-  const double error = h * fifth / std::sqrt((fifth + 0.01 * third) * n);
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
-}
-
-/// The next step's size over this one's, for an estimated error of order 8.
-inline double growth(double error, double most) noexcept {
-  if (!std::isfinite(error)) return 0.1;
-  return std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.125), 0.2, most);
-}
-}  // namespace dop853
 
 inline constexpr double kDefaultTolerance = 1e-13;  // per sub-step, relative to each number's scale
 
@@ -139,37 +17,80 @@ class Adaptive {
   Adaptive(const System&, double tolerance) : tolerance_(tolerance > 0 ? tolerance : kDefaultTolerance) {}
   void restart() noexcept { last_ = 0; }
 
-  /// The whole tick.
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
-    return advance(system, hand, dt, 1.0, y, next, report);
+    double reached = 0;
+    return advance(system, hand, dt, y, next, reached, report, [](auto&&...) { return false; });
   }
 
-  /// The part of the tick from 0 to `fraction` of dt.
-  StepStatus advance(const System& system, const HandSegment& hand, double dt, double fraction, const State& y0, State& y,
-                     StepReport& report) noexcept {
+  /// Where a mass meets an end of the constraint within the tick.
+  struct Meeting {
+    bool met = false;
+    double share = 1;  // of dt: the last moment at which every mass is on the constraint, to rounding; as far as it came if not Ok
+    State beyond;      // just behind it
+  };
+  /// The tick up to the first meeting; `y` is the state then, or at the tick's end. The moment is found in the dense output of the
+  /// sub-step that crosses, so that a meeting costs four right-hand sides.
+  StepStatus stepInside(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, Meeting& meeting,
+                        StepReport& report) noexcept {
+    State inside = y0;
+    double reached = 0;
+    const StepStatus status = advance(system, hand, dt, y0, y, reached, report,
+                                      [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
+                                        if (system.inside(to)) return false;
+                                        const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
+                                        report.rhs += 4;
+                                        inside = from;
+                                        meeting.beyond = to;
+                                        State at(system.states());
+                                        double low = 0, high = 1;
+                                        for (double middle = 0.5; middle > low && middle < high; middle = 0.5 * (low + high)) {
+                                          dense.at(middle, at);
+                                          const bool good = system.inside(at);
+                                          (good ? low : high) = middle;
+                                          (good ? inside : meeting.beyond) = at;
+                                        }
+                                        meeting.met = true;
+                                        reached = t + low * h;
+                                        return true;
+                                      });
+    meeting.share = reached / dt;
+    if (meeting.met) y = inside;
+    return status;
+  }
+
+ private:
+  /// Sub-steps from 0 to dt, until `stops(rate, t, h, y, stages, next)` says of an accepted one that it is the last. `t`: how far they came.
+  template <class Stops>
+  StepStatus advance(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, double& t, StepReport& report,
+                     const Stops& stops) noexcept {
     const int n = system.states();
     auto k = dop853::makeStages<System::kStates>(n);
     State trial(n);
-    const auto rate = [&](double t, const State& at, State& slope) { system.rate(system.handAt(hand, t / dt), at, slope); };
+    const auto rate = [&](double time, const State& at, State& slope) { system.rate(system.handAt(hand, time / dt), at, slope); };
     const auto unit = [&](int i, double value) { return tolerance_ * (system.scale(i) + std::abs(value)); };
     y = y0;
     rate(0, y, k[0]);
     int rhs = 1;
-    const double end = fraction * dt;
-    double t = 0, h = last_ > 0 ? std::min(last_, end) : end;
+    double h = last_ > 0 ? std::min(last_, dt) : dt;
+    t = 0;
     double most = 5;  // growth allowed: none right after a rejection
     report.error = 0;
     StepStatus status = StepStatus::Ok;
-    while (t < end) {
-      const bool lastPart = t + 1.01 * h >= end;
-      if (lastPart) h = end - t;
+    bool stopped = false;
+    while (t < dt) {
+      const bool lastPart = t + 1.01 * h >= dt;
+      if (lastPart) h = dt - t;
       const double error = dop853::attempt<System::kStates>(rate, unit, t, h, y, k, trial);
       rhs += dop853::kStages - 1;
       const double factor = dop853::growth(error, most);
       most = error <= 1 ? 5 : 1;
       if (error <= 1) {
         report.error += tolerance_ * error;
-        t = lastPart ? end : t + h;
+        if (stops(rate, t, h, y, k, trial)) {
+          stopped = true;
+          break;
+        }
+        t = lastPart ? dt : t + h;
         y = trial;
         last_ = lastPart ? std::max(last_, h * factor) : h * factor;
         if (!lastPart) {
@@ -182,20 +103,19 @@ class Adaptive {
         if (t + h * factor == t) break;
       }
       h *= factor;
-      if (t < end && rhs + dop853::kStages > kMostRhsPerTick) {
+      if (t < dt && rhs + dop853::kStages > kMostRhsPerTick) {
         status = status == StepStatus::NotFinite && error > 1 ? status : StepStatus::Capped;
         break;
       }
     }
     report.rhs += static_cast<std::uint64_t>(rhs);
-    if (t < end) {
+    if (t < dt && !stopped) {
       last_ = 0;
       return status;
     }
     return StepStatus::Ok;
   }
 
- private:
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step
 };

@@ -88,47 +88,35 @@ class SystemPlant : public PlantBase {
   const State& now() const noexcept { return states_[current_]; }
   State& next() noexcept { return states_[1 - current_]; }
 
-  static constexpr int kMostBounces = 64;  // in one tick
-
-  /// The largest part of the tick after which every mass is still on the constraint, and the state then; at an elastic end the rest of
-  /// the tick follows.
+  /// The part of the tick after which every mass is still on the constraint, and the state then; at an elastic end the rest of the tick
+  /// follows.
   StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
-    State at = now(), beyond = now();
+    const State before = now();
+    State at = before;
     double begun = 0;
     HandSegment rest = hand;
-    for (int bounce = 0; bounce < kMostBounces; ++bounce) {
-      const double left = (1 - begun) * dt;
-      double inside = 0, outside = 1;
-      State good = now();
-      // A step over an end that is a cusp is known only to the method; the locator comes up to it.
-      bool crossed = bounce == 0 && status == StepStatus::Ok;
-      if (crossed) beyond = next();
-      for (int round = 0; round < 60 && outside - inside > 1e-15; ++round) {
-        const double middle = round == 0 ? 1.0 : 0.5 * (inside + outside);
-        locator_.restart();
-        status = locator_.advance(system_, rest, left, middle, now(), at, report);
-        const bool finite = status == StepStatus::Ok;
-        if (finite && system_.inside(at)) {
-          inside = middle;
-          good = at;
-          if (round == 0) break;
-        } else {
-          outside = middle;
-          if (finite) beyond = at, crossed = true;
-        }
-      }
-      if (inside == 1) {
-        next() = good;
+    // A step over an end that is a cusp is known only to the method; the locator comes up to it.
+    const bool seen = status == StepStatus::Ok;
+    for (bool first = true; report.rhs < kMostRhsPerTick; first = false) {
+      typename Adaptive<System>::Meeting meeting{false, 1, now()};
+      if (first && seen) meeting.beyond = next();
+      locator_.restart();
+      status = locator_.stepInside(system_, rest, (1 - begun) * dt, now(), at, meeting, report);
+      if (status == StepStatus::Ok && !meeting.met) {
+        next() = at;
         method_.restart();
         return StepStatus::Ok;
       }
-      if (!crossed) return status;  // not an end: the method itself failed
-      begun += inside * (1 - begun);
-      now() = good;
-      system_.meetEnd(beyond, now(), system_.bounces());
+      if (!meeting.met && !(first && seen)) {  // not an end: the method itself failed
+        now() = before;
+        return status;
+      }
+      begun += meeting.share * (1 - begun);
+      now() = at;
+      system_.meetEnd(meeting.beyond, now(), system_.bounces());
       // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity: it stops just before, elastic or not.
-      const bool degenerate = !sameSpeed(good, now()) || !hasRates(rest, now());
-      if (degenerate) now() = good;
+      const bool degenerate = !sameSpeed(at, now()) || !hasRates(rest, now());
+      if (degenerate) now() = at;
       if (degenerate || !system_.bounces()) {
         fraction_ = begun;
         method_.restart();
@@ -136,6 +124,7 @@ class SystemPlant : public PlantBase {
       }
       rest = part(hand, begun, 1);
     }
+    now() = before;
     return StepStatus::Capped;
   }
 
