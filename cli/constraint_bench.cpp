@@ -57,13 +57,32 @@ double threadNanoseconds() {
 struct Candidate {
   std::string constraint, form;
   Constraint evaluated;
+  bool octet = false;
 };
 
 // Parameters as a moving mass has them: near the last, never the same.
 constexpr int kPlaces = 512, kRounds = 60;
 
+double measureOctets(const Curve& curve) {
+  double sink = 0;
+  const double start = threadNanoseconds();
+  for (int round = 0; round < kRounds; ++round)
+    for (int i = 0; i < kPlaces; i += kOctet) {
+      std::array<double, kOctet> phi{};
+      for (int lane = 0; lane < kOctet; ++lane) phi[static_cast<std::size_t>(lane)] = -0.9 + 0.0037 * (i + lane);
+      CurveOctet points;
+      curve.octet(curve.program, curve.shape.data(), phi.data(), points);
+      sink += points.rPhiPhi[0][0];
+    }
+  const double elapsed = threadNanoseconds() - start;
+  volatile double used = sink;
+  static_cast<void>(used);
+  return elapsed / (kRounds * kPlaces);
+}
+
 double measure(const Candidate& candidate) {
   const Constraint& c = candidate.evaluated;
+  if (candidate.octet) return measureOctets(c.curve);
   double sink = 0;
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)
@@ -87,6 +106,9 @@ std::vector<Candidate> candidates() {
     list.push_back({name, "hand-written", hand});
     list.push_back({name, "generated", generated});
     list.push_back({name, "typed", typed});
+    if (generated.kind != ConstraintKind::Curve) return;
+    list.push_back({name, "generated-x8", generated, true});
+    list.push_back({name, "typed-x8", typed, true});
   };
   const auto named = [](const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); };
   put("torus", named("torus"),

@@ -7,7 +7,7 @@ namespace reachlab {
 /// Time of one evaluation of r and all its derivatives (`reach bench --scene constraint-eval`).
 struct ConstraintEvalRow {
   std::string constraint;  // torus | epitrochoid | monkey-saddle
-  std::string form;        // hand-written | generated | typed
+  std::string form;        // hand-written, generated, typed; generated-x8, typed-x8: of eight points of a curve together
   double nsPerEval = 0;    // [ns] of the processor, median of `repetitions`, the forms measured in turns
 };
 

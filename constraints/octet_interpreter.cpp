@@ -13,6 +13,7 @@ using Register = double[kOctet];
 template <class Operation>
 [[gnu::always_inline]] inline void inLanes(Register& out, const Operation& operation) noexcept {
   Register result;
+#pragma GCC unroll 1  // unrolled, g++ 12 would not put it in lanes
   for (int lane = 0; lane < kOctet; ++lane) result[lane] = operation(lane);
   std::memcpy(out, result, sizeof(Register));
 }
@@ -20,6 +21,7 @@ template <class Operation>
 void sinCosInLanes(const Register& x, Register& sine, Register& cosine) noexcept {
   Register s, c;
   std::uint64_t far = 0;
+#pragma GCC unroll 1
   for (int lane = 0; lane < kOctet; ++lane) far |= sinCosNear(x[lane], s[lane], c[lane]);
   if (far != 0)
     for (int lane = 0; lane < kOctet; ++lane) sinCos(x[lane], s[lane], c[lane]);

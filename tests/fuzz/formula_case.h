@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -11,6 +12,21 @@
 #include "constraints/formula.h"
 
 namespace reachlab {
+
+/// Throws where eight points together differ from single ones, not-a-numbers being all alike.
+inline void requireOctetOfSinglePoints(const Curve& curve, const std::array<double, kOctet>& phi) {
+  CurveOctet octet;
+  curve.octet(curve.program, curve.shape.data(), phi.data(), octet);
+  for (int lane = 0; lane < kOctet; ++lane) {
+    const CurvePoint p = evaluate(curve, phi[static_cast<std::size_t>(lane)]);
+    const auto same = [lane](const double(&lanes)[3][kOctet], const Vec3& v) {
+      const auto equal = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+      return equal(lanes[0][lane], v.x) && equal(lanes[1][lane], v.y) && equal(lanes[2][lane], v.z);
+    };
+    if (!same(octet.r, p.r) || !same(octet.rPhi, p.rPhi) || !same(octet.rPhiPhi, p.rPhiPhi))
+      throw std::logic_error("eight points together differ from single ones");
+  }
+}
 
 /// One case of the formula fuzzer: three lines are a surface, otherwise the first line is the x of a curve, through the whole pipeline. Any
 /// text must end as a constraint that evaluates or as a UsageError; what else happens is a bug, and thrown.
@@ -35,6 +51,11 @@ inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
       throw std::logic_error("a fault is placed beyond the text");
   try {
     const Constraint c = makeConstraint(spec);
+    if (c.kind == ConstraintKind::Curve) {
+      requireOctetOfSinglePoints(c.curve, {0.0, 0.37, -1.5, 2.0, 31.0, -7.7, 1e-3, 99.0});
+      requireOctetOfSinglePoints(c.curve, {0.0, 0.37, -1.5, 1e6, 1e308, -1e5, 0.1, 3.0});
+      writeOctetEvaluator(*compileFormula(formula, "fuzz"), "evaluateFuzz");
+    }
     for (const double x : {0.0, 0.37, -1.5, 1e6, 1e308}) {
       if (c.kind == ConstraintKind::Curve) evaluate(c.curve, x);
       else evaluate(c.surface, x, -x);
