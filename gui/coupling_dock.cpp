@@ -18,6 +18,9 @@ CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupli
   form->addRow(QStringLiteral("damping"), damping_);
   faults_ = new FaultLabel;
   form->addRow(faults_);
+  stiffness_->setName(QStringLiteral("stiffness"));
+  damping_->setName(QStringLiteral("damping"));
+  for (auto* number : {stiffness_, damping_}) faults_->watch(number);
   setWidget(body);
   const auto tell = [this] { Q_EMIT edited({stiffness_->value(), damping_->value()}); };
   connect(stiffness_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, tell);

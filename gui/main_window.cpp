@@ -64,6 +64,7 @@ void MainWindow::Impl::say(const QString& sentence) {
 
 void MainWindow::Impl::edit(const Experiment& changed, const QString& what, const std::function<void(const QStringList&)>& showFaults) {
   const Experiment before = session.experiment();
+  if (toJson(changed) == toJson(before)) return showFaults({});  // back to what holds: the run goes on
   const QStringList faults = session.tryEdit(changed);
   showFaults(faults);
   if (faults.isEmpty()) edits->push(new EditCommand(session, before, changed, what));
@@ -73,7 +74,7 @@ void MainWindow::Impl::showExperiment() {
   const Experiment& e = session.experiment();
   object->setObject(e.object);
   coupling->setCoupling(e.coupling);
-  if (e.task) task->setTask(*e.task);
+  if (e.task) task->setTask(*e.task, session.constraint().kind);
   constraint->setConstraint(e.constraint, session.constraint());
   for (QDockWidget* d : std::initializer_list<QDockWidget*>{object, task, constraint}) d->widget()->setEnabled(!session.isPlan());
   if (session.isPlan()) coupling->widget()->setEnabled(false);

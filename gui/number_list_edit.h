@@ -1,28 +1,52 @@
 #pragma once
 #include <QLineEdit>
+#include <QStringList>
+#include <limits>
 #include <optional>
 #include <vector>
 
 namespace reachlab {
 
-/// Several numbers in one line, parted by blanks: "0.6 0.6 0.6" or "5 x 0.6". Red while it is no list of numbers.
+/// What a list of numbers may hold, and what it is called in a message.
+struct NumberListRule {
+  QString list = QStringLiteral("numbers");  // "masses"
+  QString item;                              // "mass": the second is "mass 2"
+  QStringList names = {};                    // of the single numbers where they have any: "u", "v"
+  QString unit = {};
+  double low = -std::numeric_limits<double>::infinity();
+  bool lowAllowed = true;
+  std::size_t fewest = 0, most = 512;
+};
+
+/// Several numbers in one line, parted by blanks: "0.6 0.6 0.6" or "5 x 0.6". Red while the rule does not hold.
 class NumberListEdit : public QLineEdit {
   Q_OBJECT
  public:
   explicit NumberListEdit(QWidget* parent = nullptr);
+  void setRule(const NumberListRule& rule);
+  /// Displays; what is being typed and still wrong stays if the numbers behind it are the same as before.
   void setNumbers(const std::vector<double>& numbers);
   std::optional<std::vector<double>> numbers() const;
+  /// What is wrong with the text, in a sentence; empty: nothing.
+  QString fault() const;
 
  Q_SIGNALS:
-  /// Enter or leaving the field, with a new list of numbers.
+  /// Enter or leaving the field, with a new list of numbers that keeps the rule.
   void numbersEdited();
+  /// Typed in: what `fault` says may have changed.
+  void checked();
 
  private:
-  std::vector<double> shown_;
+  void mark();
+
+  NumberListRule rule_;
+  std::vector<double> shown_, told_;
 };
 
 /// "5 x 0.6" where all are equal. Shortest decimal that reads back the same.
 QString textOf(const std::vector<double>& numbers);
 std::optional<std::vector<double>> numbersOf(const QString& text);
+/// "mass 2: -0.6 kg; allowed: more than 0"; empty when the text keeps the rule.
+QString faultOf(const QString& text, const NumberListRule& rule);
 
 }  // namespace reachlab

@@ -33,6 +33,7 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   masses_->setObjectName(QStringLiteral("masses"));
   stiffness_ = new NumberListEdit;
   stiffness_->setObjectName(QStringLiteral("stiffness"));
+  stiffness_->setObjectName(QStringLiteral("stiffness"));
   damping_ = new NumberListEdit;
   viscosity_ = new UnitSpinBox(0, 1e4, QStringLiteral("N s/m"));
   auto* gravity = new QHBoxLayout;
@@ -51,11 +52,16 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   faults_ = new FaultLabel;
   faults_->setObjectName(QStringLiteral("objectFaults"));
   form->addRow(faults_);
+  viscosity_->setName(QStringLiteral("viscosity"));
+  for (std::size_t i = 0; i < 3; ++i) gravity_[i]->setName(QStringLiteral("gravity %1").arg(QLatin1Char("xyz"[i])));
+  for (auto* list : {masses_, stiffness_, damping_}) faults_->watch(list);
+  for (auto* number : {viscosity_, gravity_[0], gravity_[1], gravity_[2]}) faults_->watch(number);
   masses_->setToolTip(QStringLiteral("first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6"));
   stiffness_->setToolTip(QStringLiteral("chain: between neighbours, one fewer than masses; parallel: each mass to the hand"));
   setWidget(body);
 
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] {
+    object_ = accepted_;  // a kind that was refused leaves nothing behind
     object_.kind = static_cast<ObjectKind>(kind_->currentIndex());
     if (object_.kind == ObjectKind::Point || object_.kind == ObjectKind::Body) object_.masses.resize(1, 1.0);
     if (object_.kind == ObjectKind::Parallel)
@@ -84,17 +90,31 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
 }
 
 void ObjectDock::setObject(const Object& object) {
-  object_ = object;
+  object_ = accepted_ = object;
   kind_->setCurrentIndex(static_cast<int>(object.kind));
-  masses_->setNumbers(object.masses);
-  stiffness_->setNumbers(object.stiffness);
-  damping_->setNumbers(object.damping);
   const bool springs = object.kind == ObjectKind::Chain || object.kind == ObjectKind::Parallel;
   stiffness_->setEnabled(springs);
   damping_->setEnabled(springs);
+  setRules();
+  masses_->setNumbers(object.masses);
+  stiffness_->setNumbers(object.stiffness);
+  damping_->setNumbers(object.damping);
   viscosity_->show(object.viscosity);
   const double g[] = {object.gravity.x, object.gravity.y, object.gravity.z};
   for (std::size_t i = 0; i < 3; ++i) gravity_[i]->show(g[i]);
+}
+
+void ObjectDock::setRules() {
+  const bool springs = object_.kind == ObjectKind::Chain || object_.kind == ObjectKind::Parallel;
+  NumberListRule rule{QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, 1, springs ? kMaxMasses : 1u};
+  masses_->setRule(rule);
+  rule = {QStringLiteral("springs"), QStringLiteral("spring"), {}, QStringLiteral("N/m"), 0};
+  rule.fewest = rule.most = object_.stiffness.size();
+  stiffness_->setRule(rule);
+  rule.list = QStringLiteral("dampers");
+  rule.item = QStringLiteral("damper");
+  rule.unit = QStringLiteral("N s/m");
+  damping_->setRule(rule);
 }
 
 void ObjectDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }

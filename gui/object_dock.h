@@ -25,8 +25,9 @@ class ObjectDock : public QDockWidget {
 
  private:
   void tell();
+  void setRules();  // of the lists, for the kind and as many masses as there are
 
-  Object object_;
+  Object object_, accepted_;  // as entered, which may be refused; as it holds
   QComboBox* kind_;
   NumberListEdit *masses_, *stiffness_, *damping_;
   UnitSpinBox* viscosity_;

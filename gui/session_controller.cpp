@@ -1,5 +1,6 @@
 #include "gui/session_controller.h"
 
+#include <QRegularExpression>
 #include <QThread>
 
 #include "constraints/error.h"
@@ -25,6 +26,16 @@ Experiment firstExperiment(const SessionRequest& request, bool& isPlanFile) {
   return readExperiment(request.what);
 }
 
+// The reader speaks of a file's lines and keys; what is edited here has neither.
+QString inWords(const std::string& problem) {
+  QString words = QString::fromStdString(problem);
+  static const QRegularExpression place(QStringLiteral("^.*?:\\d+:\\d+: (?:object\\.|task\\.|coupling\\.)?"));
+  words.remove(place);
+  words.replace(QLatin1String("masses_kg: has"), QLatin1String("masses:"));
+  words.replace(QLatin1String("constraint { \"name\": \"free\" }"), QLatin1String("the constraint free"));
+  return words;
+}
+
 }  // namespace
 
 SessionController::SessionController(const SessionRequest& request, QObject* parent)
@@ -35,7 +46,7 @@ SessionController::~SessionController() = default;
 
 QStringList SessionController::tryEdit(const Experiment& experiment) {
   QStringList faults;
-  for (const std::string& problem : problems(experiment)) faults << QString::fromStdString(problem);
+  for (const std::string& problem : problems(experiment)) faults << inWords(problem);
   if (!faults.isEmpty()) return faults;
   try {
     Constraint constraint = makeConstraint(experiment.constraint);

@@ -1,7 +1,9 @@
 #include "gui/task_dock.h"
 
 #include <QFormLayout>
+#include <QLabel>
 
+#include "constraints/formula.h"
 #include "gui/fault_label.h"
 #include "gui/number_list_edit.h"
 #include "gui/unit_spin_box.h"
@@ -19,17 +21,24 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   time_ = new UnitSpinBox(0.001, 30, QStringLiteral("s"));
   position_ = new UnitSpinBox(1e-5, 1, QStringLiteral("m"));
   velocity_ = new UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
-  form->addRow(QStringLiteral("start"), start_);
-  form->addRow(QStringLiteral("target"), target_);
+  start_->setObjectName(QStringLiteral("taskStart"));
+  startLabel_ = new QLabel;
+  targetLabel_ = new QLabel;
+  form->addRow(startLabel_, start_);
+  form->addRow(targetLabel_, target_);
   form->addRow(QStringLiteral("time T"), duration_);
   form->addRow(QStringLiteral("± ΔT"), time_);
   form->addRow(QStringLiteral("± Δx"), position_);
   form->addRow(QStringLiteral("± Δv"), velocity_);
-  const QString places = QStringLiteral("parameters of the constraint: phi, or u and v; three metres when free");
-  start_->setToolTip(places);
-  target_->setToolTip(places);
   faults_ = new FaultLabel;
+  faults_->setObjectName(QStringLiteral("taskFaults"));
   form->addRow(faults_);
+  duration_->setName(QStringLiteral("time T"));
+  time_->setName(QStringLiteral("ΔT"));
+  position_->setName(QStringLiteral("Δx"));
+  velocity_->setName(QStringLiteral("Δv"));
+  for (auto* list : {start_, target_}) faults_->watch(list);
+  for (auto* number : {duration_, time_, position_, velocity_}) faults_->watch(number);
   setWidget(body);
 
   const auto bind = [this](UnitSpinBox* box, auto set) {
@@ -52,8 +61,28 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   });
 }
 
-void TaskDock::setTask(const Task& task) {
+void TaskDock::setTask(const Task& task, ConstraintKind kind) {
   task_ = task;
+  NumberListRule rule;
+  QString unit;
+  if (kind == ConstraintKind::Free) {
+    rule.names = QStringList{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
+    unit = QStringLiteral("x y z [m]");
+  } else {
+    for (const std::string& name : variablesOf(kind)) rule.names << QString::fromStdString(name);
+    unit = rule.names.join(QLatin1Char(' '));
+  }
+  rule.fewest = rule.most = static_cast<std::size_t>(rule.names.size());
+  rule.list = QStringLiteral("start");
+  start_->setRule(rule);
+  startLabel_->setText(QStringLiteral("start ") + unit);
+  rule.list = QStringLiteral("target");
+  target_->setRule(rule);
+  targetLabel_->setText(QStringLiteral("target ") + unit);
+  const QString places = kind == ConstraintKind::Free ? QStringLiteral("three coordinates in metres")
+                                                      : QStringLiteral("the place on the constraint, by its own parameters: ") + unit;
+  start_->setToolTip(places);
+  target_->setToolTip(places);
   start_->setNumbers(task.start);
   target_->setNumbers(task.target);
   duration_->show(task.duration);

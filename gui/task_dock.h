@@ -3,6 +3,8 @@
 
 #include "sim/experiment/experiment.h"
 
+class QLabel;
+
 namespace reachlab {
 
 class FaultLabel;
@@ -14,7 +16,8 @@ class TaskDock : public QDockWidget {
   Q_OBJECT
  public:
   explicit TaskDock(QWidget* parent = nullptr);
-  void setTask(const Task& task);
+  /// `kind`: what the numbers of start and target are.
+  void setTask(const Task& task, ConstraintKind kind);
   void setFaults(const QStringList& faults);
 
  Q_SIGNALS:
@@ -24,6 +27,7 @@ class TaskDock : public QDockWidget {
   Task task_;
   NumberListEdit *start_, *target_;
   UnitSpinBox *duration_, *time_, *position_, *velocity_;
+  QLabel *startLabel_, *targetLabel_;
   FaultLabel* faults_;
 };
 

@@ -1,7 +1,10 @@
 #include "gui/unit_spin_box.h"
 
+#include <QLineEdit>
 #include <QLocale>
 #include <QSignalBlocker>
+#include <algorithm>
+#include <utility>
 
 namespace reachlab {
 
@@ -13,13 +16,50 @@ UnitSpinBox::UnitSpinBox(double low, double high, const QString& unit, QWidget* 
   setKeyboardTracking(false);
   setLocale(QLocale::c());
   setMinimumWidth(110);
+  connect(lineEdit(), &QLineEdit::textEdited, this, &UnitSpinBox::check);
+  connect(this, &QAbstractSpinBox::editingFinished, this, [this] {
+    if (!std::exchange(wrong_, false)) return;
+    setStyleSheet({});
+    fault_ += QStringLiteral("; %1 is kept").arg(withUnit(value()));
+    Q_EMIT checked();
+  });
 }
 
 void UnitSpinBox::show(double value) {
   const QSignalBlocker quiet(this);
+  wrong_ = false;
+  fault_.clear();
+  setStyleSheet({});
   setValue(value);
 }
 
 QString UnitSpinBox::textFromValue(double value) const { return QString::number(value, 'g', 9); }
+
+// Every key is taken: an entry that is swallowed without a word looks like a broken keyboard.
+QValidator::State UnitSpinBox::validate(QString& text, int& at) const {
+  return std::max(QDoubleSpinBox::validate(text, at), QValidator::Intermediate);
+}
+
+QString UnitSpinBox::withUnit(double value) const { return textFromValue(value) + suffix(); }
+
+void UnitSpinBox::check() {
+  QString typed = text();
+  int at = 0;
+  wrong_ = validate(typed, at) != QValidator::Acceptable;
+  fault_.clear();
+  if (wrong_) {
+    const QString bare = (suffix().isEmpty() ? typed : typed.remove(suffix())).trimmed();
+    bool isNumber = false;
+    const double number = QLocale::c().toDouble(bare, &isNumber);
+    fault_ = QStringLiteral("%1: %2; allowed: %3 to %4")
+                 .arg(accessibleName(),
+                      isNumber         ? withUnit(number)
+                      : bare.isEmpty() ? QStringLiteral("nothing")
+                                       : QStringLiteral("\"%1\" is no number").arg(bare),
+                      textFromValue(minimum()), withUnit(maximum()));
+  }
+  setStyleSheet(wrong_ ? QStringLiteral("color: #ff9d8c;") : QString());
+  Q_EMIT checked();
+}
 
 }  // namespace reachlab

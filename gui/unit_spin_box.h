@@ -3,17 +3,32 @@
 
 namespace reachlab {
 
-/// A number with its unit behind it; as many decimals as it needs, steps of a tenth of its size, told only when done.
+/// A number with its unit behind it; as many decimals as it needs, steps of a tenth of its size, told only when done. What cannot stand is
+/// red while it is typed; on leaving, the value before comes back and `fault` says so until the next entry.
 class UnitSpinBox : public QDoubleSpinBox {
   Q_OBJECT
  public:
   UnitSpinBox(double low, double high, const QString& unit, QWidget* parent = nullptr);
+  /// What the number is called in messages.
+  void setName(const QString& name) { setAccessibleName(name); }
   /// Displays; emits nothing.
   void show(double value);
   QString textFromValue(double value) const override;
+  QValidator::State validate(QString& text, int& at) const override;
+  /// "time T: 0 s; allowed: 0.05 to 60 s"; empty: nothing is wrong.
+  QString fault() const { return fault_; }
+
+ Q_SIGNALS:
+  /// Typed in: what `fault` says may have changed.
+  void checked();
 
  private:
   using QDoubleSpinBox::show;
+  QString withUnit(double value) const;
+  void check();
+
+  QString fault_;
+  bool wrong_ = false;  // what is in the field now
 };
 
 }  // namespace reachlab

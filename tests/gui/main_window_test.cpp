@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QWindow>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -170,6 +171,61 @@ TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
   EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
   EXPECT_EQ(masses->text(), QStringLiteral("0.4 0.1 0.1"));  // a point, also for a German user
   window.findChild<QUndoStack*>()->undo();
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+}
+
+TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
+  MainWindow& window = open();
+  auto* masses = find<QLineEdit>("masses");
+  auto* faults = find<QLabel>("objectFaults");
+  const auto typed = [&](QLineEdit* field, const char* text) {
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, QLatin1String(text));
+  };
+  const struct { const char *text, *says; } entries[] = {
+      {"0.6 x", "masses: \"x\" is no number"}, {"a b", "masses: \"a\" is no number"}, {"0.6 kg", "masses: \"kg\" is no number"},
+      {"0.6 -0.6", "mass 2: -0.6 kg; allowed: more than 0"}, {"0 x 0.6", "masses: none; allowed: 1 to 512"}};
+  for (const auto& entry : entries) {
+    typed(masses, entry.text);
+    EXPECT_TRUE(faults->isVisible()) << entry.text;
+    EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
+    EXPECT_NE(masses->styleSheet(), QString());
+    QTest::keyClick(masses, Qt::Key_Return);
+    EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
+    EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+  }
+  typed(masses, "0.2 0.2");
+  EXPECT_FALSE(faults->isVisible());
+  EXPECT_EQ(masses->styleSheet(), QString());
+  typed(find<QLineEdit>("stiffness"), "900 900");
+  EXPECT_TRUE(faults->text().startsWith(QStringLiteral("springs: 2 numbers; allowed: 1"))) << faults->text().toStdString();
+  auto* start = find<QLineEdit>("taskStart");
+  typed(start, "0 1");
+  EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "start: 2 numbers; allowed: 1 (phi)");
+  auto* duration = find<QDoubleSpinBox>("taskDuration");
+  duration->setFocus();
+  duration->selectAll();
+  QTest::keyClicks(duration, QStringLiteral("-3"));
+  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("time T: -3 s; allowed: 0.05 to 60 s")));
+  QTest::keyClick(duration, Qt::Key_Return);
+  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("; 10.2 s is kept")));
+  EXPECT_EQ(duration->value(), 10.2);
+  typed(start, "0");
+  EXPECT_FALSE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("start")));
+}
+
+TEST_F(Window, AKindThatIsRefusedLeavesTheMassesAlone) {
+  MainWindow& window = open();
+  auto* kind = find<QComboBox>("objectKind");
+  const auto choose = [&](const char* name) {
+    kind->setCurrentText(QLatin1String(name));
+    Q_EMIT kind->activated(kind->currentIndex());
+  };
+  choose("body");
+  EXPECT_EQ(find<QLabel>("objectFaults")->text().toStdString(), "kind: is body, which moves free; allowed: the constraint free");
+  choose("chain");
+  EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
 }
 
