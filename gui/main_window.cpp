@@ -115,6 +115,7 @@ void MainWindow::Impl::showStage() {
 
 void MainWindow::Impl::next() {
   nextPlanned = false;
+  if (session.run() == nullptr && !dock->fault().isEmpty()) return say(dock->fault());
   try {
     say({});
     if (!session.next(dock->request()) && session.run() == nullptr) say(QStringLiteral("The session is complete."));

@@ -12,8 +12,11 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "constraints/error.h"
 #include "devices/make_device.h"
+#include "gui/fault_label.h"
 #include "gui/unit_spin_box.h"
+#include "sim/record/run_configuration.h"
 
 namespace reachlab {
 
@@ -40,6 +43,7 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   ids->addWidget(day_);
   form->addRow(QStringLiteral("subject"), ids);
   age_ = new QLineEdit;
+  age_->setObjectName(QStringLiteral("age"));
   age_->setPlaceholderText(QStringLiteral("age"));
   age_->setMaximumWidth(54);
   sex_ = new QComboBox;
@@ -69,6 +73,9 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   for (const DeviceDescription& d : knownDevices()) devices += QString::fromStdString(d.name + ": " + d.description + "\n");
   device_->setToolTip(devices.trimmed());
   layout->addWidget(who_);
+  faults_ = new FaultLabel;
+  faults_->setObjectName(QStringLiteral("sessionFaults"));
+  layout->addWidget(faults_);
 
   run_ = new QLabel;
   run_->setProperty("role", "quiet");
@@ -123,9 +130,38 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
     Q_EMIT noteWritten(note_->text().trimmed());
     note_->clear();
   });
+  for (QLineEdit* field : {subject_, session_, age_, data_}) connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
   clearTally();
   setStage(Stage::Closed);
 }
+
+void SessionDock::check() {
+  const auto mark = [](QLineEdit* field, const QString& fault) {
+    field->setStyleSheet(fault.isEmpty() ? QString() : QStringLiteral("color: #ff9d8c; border: 1px solid #c0564a;"));
+    field->setToolTip(fault);
+    return fault;
+  };
+  const auto labelFault = [](QLineEdit* field, const char* name) {
+    try {
+      checkLabel(field->text().trimmed().toStdString(), name);
+    } catch (const UsageError& e) {
+      return QString::fromUtf8(e.what());
+    }
+    return QString();
+  };
+  bool isNumber = false;
+  const QString age = age_->text().trimmed();
+  const double years = QLocale::c().toDouble(age, &isNumber);
+  const bool fineAge = age.isEmpty() || (isNumber && years >= 0 && years <= 130);
+  QStringList faults{
+      mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
+      mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to 130 years, or nothing").arg(age)),
+      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
+  faults.removeAll({});
+  faults_->setFaults(faults);
+}
+
+QString SessionDock::fault() const { return faults_->text(); }
 
 void SessionDock::setRequest(const SessionRequest& request) {
   request_ = request;
@@ -149,7 +185,7 @@ SessionRequest SessionDock::request() const {
   r.device = device();
   bool fine = false;
   const double age = QLocale::c().toDouble(age_->text(), &fine);
-  if (fine) r.participant.age = age;
+  r.participant.age = fine ? std::optional(age) : std::nullopt;
   if (sex_->currentIndex() > 0) r.participant.sex = sex_->currentText().toStdString();
   if (hand_->currentIndex() > 0) r.participant.handedness = hand_->currentText().toStdString();
   return r;

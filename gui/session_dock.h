@@ -16,6 +16,7 @@ class QSpinBox;
 
 namespace reachlab {
 
+class FaultLabel;
 class UnitSpinBox;
 
 /// Who, when, with which hand, and how it goes: subject, session, run, day, device, the trial buttons, the tally, notes.
@@ -27,6 +28,8 @@ class SessionDock : public QDockWidget {
   void setRequest(const SessionRequest& request);
   /// What is typed; `what`, `fast` and the like as they came.
   SessionRequest request() const;
+  /// What is wrong with the fields, a line each, as it stands under them; empty: nothing.
+  QString fault() const;
   std::string device() const;
   bool repeatsByItself() const;  // next trial without a key
   double pauseSeconds() const;   // [s] before it
@@ -48,6 +51,8 @@ class SessionDock : public QDockWidget {
   void deviceChanged();
 
  private:
+  void check();
+
   SessionRequest request_;
   QLineEdit *subject_, *session_, *data_, *note_, *age_;
   QComboBox *device_, *sex_, *hand_;
@@ -55,6 +60,7 @@ class SessionDock : public QDockWidget {
   QCheckBox* automatic_;
   UnitSpinBox* pause_;
   QWidget* who_;
+  FaultLabel* faults_;
   QLabel *run_, *tally_;
   QPushButton *next_, *abort_, *repeat_, *end_;
   int successes_ = 0, failures_ = 0, others_ = 0;

@@ -269,6 +269,36 @@ TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {
   EXPECT_NE(window.session().run(), nullptr);
 }
 
+TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWords) {
+  MainWindow& window = open();
+  auto* faults = find<QLabel>("sessionFaults");
+  EXPECT_FALSE(faults->isVisible());
+  const struct { const char *field, *wrong, *says, *right; } entries[] = {
+      {"subject", "anna-b", "subject \"anna-b\": not a label; allowed: letters and digits only", "annab"},
+      {"session", "", "session \"\": not a label; allowed: letters and digits only", "2"},
+      {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
+      {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
+      {"data", "", "data in: nothing; allowed: a folder", nullptr}};
+  for (const auto& entry : entries) {
+    auto* field = find<QLineEdit>(entry.field);
+    const QString right = entry.right ? QString::fromLatin1(entry.right) : field->text();
+    field->setText(QString::fromLatin1(entry.wrong));
+    EXPECT_TRUE(faults->isVisible()) << entry.field;
+    EXPECT_EQ(faults->text().toStdString(), entry.says);
+    EXPECT_NE(field->styleSheet(), QString());
+    window.nextTrial();
+    EXPECT_EQ(window.message().toStdString(), entry.says);
+    EXPECT_EQ(window.session().run(), nullptr);
+    EXPECT_EQ(field->text(), QString::fromLatin1(entry.wrong));
+    field->setText(right);
+    EXPECT_FALSE(faults->isVisible()) << entry.field;
+  }
+  window.nextTrial();
+  EXPECT_EQ(window.message().toStdString(), "");
+  ASSERT_NE(window.session().run(), nullptr);
+  EXPECT_NE(window.session().run()->logPath().find("sub-annab_ses-2"), std::string::npos);
+}
+
 TEST_F(Window, ClosedInATrialItKeepsTheTrialAsInterrupted) {
   MainWindow& window = open();
   window.nextTrial();
