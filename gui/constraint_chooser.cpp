@@ -243,6 +243,7 @@ void ConstraintChooser::formulaChanged() {
   save_->setEnabled(formula_->fine());
   if (!formula_->fine()) {
     choice_.reset();
+    dropVanishedSliders();
     return;
   }
   Definition typed = typedDefinition();
@@ -264,6 +265,16 @@ void ConstraintChooser::formulaChanged() {
   current_ = typed;
   if (!sameNames) sliders_->setParameters(typed.shape, values);
   rebuild(true);
+}
+
+// Of "sin" typed letter by letter, "s" and "si" were names of sliders for a moment.
+void ConstraintChooser::dropVanishedSliders() {
+  const std::vector<std::string> names = parameterNames(formula_->kind(), formula_->coordinates());
+  const auto values = sliders_->values();
+  std::vector<ShapeParameter> kept;
+  for (const ShapeParameter& p : current_.shape)
+    if (values.contains(p.name) && std::find(names.begin(), names.end(), p.name) != names.end()) kept.push_back(p);
+  if (kept.size() < values.size()) sliders_->setParameters(kept, values);
 }
 
 void ConstraintChooser::rebuild(bool resetCamera) {

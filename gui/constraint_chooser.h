@@ -45,6 +45,7 @@ class ConstraintChooser : public QDialog {
   void filter(const QString& words);
   void show(const Definition& definition, const std::map<std::string, double>& shape);
   void formulaChanged();
+  void dropVanishedSliders();
   void rebuild(bool resetCamera);
   void save();
   Definition typedDefinition() const;

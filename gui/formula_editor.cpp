@@ -9,10 +9,23 @@
 #include <QSignalBlocker>
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "constraints/formula.h"
 
 namespace reachlab {
+
+namespace {
+
+// One letter changed, left out, too many, or two neighbours swapped.
+bool oneLetterApart(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty() && a.front() == b.front()) a.remove_prefix(1), b.remove_prefix(1);
+  while (!a.empty() && !b.empty() && a.back() == b.back()) a.remove_suffix(1), b.remove_suffix(1);
+  if (a.size() == 2 && b.size() == 2) return a[0] == b[1] && a[1] == b[0];
+  return std::max(a.size(), b.size()) == 1;
+}
+
+}  // namespace
 
 std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
   static const std::set<std::string> known{"pi",   "e",    "sin",  "cos", "tan", "asin", "acos", "atan", "atan2",
@@ -29,6 +42,15 @@ std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<st
     }
   }
   return names;
+}
+
+std::string variableMeant(ConstraintKind kind, const std::string& name) {
+  for (const std::string& variable : variablesOf(kind)) {
+    if (QString::fromStdString(name).toLower() == QString::fromStdString(variable)) return variable;
+    const bool single = variable.size() == 1;  // any letter is one letter away from u: only a doubled one is a slip
+    if (single ? name == variable + variable : oneLetterApart(name, variable)) return variable;
+  }
+  return {};
 }
 
 FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
@@ -108,9 +130,13 @@ void FormulaEditor::check() {
     message = QStringLiteral("character %1: %2").arg(fault.character).arg(QString::fromStdString(fault.what));
   }
   for (std::size_t i = 0; i < 3; ++i) {
+    lines_[i]->setStyleSheet(messages[i].isEmpty() ? QString() : QStringLiteral("border: 1px solid #c0564a;"));
+    if (messages[i].isEmpty())  // fine as it stands; still a slip of the finger is asked about
+      for (const std::string& name : parameterNames(kind(), {text[i], {}, {}}))
+        if (const std::string meant = variableMeant(kind(), name); !meant.empty() && messages[i].isEmpty())
+          messages[i] = QStringLiteral("%1 becomes a slider; did you mean %2?").arg(QString::fromStdString(name), QString::fromStdString(meant));
     faults_[i]->setText(messages[i]);
     faults_[i]->setVisible(!messages[i].isEmpty());
-    lines_[i]->setStyleSheet(messages[i].isEmpty() ? QString() : QStringLiteral("border: 1px solid #c0564a;"));
   }
   if (!fine_) setFault({});
 }

@@ -17,6 +17,9 @@ namespace reachlab {
 /// Names in the formulas that are neither variables, constants nor functions: the shape parameters, in order of appearance.
 std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates);
 
+/// The variable that a parameter's name was perhaps to be: one letter away from it, or the same but for capitals; empty: none.
+std::string variableMeant(ConstraintKind kind, const std::string& name);
+
 /// Three lines of formula with the fault of each under it, at the character where it went wrong. Knows no scene.
 class FormulaEditor : public QWidget {
   Q_OBJECT

@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTest>
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -117,6 +118,43 @@ TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
   dock.setConstraint(spec, makeConstraint(spec));
   EXPECT_NE(dock.findChild<QSlider*>(QStringLiteral("slider_depth")), nullptr);
   std::filesystem::remove(userDefinitionFolder() + "/my-deep-eight.json");
+}
+
+TEST_F(Chooser, ASliderGoesWithItsName) {
+  type("formula_x", "R*cos(phi)");
+  type("formula_y", "R*sin(phi)");
+  ASSERT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_R")), nullptr);
+  find<QSlider>("slider_R")->setValue(400);
+  const int value = find<QSlider>("slider_R")->value();
+  auto* line = find<QLineEdit>("formula_z");
+  line->clear();
+  for (const char letter : std::string("0.1*sin(phi)")) {
+    QTest::keyClick(line, letter);
+    const auto names = parameterNames(ConstraintKind::Curve, {line->text().toStdString(), "R", ""});
+    for (const auto* slider : chooser_.findChildren<QSlider*>()) {
+      const std::string name = slider->objectName().mid(7).toStdString();
+      EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name << " in " << line->text().toStdString();
+    }
+  }
+  EXPECT_EQ(find<QSlider>("slider_R")->value(), value);  // the others stand where they stood
+}
+
+TEST_F(Chooser, ANameBesideAVariableIsASliderButAskedAbout) {
+  type("formula_y", "0.1*cos(phj)");
+  type("formula_z", "0.1*phi");
+  auto* fault = find<QLabel>("fault_y");
+  EXPECT_EQ(fault->text().toStdString(), "phj becomes a slider; did you mean phi?");
+  EXPECT_TRUE(chooser_.choice().has_value());
+  type("formula_y", "0.1*cos(phi)");
+  EXPECT_FALSE(fault->isVisible());
+}
+
+TEST(FormulaNames, BesideAVariableAreOneLetterOrTheCaseApart) {
+  for (const char* name : {"phj", "Phi", "ph", "phii", "pih"}) EXPECT_EQ(variableMeant(ConstraintKind::Curve, name), "phi") << name;
+  for (const char* name : {"r", "p", "theta", "u"}) EXPECT_EQ(variableMeant(ConstraintKind::Curve, name), "") << name;
+  EXPECT_EQ(variableMeant(ConstraintKind::Surface, "U"), "u");
+  EXPECT_EQ(variableMeant(ConstraintKind::Surface, "vv"), "v");
+  for (const char* name : {"a", "uv", "u0", "phj"}) EXPECT_EQ(variableMeant(ConstraintKind::Surface, name), "") << name;
 }
 
 TEST(FormulaNames, AreWhatIsNeitherVariableConstantNorFunction) {
