@@ -100,6 +100,12 @@ void MainWindow::Impl::showOverlay() {
   if (session.run() && !session.underWay() && session.run()->latest().trial == 0)
     overlay.instruction = QStringLiteral("Press Space to begin");
   if (session.run() && session.run()->trialsLeft() == 0 && !session.underWay()) overlay.detail = QStringLiteral("the run is complete");
+  const WindowRun* open = session.run();
+  if (open == nullptr || (open->latest().trial <= 1 && (open->latest().phase == Phase::Idle || open->latest().phase == Phase::Waiting))) {
+    const std::vector<Vec3>& shifts = view->plan().massShift;
+    overlay.task =
+        taskText(session.experiment(), shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; }));
+  }
   view->setOverlay(overlay);
   if (subject != nullptr) subject->view().setOverlay(overlay);
 }

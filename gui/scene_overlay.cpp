@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <QPainterPath>
+#include <algorithm>
 #include <cmath>
 
 #include "gui/theme.h"
@@ -89,6 +90,8 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   painter.setFont(font);
   painter.setPen(toQColor(colours::kFaintText));
   painter.drawText(QRectF(left, 65 * s, room, 22 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.detail);
+  painter.setPen(toQColor(colours::kText));
+  painter.drawText(QRectF(left, 96 * s, std::min(room, 560 * s), 120 * s), Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, state_.task);
   paintScale(painter);
   paintAxes(painter);
 }

@@ -14,6 +14,7 @@ struct OverlayState {
   QString counter;      // "Trial 3 of 20"
   QString instruction;  // what the subject is to do
   QString detail;       // how the last trial ended
+  QString task;         // what the trials ask for; over several lines, and only before the first
   enum class Tone { Plain, Good, Bad } tone = Tone::Plain;
   bool operator==(const OverlayState&) const = default;
 };

@@ -36,7 +36,10 @@ OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlann
   o.semaphore = state.semaphore;
   o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
                               : QStringLiteral("%1 trials").arg(trialsPlanned);
-  o.detail = QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2));
+  const double latest = task.duration + task.tolerance.time;
+  o.detail = task.duration > task.tolerance.time
+                 ? QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2))
+                 : QStringLiteral("reach in at most %1 s").arg(number(latest, 2));
   switch (state.phase) {
     case Phase::Idle: o.instruction = QStringLiteral("Wait"); break;
     case Phase::Waiting:
@@ -51,6 +54,25 @@ OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlann
       break;
   }
   return o;
+}
+
+QString taskText(const Experiment& experiment, bool hiding) {
+  if (!experiment.task) return {};
+  const Task& task = *experiment.task;
+  const auto digits = [](double value) { return QString::number(value, 'g', 4); };
+  const std::size_t masses = experiment.object.masses.size();
+  const QString what = experiment.object.kind == ObjectKind::Body ? QStringLiteral("the body")
+                       : masses == 1                              ? QStringLiteral("the mass")
+                       : masses == 2                              ? QStringLiteral("both masses")
+                                                                  : QStringLiteral("all %1 masses").arg(masses);
+  const double earliest = task.duration - task.tolerance.time, latest = task.duration + task.tolerance.time;
+  const QString when = earliest > 0 ? QStringLiteral("%1 to %2 s").arg(digits(earliest), digits(latest))
+                                    : QStringLiteral("at most %1 s").arg(digits(latest));
+  QString text = QStringLiteral("Bring %1 to the small yellow sphere (within %2 mm) and to rest there (below %3 mm/s), %4 after your hand "
+                                "starts to move.")
+                     .arg(what, digits(1000 * task.tolerance.position), digits(1000 * task.tolerance.velocity), when);
+  if (hiding) text += QStringLiteral("\nMasses can hide one another: F puts them side by side, right drag turns the view, Home fits it.");
+  return text;
 }
 
 OverlayState restingOverlay(const QString& experiment, bool mouse) {

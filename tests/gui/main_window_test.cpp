@@ -22,6 +22,7 @@
 #include "gui/scene_view.h"
 #include "gui/session_controller.h"
 #include "gui/session_dock.h"
+#include "gui/trial_texts.h"
 #include "gui/velocity_plot.h"
 #include "sim/record/run_log.h"
 
@@ -129,6 +130,32 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   bool noted = false;
   for (const RecordedEvent& event : read.events()) noted = noted || event.text == "ärgerlich laut";
   EXPECT_TRUE(noted);
+}
+
+TEST_F(Window, TheTaskIsToldBeforeTheFirstTrialAndGoesWhenItRuns) {
+  MainWindow& window = open();
+  EXPECT_EQ(window.overlay().task.section(QLatin1Char('\n'), 0, 0).toStdString(),
+            "Bring both masses to the small yellow sphere (within 12 mm) and to rest there (below 30 mm/s), 0.3 to 20.1 s after your hand "
+            "starts to move.");
+  EXPECT_TRUE(window.overlay().task.contains(QStringLiteral("F puts them side by side")));
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_FALSE(window.overlay().task.contains(QStringLiteral("hide")));
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().task.isEmpty(); }, 5000));
+}
+
+TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
+  Experiment e;
+  e.object.masses = {1};
+  EXPECT_EQ(taskText(e, false), QString());
+  e.task = Task{};
+  e.task->duration = 1.5;
+  e.task->tolerance = {0.005, 0.02, 8.5};
+  EXPECT_EQ(taskText(e, false).toStdString(),
+            "Bring the mass to the small yellow sphere (within 5 mm) and to rest there (below 20 mm/s), at most 10 s after your hand starts to "
+            "move.");
+  EXPECT_EQ(overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
 }
 
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
