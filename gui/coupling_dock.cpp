@@ -17,6 +17,7 @@ CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupli
   form->addRow(QStringLiteral("stiffness"), stiffness_);
   form->addRow(QStringLiteral("damping"), damping_);
   faults_ = new FaultLabel;
+  faults_->setObjectName(QStringLiteral("couplingFaults"));
   form->addRow(faults_);
   stiffness_->setName(QStringLiteral("stiffness"));
   damping_->setName(QStringLiteral("damping"));

@@ -273,6 +273,7 @@ MainWindow::MainWindow(const SessionRequest& request, QWidget* parent)
 }
 
 MainWindow::~MainWindow() {
+  if (QWidget* field = focusWidget()) field->clearFocus();  // an entry is taken when its field is left: while there is who takes it
   impl_->timer->stop();
   impl_->stopComputing.request_stop();
   delete impl_->subject;

@@ -3,7 +3,6 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QSignalBlocker>
-#include <algorithm>
 #include <utility>
 
 namespace reachlab {
@@ -14,7 +13,9 @@ UnitSpinBox::UnitSpinBox(double low, double high, const QString& unit, QWidget* 
   if (!unit.isEmpty()) setSuffix(QLatin1Char(' ') + unit);
   setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   setKeyboardTracking(false);
-  setLocale(QLocale::c());
+  QLocale numbers = QLocale::c();
+  numbers.setNumberOptions(QLocale::OmitGroupSeparator | QLocale::RejectGroupSeparator);
+  setLocale(numbers);
   setMinimumWidth(110);
   connect(lineEdit(), &QLineEdit::textEdited, this, &UnitSpinBox::check);
   connect(this, &QAbstractSpinBox::editingFinished, this, [this] {
@@ -36,21 +37,32 @@ void UnitSpinBox::show(double value) {
 QString UnitSpinBox::textFromValue(double value) const { return QString::number(value, 'g', 9); }
 
 // Every key is taken: an entry that is swallowed without a word looks like a broken keyboard.
-QValidator::State UnitSpinBox::validate(QString& text, int& at) const {
-  return std::max(QDoubleSpinBox::validate(text, at), QValidator::Intermediate);
+QValidator::State UnitSpinBox::validate(QString& text, int&) const {
+  return read(text) ? QValidator::Acceptable : QValidator::Intermediate;
+}
+
+double UnitSpinBox::valueFromText(const QString& text) const { return read(text).value_or(value()); }
+
+QString UnitSpinBox::withoutUnit(const QString& text) const {
+  return (text.endsWith(suffix()) ? text.left(text.size() - suffix().size()) : text).trimmed();
+}
+
+// What may stand here; a number out of range may not.
+std::optional<double> UnitSpinBox::read(const QString& text) const {
+  bool fine = false;
+  const double number = locale().toDouble(withoutUnit(text), &fine);
+  return fine && number >= minimum() && number <= maximum() ? std::optional(number) : std::nullopt;
 }
 
 QString UnitSpinBox::withUnit(double value) const { return textFromValue(value) + suffix(); }
 
 void UnitSpinBox::check() {
-  QString typed = text();
-  int at = 0;
-  wrong_ = validate(typed, at) != QValidator::Acceptable;
+  wrong_ = !read(text());
   fault_.clear();
   if (wrong_) {
-    const QString bare = (suffix().isEmpty() ? typed : typed.remove(suffix())).trimmed();
+    const QString bare = withoutUnit(text());
     bool isNumber = false;
-    const double number = QLocale::c().toDouble(bare, &isNumber);
+    const double number = locale().toDouble(bare, &isNumber);
     fault_ = QStringLiteral("%1: %2; allowed: %3 to %4")
                  .arg(accessibleName(),
                       isNumber         ? withUnit(number)

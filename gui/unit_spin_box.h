@@ -1,5 +1,6 @@
 #pragma once
 #include <QDoubleSpinBox>
+#include <optional>
 
 namespace reachlab {
 
@@ -14,7 +15,10 @@ class UnitSpinBox : public QDoubleSpinBox {
   /// Displays; emits nothing.
   void show(double value);
   QString textFromValue(double value) const override;
+  /// Qt's own would drop a comma and read 06 out of 0,6, while it is typed and once more at the end.
   QValidator::State validate(QString& text, int& at) const override;
+  double valueFromText(const QString& text) const override;
+  void fixup(QString&) const override {}
   /// "time T: 0 s; allowed: 0.05 to 60 s"; empty: nothing is wrong.
   QString fault() const { return fault_; }
 
@@ -25,6 +29,8 @@ class UnitSpinBox : public QDoubleSpinBox {
  private:
   using QDoubleSpinBox::show;
   QString withUnit(double value) const;
+  QString withoutUnit(const QString& text) const;
+  std::optional<double> read(const QString& text) const;
   void check();
 
   QString fault_;

@@ -256,6 +256,35 @@ TEST_F(Window, AKindThatIsRefusedLeavesTheMassesAlone) {
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
 }
 
+TEST_F(Window, ADecimalCommaInABoxIsToldAndNeverDropped) {
+  MainWindow& window = open();
+  auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
+  auto* faults = find<QLabel>("couplingFaults");
+  for (const char* wrong : {"0,6", "1,000", "6 kg"}) {
+    stiffness->setFocus();
+    stiffness->selectAll();
+    QTest::keyClicks(stiffness, QLatin1String(wrong));
+    EXPECT_TRUE(faults->isVisible()) << wrong;
+    EXPECT_TRUE(faults->text().contains(QLatin1Char('"') + QLatin1String(wrong) + QLatin1Char('"'))) << faults->text().toStdString();
+    QTest::keyClick(stiffness, Qt::Key_Return);
+    EXPECT_EQ(stiffness->value(), 900) << wrong;
+  }
+  EXPECT_EQ(window.session().experiment().coupling->stiffness, 900);
+  stiffness->selectAll();
+  QTest::keyClicks(stiffness, QStringLiteral("5e2"));
+  QTest::keyClick(stiffness, Qt::Key_Return);
+  EXPECT_EQ(window.session().experiment().coupling->stiffness, 500);
+}
+
+TEST_F(Window, ItGoesWithAnEntryUnderWay) {
+  open();
+  auto* springs = find<QLineEdit>("stiffness");
+  springs->setFocus();
+  springs->selectAll();
+  QTest::keyClicks(springs, QStringLiteral("850"));
+  window_.reset();  // the field is left while the window goes
+}
+
 TEST_F(Window, AGermanUsersExperimentHasTheSameBytes) {
   MainWindow& window = open();
   auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
