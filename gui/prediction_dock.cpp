@@ -16,7 +16,7 @@ namespace {
 
 enum Column { kName, kPeak, kLast, kAll, kColumns };
 
-QString millimetres(double metresPerSecond) { return QString::number(1000 * metresPerSecond, 'f', 1); }
+QString speed(double metresPerSecond) { return QString::number(metresPerSecond, 'f', 4); }
 
 QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
 
@@ -31,9 +31,9 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_->setObjectName(QStringLiteral("criteria"));
   table_->setHorizontalHeaderLabels(
       {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
-  table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [mm/s]"));
-  table_->horizontalHeaderItem(kLast)->setToolTip(QStringLiteral("RMS difference of the last trial's hand velocity [mm/s]"));
-  table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral("the same over all trials of this run [mm/s]"));
+  table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [m/s]"));
+  table_->horizontalHeaderItem(kLast)->setToolTip(QStringLiteral("RMS difference of the last trial's hand velocity [m/s]"));
+  table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral("the same over all trials of this run [m/s]"));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(23);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
@@ -58,7 +58,7 @@ PredictionDock::PredictionDock(QWidget* parent)
   }
   table_->setFixedHeight(kCriterionCount * 23 + 30);
   layout->addWidget(table_);
-  note_ = new QLabel(QStringLiteral("mm/s; dashed on the plot where ticked"));
+  note_ = new QLabel(QStringLiteral("m/s; dashed on the plot where ticked"));
   note_->setProperty("role", "quiet");
   note_->setWordWrap(true);
   layout->addWidget(note_);
@@ -76,7 +76,7 @@ void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecast
     peak->setText(forecasts.empty() ? QStringLiteral("…") : QStringLiteral("–"));
     for (const CriterionForecast& forecast : forecasts) {
       if (static_cast<int>(forecast.criterion) != i) continue;
-      if (forecast.prediction) peak->setText(millimetres(forecast.prediction->handPeak));
+      if (forecast.prediction) peak->setText(speed(forecast.prediction->handPeak));
       QString why = QString::fromStdString(forecast.refusal);
       if (forecast.prediction)
         for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
@@ -113,11 +113,11 @@ void PredictionDock::fillErrors() {
   for (int i = 0; i < kCriterionCount; ++i) {
     const auto k = static_cast<std::size_t>(i);
     QTableWidgetItem* last = table_->item(i, kLast);
-    last->setText(latest_[k] ? millimetres(*latest_[k]) : QString());
+    last->setText(latest_[k] ? speed(*latest_[k]) : QString());
     QFont font = table_->font();
     font.setBold(latest_[k] && latest_[k] == best);
     last->setFont(font);
-    table_->item(i, kAll)->setText(counts_[k] > 0 ? millimetres(std::sqrt(sums_[k] / counts_[k])) : QString());
+    table_->item(i, kAll)->setText(counts_[k] > 0 ? speed(std::sqrt(sums_[k] / counts_[k])) : QString());
   }
 }
 

@@ -90,8 +90,15 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   painter.setFont(font);
   painter.setPen(toQColor(colours::kFaintText));
   painter.drawText(QRectF(left, 65 * s, room, 22 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.detail);
-  painter.setPen(toQColor(colours::kText));
-  painter.drawText(QRectF(left, 96 * s, std::min(room, 560 * s), 120 * s), Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, state_.task);
+  if (!state_.task.isEmpty()) {
+    const QRectF place(left, 97 * s, std::min(room, 560 * s), 140 * s);
+    constexpr int kWrapped = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap;
+    QColor shade = toQColor(colours::kWindow);
+    shade.setAlphaF(0.72);  // to be read over whatever is drawn behind
+    painter.fillRect(painter.boundingRect(place, kWrapped, state_.task).adjusted(-5 * s, -3 * s, 5 * s, 3 * s), shade);
+    painter.setPen(toQColor(colours::kText));
+    painter.drawText(place, kWrapped, state_.task);
+  }
   paintScale(painter);
   paintAxes(painter);
 }

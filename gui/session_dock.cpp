@@ -15,6 +15,7 @@
 #include "constraints/error.h"
 #include "devices/make_device.h"
 #include "gui/fault_label.h"
+#include "gui/trial_texts.h"
 #include "gui/unit_spin_box.h"
 #include "sim/record/run_configuration.h"
 
@@ -217,7 +218,7 @@ void SessionDock::count(const TrialResult& result) {
   if (result.outcome == Outcome::Success) ++successes_;
   else if (result.outcome == Outcome::Failure) ++failures_;
   else ++others_;
-  if (result.outcome != Outcome::Success) ++reasons_[std::string(nameOf(result.reason))];
+  if (result.outcome != Outcome::Success) ++reasons_[result.reason];
   const int judged = successes_ + failures_;
   QString text =
       judged > 0
@@ -226,7 +227,7 @@ void SessionDock::count(const TrialResult& result) {
   if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
   QStringList why;
   for (const auto& [reason, count] : reasons_)
-    why << QStringLiteral("%1 × %2").arg(count).arg(QString::fromStdString(reason).replace(QLatin1Char('_'), QLatin1Char(' ')));
+    why << QStringLiteral("%1 × %2").arg(count).arg(reasonText(reason));
   if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
   tally_->setText(text);
 }

@@ -64,7 +64,7 @@ class SessionDock : public QDockWidget {
   QLabel *run_, *tally_;
   QPushButton *next_, *abort_, *repeat_, *end_;
   int successes_ = 0, failures_ = 0, others_ = 0;
-  std::map<std::string, int> reasons_;
+  std::map<Reason, int> reasons_;
 };
 
 }  // namespace reachlab

@@ -22,6 +22,14 @@ bool isWhole(const ShapeParameter& p) {
 
 }  // namespace
 
+QString plainName(const ShapeParameter& p) {
+  QString name = QString::fromStdString(p.name);
+  const QString suffix = QLatin1Char('_') + QString::fromStdString(p.unit);
+  if (p.unit == "1" || !name.endsWith(suffix)) return name;
+  name.chop(suffix.size());
+  return name.replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
 ShapeSliders::ShapeSliders(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -54,8 +62,8 @@ void ShapeSliders::addRow(const ShapeParameter& p, double value) {
   auto* line = new QHBoxLayout;
   line->addWidget(slider, 1);
   line->addWidget(box);
-  auto* label = new QLabel(QString::fromStdString(p.name));
-  const QString meaning = QString::fromStdString(p.meaning);
+  auto* label = new QLabel(plainName(p));
+  const QString meaning = QStringLiteral("%1: %2").arg(QString::fromStdString(p.name), QString::fromStdString(p.meaning));
   label->setToolTip(meaning);
   slider->setToolTip(meaning);
   form_->addRow(label, line);

@@ -13,6 +13,9 @@ namespace reachlab {
 
 class UnitSpinBox;
 
+/// "minor radius" of minor_radius_m: its unit stands behind the number.
+QString plainName(const ShapeParameter& parameter);
+
 /// A slider and a number for each shape parameter of a definition.
 class ShapeSliders : public QWidget {
   Q_OBJECT

@@ -31,6 +31,25 @@ QString outcomeText(const TrialResult& result) {
   return {};
 }
 
+QString reasonText(Reason reason) {
+  switch (reason) {
+    case Reason::TimeShort: return QStringLiteral("too fast");
+    case Reason::TimeLong: return QStringLiteral("too slow");
+    case Reason::Position: return QStringLiteral("too far from the target");
+    case Reason::Velocity: return QStringLiteral("still moving");
+    case Reason::ForceLimit: return QStringLiteral("over the force limit");
+    case Reason::DeviceLost: return QStringLiteral("device lost");
+    case Reason::NoOnset: return QStringLiteral("no movement");
+    case Reason::Experimenter: return QStringLiteral("stopped by the experimenter");
+    case Reason::EndOfConstraint: return QStringLiteral("off the end of the path");
+    case Reason::Computation: return QStringLiteral("not computable");
+    case Reason::Program: return QStringLiteral("interrupted");
+    case Reason::FalseStart: return QStringLiteral("too early");
+    case Reason::None: break;
+  }
+  return QStringLiteral("no reason");
+}
+
 OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlanned, bool mouse) {
   OverlayState o;
   o.semaphore = state.semaphore;

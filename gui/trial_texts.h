@@ -12,6 +12,8 @@ OverlayState restingOverlay(const QString& experiment, bool mouse);
 /// What the trials of this experiment ask for, in a sentence of its own numbers: what is judged, no more. `hiding`: masses stand at one
 /// place, and a second line says which keys part them. Empty without a task.
 QString taskText(const Experiment& experiment, bool hiding);
+/// Why a trial did not succeed, for the tally: "too fast", "still moving".
+QString reasonText(Reason reason);
 /// How a trial ended, for the subject: "Too fast by 0.12 s", "Mass 5 still moved too fast: 0.004 m/s over".
 QString outcomeText(const TrialResult& result);
 

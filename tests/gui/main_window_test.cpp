@@ -158,6 +158,24 @@ TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
   EXPECT_EQ(overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
 }
 
+TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
+  MainWindow& window = open();
+  QStringList labels;
+  for (const auto* label : window.findChildren<QLabel*>()) labels << label->text();
+  for (const char* text : {"length", "start phi", "target phi"}) EXPECT_TRUE(labels.contains(QLatin1String(text))) << text;
+  EXPECT_FALSE(labels.contains(QStringLiteral("length_m")));
+  request_.what = "free-point";
+  MainWindow& free = open();
+  labels.clear();
+  for (const auto* label : free.findChildren<QLabel*>()) labels << label->text();
+  EXPECT_TRUE(labels.contains(QStringLiteral("start x y z [m]")));
+  TrialResult result;
+  result.outcome = Outcome::Failure;
+  result.reason = Reason::TimeShort;
+  free.sessionDock().count(result);
+  EXPECT_TRUE(free.sessionDock().tallyText().contains(QStringLiteral("1 × too fast")));
+}
+
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   MainWindow& window = open();
   const Camera before = window.view().camera();
@@ -307,6 +325,8 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   QTest::qWait(100);
   auto* table = window.predictions().findChild<QTableWidget*>();
   ASSERT_NE(table, nullptr);
+  const auto forecasts = forecastAll(window.session().experiment());
+  EXPECT_EQ(table->item(0, 1)->text(), QString::number(forecasts[0].prediction->handPeak, 'f', 4));  // m/s, as everywhere
   // The simulated subject plans least hand jerk: that row's error is the smallest.
   const double jerk = table->item(0, 2)->text().toDouble(), forceChange = table->item(4, 2)->text().toDouble();
   EXPECT_GT(jerk, 0);
