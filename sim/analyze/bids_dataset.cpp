@@ -5,10 +5,12 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "constraints/error.h"
 #include "sim/analyze/dataset.h"
 #include "sim/record/append_file.h"
+#include "sim/record/bids.h"
 #include "sim/record/table_text.h"
 
 namespace reachlab {
@@ -110,10 +112,8 @@ RunSource readRun(const fs::path& motion) {
   c.run = static_cast<int>(numberOf(labelIn(name, "run")));
   c.table = readChannels(sibling("channels.tsv"));
   c.device = "n/a";
-  const std::string about = readWholeFile(sibling("motion.json").string());
-  const std::string before = "with the simulated object of experiment ";
-  const std::size_t at = about.find(before);
-  if (at != std::string::npos) c.experimentName = about.substr(at + before.size(), about.find('"', at) - at - before.size());
+  const auto about = nlohmann::json::parse(readWholeFile(sibling("motion.json").string()), nullptr, false);
+  if (about.is_object()) c.experimentName = experimentNameIn(about.value("TaskDescription", ""));
 
   auto rows = std::make_shared<SampleRows>(readMotion(motion, c.table.size()));
   if (rows->size() > 1) c.sampleEveryTicks = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, rows->ticks[1] - rows->ticks[0]));

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "constraints/constraint.h"
 #include "constraints/error.h"
+#include "sim/record/append_file.h"
+#include "sim/record/bids.h"
 
 namespace reachlab {
 namespace {
@@ -118,6 +121,19 @@ RunProvenance provenanceOf(const RunConfiguration& c, std::size_t trials) {
   return p;
 }
 
+void noteMixedDevices(Dataset& dataset) {
+  std::map<std::string, std::set<std::string>> devices;
+  for (const RunProvenance& run : dataset.runs) devices[run.condition].insert(run.device.substr(0, run.device.find(':')));
+  for (const auto& [condition, used] : devices) {
+    if (used.size() < 2) continue;
+    std::string names;
+    for (const std::string& name : used) names += (names.empty() ? "" : ", ") + name;
+    dataset.notes.push_back(fmt::format(
+        "{}: trials of different devices are analysed together ({}); give a subject's or a session's folder alone to keep them apart",
+        condition, names));
+  }
+}
+
 }  // namespace
 
 void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset) {
@@ -204,17 +220,26 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
     }
   }
   if (logs.empty()) {
+    bool foreign = false;  // an experiment that may not be the recorded one
     for (const RunSource& run : readBidsRuns(folder)) {
-      Experiment experiment = readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile);
-      addRun(run, experiment, dataset);
+      const std::string own = folder + "/" + experimentPath(run.configuration);
+      std::error_code error;
+      const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
+      if (!hasOwn) foreign = true;
+      addRun(run,
+             hasOwn ? experimentFromJson(readWholeFile(own), own)
+                    : readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
+             dataset);
     }
-    dataset.notes.push_back("no logs in sourcedata/: read from the BIDS files, with the experiments as they are shipped or given now");
+    dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
+                            (foreign ? "as they are shipped or given now" : "in code/experiments/"));
   }
   if (dataset.runs.empty()) {
     std::string why = folder + ": nothing to analyse";
     for (const std::string& note : dataset.notes) why += "\n" + note;
     throw UsageError(why);
   }
+  noteMixedDevices(dataset);
   numberDays(dataset.input.trials);
   return dataset;
 }

@@ -9,6 +9,7 @@
 
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
+#include "sim/experiment/describe.h"
 
 namespace reachlab {
 namespace {
@@ -155,6 +156,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   const ConditionResult& r = study.results[c];
   const std::string file = fileNameOf(study.conditions[c].name);
   html.heading(2, study.conditions[c].name);
+  html.paragraph("Moved: " + describe(study.conditions[c].experiment) + ".");
   html.paragraph(describeCounts(r));
   if (r.onlyFailures)
     html.paragraph(

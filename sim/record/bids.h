@@ -6,7 +6,7 @@
 
 namespace reachlab {
 
-/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, and
+/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, its experiment, and
 /// its line in the session's scans table. One run is one block, recorded continuously; trials are rows of events.tsv. Returns the
 /// files written. Throws ResourceError.
 std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder);
@@ -17,6 +17,18 @@ std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& ru
 
 /// Both, for these runs.
 std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::string& folder);
+
+/// Where a run's experiment lies in the dataset: code/experiments/…_experiment.json, beside what BIDS knows of (motion.json takes no keys of
+/// our own).
+std::string experimentPath(const RunConfiguration& configuration);
+/// The experiment as it was recorded, as an experiment file under `experiment`, with its constraint's definition, and the run's settings.
+std::string experimentJson(const RunConfiguration& configuration);
+/// Reads it back. Throws UsageError naming `origin`.
+Experiment experimentFromJson(const std::string& text, const std::string& origin);
+/// TaskDescription of motion.json: the experiment's name, and in words what was moved and asked.
+std::string describeTask(const RunConfiguration& configuration);
+/// The experiment's name in such a description; empty where there is none.
+std::string experimentNameIn(const std::string& description);
 
 // The texts of the files, for who wants to look at them before they are written.
 std::string motionTsv(const RunLog& run);

@@ -55,7 +55,7 @@ std::string motionJson(const RunLog& run) {
     if (channel.trackedPoint != "n/a") points.insert(channel.trackedPoint);
   Json j;
   j["TaskName"] = c.task;
-  j["TaskDescription"] = fmt::format("Rest-to-rest reaching with the simulated object of experiment {}", c.experimentName);
+  j["TaskDescription"] = describeTask(c);
   j["Instructions"] = "Move the object to the target in the prescribed time and bring it to rest there";
   j["SamplingFrequency"] = c.samplingHz;
   j["SamplingFrequencyEffective"] = effectiveFrequency(rows, c.samplingHz);
@@ -164,6 +164,7 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
   write(base + "_channels.json", channelsJson());
   write(base + "_events.tsv", eventsTsv(run));
   write(base + "_events.json", eventsJson(c));
+  write(folder + "/" + experimentPath(c), experimentJson(c));
   return written;
 }
 

@@ -22,6 +22,10 @@ Recorded with reachlab. One run is one block, recorded continuously; trials are 
 raw logs, from which every file here can be written again (`reach export DATASET --format bids`) and every run simulated again bit for
 bit (`reach replay LOG --check`), lie in `sourcedata/`.
 
+What was moved and asked (masses in kg, springs in N/m, coupling, the constraint's formula, start, target, duration, tolerances), with which
+device and method, is in `code/experiments/`, a file a run: `experiment` there is an experiment file for `reach run`. `TaskDescription` in
+`motion.json` says it in words.
+
 Positions are in metres in one right-handed frame: x to the subject's right, y up, z towards the subject. `latency` is the time of the
 protocol and the physics in ticks of 1 ms; `measured_time` is the computer's clock. Forces are MISC channels in newtons.
 )";

@@ -72,7 +72,8 @@ TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
   const StudyResult fromLog = analyzeStudy(openDataset(folder.path()).input, quick());
   std::filesystem::remove_all(folder.path() + "/sourcedata");
   const Dataset dataset = openDataset(folder.path());
-  EXPECT_EQ(dataset.notes.size(), 1u);  // says so
+  ASSERT_EQ(dataset.notes.size(), 1u);
+  EXPECT_NE(dataset.notes[0].find("code/experiments"), std::string::npos) << "not the experiment that is shipped now: " << dataset.notes[0];
   const StudyResult fromBids = analyzeStudy(dataset.input, quick());
   ASSERT_EQ(fromBids.trials.size(), fromLog.trials.size());
   for (std::size_t i = 0; i < fromLog.trials.size(); ++i) {
@@ -81,6 +82,17 @@ TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
     // Arming lies at most one sample (10 ms) later in the rows than in the log, which may move the grid of samples.
     if (fromLog.trials[i].used()) EXPECT_NEAR(fromBids.trials[i].measures.duration, fromLog.trials[i].measures.duration, 0.002);
   }
+}
+
+TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+  EXPECT_TRUE(openDataset(folder.path()).notes.empty());
+  recordRun(folder.path(),
+            {.experiment = "chain-moderate", .device = "replay:" REACHLAB_SOURCE_DIR "/resources/reaches", .subject = "02", .trials = 2});
+  const Dataset mixed = openDataset(folder.path());
+  ASSERT_EQ(mixed.notes.size(), 1u);
+  EXPECT_NE(mixed.notes[0].find("(replay, simulated)"), std::string::npos) << mixed.notes[0];
 }
 
 TEST(Dataset, ThatIsNoneIsRefusedInOneSentence) {

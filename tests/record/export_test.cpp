@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "sim/experiment/describe.h"
+#include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 #include "sim/record/table_text.h"
 #include "sim/record/tidy_csv.h"
@@ -137,6 +139,43 @@ TEST_F(Exported, WritingTheDatasetAgainKeepsWhatAPersonHasAddedToIt) {
   EXPECT_EQ(readWholeFile(out + "/participants.tsv"),
             "participant_id\tage\tgroup\tsex\thandedness\nsub-00\t20\tcontrol\tn/a\tn/a\nsub-01\t31\tpatient\tF\tL\n");
   EXPECT_EQ(readWholeFile(out + "/README.md"), "mine\n");
+}
+
+TEST(ExportedExperiment, SaysWhatWasMovedAndAsked) {
+  const TemporaryFolder folder("experiment");
+  RunConfiguration c = madeConfiguration();
+  const Experiment recorded = readExperiment("chain-on-ellipse");
+  c.experimentName = recorded.name;
+  c.experimentText = recorded.text;
+  c.definitionText = definitionTextOf(recorded);
+  const std::string log = folder / "sourcedata/sub-01_ses-01_task-made_run-01_log.reach";
+  writeMadeRun(log, 2, c);
+  const RunLog run = RunLog::open(log);
+  writeBidsRun(run, folder / ".");
+  const std::string file = folder / experimentPath(c);
+  const Experiment back = experimentFromJson(readWholeFile(file), file);
+  EXPECT_EQ(toJson(back), toJson(recorded));
+  EXPECT_FALSE(back.constraint.definition.empty()) << "the formula as it was then";
+  const json j = json::parse(readWholeFile(file));
+  EXPECT_EQ(j.at("run").at("device"), c.device);
+  EXPECT_EQ(j.at("run").at("seed"), c.seed);
+  const std::string words = json::parse(motionJson(run)).at("TaskDescription");
+  EXPECT_EQ(experimentNameIn(words), c.experimentName);
+  EXPECT_NE(words.find(describe(recorded)), std::string::npos) << words;
+}
+
+TEST(ExportedExperiment, IsToldInWordsWithItsUnits) {
+  EXPECT_EQ(
+      describe(readExperiment("chain-moderate")),
+      "a chain of 5 masses (0.6 kg each) joined by springs of 600 N/m each, the first coupled to the hand by 600 N/m, on line, r(phi) = "
+      "(length_m*(phi/(2*pi) - 1/2), 0, 0) m with length_m = 0.2; from rest at phi = 0 to rest at phi = 6.28319 in 1.35 ± 0.5 s, every "
+      "mass within 0.012 m and 0.012 m/s");
+  EXPECT_TRUE(
+      describe(readExperiment("parallel")).starts_with("2 parallel masses (3 kg each), tied to the hand by springs of 50, 250 N/m, on"));
+  EXPECT_NE(describe(readExperiment("torus")).find("minor_m*sin(u)) m with major_m = 0.1, minor_m = 0.04; from rest at (u, v) = (0, 0.5)"),
+            std::string::npos);
+  EXPECT_NE(describe(readExperiment("free-body")).find("free in space; from rest at (-0.1, 0, 0) m to rest at (0.1, 0, 0) m"),
+            std::string::npos);
 }
 
 TEST_F(Exported, ScansNameTheMotionFilesThatAreThere) {

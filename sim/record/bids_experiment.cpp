@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "constraints/error.h"
+#include "sim/experiment/describe.h"
+#include "sim/record/bids.h"
+#include "sim/record/tidy_csv.h"
+
+namespace reachlab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kTaskDescription = "Rest-to-rest reaching with the simulated object of experiment";
+const std::string kObjectFollows = ". Object: ";
+
+Json orNull(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+/// Empty where this program no longer understands what an earlier one recorded.
+std::optional<Experiment> understood(const RunConfiguration& c) {
+  try {
+    return recordedExperiment(c);
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string experimentPath(const RunConfiguration& c) { return "code/experiments/" + runName(c) + "_experiment.json"; }
+
+std::string describeTask(const RunConfiguration& c) {
+  const std::optional<Experiment> experiment = understood(c);
+  return fmt::format("{} {}{}", kTaskDescription, c.experimentName, experiment ? kObjectFollows + describe(*experiment) : "");
+}
+
+std::string experimentNameIn(const std::string& description) {
+  const std::size_t at = description.find(kTaskDescription);
+  if (at == std::string::npos) return {};
+  const std::string rest = description.substr(at + std::string(kTaskDescription).size() + 1);
+  return rest.substr(0, rest.find(kObjectFollows));
+}
+
+std::string experimentJson(const RunConfiguration& c) {
+  const std::optional<Experiment> experiment = understood(c);
+  Json j;
+  j["description"] = describeTask(c);
+  const Json known = Json::parse(experiment ? toJson(*experiment) : c.experimentText, nullptr, false, true);
+  j["experiment"] = known.is_discarded() ? Json() : known;
+  j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);
+  Json& run = j["run"];
+  run["subject"] = c.subject, run["session"] = c.session, run["run"] = c.run, run["block"] = c.block, run["practice"] = c.practice;
+  run["condition"] = orNull(c.condition);
+  run["trials"] = c.trials.size(), run["pause_s"] = c.pauseSeconds, run["seed"] = c.seed;
+  run["device"] = orNull(c.device), run["device_name"] = orNull(c.deviceName), run["device_version"] = orNull(c.deviceVersion);
+  run["device_max_force_n"] = c.deviceMaxForce, run["virtual_hand"] = c.virtualHand;
+  run["method"] = orNull(c.method), run["method_reason"] = orNull(c.methodReason);
+  run["sampling_hz"] = c.samplingHz, run["clock"] = c.clock;
+  run["software_version"] = orNull(c.softwareVersion), run["build"] = orNull(c.buildDescription);
+  run["started_utc"] = orNull(c.startedUtc), run["notes"] = orNull(c.notes);
+  return j.dump(2) + "\n";
+}
+
+Experiment experimentFromJson(const std::string& text, const std::string& origin) {
+  try {
+    const Json j = Json::parse(text);
+    return parseExperiment(j.at("experiment").dump(2), origin, j.at("definition").is_null() ? "" : j.at("definition").dump(2));
+  } catch (const nlohmann::json::exception& e) {
+    throw UsageError(origin + ": no experiment of a dataset: " + e.what());
+  }
+}
+
+}  // namespace reachlab
