@@ -1,6 +1,7 @@
 #include "sim/analyze/dataset.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 
 #include "constraints/constraint.h"
 #include "constraints/error.h"
+#include "sim/analyze/experiment_difference.h"
+#include "sim/analyze/tables.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 
@@ -85,17 +88,35 @@ void appendEvenly(TrialData& trial, const SampleRows& rows, const Columns& colum
   }
 }
 
+// "chain-moderate (duration 1.5 s)": what sets an experiment apart from the first of its name.
+std::string nameApart(const std::string& name, const std::vector<std::string>& different) {
+  constexpr std::size_t kMost = 2;
+  const std::vector<std::string> named(different.begin(), different.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, different.size())));
+  return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
+}
+
 std::size_t conditionIndex(Dataset& dataset, const std::string& name, const Experiment& experiment) {
   auto& conditions = dataset.input.conditions;
-  int clashes = 0;
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    const bool sameName = conditions[i].name == name || conditions[i].name.starts_with(name + " (experiment ");
-    if (sameName && conditions[i].experiment.text == experiment.text) return i;
-    clashes += sameName;
+  const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return c.name == name; });
+  if (first == conditions.end()) {
+    conditions.push_back({name, experiment});
+    return conditions.size() - 1;
   }
+  const std::vector<std::string> different = differences(first->experiment, experiment);
+  if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
   // One name over unlike experiments would mix what cannot be compared.
-  const std::string own = clashes > 0 ? fmt::format("{} (experiment {})", name, clashes + 1) : name;
-  if (clashes > 0) dataset.notes.push_back(fmt::format("{} was recorded with more than one experiment; they are kept apart", name));
+  const std::string base = nameApart(name, different);
+  std::string own = base;
+  for (int number = 2;; ++number) {  // two may share the differences that are named; −9.81 and 9.81 would share a figure's file
+    const auto known = std::find_if(conditions.begin(), conditions.end(),
+                                    [&](const StudyCondition& c) { return fileNameOf(c.name) == fileNameOf(own); });
+    if (known == conditions.end()) break;
+    if (differences(known->experiment, experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
+    own = fmt::format("{} {}", base, number);
+  }
+  dataset.notes.push_back(
+      fmt::format("{} was recorded with more than one experiment; they are kept apart. {} differs from the first in: {}", name, own,
+                  fmt::join(different, ", ")));
   conditions.push_back({own, experiment});
   return conditions.size() - 1;
 }

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "constraints/error.h"
+#include "sim/analyze/experiment_difference.h"
 #include "sim/analyze/write_analysis.h"
 #include "sim/analyze/wording.h"
 #include "sim/record/append_file.h"
@@ -26,6 +28,8 @@ StudyOptions quick() {
   options.criteria = {Criterion::MinHandJerk, Criterion::MinCrackle};
   return options;
 }
+
+std::string textOfNumber(double value) { return nlohmann::ordered_json(value).dump(); }
 
 TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
   const TemporaryFolder folder;
@@ -51,6 +55,43 @@ TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
   EXPECT_EQ(dataset.input.trials[0].key.day, 1);
   EXPECT_EQ(dataset.input.trials[4].key.day, 2);
   EXPECT_TRUE(dataset.input.trials[4].practice);
+}
+
+TEST(Dataset, ExperimentsOfOneNameAreToldApartByWhatDiffers) {
+  const TemporaryFolder folder;
+  Experiment e = readExperiment("dingwell");
+  e.name = "mine";
+  const auto record = [&](const char* session) {
+    const std::string file = folder.path() + "/mine.json";
+    std::ofstream(file) << toJson(e);
+    recordRun(folder.path() + "/data", {.experiment = file, .device = kQuiet, .session = session, .trials = 1});
+  };
+  record("01");
+  e.task->duration += 0.25;
+  record("02");
+  record("03");
+  e.object.masses = {2.5};
+  record("04");
+  const Dataset dataset = openDataset(folder.path() + "/data");
+  ASSERT_EQ(dataset.input.conditions.size(), 3u);
+  EXPECT_EQ(dataset.input.conditions[0].name, "mine");
+  const std::string longer = "duration " + textOfNumber(e.task->duration) + " s";
+  EXPECT_EQ(dataset.input.conditions[1].name, "mine (" + longer + ")");
+  EXPECT_EQ(dataset.input.conditions[2].name, "mine (masses 2.5 kg, " + longer + ")");
+  EXPECT_EQ(dataset.input.conditionOf, (std::vector<std::size_t>{0, 1, 1, 2}));
+  ASSERT_EQ(dataset.notes.size(), 2u);
+  EXPECT_NE(dataset.notes[0].find(longer), std::string::npos) << dataset.notes[0];
+}
+
+TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
+  const Experiment e = readExperiment("chain-moderate");
+  const Experiment written = parseExperiment(toJson(e), "chain-moderate", definitionTextOf(e));
+  EXPECT_EQ(differences(e, written), std::vector<std::string>{});
+  Experiment other = e;
+  other.coupling.reset();
+  other.object.masses.assign(5, 0.5);
+  other.task->tolerance.velocity = 0.02;
+  EXPECT_EQ(differences(e, other), (std::vector<std::string>{"masses 5 x 0.5 kg", "tolerance velocity 0.02 m/s", "no coupling"}));
 }
 
 TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {

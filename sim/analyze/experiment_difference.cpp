@@ -1,0 +1,84 @@
+#include "sim/analyze/experiment_difference.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace reachlab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::size_t kLongestValue = 40;  // characters; a longer one would drown the sentence it stands in
+
+struct KeyWords {
+  std::string name, unit;
+};
+
+// "duration_s" is "duration" in "s"; longer endings before those that they end in.
+KeyWords wordsOf(std::string key) {
+  static constexpr std::pair<const char*, const char*> kEndings[] = {
+      {"_n_m_s_per_rad", "N m s/rad"}, {"_n_s_per_m", "N s/m"}, {"_n_per_m", "N/m"}, {"_m_per_s2", "m/s²"}, {"_m_per_s", "m/s"},
+      {"_kg_m2", "kg m²"},             {"_kg", "kg"},           {"_hz", "Hz"},       {"_s", "s"},           {"_m", "m"},
+      {"_n", "N"}};
+  KeyWords words;
+  for (const auto& [ending, unit] : kEndings)
+    if (key.ends_with(ending)) {
+      key.resize(key.size() - std::string_view(ending).size());
+      words.unit = unit;
+      break;
+    }
+  std::replace(key.begin(), key.end(), '_', ' ');
+  words.name = std::move(key);
+  return words;
+}
+
+std::string textOf(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  if (value.size() > 2 && std::all_of(value.begin(), value.end(), [&](const Json& v) { return v == value.front(); }))
+    return fmt::format("{} x {}", value.size(), textOf(value.front()));
+  std::vector<std::string> parts;
+  for (const Json& part : value) parts.push_back(textOf(part));
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string sentenceOf(const std::string& group, const std::string& key, const Json* value) {
+  const KeyWords words = wordsOf(key);
+  const std::string name = group.empty() ? words.name : group + " " + words.name;
+  if (value == nullptr) return "no " + name;
+  const std::string text = textOf(*value);
+  if (text.size() > kLongestValue) return "another " + name;
+  return fmt::format("{} {}{}{}", name, text, words.unit.empty() ? "" : " ", words.unit);
+}
+
+// `object` and `task` go without saying, and a shape is its constraint's.
+std::string groupWithin(const std::string& group, const std::string& key) {
+  if (key == "object" || key == "task" || key == "shape") return group;
+  return group.empty() ? wordsOf(key).name : group + " " + wordsOf(key).name;
+}
+
+void compare(const std::string& group, const Json& first, const Json& other, std::vector<std::string>& found) {
+  for (const auto& [key, value] : other.items()) {
+    const auto before = first.find(key);
+    if (before != first.end() && *before == value) continue;
+    if (value.is_object()) compare(groupWithin(group, key), before == first.end() ? Json::object() : *before, value, found);
+    else found.push_back(sentenceOf(group, key, &value));
+  }
+  for (const auto& [key, value] : first.items())
+    if (!other.contains(key)) found.push_back(sentenceOf(group, key, nullptr));
+}
+
+}  // namespace
+
+std::vector<std::string> differences(const Experiment& first, const Experiment& other) {
+  std::vector<std::string> found;
+  compare({}, Json::parse(toJson(first)), Json::parse(toJson(other)), found);
+  const std::string &before = first.constraint.definition, &now = other.constraint.definition;  // empty: the catalogue's
+  if (found.empty() && !before.empty() && !now.empty() && before != now)
+    found.push_back("another definition of " + other.constraint.name);
+  return found;
+}
+
+}  // namespace reachlab
