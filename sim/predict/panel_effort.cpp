@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/predict/condition.h"
 #include "sim/predict/panel_profile.h"
 
 namespace reachlab {
@@ -31,7 +32,17 @@ std::optional<PanelEffort> PanelEffort::make(LineSystem<double> system, double d
 }
 
 PanelEffort::PanelEffort(LineSystem<double> system, const PanelGrid& grid)
-    : system_(std::move(system)), grid_(grid), series_(system_, grid, kRounding), factor_(system_, grid, series_) {}
+    : system_(std::move(system)),
+      grid_(grid),
+      room_(std::make_unique_for_overwrite<std::byte[]>(bytes())),
+      memory_(std::make_unique<std::pmr::monotonic_buffer_resource>(room_.get(), bytes())),
+      series_(system_, grid, kRounding, *memory_),
+      factor_(system_, grid, series_) {}
+
+size_t PanelEffort::bytes() const {
+  return PanelSeries<double>::bytesFor(grid_, system_.size, kRounding) +
+         PanelSeries<DoubleDouble>::bytesFor(grid_, system_.size, kRefined / kRefuseCondition);
+}
 
 LeastEffort PanelEffort::solve() const {
   const int m = system_.controlled;
@@ -43,7 +54,7 @@ LeastEffort PanelEffort::solve() const {
 
 std::optional<LeastEffort> PanelEffort::refine(const LineSystem<DoubleDouble>& system) const {
   const int m = system.controlled;
-  const PanelSeries<DoubleDouble> series(system, grid_, kRefined / condition());
+  const PanelSeries<DoubleDouble> series(system, grid_, kRefined / condition(), *memory_);
   std::vector<DoubleDouble> l(static_cast<size_t>(system.size), 0.0), missed = system.target;
   double first = 0, shrinks = 8 * std::numeric_limits<double>::epsilon() * condition();
   for (int pass = 0; pass < kMaxPasses; ++pass) {

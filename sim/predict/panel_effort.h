@@ -1,4 +1,7 @@
 #pragma once
+#include <cstddef>
+#include <memory>
+#include <memory_resource>
 #include <optional>
 
 #include "sim/predict/least_effort.h"
@@ -23,10 +26,14 @@ class PanelEffort {
 
  private:
   PanelEffort(LineSystem<double> system, const PanelGrid& grid);
+  size_t bytes() const;
   LeastEffort follow(const std::vector<Pack>& control, double cost) const;
 
   LineSystem<double> system_;
   PanelGrid grid_;
+  // One piece for all series: many large ones would go back to the system, and be asked for again, with every prediction.
+  std::unique_ptr<std::byte[]> room_;
+  std::unique_ptr<std::pmr::monotonic_buffer_resource> memory_;
   PanelSeries<double> series_;
   PanelFactor factor_;
 };

@@ -47,6 +47,12 @@ void expandMixed(const SparseRows<Real>& rows, const SparseRows<double>& rounded
   expandPanels<double>(rounded, states, terms.narrow, narrow, nullptr, nullptr, terms.wide);
 }
 
+// Not set to zero: every place is written before it is read.
+template <class Packed>
+Packed* allocate(std::pmr::memory_resource& memory, int count) {
+  return static_cast<Packed*>(memory.allocate(static_cast<size_t>(count) * sizeof(Packed), alignof(Packed)));
+}
+
 template <class Real>
 TermCount countTerms(const PanelGrid& grid, double tolerance) {
   const int all = grid.termsAbove(tolerance);
@@ -124,10 +130,17 @@ void PanelStep<Real>::apply(const std::vector<Packed>& columns, const std::vecto
 }
 
 template <class Real>
-PanelSeries<Real>::PanelSeries(const LineSystem<Real>& system, const PanelGrid& grid, double tolerance)
+size_t PanelSeries<Real>::bytesFor(const PanelGrid& grid, int states, double tolerance) {
+  const TermCount terms = countTerms<Real>(grid, tolerance);
+  const size_t places = static_cast<size_t>(grid.blocks()) * states;
+  return places * terms.wide * sizeof(Packed) + places * terms.narrow * sizeof(Pack) + 2 * alignof(Pack);
+}
+
+template <class Real>
+PanelSeries<Real>::PanelSeries(const LineSystem<Real>& system, const PanelGrid& grid, double tolerance, std::pmr::memory_resource& memory)
     : grid_(grid), states_(system.size), terms_(countTerms<Real>(grid, tolerance)), step_(system, grid, terms_),
-      wide_(std::make_unique_for_overwrite<Packed[]>(static_cast<size_t>(grid.blocks()) * terms_.wide * states_)),
-      narrow_(std::make_unique_for_overwrite<Pack[]>(static_cast<size_t>(grid.blocks()) * terms_.narrow * states_)) {
+      wide_(allocate<Packed>(memory, grid.blocks() * terms_.wide * states_)),
+      narrow_(allocate<Pack>(memory, grid.blocks() * terms_.narrow * states_)) {
   const SparseRows<Real> rows = makeRows(system, false, grid.halfWidth);
   const SparseRows<double>& rounded = roundToDouble(rows);
   std::vector<Real> y(system.b), next(y);

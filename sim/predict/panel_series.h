@@ -1,5 +1,5 @@
 #pragma once
-#include <memory>
+#include <memory_resource>
 #include <vector>
 
 #include "sim/predict/pack.h"
@@ -44,12 +44,14 @@ class PanelStep {
   std::vector<Packed> half_, whole_;  // [column][pack of rows]
 };
 
-/// y(s) = e^{A s} b in Taylor series about the middles of all panels, to `tolerance` of y. Real is double or DoubleDouble.
+/// y(s) = e^{A s} b in Taylor series about the middles of all panels, to `tolerance` of y. Real is double or DoubleDouble. The
+/// series lies in `memory`, which must live longer: bytesFor() of it.
 template <class Real>
 class PanelSeries {
  public:
   using Packed = typename PackOf<Real>::Type;
-  PanelSeries(const LineSystem<Real>& system, const PanelGrid& grid, double tolerance);
+  PanelSeries(const LineSystem<Real>& system, const PanelGrid& grid, double tolerance, std::pmr::memory_resource& memory);
+  static size_t bytesFor(const PanelGrid& grid, int states, double tolerance);
 
   /// y^T l as Taylor coefficients, [block][term], to the nearest double.
   std::vector<Pack> makeControl(const std::vector<Real>& l) const;
@@ -69,8 +71,8 @@ class PanelSeries {
   int states_;
   TermCount terms_;
   PanelStep<Real> step_;
-  std::unique_ptr<Packed[]> wide_;  // [block][term][state]
-  std::unique_ptr<Pack[]> narrow_;  // the terms after those
+  Packed* wide_;  // [block][term][state]
+  Pack* narrow_;  // the terms after those
 };
 
 }  // namespace reachlab
