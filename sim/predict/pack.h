@@ -45,26 +45,29 @@ inline void addWide(WidePack& sum, const Pack& p, const Pack& rest) {
   sum.hi = s;
 }
 
+// The rounding of p = a x, exactly. Whole vectors in, so that the compiler makes one instruction of the loop.
+inline void findRounding(const Pack& a, const Pack& x, const Pack& p, Pack& rounding) {
+  const Pack minus = -p;
+  for (int i = 0; i < kPack; ++i) rounding[i] = std::fma(a[i], x[i], minus[i]);
+}
+
 /// sum += a x.
 inline void addProduct(Pack& sum, double a, const Pack& x) { sum += a * x; }
 inline void addProduct(Pack& sum, const Pack& a, const Pack& x) { sum += a * x; }
-inline void addProduct(WidePack& sum, const DoubleDouble& a, const WidePack& x) {
-  const Pack p = a.hi * x.hi;
-  Pack rest;
-  for (int i = 0; i < kPack; ++i) rest[i] = std::fma(a.hi, x.hi[i], -p[i]);
-  addWide(sum, p, rest + (a.hi * x.lo + a.lo * x.hi));
-}
-inline void addProduct(WidePack& sum, const DoubleDouble& a, const Pack& x) {
-  const Pack p = a.hi * x;
-  Pack rest;
-  for (int i = 0; i < kPack; ++i) rest[i] = std::fma(a.hi, x[i], -p[i]);
-  addWide(sum, p, rest + a.lo * x);
-}
 inline void addProduct(WidePack& sum, const WidePack& a, const WidePack& x) {
   const Pack p = a.hi * x.hi;
-  Pack rest;
-  for (int i = 0; i < kPack; ++i) rest[i] = std::fma(a.hi[i], x.hi[i], -p[i]);
-  addWide(sum, p, rest + (a.hi * x.lo + a.lo * x.hi));
+  Pack rounding;
+  findRounding(a.hi, x.hi, p, rounding);
+  addWide(sum, p, rounding + (a.hi * x.lo + a.lo * x.hi));
+}
+inline void addProduct(WidePack& sum, const DoubleDouble& a, const WidePack& x) {
+  addProduct(sum, WidePack{a.hi - Pack{}, a.lo - Pack{}}, x);
+}
+inline void addProduct(WidePack& sum, const DoubleDouble& a, const Pack& x) {
+  const Pack high = a.hi - Pack{}, p = high * x;
+  Pack rounding;
+  findRounding(high, x, p, rounding);
+  addWide(sum, p, rounding + a.lo * x);
 }
 
 }  // namespace reachlab

@@ -10,8 +10,9 @@
 namespace reachlab {
 namespace {
 
-constexpr double kRounding = 1e-17;  // Taylor terms below this part of the state are left out, in double
+constexpr double kRounding = 1e-17;  // what is left out of Taylor series in double, of the state
 constexpr double kRefined = 1e-15;   // error of the control that is wanted of the passes, of its own norm
+constexpr double kSeries = 1e-14;    // and of the series that they go by
 constexpr int kMaxPasses = 8;
 
 PanelGrid makeGrid(double fastest, double duration) {
@@ -32,16 +33,13 @@ std::optional<PanelEffort> PanelEffort::make(LineSystem<double> system, double d
 }
 
 PanelEffort::PanelEffort(LineSystem<double> system, const PanelGrid& grid)
-    : system_(std::move(system)),
-      grid_(grid),
-      room_(std::make_unique_for_overwrite<std::byte[]>(bytes())),
-      memory_(std::make_unique<std::pmr::monotonic_buffer_resource>(room_.get(), bytes())),
-      series_(system_, grid, kRounding, *memory_),
+    : system_(std::move(system)), grid_(grid), room_(std::make_unique_for_overwrite<std::byte[]>(bytes())),
+      memory_(std::make_unique<std::pmr::monotonic_buffer_resource>(room_.get(), bytes())), series_(system_, grid, kRounding, *memory_),
       factor_(system_, grid, series_) {}
 
 size_t PanelEffort::bytes() const {
   return PanelSeries<double>::bytesFor(grid_, system_.size, kRounding) +
-         PanelSeries<DoubleDouble>::bytesFor(grid_, system_.size, kRefined / kRefuseCondition);
+         PanelSeries<DoubleDouble>::bytesFor(grid_, system_.size, kSeries / kRefuseCondition);
 }
 
 LeastEffort PanelEffort::solve() const {
@@ -54,7 +52,7 @@ LeastEffort PanelEffort::solve() const {
 
 std::optional<LeastEffort> PanelEffort::refine(const LineSystem<DoubleDouble>& system) const {
   const int m = system.controlled;
-  const PanelSeries<DoubleDouble> series(system, grid_, kRefined / condition(), *memory_);
+  const PanelSeries<DoubleDouble> series(system, grid_, kSeries / condition(), *memory_);
   std::vector<DoubleDouble> l(static_cast<size_t>(system.size), 0.0), missed = system.target;
   double first = 0, shrinks = 8 * std::numeric_limits<double>::epsilon() * condition();
   for (int pass = 0; pass < kMaxPasses; ++pass) {

@@ -14,27 +14,31 @@ namespace {
 constexpr int kNodes = 16, kPairs = kNodes / 2;
 using Column = std::array<Pack, kNodes>;  // samples of one state in eight panels
 
-// Columns about the object's modes: the singular vectors of the coupling of velocities and elongations, as eigenvectors of its
-// squares.
+// Columns about the object's modes: right and left singular vectors of the coupling C of velocities and elongations, from those of
+// C^T C; the left ones by themselves where some C v are too small to tell them.
 Eigen::MatrixXd makeTurn(const LineSystem<double>& system) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+  constexpr double kTellsLeft = 1e-6;
   const int m = system.controlled, e = system.elongations, v = system.velocities;
   Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(m, m);
   if (e == 0) return turn;
   const Eigen::MatrixXd coupling = Eigen::Map<const RowMajor>(system.a.data(), system.size, system.size).block(0, e, e, v);
-  turn.topLeftCorner(e, e) = Solver(coupling * coupling.transpose()).eigenvectors();
-  turn.block(e, e, v, v) = Solver(coupling.transpose() * coupling).eigenvectors();
+  const Solver right(coupling.transpose() * coupling);
+  turn.block(e, e, v, v) = right.eigenvectors();
+  if (right.eigenvalues()[v - e] > kTellsLeft * right.eigenvalues()[v - 1])
+    turn.topLeftCorner(e, e) = (coupling * right.eigenvectors().rightCols(e)).colwise().normalized();
+  else turn.topLeftCorner(e, e) = Solver(coupling * coupling.transpose()).eigenvectors();
   return turn;
 }
 
-// Powers of the positive nodes times the roots of their weights.
+// Powers of the positive nodes over factorials, times the roots of the weights.
 std::vector<std::array<double, kPairs>> makePowers(int terms, double halfWidth) {
   const GaussRule<double>& rule = gaussRule16();
   std::vector<std::array<double, kPairs>> power(static_cast<size_t>(terms));
   for (int g = 0; g < kPairs; ++g) {
     double p = std::sqrt(rule.weight[kPairs + g] * halfWidth);
-    for (auto& row : power) row[g] = p, p *= rule.node[kPairs + g];
+    for (int k = 0; k < terms; p *= rule.node[kPairs + g] / ++k) power[k][g] = p;
   }
   return power;
 }
@@ -93,22 +97,28 @@ void absorb(Eigen::MatrixXd& r, std::vector<Column>& columns) {
   }
 }
 
-// By bisection on the signs of the pivots of T - x I (Golub and Van Loan 8.4), T tridiagonal.
+// By the signs of the pivots of T - x I (Golub and Van Loan 8.4), T tridiagonal, for eight x between the bounds at a time.
 double largestSingularValue(const Eigen::MatrixXd& m) {
   const Eigen::MatrixXd square = m * m.transpose();
   if (m.rows() == 1) return std::sqrt(square(0, 0));
   const Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal(square);
   const Eigen::VectorXd diagonal = tridiagonal.diagonal(), beside = tridiagonal.subDiagonal().cwiseAbs2();
-  const auto isAboveAll = [&](double x) {
-    double pivot = diagonal[0] - x;
-    for (Eigen::Index i = 1; i < diagonal.size() && pivot < 0; ++i) pivot = diagonal[i] - x - beside[i - 1] / pivot;
-    return pivot < 0;
-  };
   double lo = diagonal.maxCoeff(), hi = square.trace();
   while (hi - lo > std::numeric_limits<double>::epsilon() * hi) {
-    const double middle = (lo + hi) / 2;
-    if (middle <= lo || middle >= hi) break;
-    (isAboveAll(middle) ? hi : lo) = middle;
+    Pack x;
+    for (int i = 0; i < kPack; ++i) x[i] = lo + (hi - lo) * (i + 1) / (kPack + 1);
+    Pack pivot = diagonal[0] - x;
+    auto isAboveAll = pivot < 0;
+    for (Eigen::Index i = 1; i < diagonal.size(); ++i) {
+      pivot = diagonal[i] - x - beside[i - 1] / pivot;
+      isAboveAll &= pivot < 0;
+    }
+    const double before = hi - lo;
+    for (int i = 0; i < kPack && lo < hi; ++i) {
+      if (!isAboveAll[i]) lo = x[i];
+      else if (x[i] < hi) hi = x[i];
+    }
+    if (!(hi - lo < before)) break;
   }
   return std::sqrt(hi);
 }

@@ -41,7 +41,7 @@ class Follower {
   Follower(const LineSystem<double>& system, const PanelGrid& grid, const PanelStep<double>& step, int terms,
            const std::vector<Pack>& control)
       : system_(system), grid_(grid), step_(step), n_(system.size), terms_(terms), control_(reverse(control, grid.blocks(), terms)),
-        rows_(system, n_, false), drive_(system.b), states_(static_cast<size_t>(terms) * n_),
+        rows_(system, n_, false), drive_(system.b), taylor_(inverseFactorials<double>(terms)), states_(static_cast<size_t>(terms) * n_),
         middle_(static_cast<size_t>(grid.blocks()) * n_) {
     rows_.scale(grid.halfWidth);
     for (double& b : drive_) b *= grid.halfWidth;
@@ -78,33 +78,33 @@ class Follower {
   // The states in the middle of each panel, so that neighbours agree where they meet: q, the motion from zero in the middle under
   // the control alone, tells what the control adds until either end.
   void findMiddles(LeastEffort& effort) {
-    Vector middle(n_, 0.0), gap(n_), end(n_, 0.0), carried(n_), met(n_);
+    Vector middle(n_, 0.0), gap(n_), end(n_, 0.0), border(n_);
     for (int block = 0; block < grid_.blocks(); ++block) {
       expand(block, nullptr);
       std::vector<Pack> atBegin(n_), atEnd(n_);
       for (int i = 0; i < n_; ++i) {
         Pack even{}, odd{};
-        for (int k = terms_ - 1; k > 0; --k) (k % 2 ? odd : even) += states_[static_cast<size_t>(k) * n_ + i];
+        for (int k = terms_ - 1; k > 0; --k) addProduct(k % 2 ? odd : even, taylor_[k], states_[static_cast<size_t>(k) * n_ + i]);
         atEnd[i] = even + odd, atBegin[i] = even - odd;
       }
       for (int lane = 0; lane < kPack; ++lane) {
         for (int i = 0; i < n_; ++i) gap[i] = end[i] - atBegin[i][lane], end[i] = atEnd[i][lane];
-        step_.whole(middle, carried);
-        step_.half(gap, met);
+        step_.apply(middle, border);
+        for (int i = 0; i < n_; ++i) border[i] += gap[i];
+        step_.apply(border, middle);
         for (int i = 0; i < n_; ++i) {
-          middle[i] = carried[i] + met[i];
           middle_[static_cast<size_t>(block) * n_ + i][lane] = middle[i];
         }
       }
     }
-    step_.half(middle, met);
-    for (int i = 0; i < system_.controlled; ++i) effort.miss = std::max(effort.miss, std::abs(met[i] + end[i] - system_.target[i]));
+    step_.apply(middle, border);
+    for (int i = 0; i < system_.controlled; ++i) effort.miss = std::max(effort.miss, std::abs(border[i] + end[i] - system_.target[i]));
   }
 
   void writeOutputs(int block, const std::vector<Difference>& differences, SeriesProfile& profile) const {
     for (int k = 0; k < terms_; ++k) {
       Pack position{};
-      const double unit = std::ldexp(1.0, k);  // the profile counts in whole panels
+      const double unit = std::ldexp(taylor_[k], k);  // the profile counts in whole panels
       auto next = differences.begin();
       for (int o = 0; o < profile.outputs; ++o) {
         for (; next != differences.end() && next->output == o; ++next)
@@ -121,7 +121,7 @@ class Follower {
   int n_, terms_;
   std::vector<Pack> control_;
   SparseRows<double> rows_;
-  Vector drive_;
+  Vector drive_, taylor_;
   std::vector<Pack> states_;  // of one block, [term][state]
   std::vector<Pack> middle_;  // [block][state]
 };

@@ -16,7 +16,6 @@ void scale(WidePack& x, const DoubleDouble& factor) {
 }
 
 void add(Pack& sum, const Pack& x) { sum += x; }
-void add(WidePack& sum, const WidePack& x) { addWide(sum, x.hi, x.lo); }
 void add(WidePack& sum, const Pack& x) { addWide(sum, x, Pack{}); }
 
 template <class Real>
@@ -42,9 +41,9 @@ void expandMixed(const SparseRows<Real>& rows, const SparseRows<double>& rounded
   const auto* last = wide + static_cast<size_t>(terms.wide - 1) * states;
   std::vector<Pack> rounding(static_cast<size_t>(2) * states);
   for (int i = 0; i < states; ++i) rounding[i] = nearest(last[i]);
-  expandPanels<double>(rounded, states, 2, rounding.data(), nullptr, nullptr, terms.wide - 1);
+  expandPanels<double>(rounded, states, 2, rounding.data());
   std::copy_n(rounding.begin() + states, states, narrow);
-  expandPanels<double>(rounded, states, terms.narrow, narrow, nullptr, nullptr, terms.wide);
+  expandPanels<double>(rounded, states, terms.narrow, narrow);
 }
 
 // Not set to zero: every place is written before it is read.
@@ -75,26 +74,32 @@ int PanelGrid::termsAbove(double part) const {
 
 template <class Real>
 void expandPanels(const SparseRows<Real>& rows, int states, int terms, typename PackOf<Real>::Type* x, const Real* b,
-                  const typename PackOf<Real>::Type* u, int order) {
+                  const typename PackOf<Real>::Type* u) {
   using Packed = typename PackOf<Real>::Type;
   for (int k = 0; k + 1 < terms; ++k, x += states) {
-    const Real inverse = Real(1.0) / Real(order + k + 1.0);
     for (int i = 0; i < states; ++i) {
       Packed sum{};
       for (int p = rows.begin[i]; p < rows.begin[i + 1]; ++p) addProduct(sum, rows.value[p], x[rows.column[p]]);
       if (u != nullptr) addProduct(sum, b[i], u[k]);
       settle(sum);
-      scale(sum, inverse);
       x[states + i] = sum;
     }
   }
 }
 
 template <class Real>
+std::vector<Real> inverseFactorials(int count) {
+  std::vector<Real> inverse(static_cast<size_t>(count), Real(1.0));
+  for (int k = 2; k < count; ++k) inverse[k] = inverse[k - 1] / Real(1.0 * k);
+  return inverse;
+}
+
+template <class Real>
 PanelStep<Real>::PanelStep(const LineSystem<Real>& system, const PanelGrid& grid, TermCount terms)
-    : states_(system.size), packs_((system.size + kPack - 1) / kPack), half_(static_cast<size_t>(states_) * packs_), whole_(half_.size()) {
+    : states_(system.size), packs_((system.size + kPack - 1) / kPack), columns_(static_cast<size_t>(states_) * packs_) {
   const SparseRows<Real> transposed = makeRows(system, true, grid.halfWidth);
   const SparseRows<double>& rounded = roundToDouble(transposed);
+  const std::vector<Real> weight = inverseFactorials<Real>(terms.wide + terms.narrow);
   std::vector<Packed> wide(static_cast<size_t>(terms.wide) * states_);
   std::vector<Pack> narrow(static_cast<size_t>(terms.narrow) * states_);
   for (int pack = 0; pack < packs_; ++pack) {  // rows of e^{A w} are columns of its transpose
@@ -103,27 +108,22 @@ PanelStep<Real>::PanelStep(const LineSystem<Real>& system, const PanelGrid& grid
     expandMixed(transposed, rounded, states_, terms, wide.data(), narrow.data());
     for (int i = 0; i < states_; ++i) {
       Pack small{};
-      for (int k = terms.narrow - 1; k >= 0; --k) small += narrow[static_cast<size_t>(k) * states_ + i];
+      for (int k = terms.narrow - 1; k >= 0; --k)
+        addProduct(small, static_cast<double>(weight[terms.wide + k]), narrow[static_cast<size_t>(k) * states_ + i]);
       Packed sum{};
       add(sum, small);
-      for (int k = terms.wide - 1; k >= 0; --k) add(sum, wide[static_cast<size_t>(k) * states_ + i]);
+      for (int k = terms.wide - 1; k >= 0; --k) addProduct(sum, weight[k], wide[static_cast<size_t>(k) * states_ + i]);
       settle(sum);
-      half_[static_cast<size_t>(i) * packs_ + pack] = sum;
+      columns_[static_cast<size_t>(i) * packs_ + pack] = sum;
     }
-  }
-  std::vector<Real> column(static_cast<size_t>(states_)), twice(column);
-  for (int j = 0; j < states_; ++j) {
-    for (int i = 0; i < states_; ++i) column[i] = laneOf(half_[static_cast<size_t>(j) * packs_ + i / kPack], i % kPack);
-    half(column, twice);
-    for (int i = 0; i < states_; ++i) setLane(whole_[static_cast<size_t>(j) * packs_ + i / kPack], i % kPack, twice[i]);
   }
 }
 
 template <class Real>
-void PanelStep<Real>::apply(const std::vector<Packed>& columns, const std::vector<Real>& x, std::vector<Real>& y) const {
+void PanelStep<Real>::apply(const std::vector<Real>& x, std::vector<Real>& y) const {
   for (int pack = 0; pack < packs_; ++pack) {
     Packed sum{};
-    for (int j = 0; j < states_; ++j) addProduct(sum, x[j], columns[static_cast<size_t>(j) * packs_ + pack]);
+    for (int j = 0; j < states_; ++j) addProduct(sum, x[j], columns_[static_cast<size_t>(j) * packs_ + pack]);
     settle(sum);
     for (int lane = 0; lane < kPack && pack * kPack + lane < states_; ++lane) y[pack * kPack + lane] = laneOf(sum, lane);
   }
@@ -144,13 +144,13 @@ PanelSeries<Real>::PanelSeries(const LineSystem<Real>& system, const PanelGrid& 
   const SparseRows<Real> rows = makeRows(system, false, grid.halfWidth);
   const SparseRows<double>& rounded = roundToDouble(rows);
   std::vector<Real> y(system.b), next(y);
-  step_.half(system.b, y);
+  step_.apply(system.b, y);
   for (int block = 0; block < grid_.blocks(); ++block) {
     Packed* first = wideOf(block, 0);
     for (int lane = 0; lane < kPack; ++lane) {
       for (int i = 0; i < states_; ++i) setLane(first[i], lane, y[i]);
-      step_.whole(y, next);
-      y.swap(next);
+      step_.apply(y, next);
+      step_.apply(next, y);
     }
     expandMixed(rows, rounded, states_, terms_, first, narrowOf(block, 0));
   }
@@ -179,16 +179,18 @@ std::vector<Pack> PanelSeries<Real>::makeControl(const std::vector<Real>& l) con
 template <class Real>
 std::vector<Real> PanelSeries<Real>::integrate(const std::vector<Pack>& u) const {
   const int all = terms();
+  const std::vector<Real> factorial = inverseFactorials<Real>(all);
   std::vector<Real> moment(static_cast<size_t>(2 * all), Real(0.0));  // of s^n over a panel
   for (int n = 0; n < 2 * all; n += 2) moment[n] = Real(2 * grid_.halfWidth) / Real(n + 1.0);
   std::vector<Packed> sums(static_cast<size_t>(states_), Packed{});
-  std::vector<Pack> small(static_cast<size_t>(states_), Pack{});
+  std::vector<Pack> small(static_cast<size_t>(states_), Pack{}), taylor(static_cast<size_t>(all));
   for (int block = 0; block < grid_.blocks(); ++block) {
-    const Pack* control = &u[static_cast<size_t>(block) * all];
+    for (int j = 0; j < all; ++j) taylor[j] = static_cast<double>(factorial[j]) * u[static_cast<size_t>(block) * all + j];
     for (int k = 0; k < all; ++k) {
       Packed weight{};
-      for (int j = k % 2; j < all; j += 2) addProduct(weight, moment[k + j], control[j]);
+      for (int j = k % 2; j < all; j += 2) addProduct(weight, moment[k + j], taylor[j]);
       settle(weight);
+      scale(weight, factorial[k]);
       if (k < terms_.wide)
         for (int i = 0; i < states_; ++i) addProduct(sums[i], weight, wideOf(block, k)[i]);
       else
@@ -204,7 +206,8 @@ std::vector<Real> PanelSeries<Real>::integrate(const std::vector<Pack>& u) const
   return integral;
 }
 
-template void expandPanels(const SparseRows<double>&, int, int, Pack*, const double*, const Pack*, int);
+template std::vector<double> inverseFactorials(int);
+template void expandPanels(const SparseRows<double>&, int, int, Pack*, const double*, const Pack*);
 template class PanelStep<double>;
 template class PanelStep<DoubleDouble>;
 template class PanelSeries<double>;

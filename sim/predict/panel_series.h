@@ -17,34 +17,36 @@ struct PanelGrid {
   int termsAbove(double part) const;
 };
 
-/// x' = A x + b u of eight panels at once: Taylor coefficients of x, [term][state], from the first ones, of `order`, which are in
-/// `x`. `rows` and `b` are A and b times the half width; without `u`, [term], the motion is free.
+/// x' = A x + b u of eight panels at once: derivatives of x after s, [term][state], from x itself, which is in place. `rows` and
+/// `b` are A and b times the half width; without the derivatives of `u`, [term], the motion is free.
 template <class Real>
 void expandPanels(const SparseRows<Real>& rows, int states, int terms, typename PackOf<Real>::Type* x, const Real* b = nullptr,
-                  const typename PackOf<Real>::Type* u = nullptr, int order = 0);
+                  const typename PackOf<Real>::Type* u = nullptr);
 
-/// The first Taylor terms with all digits of Real; the small ones after them in double, whose digits then reach as far.
+/// 1/k!, which makes derivatives Taylor coefficients.
+template <class Real>
+std::vector<Real> inverseFactorials(int count);
+
+/// The first terms of Taylor series with all digits of Real; the small ones after them in double, whose digits then reach as far.
 struct TermCount {
   int wide = 0, narrow = 0;
 };
 
-/// e^{A w}, w half a panel's width or a whole one's.
+/// e^{A halfWidth}.
 template <class Real>
 class PanelStep {
  public:
   PanelStep(const LineSystem<Real>& system, const PanelGrid& grid, TermCount terms);
-  /// y = e^{A w} x; not in place.
-  void half(const std::vector<Real>& x, std::vector<Real>& y) const { apply(half_, x, y); }
-  void whole(const std::vector<Real>& x, std::vector<Real>& y) const { apply(whole_, x, y); }
+  /// y = e^{A halfWidth} x; not in place.
+  void apply(const std::vector<Real>& x, std::vector<Real>& y) const;
 
  private:
   using Packed = typename PackOf<Real>::Type;
-  void apply(const std::vector<Packed>& columns, const std::vector<Real>& x, std::vector<Real>& y) const;
   int states_, packs_;
-  std::vector<Packed> half_, whole_;  // [column][pack of rows]
+  std::vector<Packed> columns_;  // [column][pack of rows]
 };
 
-/// y(s) = e^{A s} b in Taylor series about the middles of all panels, to `tolerance` of y. Real is double or DoubleDouble. The
+/// y(s) = e^{A s} b by its derivatives after s in the middles of all panels, to `tolerance` of y. Real is double or DoubleDouble. The
 /// series lies in `memory`, which must live longer: bytesFor() of it.
 template <class Real>
 class PanelSeries {
@@ -53,12 +55,12 @@ class PanelSeries {
   PanelSeries(const LineSystem<Real>& system, const PanelGrid& grid, double tolerance, std::pmr::memory_resource& memory);
   static size_t bytesFor(const PanelGrid& grid, int states, double tolerance);
 
-  /// y^T l as Taylor coefficients, [block][term], to the nearest double.
+  /// y^T l by its derivatives, [block][term], to the nearest double.
   std::vector<Pack> makeControl(const std::vector<Real>& l) const;
   /// The integral of y u over the movement, exact for these series.
   std::vector<Real> integrate(const std::vector<Pack>& u) const;
 
-  /// Coefficients of all states; not of the small terms of a series in DoubleDouble.
+  /// Derivatives of all states; not of the small terms of a series in DoubleDouble.
   const Packed* of(int block, int term) const { return wideOf(block, term); }
   int terms() const { return terms_.wide + terms_.narrow; }
   const PanelStep<Real>& step() const { return step_; }
