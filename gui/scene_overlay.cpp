@@ -48,6 +48,13 @@ void SceneOverlay::setTextScale(double scale) {
   update();
 }
 
+void SceneOverlay::setLabel(const QString& text, const QPointF& at) {
+  if (text == label_ && (text.isEmpty() || at == labelAt_)) return;
+  label_ = text;
+  labelAt_ = at;
+  update();
+}
+
 QColor SceneOverlay::colourOf(Semaphore semaphore) {
   switch (semaphore) {
     case Semaphore::Green: return toQColor(colours::kGreen);
@@ -101,6 +108,20 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   }
   paintScale(painter);
   paintAxes(painter);
+  if (!label_.isEmpty()) paintLabel(painter);
+}
+
+// Below what it speaks of, at the end of a short line.
+void SceneOverlay::paintLabel(QPainter& painter) const {
+  const double s = textScale_;
+  const QPointF end = labelAt_ + QPointF(0, 26 * s);
+  painter.setPen(QPen(toQColor(colours::kFaintText), 1.2 * s));
+  painter.drawLine(labelAt_, end);
+  QFont font = painter.font();
+  font.setPointSizeF(11 * s);
+  painter.setFont(font);
+  painter.setPen(toQColor(colours::kText));
+  painter.drawText(QRectF(end.x() - 100 * s, end.y(), 200 * s, 22 * s), Qt::AlignHCenter | Qt::AlignTop, label_);
 }
 
 void SceneOverlay::paintScale(QPainter& painter) const {

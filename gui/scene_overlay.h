@@ -29,6 +29,9 @@ class SceneOverlay : public QWidget {
   /// Screen directions of x, y, z (length at most 1, y down) and metres a pixel in the plane through the scene's centre.
   void setView(const std::array<QPointF, 3>& axes, double metresPerPixel);
   void setTextScale(double scale);
+  /// "5 masses" beside where they are drawn over one another; empty: they are seen apart.
+  void setLabel(const QString& text, const QPointF& at);
+  const QString& label() const { return label_; }
   /// The square's colour at this moment, for tests.
   static QColor colourOf(Semaphore semaphore);
 
@@ -38,11 +41,14 @@ class SceneOverlay : public QWidget {
  private:
   void paintScale(QPainter& painter) const;
   void paintAxes(QPainter& painter) const;
+  void paintLabel(QPainter& painter) const;
 
   OverlayState state_;
   std::array<QPointF, 3> axes_{QPointF{1, 0}, QPointF{0, -1}, QPointF{0, 0}};
   double metresPerPixel_ = 0;
   double textScale_ = 1;
+  QString label_;
+  QPointF labelAt_;
 };
 
 /// A round length (1, 2 or 5 times a power of ten) not above `most`. [same unit]

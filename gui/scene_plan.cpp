@@ -140,4 +140,13 @@ void copyToFrame(const TickState& state, SceneFrame& frame) {
   for (std::size_t i = 0; i < frame.masses.size(); ++i) frame.masses[i] = state.masses[i].r;
 }
 
+int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
+  const std::size_t count = std::min(frame.masses.size(), plan.massRadius.size());
+  if (count < 2) return 0;
+  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan.massShift[i]; };
+  for (std::size_t i = 1; i < count; ++i)
+    if (!(norm(drawn(i) - drawn(0)) < 0.5 * plan.massRadius[i])) return 0;
+  return static_cast<int>(count);
+}
+
 }  // namespace reachlab

@@ -52,5 +52,7 @@ struct SceneFrame {
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
 void copyToFrame(const TickState& state, SceneFrame& frame);
+/// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
+int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
 
 }  // namespace reachlab

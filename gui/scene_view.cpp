@@ -68,6 +68,17 @@ struct SceneView::Impl {
     const std::array<Vec3, 3> world{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     for (std::size_t i = 0; i < 3; ++i) directions[i] = {dot(world[i], axes.right), -dot(world[i], axes.up)};
     overlay->setView(directions, metresPerPixel(camera, plan.centre, height()));
+    label();
+  }
+
+  // Masses over one another look like one.
+  void label() {
+    const int count = massesAtOnePlace(plan, frame);
+    if (count == 0) return overlay->setLabel({}, {});
+    const Vec3 at = frame.masses.back() + plan.massShift.back();
+    const auto [x, y] = reachlab::pixelOf(camera, at, width(), height());
+    const double radius = plan.massRadius.back() / metresPerPixel(camera, at, height());
+    overlay->setLabel(QStringLiteral("%1 masses").arg(count), {x, y + radius});
   }
 
   // Once a picture has been drawn it is known who draws: true translucency where it is fast, the approximate one in software.
@@ -122,6 +133,7 @@ void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
   impl_->actors = std::make_unique<ObjectActors>(*impl_->renderer, plan, impl_->style);
   impl_->frame = restingFrame(plan);
   impl_->actors->show(impl_->frame);
+  impl_->label();
   if (resetView) resetCamera();
   else renderNow();
 }
@@ -130,6 +142,7 @@ void SceneView::showFrame(const SceneFrame& frame) {
   impl_->frame = frame;
   if (!impl_->actors) return;
   impl_->actors->show(frame);
+  impl_->label();
   impl_->render();
 }
 

@@ -19,6 +19,7 @@
 #include <set>
 
 #include "gui/prediction_dock.h"
+#include "gui/scene_overlay.h"
 #include "gui/scene_view.h"
 #include "gui/session_controller.h"
 #include "gui/session_dock.h"
@@ -258,6 +259,17 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   EXPECT_EQ(duration->value(), 10.2);
   typed(start, "0");
   EXPECT_FALSE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("start")));
+}
+
+TEST_F(Window, MassesOverOneAnotherAreCountedInTheScene) {
+  MainWindow& window = open();
+  const auto* overlay = window.view().findChild<SceneOverlay*>();
+  ASSERT_NE(overlay, nullptr);
+  EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_EQ(overlay->label(), QString());  // side by side each is seen
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
 }
 
 TEST_F(Window, AKindThatIsRefusedLeavesTheMassesAlone) {

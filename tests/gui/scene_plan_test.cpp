@@ -34,6 +34,18 @@ TEST(ScenePlan, TheFirstMassIsDrivenAndEverySpringHasItsCoil) {
   EXPECT_TRUE(plan.springs[0].coupling);
 }
 
+TEST(ScenePlan, MassesOverOneAnotherAreCountedUntilTheyPart) {
+  const ScenePlan chain = planOf("chain-moderate");
+  SceneFrame frame = restingFrame(chain);
+  EXPECT_EQ(massesAtOnePlace(chain, frame), 5);
+  frame.masses[0].x += 2 * chain.massRadius[0];
+  EXPECT_EQ(massesAtOnePlace(chain, frame), 0);
+  const ScenePlan apart = planOf("chain-moderate", ViewOptions::SideBySide::Always);
+  EXPECT_EQ(massesAtOnePlace(apart, restingFrame(apart)), 0);
+  const ScenePlan alone = planOf("dingwell");
+  EXPECT_EQ(massesAtOnePlace(alone, restingFrame(alone)), 0);
+}
+
 TEST(ScenePlan, MarksAreSmallerThanMasses) {
   const ScenePlan plan = planOf("dingwell");
   EXPECT_LT(plan.markRadius, plan.massRadius[0]);
