@@ -10,6 +10,9 @@ namespace reachlab {
 /// Numbers read back equal; an empty cell is what could not be measured.
 std::map<std::string, std::string> makeTables(const StudyResult& study);
 
+/// What each column of one of these files is, in words, with its unit; empty for a file that is none of them.
+std::string tableDictionary(const std::string& name, const std::string& csv);
+
 /// "(1) min-hand-jerk", with the paper's number; "(3h)" is the literal hand-crackle variant.
 std::string numberedName(Criterion criterion);
 /// The name with underscores, for columns.

@@ -2,6 +2,7 @@
 
 #include "sim/analyze/tables.h"
 #include "sim/record/append_file.h"
+#include "sim/record/column_dictionary.h"
 
 namespace reachlab {
 
@@ -11,6 +12,7 @@ AnalysisFiles writeAnalysis(const StudyResult& study, const Dataset& dataset, co
   for (const auto& [name, text] : makeTables(study)) {
     files.tables.push_back(folder + "/" + name);
     writeFileAtomically(files.tables.back(), text);
+    writeFileAtomically(dictionaryPathOf(files.tables.back()), tableDictionary(name, text));
   }
   const std::vector<NamedFigure> figures = makeFigures(study);
   for (const NamedFigure& figure : figures) {

@@ -13,8 +13,8 @@ struct AnalysisFiles {
   std::vector<std::string> tables, figures;
 };
 
-/// Writes tables (CSV), figures (SVG and PDF, in figures/) and report.html into `folder`; each file replaced in one step. The same study
-/// gives the same bytes. Throws ResourceError.
+/// Writes tables (CSV, each with the dictionary of its columns beside it as JSON), figures (SVG and PDF, in figures/) and report.html into
+/// `folder`; each file replaced in one step. The same study gives the same bytes. Throws ResourceError.
 AnalysisFiles writeAnalysis(const StudyResult& study, const Dataset& dataset, const ReportHeader& header, const std::string& folder);
 
 }  // namespace reachlab

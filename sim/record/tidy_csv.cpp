@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sim/record/append_file.h"
+#include "sim/record/column_dictionary.h"
 #include "sim/record/table_text.h"
 #include "sim/record/trial_measures.h"
 
@@ -126,8 +127,14 @@ std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std
     written.push_back(fmt::format("{}/{}", folder, name));
     writeFileAtomically(written.back(), text);
   };
-  for (const RunLog& run : runs) write(runName(run.configuration()) + "_samples.csv", samplesCsv(run));
-  write("trials.csv", trialsCsv(runs));
+  for (const RunLog& run : runs) {
+    const std::string name = runName(run.configuration()) + "_samples.csv", samples = samplesCsv(run);
+    write(name, samples);
+    write(dictionaryPathOf(name), samplesDictionary(run.configuration().table, samples));
+  }
+  const std::string trials = trialsCsv(runs);
+  write("trials.csv", trials);
+  write("trials.json", trialsDictionary(trials));
   return written;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/record/run_log.h"
@@ -7,12 +8,15 @@
 namespace reachlab {
 
 /// Writes `trials.csv` (one row a trial of all the runs) and one `sub-…_ses-…_task-…_run-…_samples.csv` a run into `folder`, for
-/// R, JASP, SPSS, pandas. Returns the files written. Throws ResourceError.
+/// R, JASP, SPSS, pandas; beside each a dictionary of its columns (`trials.json` …). Returns the files written. Throws ResourceError.
 std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder);
 
 /// The text of trials.csv.
 std::string trialsCsv(const std::vector<RunLog>& runs);
 std::string samplesCsv(const RunLog& run);
+/// What each column of these files is, in words, with its unit.
+std::string trialsDictionary(std::string_view csv);
+std::string samplesDictionary(const ChannelTable& table, std::string_view csv);
 
 /// `sub-01_ses-01_task-chainmoderate_run-01`: the BIDS name of a run without `tracksys` and suffix.
 std::string runName(const RunConfiguration& configuration, const std::string& between = "");

@@ -15,6 +15,7 @@
 #include "sim/analyze/wording.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
+#include "sim/record/column_dictionary.h"
 #include "tests/analyze/recorded.h"
 
 namespace reachlab {
@@ -177,6 +178,21 @@ TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
 
   const std::string profiles = readWholeFile(folder.path() + "/one/profiles.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(profiles.begin(), profiles.end(), '\n')), 1 + 101 * study.results[0].used);
+}
+
+TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+  const Dataset dataset = openDataset(folder.path());
+  const StudyResult study = analyzeStudy(dataset.input, quick());
+  for (const std::string& table : writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out").tables) {
+    const std::string csv = readWholeFile(table);
+    const auto dictionary = nlohmann::json::parse(readWholeFile(dictionaryPathOf(table)));
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',')) + 1,
+              dictionary.size())
+        << table;
+    for (const auto& [column, entry] : dictionary.items()) EXPECT_NE(entry.at("Description"), "") << table << ": " << column;
+  }
 }
 
 TEST(Analysis, OfNoSuccessIsStillAReport) {

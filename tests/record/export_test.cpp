@@ -9,6 +9,7 @@
 #include "sim/experiment/describe.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
+#include "sim/record/column_dictionary.h"
 #include "sim/record/table_text.h"
 #include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
@@ -125,6 +126,32 @@ TEST_F(Exported, SamplesCsvHasUniqueColumnsThatCarryTheirUnits) {
   for (const char* column :
        {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1", "coupling_x_n", "device_force_z_n"})
     EXPECT_TRUE(columns.contains(column)) << column;
+}
+
+TEST_F(Exported, EveryColumnIsExplainedBesideItsTable) {
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path_));
+  const std::string out = folder_ / "csv";
+  writeTidyCsv(runs, out);
+  std::map<std::string, std::string> phases;
+  for (const std::string name : {"trials", "sub-01_ses-01_task-made_run-01_samples"}) {
+    const std::string header = readWholeFile(out + "/" + name + ".csv");
+    const json dictionary = json::parse(readWholeFile(out + "/" + name + ".json"));
+    const auto columns = cellsOf(header.substr(0, header.find('\n')), ',')[0];
+    EXPECT_EQ(dictionary.size(), columns.size());
+    for (const std::string& column : columns) EXPECT_NE(dictionary.at(column).at("Description"), "") << column;
+    phases[name] = dictionary.at("phase").at("Description");
+  }
+  EXPECT_NE(phases["trials"], phases["sub-01_ses-01_task-made_run-01_samples"]) << "one name, two meanings: both are told";
+  const json trials = json::parse(readWholeFile(out + "/trials.json"));
+  EXPECT_EQ(trials.at("peak_hand_speed_m_per_s").at("Units"), "m/s");
+  EXPECT_FALSE(trials.at("outcome").contains("Units"));
+  EXPECT_EQ(trials.at("subject").at("Format"), "string");
+}
+
+TEST_F(Exported, ColumnNamesAndChannelsAgreeOnTheUnit) {
+  for (const Channel& channel : configuration_.table.channels)
+    EXPECT_EQ(unitOfColumn(channel.column), channel.units == "n/a" ? "" : channel.units) << channel.column;
 }
 
 TEST_F(Exported, WritingTheDatasetAgainKeepsWhatAPersonHasAddedToIt) {
