@@ -58,7 +58,7 @@ void MainWindow::Impl::makeDocks() {
   window.addDockWidget(Qt::LeftDockWidgetArea, predictions);
   for (QDockWidget* d : std::initializer_list<QDockWidget*>{object, coupling, task}) window.addDockWidget(Qt::RightDockWidgetArea, d);
   window.resizeDocks({plotDock}, {270}, Qt::Vertical);
-  window.resizeDocks({dock, object}, {330, 300}, Qt::Horizontal);
+  window.resizeDocks({dock, object}, {378, 300}, Qt::Horizontal);
 }
 
 void MainWindow::Impl::makeStatusBar() {

@@ -26,6 +26,9 @@
 namespace reachlab {
 namespace {
 
+constexpr double kPenLength = 16;              // in radii of its tip
+constexpr double kPenTilt = 32, kPenTurn = 24;  // [deg] towards the viewer, to the right
+
 vtkSmartPointer<vtkActor> actorOf(vtkAlgorithmOutput* geometry, const Look& look) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(geometry);
@@ -102,6 +105,11 @@ vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns, double wire) {
   return actorOf(tube->GetOutputPort(), look);
 }
 
+Vec3 penEnd(const Vec3& hand, double radius) {
+  const double tilt = kPenTilt * std::numbers::pi / 180, turn = kPenTurn * std::numbers::pi / 180;
+  return hand + kPenLength * radius * Vec3{std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn), std::sin(tilt)};
+}
+
 vtkSmartPointer<vtkActor> makePen(const Look& look) {
   vtkNew<vtkSphereSource> tip;
   tip->SetRadius(1);
@@ -116,14 +124,14 @@ vtkSmartPointer<vtkActor> makePen(const Look& look) {
   vtkNew<vtkCylinderSource> shaft;
   shaft->SetResolution(24);
   shaft->SetRadius(0.85);
-  shaft->SetHeight(11);
-  shaft->SetCenter(0, 10.5, 0);
+  shaft->SetHeight(kPenLength - 5);
+  shaft->SetCenter(0, (kPenLength + 5) / 2, 0);
   vtkNew<vtkAppendPolyData> all;
   all->AddInputConnection(tip->GetOutputPort());
   all->AddInputConnection(cone->GetOutputPort());
   all->AddInputConnection(shaft->GetOutputPort());
   auto actor = actorOf(all->GetOutputPort(), look);
-  actor->SetOrientation(32, 0, -24);
+  actor->SetOrientation(kPenTilt, 0, -kPenTurn);
   return actor;
 }
 

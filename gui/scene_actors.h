@@ -25,6 +25,8 @@ vtkSmartPointer<vtkActor> makeBox(const Look& look);
 vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns, double wire);
 /// A pen whose tip is at the origin and whose shaft points up and to the viewer; unit: the tip's ball has radius 1.
 vtkSmartPointer<vtkActor> makePen(const Look& look);
+/// Where the shaft of a pen of tip radius `radius` [m] ends whose tip is at `hand`. [m]
+Vec3 penEnd(const Vec3& hand, double radius);
 /// Tubes along the pieces. [m]
 vtkSmartPointer<vtkActor> makeRail(const CurveMesh& mesh, double radius, const Look& look);
 /// The skin alone, lit from both sides.

@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "gui/colours.h"
+#include "gui/scene_actors.h"
 
 namespace reachlab {
 namespace {
@@ -55,6 +56,13 @@ struct SceneView::Impl {
 
   double width() const { return std::max(widget->width(), 1); }
   double height() const { return std::max(widget->height(), 1); }
+
+  // The whole scene, with the pen as it stands at the start.
+  void lookFrom(const Vec3& direction) {
+    std::vector<Vec3> points = plan.seen;
+    points.push_back(penEnd(plan.start, plan.handRadius));
+    camera = lookAtPoints(points, 0.09 * plan.size, direction, width() / height());
+  }
 
   void applyCamera() {
     vtkCamera* c = renderer->GetActiveCamera();
@@ -161,15 +169,14 @@ void SceneView::setSurfaceStyle(SurfaceStyle style) {
 }
 
 void SceneView::resetCamera() {
-  const ScenePlan& plan = impl_->plan;
-  impl_->camera = lookAtPoints(plan.seen, 0.09 * plan.size, plan.viewFrom, impl_->width() / impl_->height());
+  impl_->lookFrom(impl_->plan.viewFrom);
   impl_->applyCamera();
   renderNow();
 }
 
 void SceneView::lookAlong(char axis) {
   const Vec3 from = axis == 'x' ? Vec3{1, 0, 0} : axis == 'y' ? Vec3{0, 1, 0} : axis == 'z' ? Vec3{0, 0, 1} : impl_->plan.viewFrom;
-  impl_->camera = lookAtPoints(impl_->plan.seen, 0.09 * impl_->plan.size, from, impl_->width() / impl_->height());
+  impl_->lookFrom(from);
   impl_->applyCamera();
   renderNow();
 }

@@ -43,6 +43,9 @@ void applyTheme(QApplication& application) {
                      "QLineEdit, QAbstractSpinBox, QComboBox { padding: 2px 5px; min-height: 20px; }"
                      "QLabel[role=\"fault\"] { color: #ff9d8c; }"
                      "QLabel[role=\"quiet\"] { color: #a8b5c7; }"
+                     // Fusion draws an empty box darker than the dark it stands on.
+                     "QCheckBox::indicator:unchecked, QTableView::indicator:unchecked { width: 11px; height: 11px; border: 1px solid #6b7788;"
+                     " border-radius: 2px; background: #11151c; }"
                      "QPushButton { padding: 5px 14px; }"
                      "QPushButton[role=\"go\"] { background: #2463a8; font-weight: 600; }"
                      "QPushButton[role=\"go\"]:disabled { background: #2d333f; }"

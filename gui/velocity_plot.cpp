@@ -53,7 +53,7 @@ struct VelocityPlot::Impl {
   std::unique_ptr<QwtPlotCurve> hand, last, handBefore, lastBefore;
   std::vector<std::unique_ptr<QwtPlotCurve>> predictions;
   QVector<double> times, hands, lasts;
-  double duration = 1, tolerance = 0.5, low = 0, high = 0.1;
+  double duration = 1, tolerance = 0.5, low = 0, high = 0.1, span = 1;
   bool changed = false;
 
   void scale() {
@@ -72,7 +72,9 @@ struct VelocityPlot::Impl {
     low = std::floor(least * 1.04 / step) * step;
     high = std::ceil(most * 1.06 / step) * step;
     plot->setAxisScale(QwtPlot::yLeft, low, high);
-    plot->setAxisScale(QwtPlot::xBottom, 0, std::max({duration + tolerance + 0.25, times.isEmpty() ? 0.0 : times.back()}));
+    // A window in time that is open at its beginning only says how long to wait: the reach would be a splinter in it.
+    span = std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, times.isEmpty() ? 0.0 : times.back());
+    plot->setAxisScale(QwtPlot::xBottom, 0, span);
   }
 };
 
@@ -186,6 +188,8 @@ void VelocityPlot::setPredictions(const std::vector<Line>& lines) {
   d.changed = true;
   refresh();
 }
+
+double VelocityPlot::timeSpan() const { return impl_->span; }
 
 std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->times.size()); }
 

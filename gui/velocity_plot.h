@@ -29,6 +29,7 @@ class VelocityPlot : public QWidget {
   };
   void setPredictions(const std::vector<Line>& lines);
   std::size_t pointCount() const;
+  double timeSpan() const;  // [s] that the time axis shows
   QSize sizeHint() const override { return {900, 260}; }
   QSize minimumSizeHint() const override { return {300, 150}; }
 

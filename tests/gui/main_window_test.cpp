@@ -19,6 +19,7 @@
 #include <set>
 
 #include "gui/prediction_dock.h"
+#include "gui/scene_actors.h"
 #include "gui/scene_overlay.h"
 #include "gui/scene_view.h"
 #include "gui/session_controller.h"
@@ -175,6 +176,15 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   result.reason = Reason::TimeShort;
   free.sessionDock().count(result);
   EXPECT_TRUE(free.sessionDock().tallyText().contains(QStringLiteral("1 × too fast")));
+}
+
+TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
+  EXPECT_NEAR(open().plot().timeSpan(), 20.35, 1e-12);  // T + dT and a quarter of a second
+  request_.what = "ellipse";                            // 1.5 s, at most 10
+  MainWindow& window = open();
+  EXPECT_NEAR(window.plot().timeSpan(), 3, 1e-12);
+  const ScenePlan& plan = window.view().plan();
+  EXPECT_TRUE(window.view().rect().contains(window.view().pixelOf(penEnd(plan.start, plan.handRadius)).toPoint()));
 }
 
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
