@@ -25,6 +25,15 @@ double roundLength(double most) {
   return (share >= 5 ? 5 : share >= 2 ? 2 : 1) * decade;
 }
 
+double pointsToFit(const QString& text, QFont font, double most, double room) {
+  double points = most;  // hinted widths do not grow as sizes do: tried, not computed
+  for (; points > 0.5 * most; points -= 0.025 * most) {
+    font.setPointSizeF(points);
+    if (QFontMetricsF(font).horizontalAdvance(text) <= room) break;
+  }
+  return points;
+}
+
 SceneOverlay::SceneOverlay(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setAttribute(Qt::WA_NoSystemBackground);
@@ -83,8 +92,8 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   painter.setPen(toQColor(colours::kFaintText));
   const double room = width() - left - 12;
   painter.drawText(QRectF(left, 14 * s, room, 20 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.counter);
-  font.setPointSizeF(19 * s);
   font.setWeight(QFont::DemiBold);
+  font.setPointSizeF(pointsToFit(state_.instruction, font, 19 * s, room));  // why a trial failed is to be read to its end
   painter.setFont(font);
   const Colour tone = state_.tone == OverlayState::Tone::Good  ? colours::kGreen
                       : state_.tone == OverlayState::Tone::Bad ? Colour{1.0, 0.62, 0.55}

@@ -1,4 +1,5 @@
 #pragma once
+#include <QFont>
 #include <QString>
 #include <QWidget>
 #include <array>
@@ -50,6 +51,9 @@ class SceneOverlay : public QWidget {
   QString label_;
   QPointF labelAt_;
 };
+
+/// The largest font size [pt], at most `most` and at least about half of it, at which the text is no wider than `room` [px].
+double pointsToFit(const QString& text, QFont font, double most, double room);
 
 /// A round length (1, 2 or 5 times a power of ten) not above `most`. [same unit]
 double roundLength(double most);

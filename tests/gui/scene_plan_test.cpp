@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
+#include <QFontMetricsF>
+
 #include "gui/number_list_edit.h"
 #include "gui/scene_overlay.h"
 #include "gui/trial_texts.h"
@@ -82,6 +85,22 @@ TEST(NumberList, ReadsBackWhatItShows) {
 TEST(NumberList, RefusesWhatIsNoNumber) {
   for (const char* text : {"0,6", "abc", "1 nan", "inf", "3 x", "999999 x 1"})
     EXPECT_FALSE(numbersOf(QString::fromLatin1(text)).has_value()) << text;
+}
+
+TEST(Overlay, TheLongestSentenceFitsIntoTheSmallestScene) {
+  TrialResult result;
+  result.outcome = Outcome::Failure;
+  result.reason = Reason::Position;
+  result.mass = 12;
+  result.by = 0.1279;
+  QFont font = QApplication::font();
+  font.setWeight(QFont::DemiBold);
+  EXPECT_EQ(pointsToFit(QStringLiteral("Wait"), font, 19, 500), 19);
+  for (const double room : {450.0, 600.0}) {  // [px] beside the square
+    font.setPointSizeF(pointsToFit(outcomeText(result), font, 19, room));
+    EXPECT_LE(QFontMetricsF(font).horizontalAdvance(outcomeText(result)), room);
+    EXPECT_GE(font.pointSizeF(), 9.5);
+  }
 }
 
 TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
