@@ -1,18 +1,52 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "cli/commands.h"
 #include "constraints/definition.h"
 #include "constraints/error.h"
 #include "constraints/json_reader.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/plan.h"
+#include "sim/trial/task_check.h"
 
 namespace reachlab {
 namespace {
 
+constexpr const char* kExpected =
+    "an experiment file, a constraint definition or a session plan (JSON with comments), or the name of a shipped one";
+
+// The file behind a name, as `reach run` and the constraint commands understand it.
+std::string fileOf(const std::string& fileOrName) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(fileOrName, error)) throw UsageError(fmt::format("{}: is a folder; allowed: {}", fileOrName, kExpected));
+  const std::vector<std::string> experiments = shippedExperiments();
+  if (!fs::exists(fileOrName, error) && std::find(experiments.begin(), experiments.end(), fileOrName) != experiments.end())
+    return fmt::format("{}/experiments/{}.json", resourceFolder(), fileOrName);
+  return findPlan(fileOrName).value_or(fileOrName);
+}
+
+// A table or a recording would only be told where JSON breaks off.
+void checkIsJsonObject(const std::string& text, const std::string& file) {
+  const std::size_t at = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (at == std::string::npos || (text[at] != '{' && text[at] != '/'))
+    throw UsageError(fmt::format("{}:1:1: is no JSON object{}; allowed: {}", file,
+                                 file.ends_with(".csv")     ? ", but a table"
+                                 : file.ends_with(".reach") ? ", but a recording"
+                                                            : "",
+                                 kExpected));
+}
+
 // What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing.
-void validateFile(const std::string& file) {
+void validateFile(const std::string& fileOrName) {
+  const std::string file = fileOf(fileOrName);
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && findInCatalogue(file) != nullptr) return;
+  if (!std::filesystem::exists(file, error)) readExperiment(file);  // says which names there are
   const std::string text = readTextFile(file);
+  checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
     std::string faults;
@@ -21,7 +55,9 @@ void validateFile(const std::string& file) {
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     parseDefinition(text, file);
   } else {
-    parseExperiment(text, file);
+    const Experiment experiment = parseExperiment(text, file);
+    if (experiment.task) checkTask(experiment, file);
+    for (const std::string& warning : implausibleNumbers(experiment, file)) fmt::print(stderr, "warning: {}\n", warning);
   }
 }
 
@@ -30,8 +66,8 @@ void validateFile(const std::string& file) {
 void addValidateCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions and session plans");
   const auto files = std::make_shared<std::vector<std::string>>();
-  command->add_option("files", *files, "files to check; every fault of every file is named at once")->required();
-  command->footer("Examples:\n  reach validate my-experiment.json\n  reach validate *.json");
+  command->add_option("files", *files, "files to check, or names of shipped ones; every fault of every file is named at once")->required();
+  command->footer("Examples:\n  reach validate my-experiment.json\n  reach validate *.json\n  reach validate chain-moderate");
   command->callback([files, &exitCode] {
     for (const std::string& file : *files) {
       try {

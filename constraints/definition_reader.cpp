@@ -25,8 +25,7 @@ class DefinitionReader {
 
   Definition read() {
     double version = 1;
-    if (root_.requiredNumber("schema_version", anyNumber(), version) && version != 1)
-      faults_.add(*tree_.find("schema_version"), "schema_version", fmt::format("is {}", version), "1");
+    root_.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
     readName();
     readCoordinates();
     readShape();

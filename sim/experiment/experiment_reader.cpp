@@ -223,8 +223,7 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
   experiment.name = std::filesystem::path(file).stem().string();
 
   double version = 1;
-  if (root.requiredNumber("schema_version", anyNumber(), version) && version != 1)
-    faults.add(*tree.find("schema_version"), "schema_version", fmt::format("is {}", version), "1");
+  root.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
   root.text("name", experiment.name);
   std::string description;
   root.text("description", description);

@@ -8,6 +8,7 @@
 #include "constraints/error.h"
 #include "constraints/json_reader.h"
 #include "sim/experiment/experiment.h"
+#include "sim/trial/task_check.h"
 
 namespace reachlab {
 namespace {
@@ -80,8 +81,8 @@ Plan parsePlan(const std::string& text, const std::string& file) {
   plan.name = fs::path(file).stem().string();
   plan.text = text;
   ObjectReader reader(faults, root, "");
-  int version = 1;
-  if (reader.required("schema_version", "1") != nullptr) reader.integer("schema_version", 1, 1, version);
+  double version = 1;
+  reader.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
   reader.text("name", plan.name);
   readOrderSeed(reader, plan);
   std::string counterbalance = "none";
@@ -115,8 +116,7 @@ std::vector<std::string> planProblems(const std::string& file) {
     if (std::find(seen.begin(), seen.end(), block.experiment) != seen.end()) continue;
     seen.push_back(block.experiment);
     try {
-      if (!readExperiment(block.experiment).task)
-        found.push_back(file + ": blocks: " + block.experiment + ": has no task to be carried out");
+      checkTask(readExperiment(block.experiment), file + ": blocks: " + block.experiment);
     } catch (const UsageError& error) {
       found.emplace_back(error.what());
     }

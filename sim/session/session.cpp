@@ -11,6 +11,7 @@
 #include "constraints/json_tree.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"
+#include "sim/trial/task_check.h"
 
 namespace reachlab {
 namespace {
@@ -153,8 +154,7 @@ SessionToRun planSession(const SessionRequest& request) {
   for (std::size_t k = 0; k < order.size(); ++k) {
     const PlanBlock& block = plan.blocks[static_cast<std::size_t>(order[k])];
     experiments.push_back(readExperiment(block.experiment));
-    if (!experiments.back().task)
-      throw UsageError(block.experiment + ": task: is missing, and a run needs one; allowed: { start, target, … }");
+    checkTask(experiments.back(), block.experiment);
     recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiments.back()));
   }
   const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });

@@ -48,6 +48,50 @@ TEST(Usage, ValidateNamesEveryFaultOfEveryFile) {
     EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
 }
 
+std::string lineExperiment(const std::string& version, const std::string& target, const std::string& tolerance, const std::string& mass,
+                           const std::string& duration) {
+  return R"({"schema_version": )" + version + R"(, "constraint": {"name": "line"}, "object": {"kind": "point", "masses_kg": [)" + mass +
+         R"(]}, "coupling": {"stiffness_n_per_m": 600}, "task": {"start": [1], "target": [)" + target + R"(], "duration_s": )" + duration +
+         R"(, "tolerance": {"position_m": )" + tolerance + R"(, "velocity_m_per_s": 0.01, "time_s": 0.5}}})";
+}
+
+TEST(Usage, ValidateRefusesTheTaskThatARunRefuses) {
+  const Folder folder;
+  const std::string file = folder.write("still.json", lineExperiment("1", "1", "0.01", "1", "1"));
+  const Ended validated = reach("validate " + file);
+  const Ended run = reach("run " + file + " --device simulated --fast --seed 1 --data " + folder.string());
+  EXPECT_EQ(validated.exitCode, 2);
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_NE(validated.err.find("same place"), std::string::npos) << validated.err;
+  EXPECT_EQ(validated.err, run.err);
+  EXPECT_EQ(reach("simulate " + file + " --hand hold --until 0.01").exitCode, 0) << "who only simulates needs no way";
+}
+
+TEST(Usage, ValidateWarnsOfNumbersThatAreHardlyMeant) {
+  const Folder folder;
+  const Ended ended = reach("validate " + folder.write("odd.json", lineExperiment("1", "2", "0.5", "150", "90")));
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  for (const char* part : {"masses_kg[0]: is 150 kg", "duration_s: is 90 s", "position_m: is 0.5 m"})
+    EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
+}
+
+TEST(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
+  const Folder folder;
+  for (const char* name : {"chain-moderate", "paper", "cardioid"}) {
+    const Ended ended = reach(std::string("validate ") + name);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    EXPECT_EQ(ended.err, "") << "nothing shipped is odd";
+  }
+  for (const std::string& what : {folder.string(), folder.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
+    const Ended ended = reach("validate " + what);
+    EXPECT_EQ(ended.exitCode, 2);
+    EXPECT_NE(ended.err.find("allowed: an experiment file, a constraint definition or a session plan"), std::string::npos) << ended.err;
+  }
+  EXPECT_NE(reach("validate chain-modrate").err.find("did you mean chain-moderate?"), std::string::npos);
+  const Ended old = reach("validate " + folder.write("old.json", lineExperiment("2", "2", "0.01", "1", "1")));
+  EXPECT_NE(old.err.find("schema_version: is 2; allowed: 1, the version that this program reads"), std::string::npos) << old.err;
+}
+
 TEST(Usage, ValidateAcceptsEveryShippedFile) {
   const Ended ended = reach("validate " REACHLAB_SOURCE_DIR "/resources/experiments/*.json " REACHLAB_SOURCE_DIR
                             "/resources/plans/*.json " REACHLAB_SOURCE_DIR "/constraints/definitions/*.json");
