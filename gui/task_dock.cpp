@@ -70,7 +70,7 @@ void TaskDock::setTask(const Task& task, ConstraintKind kind) {
     unit = QStringLiteral("x y z [m]");
   } else {
     for (const std::string& name : variablesOf(kind)) rule.names << QString::fromStdString(name);
-    unit = rule.names.join(QLatin1Char(' '));
+    unit = rule.names.join(QLatin1Char(' ')) + QStringLiteral(" [1]");  // a formula's own measure, rad where it is an angle
   }
   rule.fewest = rule.most = static_cast<std::size_t>(rule.names.size());
   rule.list = QStringLiteral("start");
@@ -80,7 +80,7 @@ void TaskDock::setTask(const Task& task, ConstraintKind kind) {
   target_->setRule(rule);
   targetLabel_->setText(QStringLiteral("target ") + unit);
   const QString places = kind == ConstraintKind::Free ? QStringLiteral("three coordinates in metres")
-                                                      : QStringLiteral("the place on the constraint, by its own parameters: ") + unit;
+                                                      : QStringLiteral("the place on the constraint, by its own parameters (rad where one is an angle): ") + unit;
   start_->setToolTip(places);
   target_->setToolTip(places);
   start_->setNumbers(task.start);

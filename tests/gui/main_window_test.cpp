@@ -164,7 +164,7 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   MainWindow& window = open();
   QStringList labels;
   for (const auto* label : window.findChildren<QLabel*>()) labels << label->text();
-  for (const char* text : {"length", "start phi", "target phi"}) EXPECT_TRUE(labels.contains(QLatin1String(text))) << text;
+  for (const char* text : {"length", "start phi [1]", "target phi [1]"}) EXPECT_TRUE(labels.contains(QLatin1String(text))) << text;
   EXPECT_FALSE(labels.contains(QStringLiteral("length_m")));
   request_.what = "free-point";
   MainWindow& free = open();
