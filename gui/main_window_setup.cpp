@@ -144,6 +144,7 @@ void MainWindow::Impl::makeMenus() {
     const Camera kept = view->camera();
     rebuildScene();
     view->setCamera(kept);
+    view->fit();
   });
   aside->setCheckable(true);
   aside->setObjectName(QStringLiteral("sideBySide"));

@@ -174,6 +174,12 @@ void SceneView::resetCamera() {
   renderNow();
 }
 
+void SceneView::fit() {
+  impl_->lookFrom(impl_->camera.position - impl_->camera.focus);
+  impl_->applyCamera();
+  renderNow();
+}
+
 void SceneView::lookAlong(char axis) {
   const Vec3 from = axis == 'x' ? Vec3{1, 0, 0} : axis == 'y' ? Vec3{0, 1, 0} : axis == 'z' ? Vec3{0, 0, 1} : impl_->plan.viewFrom;
   impl_->lookFrom(from);

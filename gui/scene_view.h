@@ -28,6 +28,8 @@ class SceneView : public QWidget {
   void setOverlayVisible(bool visible);
   void setTextScale(double scale);
   void resetCamera();
+  /// The whole scene from the side that is looked from now.
+  void fit();
   /// From the side of x, y or z, or 0: the usual view.
   void lookAlong(char axis);
   /// Draws now. For screenshots and tests.

@@ -187,6 +187,23 @@ TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
   EXPECT_TRUE(window.view().rect().contains(window.view().pixelOf(penEnd(plan.start, plan.handRadius)).toPoint()));
 }
 
+TEST_F(Window, MassesPutSideBySideAreAllInThePictureFromTheSameSide) {
+  request_.what = "chain-moderate";
+  MainWindow& window = open();
+  const SceneView& view = window.view();
+  press(Qt::RightButton, {400, 300});
+  moveTo({430, 290});
+  release(Qt::RightButton, {430, 290});
+  const auto side = [&] { return (view.camera().position - view.camera().focus) / norm(view.camera().position - view.camera().focus); };
+  const Vec3 before = side();
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_LT(norm(side() - before), 1e-9);
+  const QRect inside = view.rect().adjusted(20, 20, -20, -20);
+  for (const Vec3& shift : view.plan().massShift)
+    for (const Vec3& place : {view.plan().start, view.plan().target})
+      EXPECT_TRUE(inside.contains(view.pixelOf(place + shift).toPoint()));
+}
+
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   MainWindow& window = open();
   const Camera before = window.view().camera();
