@@ -134,7 +134,8 @@ void FormulaEditor::check() {
     if (messages[i].isEmpty())  // fine as it stands; still a slip of the finger is asked about
       for (const std::string& name : parameterNames(kind(), {text[i], {}, {}}))
         if (const std::string meant = variableMeant(kind(), name); !meant.empty() && messages[i].isEmpty())
-          messages[i] = QStringLiteral("%1 becomes a slider; did you mean %2?").arg(QString::fromStdString(name), QString::fromStdString(meant));
+          messages[i] =
+              QStringLiteral("%1 becomes a slider; did you mean %2?").arg(QString::fromStdString(name), QString::fromStdString(meant));
     faults_[i]->setText(messages[i]);
     faults_[i]->setVisible(!messages[i].isEmpty());
   }

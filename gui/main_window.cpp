@@ -103,8 +103,8 @@ void MainWindow::Impl::showOverlay() {
   const WindowRun* open = session.run();
   if (open == nullptr || (open->latest().trial <= 1 && (open->latest().phase == Phase::Idle || open->latest().phase == Phase::Waiting))) {
     const std::vector<Vec3>& shifts = view->plan().massShift;
-    overlay.task =
-        taskText(session.experiment(), shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; }));
+    overlay.task = taskText(session.experiment(),
+                            shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; }));
   }
   view->setOverlay(overlay);
   if (subject != nullptr) subject->view().setOverlay(overlay);

@@ -69,8 +69,7 @@ QString faultOf(const QString& text, const NumberListRule& rule) {
   if (!rule.names.isEmpty()) allowed += QStringLiteral(" (%1)").arg(rule.names.join(QStringLiteral(", ")));
   return QStringLiteral("%1: %2; allowed: %3")
       .arg(rule.list,
-           count == 0 ? QStringLiteral("none")
-                      : QStringLiteral("%1 number%2").arg(count).arg(count == 1 ? QString() : QStringLiteral("s")),
+           count == 0 ? QStringLiteral("none") : QStringLiteral("%1 number%2").arg(count).arg(count == 1 ? QString() : QStringLiteral("s")),
            allowed);
 }
 

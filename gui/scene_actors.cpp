@@ -26,7 +26,7 @@
 namespace reachlab {
 namespace {
 
-constexpr double kPenLength = 16;              // in radii of its tip
+constexpr double kPenLength = 16;               // in radii of its tip
 constexpr double kPenTilt = 32, kPenTurn = 24;  // [deg] towards the viewer, to the right
 
 vtkSmartPointer<vtkActor> actorOf(vtkAlgorithmOutput* geometry, const Look& look) {

@@ -154,10 +154,9 @@ void SessionDock::check() {
   const QString age = age_->text().trimmed();
   const double years = QLocale::c().toDouble(age, &isNumber);
   const bool fineAge = age.isEmpty() || (isNumber && years >= 0 && years <= 130);
-  QStringList faults{
-      mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
-      mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to 130 years, or nothing").arg(age)),
-      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
+  QStringList faults{mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
+                     mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to 130 years, or nothing").arg(age)),
+                     mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
   faults.removeAll({});
   faults_->setFaults(faults);
 }
@@ -226,8 +225,7 @@ void SessionDock::count(const TrialResult& result) {
           : QStringLiteral("<b>none judged yet</b>");
   if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
   QStringList why;
-  for (const auto& [reason, count] : reasons_)
-    why << QStringLiteral("%1 × %2").arg(count).arg(reasonText(reason));
+  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(reasonText(reason));
   if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
   tally_->setText(text);
 }

@@ -87,8 +87,9 @@ QString taskText(const Experiment& experiment, bool hiding) {
   const double earliest = task.duration - task.tolerance.time, latest = task.duration + task.tolerance.time;
   const QString when = earliest > 0 ? QStringLiteral("%1 to %2 s").arg(digits(earliest), digits(latest))
                                     : QStringLiteral("at most %1 s").arg(digits(latest));
-  QString text = QStringLiteral("Bring %1 to the small yellow sphere (within %2 mm) and to rest there (below %3 mm/s), %4 after your hand "
-                                "starts to move.")
+  QString text = QStringLiteral(
+                     "Bring %1 to the small yellow sphere (within %2 mm) and to rest there (below %3 mm/s), %4 after your hand "
+                     "starts to move.")
                      .arg(what, digits(1000 * task.tolerance.position), digits(1000 * task.tolerance.velocity), when);
   if (hiding) text += QStringLiteral("\nMasses can hide one another: F puts them side by side, right drag turns the view, Home fits it.");
   return text;

@@ -154,9 +154,10 @@ TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
   e.task = Task{};
   e.task->duration = 1.5;
   e.task->tolerance = {0.005, 0.02, 8.5};
-  EXPECT_EQ(taskText(e, false).toStdString(),
-            "Bring the mass to the small yellow sphere (within 5 mm) and to rest there (below 20 mm/s), at most 10 s after your hand starts to "
-            "move.");
+  EXPECT_EQ(
+      taskText(e, false).toStdString(),
+      "Bring the mass to the small yellow sphere (within 5 mm) and to rest there (below 20 mm/s), at most 10 s after your hand starts to "
+      "move.");
   EXPECT_EQ(overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
 }
 
@@ -200,8 +201,7 @@ TEST_F(Window, MassesPutSideBySideAreAllInThePictureFromTheSameSide) {
   EXPECT_LT(norm(side() - before), 1e-9);
   const QRect inside = view.rect().adjusted(20, 20, -20, -20);
   for (const Vec3& shift : view.plan().massShift)
-    for (const Vec3& place : {view.plan().start, view.plan().target})
-      EXPECT_TRUE(inside.contains(view.pixelOf(place + shift).toPoint()));
+    for (const Vec3& place : {view.plan().start, view.plan().target}) EXPECT_TRUE(inside.contains(view.pixelOf(place + shift).toPoint()));
 }
 
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
@@ -256,9 +256,13 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
     field->selectAll();
     QTest::keyClicks(field, QLatin1String(text));
   };
-  const struct { const char *text, *says; } entries[] = {
-      {"0.6 x", "masses: \"x\" is no number"}, {"a b", "masses: \"a\" is no number"}, {"0.6 kg", "masses: \"kg\" is no number"},
-      {"0.6 -0.6", "mass 2: -0.6 kg; allowed: more than 0"}, {"0 x 0.6", "masses: none; allowed: 1 to 512"}};
+  const struct {
+    const char *text, *says;
+  } entries[] = {{"0.6 x", "masses: \"x\" is no number"},
+                 {"a b", "masses: \"a\" is no number"},
+                 {"0.6 kg", "masses: \"kg\" is no number"},
+                 {"0.6 -0.6", "mass 2: -0.6 kg; allowed: more than 0"},
+                 {"0 x 0.6", "masses: none; allowed: 1 to 512"}};
   for (const auto& entry : entries) {
     typed(masses, entry.text);
     EXPECT_TRUE(faults->isVisible()) << entry.text;
@@ -388,12 +392,13 @@ TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWord
   MainWindow& window = open();
   auto* faults = find<QLabel>("sessionFaults");
   EXPECT_FALSE(faults->isVisible());
-  const struct { const char *field, *wrong, *says, *right; } entries[] = {
-      {"subject", "anna-b", "subject \"anna-b\": not a label; allowed: letters and digits only", "annab"},
-      {"session", "", "session \"\": not a label; allowed: letters and digits only", "2"},
-      {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
-      {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
-      {"data", "", "data in: nothing; allowed: a folder", nullptr}};
+  const struct {
+    const char *field, *wrong, *says, *right;
+  } entries[] = {{"subject", "anna-b", "subject \"anna-b\": not a label; allowed: letters and digits only", "annab"},
+                 {"session", "", "session \"\": not a label; allowed: letters and digits only", "2"},
+                 {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
+                 {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
+                 {"data", "", "data in: nothing; allowed: a folder", nullptr}};
   for (const auto& entry : entries) {
     auto* field = find<QLineEdit>(entry.field);
     const QString right = entry.right ? QString::fromLatin1(entry.right) : field->text();
