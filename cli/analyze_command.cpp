@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/at_option.h"
 #include "cli/commands.h"
 #include "constraints/error.h"
 #include "sim/analyze/tables.h"
@@ -118,7 +119,8 @@ void run(const AnalyzeOptions& o) {
   std::string folder = o.dataset;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const ReportHeader header{folder, REACHLAB_VERSION, "reach analyze " + o.dataset};
-  const AnalysisFiles files = writeAnalysis(study, dataset, header, o.out.empty() ? folder + "/derivatives/reachlab" : o.out);
+  const AnalysisFiles files =
+      atOption("--out", [&] { return writeAnalysis(study, dataset, header, o.out.empty() ? folder + "/derivatives/reachlab" : o.out); });
   if (o.json) fmt::print("{}", summaryJson(study, dataset, files));
   else printSummary(study, dataset, files);
 }

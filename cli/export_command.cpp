@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "cli/at_option.h"
 #include "cli/commands.h"
 #include "constraints/error.h"
 #include "sim/record/bids.h"
@@ -46,8 +47,10 @@ void exportLogs(const Options& options) {
   const std::vector<RunLog> runs = openAll(options.what);
   const fs::path dataset = datasetOf(runs.front().path());
   std::vector<std::string> written;
-  if (options.format == "bids") written = writeBids(runs, options.out.empty() ? dataset.string() : options.out);
-  else written = writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
+  atOption("--out", [&] {
+    if (options.format == "bids") written = writeBids(runs, options.out.empty() ? dataset.string() : options.out);
+    else written = writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
+  });
   for (const std::string& path : written) fmt::print("{}\n", path);
 }
 

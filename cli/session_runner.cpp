@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "cli/at_option.h"
 #include "cli/success_table.h"
 #include "constraints/error.h"
 #include "devices/make_device.h"
@@ -74,15 +75,20 @@ std::string describe(const LoopReport& report) {
 }
 
 // True when it was done to its end.
-bool runBlock(const BlockToRun& block, const SessionRequest& request, SuccessTable& table) {
+bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& table) {
   std::unique_ptr<Recorder> recorder;  // outlives the run
   RunConductor run(block.experiment, makeDevice(request.device, block.experiment, block.configuration.seed), block.trials,
                    LoopOptions{.virtualClock = request.fast});
   if (request.fast && !run.device().virtualHand)
     throw UsageError(fmt::format("--fast: device {} moves in real time; allowed: simulated, replay", request.device));
-  RunConfiguration configuration = block.configuration;
-  complete(configuration, block, run, request.fast);
-  recorder = std::make_unique<Recorder>(block.logPath, configuration, RecorderOptions{.threaded = !request.fast});
+  RunConfiguration configuration;
+  atOption("--data", [&] {
+    const FolderHold hold(request.place.data);
+    takeFreeRun(block, request);
+    configuration = block.configuration;
+    complete(configuration, block, run, request.fast);
+    recorder = std::make_unique<Recorder>(block.logPath, configuration, RecorderOptions{.threaded = !request.fast});
+  });
   fmt::print(stderr, "run {}: {}, {} trials{}, {}; recording to {}\n", configuration.run, configuration.condition, block.trials.size(),
              configuration.practice ? " of practice" : "", configuration.methodReason, block.logPath);
   run.start(recorder.get());
@@ -107,8 +113,11 @@ bool runBlock(const BlockToRun& block, const SessionRequest& request, SuccessTab
   }
   run.finish();
   const RunLog log = RunLog::open(block.logPath);
-  writeBidsRun(log, request.place.data);
-  writeBidsTables({log.configuration()}, request.place.data);
+  atOption("--data", [&] {
+    writeBidsRun(log, request.place.data);
+    const FolderHold hold(request.place.data);  // the tables are of all runs
+    writeBidsTables({log.configuration()}, request.place.data);
+  });
   return !interrupted;
 }
 

@@ -21,8 +21,8 @@ namespace {
 [[noreturn]] void fail(std::string_view what, const std::string& path) {
   const int fault = errno;
   std::string_view remedy = "check the folder and its permissions";
-  if (fault == ENOSPC || fault == EDQUOT) remedy = "free space on the disk or choose another folder with --data";
-  if (fault == EROFS || fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written with --data";
+  if (fault == ENOSPC || fault == EDQUOT) remedy = "free space on the disk or choose another folder";
+  if (fault == EROFS || fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written";
   if (fault == EEXIST) remedy = "nothing is overwritten: choose another name";
   if (fault == EIO || fault == ENODEV || fault == ENXIO) remedy = "the disk has gone: what was synced before is safe on it";
   throw ResourceError(fmt::format("{}: {}: {}; {}", path, what, std::strerror(fault), remedy));

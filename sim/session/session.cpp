@@ -201,4 +201,15 @@ SessionToRun planSession(const SessionRequest& request) {
   return session;
 }
 
+void takeFreeRun(BlockToRun& block, const SessionRequest& request) {
+  RunConfiguration& c = block.configuration;
+  const std::vector<RecordedRun> runs = recordedRuns(request.place);
+  if (std::none_of(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == c.run; })) return;
+  const bool askedFor = request.run == c.run;
+  const int run = chooseRun(request.place, askedFor ? request.run : std::nullopt);
+  if (c.firstRun == c.run) c.firstRun = run;
+  c.run = run;
+  block.logPath = logPath(request.place, c.task, run);
+}
+
 }  // namespace reachlab

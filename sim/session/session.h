@@ -45,6 +45,10 @@ struct SessionToRun {
 /// what is on disk already. Throws UsageError with every fault.
 SessionToRun planSession(const SessionRequest& request);
 
+/// Gives the block the next free run number where another program has taken its own since it was planned; one that was asked for is refused
+/// then (UsageError). Call it under a FolderHold that lasts until the log is created.
+void takeFreeRun(BlockToRun& block, const SessionRequest& request);
+
 /// A seed for a session that was given none, from the system's entropy.
 std::uint64_t drawSeed();
 

@@ -1,12 +1,17 @@
 #include "sim/session/session_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <filesystem>
 
 #include "constraints/error.h"
+#include "sim/record/append_file.h"
 
 namespace reachlab {
 namespace {
@@ -62,6 +67,18 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
                     "next free one, or no --run",
                     *asked, place.subject, place.session, taken->path, free));
   return *asked;
+}
+
+FolderHold::FolderHold(const std::string& data) {
+  const std::string folder = data + "/sourcedata";
+  makeFolders(folder);
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+  }
+}
+
+FolderHold::~FolderHold() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 }  // namespace reachlab

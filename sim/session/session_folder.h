@@ -25,4 +25,18 @@ std::vector<RecordedRun> recordedRuns(const SessionPlace& place);
 /// The next free run number, or the one asked for. Throws UsageError with a proposal when that is taken: nothing is overwritten.
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 
+/// Keeps a dataset to itself among the programs that record into it, while a run number is taken or a shared table is rewritten; waits for
+/// another holder. Where the file system has no locks nothing is kept, and a clash is refused when the log is created.
+class FolderHold {
+ public:
+  /// Makes the folder of the logs if there is none. Throws ResourceError.
+  explicit FolderHold(const std::string& data);
+  ~FolderHold();
+  FolderHold(const FolderHold&) = delete;
+  FolderHold& operator=(const FolderHold&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
 }  // namespace reachlab

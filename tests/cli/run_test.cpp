@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <future>
 #include <set>
 
 #include "tests/cli/program.h"
@@ -76,6 +78,27 @@ TEST(Run, TakesTheNextFreeRunAndRefusesOneThatExists) {
   const Ended refused = reach(arguments + " --run 1");
   EXPECT_NE(refused.exitCode, 0);
   EXPECT_FALSE(refused.err.empty());
+}
+
+TEST(Run, RunsThatStartAtOnceTakeOneNumberEach) {
+  const Folder folder;
+  std::vector<std::future<Ended>> started;
+  for (const char* experiment : {"dingwell", "dingwell", "chain-moderate", "dingwell"})
+    started.push_back(std::async(std::launch::async, [&folder, experiment] {
+      return reach(std::string("run ") + experiment + " --device simulated --trials 1 --seed 3 --fast --data " + folder.string());
+    }));
+  for (auto& run : started) {
+    const Ended ended = run.get();
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  }
+  std::set<std::string> numbers;
+  for (const auto& entry : fs::directory_iterator(folder / "sourcedata")) {
+    const std::string name = entry.path().filename().string();
+    numbers.insert(name.substr(name.find("_run-")));
+  }
+  EXPECT_EQ(numbers.size(), 4u);
+  const std::string scans = contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
+  EXPECT_EQ(std::count(scans.begin(), scans.end(), '\n'), 5) << "a header and a row a run\n" << scans;
 }
 
 TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {

@@ -63,6 +63,22 @@ TEST_F(PlannedSession, RefusesAnAgeThatTheRecordCouldNotHold) {
   EXPECT_NO_THROW(planSession(r));
 }
 
+TEST_F(PlannedSession, TakesTheNextNumberWhenAnotherProgramHasTakenItsOwn) {
+  SessionRequest r = request("chain-moderate");
+  BlockToRun first = planSession(r).blocks.at(0), second = first;
+  takeFreeRun(first, r);
+  EXPECT_EQ(first.configuration.run, 1);
+  writeMadeRun(first.logPath, 1, madeConfiguration());
+  takeFreeRun(second, r);
+  EXPECT_EQ(second.configuration.run, 2);
+  EXPECT_EQ(second.configuration.firstRun, 2);
+  EXPECT_NE(second.logPath, first.logPath);
+  r.run = 2;
+  BlockToRun asked = planSession(r).blocks.at(0);
+  writeMadeRun(second.logPath, 1, madeConfiguration());
+  EXPECT_THROW(takeFreeRun(asked, r), UsageError) << "a number that was asked for is not exchanged";
+}
+
 TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
   SessionRequest r = request("chain-moderate");
   r.trials = 4;
