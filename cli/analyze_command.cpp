@@ -6,6 +6,7 @@
 
 #include "cli/at_option.h"
 #include "cli/commands.h"
+#include "cli/criterion_option.h"
 #include "constraints/error.h"
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
@@ -38,11 +39,7 @@ StudyOptions studyOptions(const AnalyzeOptions& o) {
   s.learningBin = o.bin;
   if (o.handMass >= 0) s.handMass = o.handMass;
   s.handDamping = o.handDamping;
-  for (const std::string& name : o.criteria) {
-    const auto criterion = criterionFromName(name);
-    if (!criterion) throw UsageError(fmt::format("--criterion {}: unknown; `reach list criteria` names them", name));
-    s.criteria.push_back(*criterion);
-  }
+  for (const std::string& name : o.criteria) s.criteria.push_back(parseCriterion(name));
   return s;
 }
 

@@ -10,6 +10,7 @@
 #include "constraints/cpp_writer.h"
 #include "constraints/definition.h"
 #include "constraints/error.h"
+#include "constraints/json_tree.h"
 
 namespace reachlab {
 namespace {
@@ -180,7 +181,10 @@ void check(const Options& o) {
   std::string faults;
   for (const std::string& file : o.files) {
     try {
-      const Definition d = readDefinition(file);
+      const std::string text = readTextFile(file);
+      if (parseJson(text, file).find("object") != nullptr)
+        throw UsageError(fmt::format("{}: is an experiment file, no constraint definition; `reach validate` checks it", file));
+      const Definition d = parseDefinition(text, file);
       const Constraint c = makeConstraint(d, {}, file);
       for (const ShapeParameter& p : d.shape)
         for (const double value : {p.min, p.max})

@@ -2,9 +2,11 @@
 #include <clocale>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "constraints/error.h"
+#include "constraints/names.h"
 
 namespace {
 
@@ -20,6 +22,24 @@ void refuseNonFinite(CLI::App& command) {
       "");
   for (CLI::Option* option : command.get_options())
     if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(finite);
+}
+
+/// "; --sede: did you mean --seed?" for the first word that no command knows; empty when nothing is near.
+std::string proposal(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  for (const std::string& word : app.remaining(true)) {
+    std::vector<std::string> known;
+    if (word.starts_with("--")) {
+      for (const CLI::Option* option : command->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    } else {
+      for (const CLI::App* other : command->get_subcommands({})) known.push_back(other->get_name());
+    }
+    const std::string nearest = reachlab::nearestName(word.substr(0, word.find('=')), known);
+    if (!nearest.empty()) return "; " + word + ": did you mean " + nearest + "?";
+  }
+  return {};
 }
 
 }  // namespace
@@ -40,7 +60,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "reach: %s\n", e.what());
+    std::fprintf(stderr, "reach: %s%s\n", e.what(), proposal(app).c_str());
     return 2;
   } catch (const UsageError& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/criterion_option.h"
 #include "cli/predict_output.h"
 #include "constraints/error.h"
 
@@ -21,13 +22,6 @@ struct PredictArguments {
   int samples = 201, unknowns = 0;
   bool json = false, time = false;
 };
-
-Criterion parseCriterion(const std::string& name) {
-  if (const auto criterion = criterionFromName(name)) return *criterion;
-  std::string names;
-  for (int i = 0; i < kCriterionCount; ++i) names += (i ? ", " : "") + std::string(nameOf(static_cast<Criterion>(i)));
-  throw UsageError(fmt::format("--criterion: '{}' is not a criterion; allowed: {}", name, names));
-}
 
 void writeText(const std::string& text, const std::string& path) {
   if (path.empty()) {

@@ -27,6 +27,40 @@ TEST(Usage, WrongWordsEndWithTwoAndASentence) {
   }
 }
 
+TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
+  const Folder folder;
+  const std::string experiment = folder.write("mine.json", R"({"schema_version": 1, "object": {}})");
+  const std::string table = folder.write("plain", "");
+  struct Mistake {
+    std::string arguments, answer;
+    int exitCode = 2;
+  };
+  for (const Mistake& m :
+       {Mistake{"run dingwell --devise simulated", "did you mean --device?"},
+        Mistake{"run dingwell --device simulated --tirals=3", "did you mean --trials?"}, Mistake{"simulat dingwell", "did you mean simulate?"},
+        Mistake{"predict chain-slow --criterion 1", "(1) min-hand-jerk, (2) min-torque-change"},
+        Mistake{"constraint check " + experiment, "is an experiment file, no constraint definition; `reach validate` checks it"},
+        Mistake{"run dingwell --device simulated --fast --seed 1 --data " + table + "/data", "--data: ", 3}}) {
+    const Ended ended = reach(m.arguments);
+    EXPECT_EQ(ended.exitCode, m.exitCode) << m.arguments;
+    EXPECT_NE(ended.err.find(m.answer), std::string::npos) << m.arguments << "\n" << ended.err;
+  }
+}
+
+TEST(Usage, RecoverGoesThroughAllItsLogs) {
+  const Folder folder;
+  const std::string data = folder.string();
+  for (int i = 0; i < 2; ++i)
+    ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --data " + data).exitCode, 0);
+  const Ended ended = reach("recover " + data + "/sourcedata/none.reach " + data + "/sourcedata/*_log.reach");
+  EXPECT_EQ(ended.exitCode, 3) << "one of them is not there";
+  EXPECT_NE(ended.out.find("run-01_log.reach: healthy, 1 trials"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("run-02_log.reach: healthy, 1 trials"), std::string::npos) << ended.out;
+  const Ended refused = reach("export " + data + " --format csv --out " + folder.write("file", "") + "/x");
+  EXPECT_EQ(refused.exitCode, 3);
+  EXPECT_TRUE(refused.err.starts_with("--out: ")) << refused.err;
+}
+
 TEST(Usage, EveryListHasNames) {
   for (const char* what : {"experiments", "constraints", "methods", "criteria", "devices"}) {
     const Ended ended = reach(std::string("list --json ") + what);

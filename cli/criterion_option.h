@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include "sim/predict/predict.h"
+
+namespace reachlab {
+
+/// The criterion that `--criterion` names. Throws UsageError listing the names with the paper's numbers.
+Criterion parseCriterion(const std::string& name);
+
+}  // namespace reachlab
