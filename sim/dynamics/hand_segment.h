@@ -36,6 +36,7 @@ inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
   return {valueAt(hand.position, hand.degree, s), valueAt(hand.velocity, hand.degree, s), true};
 }
 
+inline HandSample startOf(const HandSegment& hand) noexcept { return {hand.position[0], hand.velocity[0], true}; }
 /// At s = 1, where multistep methods need it: without a loop of unknown length.
 inline HandSample endOf(const HandSegment& hand) noexcept {
   Vec3 position = hand.position[0], velocity = hand.velocity[0];

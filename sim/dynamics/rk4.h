@@ -12,10 +12,11 @@ class Rk4 {
   Rk4(const System&, double /*tolerance*/) {}
   void restart() noexcept {}
 
-  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
+  [[gnu::flatten]] StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next,
+                                   StepReport& report) noexcept {
     const int n = system.states();
     State k1(n), k2(n), k3(n), k4(n), at(n);
-    const auto begin = system.handAt(hand, 0), middle = system.handAt(hand, 0.5), end = system.handAt(hand, 1);
+    const auto begin = system.handOf(startOf(hand)), middle = system.handAt(hand, 0.5), end = system.handOf(endOf(hand));
     system.rate(begin, y, k1);
     for (int i = 0; i < n; ++i) at[i] = y[i] + 0.5 * dt * k1[i];
     system.rate(middle, at, k2);
