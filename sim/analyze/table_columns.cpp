@@ -7,30 +7,30 @@
 namespace reachlab {
 namespace {
 
-constexpr ColumnMeaning kShared[] = {
-    {"subject", "Subject's label, letters and digits; read it as text: 01 is not 1"},
-    {"session", "Session's label, letters and digits; read it as text: 01 is not 1"},
-    {"run", "Run number within the session, as in the file names"},
-    {"block", "Block of the session's plan, from 1"},
-    {"trial", "Trial number within the block, from 1"},
-    {"day", "Day of the plan, else the session's place among the subject's"},
-    {"condition", "Condition of the plan, else the experiment's name"},
-    {"criterion", "Optimality criterion, as reach list criteria names it"},
-    {"signal", "Whose velocity: hand, or object (the last mass)"},
-    {"percent", "Place in the movement, from onset (0) to offset (100)"},
-    {"time_s", "Time since onset, scaled to the condition's mean duration"},
-    {"successes", "Attempts that ended as success"},
-    {"success_percent", "Share of the attempts that ended as success"},
-    {"low_percent", "Lower end of Wilson's 95 % interval of that share"},
-    {"high_percent", "Upper end of Wilson's 95 % interval of that share"},
-    {"experiment", "Name of the experiment"},
-    {"mean_duration_s", "Mean duration, onset to offset, of the used trials"},
-    {"sd_duration_s", "Standard deviation (n - 1) of that duration"},
-    {"mean_movement_time_s", "Mean of the task's own movement time over the used trials"},
-    {"sd_movement_time_s", "Standard deviation (n - 1) of that time"}};
+constexpr ColumnMeaning kShared[] = {{"subject", "Subject's label, letters and digits; read it as text: 01 is not 1"},
+                                     {"session", "Session's label, letters and digits; read it as text: 01 is not 1"},
+                                     {"run", "Run number within the session, as in the file names"},
+                                     {"block", "Block of the session's plan, from 1"},
+                                     {"trial", "Trial number within the block, from 1"},
+                                     {"day", "Day of the plan, else the session's place among the subject's"},
+                                     {"condition", "Condition of the plan, else the experiment's name"},
+                                     {"criterion", "Optimality criterion, as reach list criteria names it"},
+                                     {"signal", "Whose velocity: hand, or object (the last mass)"},
+                                     {"percent", "Place in the movement, from onset (0) to offset (100)"},
+                                     {"time_s", "Time since onset, scaled to the condition's mean duration"},
+                                     {"successes", "Attempts that ended as success"},
+                                     {"success_percent", "Share of the attempts that ended as success"},
+                                     {"low_percent", "Lower end of Wilson's 95 % interval of that share"},
+                                     {"high_percent", "Upper end of Wilson's 95 % interval of that share"},
+                                     {"experiment", "Name of the experiment"},
+                                     {"mean_duration_s", "Mean duration, onset to offset, of the used trials"},
+                                     {"sd_duration_s", "Standard deviation (n - 1) of that duration"},
+                                     {"mean_movement_time_s", "Mean of the task's own movement time over the used trials"},
+                                     {"sd_movement_time_s", "Standard deviation (n - 1) of that time"}};
 
 constexpr ColumnMeaning kTrials[] = {
-    {"phase", "Whether the block counts: practice or recorded. In exported samples a column of this name is the trial's own phase, a number"},
+    {"phase",
+     "Whether the block counts: practice or recorded. In exported samples a column of this name is the trial's own phase, a number"},
     {"outcome", "How the trial was judged: success, failure, aborted or interrupted"},
     {"reason", "Which tolerance was missed, or what stopped the trial; empty for a success"},
     {"mass", "Mass that missed the tolerance, from 1; 0: none"},
@@ -118,15 +118,10 @@ constexpr ColumnMeaning kConditions[] = {{"task_duration_s", "Duration that the 
 }  // namespace
 
 std::string tableDictionary(const std::string& name, const std::string& csv) {
-  static const std::map<std::string, std::span<const ColumnMeaning>> kOwn{{"trials.csv", kTrials},
-                                                                          {"profiles.csv", kProfiles},
-                                                                          {"mean_profiles.csv", kMeanProfiles},
-                                                                          {"predictions.csv", kPredictions},
-                                                                          {"ranking.csv", kRanking},
-                                                                          {"series.csv", kSeries},
-                                                                          {"success_table.csv", kSuccess},
-                                                                          {"learning.csv", kLearning},
-                                                                          {"conditions.csv", kConditions}};
+  static const std::map<std::string, std::span<const ColumnMeaning>> kOwn{
+      {"trials.csv", kTrials},           {"profiles.csv", kProfiles}, {"mean_profiles.csv", kMeanProfiles},
+      {"predictions.csv", kPredictions}, {"ranking.csv", kRanking},   {"series.csv", kSeries},
+      {"success_table.csv", kSuccess},   {"learning.csv", kLearning}, {"conditions.csv", kConditions}};
   const auto own = kOwn.find(name);
   if (own == kOwn.end()) return {};
   std::vector<ColumnMeaning> meanings(own->second.begin(), own->second.end());  // a table's own word goes before the shared one

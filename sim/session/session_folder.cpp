@@ -73,8 +73,7 @@ FolderHold::FolderHold(const std::string& data) {
   const std::string folder = data + "/sourcedata";
   makeFolders(folder);
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-  }
+  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {}
 }
 
 FolderHold::~FolderHold() {

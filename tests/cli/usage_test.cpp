@@ -37,7 +37,8 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
   };
   for (const Mistake& m :
        {Mistake{"run dingwell --devise simulated", "did you mean --device?"},
-        Mistake{"run dingwell --device simulated --tirals=3", "did you mean --trials?"}, Mistake{"simulat dingwell", "did you mean simulate?"},
+        Mistake{"run dingwell --device simulated --tirals=3", "did you mean --trials?"},
+        Mistake{"simulat dingwell", "did you mean simulate?"},
         Mistake{"predict chain-slow --criterion 1", "(1) min-hand-jerk, (2) min-torque-change"},
         Mistake{"constraint check " + experiment, "is an experiment file, no constraint definition; `reach validate` checks it"},
         Mistake{"run dingwell --device simulated --fast --seed 1 --data " + table + "/data", "--data: ", 3}}) {
@@ -50,8 +51,7 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
 TEST(Usage, RecoverGoesThroughAllItsLogs) {
   const Folder folder;
   const std::string data = folder.string();
-  for (int i = 0; i < 2; ++i)
-    ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --data " + data).exitCode, 0);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --data " + data).exitCode, 0);
   const Ended ended = reach("recover " + data + "/sourcedata/none.reach " + data + "/sourcedata/*_log.reach");
   EXPECT_EQ(ended.exitCode, 3) << "one of them is not there";
   EXPECT_NE(ended.out.find("run-01_log.reach: healthy, 1 trials"), std::string::npos) << ended.out;
