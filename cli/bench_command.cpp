@@ -27,6 +27,12 @@ struct BenchArguments {
 
 void showProgress(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
+// What a method does not do is said after what the others did.
+void showRefusals(const std::vector<std::string>& refusals) {
+  if (!refusals.empty()) std::fflush(stdout), showProgress("\nrefused:");
+  for (const std::string& refusal : refusals) showProgress("  " + refusal);
+}
+
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
@@ -76,6 +82,7 @@ void benchTicks(const BenchArguments& arguments) {
   if (scenes.empty()) scenes = bench::benchScenes();
   fmt::print("{:<7} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock\n", "scene", "ticks", "p50", "p99", "p99.9", "max",
              "clock", "allocations");
+  std::vector<std::string> refusals;
   for (const bench::BenchScene& scene : scenes) {
     showProgress(scene.name + ": " + scene.title);
     try {
@@ -83,9 +90,10 @@ void benchTicks(const BenchArguments& arguments) {
       fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max,
                  t.clock, t.allocations);
     } catch (const Error& e) {
-      showProgress("  refused: " + std::string(e.what()));
+      refusals.push_back(scene.name + ": " + e.what());
     }
   }
+  showRefusals(refusals);
 }
 
 void runBench(const BenchArguments& arguments) {
@@ -103,11 +111,13 @@ void runBench(const BenchArguments& arguments) {
     std::fputs(bench::formatSampledHand(bench::measureSampledHand(showProgress)).c_str(), stdout);
     return;
   }
-  const std::vector<bench::Row> rows = bench::runSuite(arguments.suite, showProgress);
+  std::vector<std::string> refusals;
+  const std::vector<bench::Row> rows = bench::runSuite(arguments.suite, showProgress, refusals);
   std::fputs(bench::formatTable(rows).c_str(), stdout);
   bool peers = false;
   for (const bench::Row& row : rows) peers |= bench::isPeer(row);
   if (peers) std::fputs(("\n" + bench::formatRatios(rows)).c_str(), stdout);
+  showRefusals(refusals);
   if (!arguments.json.empty()) writeFile(arguments.json, toJson(rows));
   if (!arguments.svg.empty()) writeFile(arguments.svg, bench::drawWorkPrecision(rows));
 }

@@ -47,7 +47,8 @@ const std::vector<std::string>& methodNames() {
   return names;
 }
 
-std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress) {
+std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress,
+                          std::vector<std::string>& refusals) {
   checkNames(options);
   std::vector<BenchScene> scenes;
   if (options.scenes.empty()) scenes = benchScenes();
@@ -64,7 +65,7 @@ std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(
         try {
           contenders.push_back(makePlantContender(scene, method, s.step, s.tolerance));
         } catch (const Error& e) {
-          progress("  " + method + " refused: " + e.what());
+          refusals.push_back(scene.name + " " + method + ": " + e.what());
           break;
         }
       }

@@ -16,9 +16,11 @@ struct SuiteOptions {
 /// Our methods by name, `auto` first.
 const std::vector<std::string>& methodNames();
 
-/// Runs it: all scenes x methods x step sizes or tolerances. `progress` gets one line at a time (scene begun, method refused and why).
+/// Runs it: all scenes x methods x step sizes or tolerances. `progress` gets a line as a scene is begun; `refusals` one for each
+/// method that a scene is not for, and why.
 /// Throws UsageError for a scene or method that does not exist.
-std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress);
+std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress,
+                          std::vector<std::string>& refusals);
 
 /// The cheapest row of a scene whose state error does not exceed `error`, among those that `wanted` lets through; null if none.
 const Row* cheapest(const std::vector<Row>& rows, const std::string& scene, double error, const std::function<bool(const Row&)>& wanted);

@@ -39,7 +39,10 @@ TEST(Suite, RowsHoldErrorsCountsAndPrices) {
   options.methods = {"auto", "rk4"};
   options.quick = true;
   options.effort = {.rounds = 5, .secondsPerRound = 1e-4};
-  const std::vector<Row> rows = runSuite(options, [](const std::string&) {});
+  std::vector<std::string> refusals;
+  const std::vector<Row> rows = runSuite(
+      options, [](const std::string&) {}, refusals);
+  EXPECT_TRUE(refusals.empty());
   ASSERT_EQ(rows.size(), 2u);
   for (const Row& row : rows) {
     EXPECT_EQ(row.scene, "S6");
@@ -52,13 +55,29 @@ TEST(Suite, RowsHoldErrorsCountsAndPrices) {
   EXPECT_LT(rows[0].error.position, rows[1].error.position) << "the exact propagator against RK4 at 1 ms";
 }
 
+TEST(Suite, AMethodThatASceneIsNotForIsNamedApartFromTheRows) {
+  SuiteOptions options;
+  options.scenes = {"S3"};
+  options.methods = {"exact"};
+  options.quick = true;
+  std::vector<std::string> refusals;
+  EXPECT_TRUE(runSuite(
+                  options, [](const std::string&) {}, refusals)
+                  .empty());
+  ASSERT_EQ(refusals.size(), 1u);
+  EXPECT_TRUE(refusals[0].starts_with("S3 exact: ")) << refusals[0];
+}
+
 TEST(Suite, UnknownNamesAreRefused) {
   SuiteOptions options;
+  std::vector<std::string> refusals;
   options.scenes = {"S9"};
-  EXPECT_ANY_THROW(runSuite(options, [](const std::string&) {}));
+  EXPECT_ANY_THROW(runSuite(
+      options, [](const std::string&) {}, refusals));
   options.scenes = {"S6"};
   options.methods = {"euler"};
-  EXPECT_ANY_THROW(runSuite(options, [](const std::string&) {}));
+  EXPECT_ANY_THROW(runSuite(
+      options, [](const std::string&) {}, refusals));
 }
 
 }  // namespace
