@@ -23,6 +23,12 @@ std::string list(const std::vector<double>& values) {
   for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
   return "[" + text + "]";
 }
+// For a person; machines ask for --json.
+std::string shortList(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + fmt::format("{:.6g}", value);
+  return "[" + text + "]";
+}
 bool isCurve(const Definition& d) { return d.kind == ConstraintKind::Curve; }
 
 double parseNumber(const std::string& text, const std::string& option) {
@@ -139,15 +145,16 @@ void show(const Options& o) {
   const char* axes[] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) fmt::print("{}         {}\n", axes[k], d.coordinates[k]);
   for (const ShapeParameter& p : d.shape)
-    fmt::print("shape     {} = {} {}  ({} to {}): {}\n", p.name, p.defaultValue, p.unit == "1" ? "" : p.unit, p.min, p.max, p.meaning);
+    fmt::print("shape     {} = {:.6g}{}  ({:.6g} to {:.6g}): {}\n", p.name, p.defaultValue, p.unit == "1" ? "" : " " + p.unit, p.min, p.max,
+               p.meaning);
   const std::vector<std::string> variables = variablesOf(d.kind);
   for (std::size_t k = 0; k < variables.size(); ++k)
-    fmt::print("{:<9} {} to {}{}\n", variables[k], c.domain[k].lo, c.domain[k].hi,
+    fmt::print("{:<9} {:.6g} to {:.6g}{}\n", variables[k], c.domain[k].lo, c.domain[k].hi,
                c.domain[k].periodic                 ? ", periodic"
                : std::isinf(c.domain[k].lo)         ? ""
                : c.domain[k].atEnd == AtEnd::Bounce ? ", elastic ends"
                                                     : ", stops at its ends");
-  fmt::print("reach     from {} to {}\n", list(d.start), list(d.target));
+  fmt::print("reach     from {} to {}\n", shortList(d.start), shortList(d.target));
   showPlaces(c);
   fmt::print("source    {}\n", d.source);
 }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "cli/commands.h"
 #include "constraints/definition.h"
@@ -14,11 +16,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string describeMasses(const std::vector<double>& masses) {
+  const bool alike = std::all_of(masses.begin(), masses.end(), [&](double mass) { return mass == masses[0]; });
+  if (!alike) return fmt::format("{} masses, {:.4g} kg in all", masses.size(), std::accumulate(masses.begin(), masses.end(), 0.0));
+  return masses.size() == 1 ? fmt::format("{:.4g} kg", masses[0]) : fmt::format("{} x {:.4g} kg", masses.size(), masses[0]);
+}
+
+// A tolerance as long as the reach asks for no pace: it only says when it must be over.
+std::string describePace(const Task& task) {
+  if (task.tolerance.time >= task.duration) return fmt::format(", within {:.4g} s", task.duration + task.tolerance.time);
+  return fmt::format(", {:.4g} ± {:.4g} s", task.duration, task.tolerance.time);
+}
+
 std::string describe(const Experiment& e) {
-  const char* kinds[] = {"point", "chain", "parallel", "body"};
-  return fmt::format("{} of {} ({} kg) on {}{}", kinds[static_cast<int>(e.object.kind)], e.object.masses.size(), e.object.masses[0],
-                     e.constraint.name.empty() ? "a formula" : e.constraint.name,
-                     e.task ? fmt::format(", {} +- {} s", e.task->duration, e.task->tolerance.time) : "");
+  const char* kinds[] = {"point of", "chain of", "parallel masses:", "body of"};
+  const std::string& constraint = e.constraint.name;
+  return fmt::format("{} {}{}{}", kinds[static_cast<int>(e.object.kind)], describeMasses(e.object.masses),
+                     constraint == "free" ? ", free in space"
+                     : constraint.empty() ? " on a formula"
+                                          : " on " + constraint,
+                     e.task ? describePace(*e.task) : "");
 }
 
 Json listExperiments() {

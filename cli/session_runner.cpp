@@ -89,8 +89,9 @@ bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& tab
     complete(configuration, block, run, request.fast);
     recorder = std::make_unique<Recorder>(block.logPath, configuration, RecorderOptions{.threaded = !request.fast});
   });
-  fmt::print(stderr, "run {}: {}, {} trials{}, {}; recording to {}\n", configuration.run, configuration.condition, block.trials.size(),
-             configuration.practice ? " of practice" : "", configuration.methodReason, block.logPath);
+  fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", configuration.run, configuration.condition,
+             block.trials.size(), block.trials.size() == 1 ? "" : "s", configuration.practice ? " of practice" : "", configuration.method,
+             block.logPath);
   run.start(recorder.get());
   bool interrupted = false;
   std::size_t conducted = 0;

@@ -97,3 +97,9 @@ TEST(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
     EXPECT_NE(ended.err.find("allowed: 2000"), std::string::npos) << ended.err.substr(0, 200);
   }
 }
+
+TEST(ConstraintCommand, ShowsAPersonNoMoreDigitsThanAreMeant) {
+  const Ended shown = reach("constraint show ellipse");
+  EXPECT_NE(shown.out.find("reach     from [0] to [3.14159]\n"), std::string::npos) << shown.out;
+  EXPECT_NE(reach("constraint show ellipse --json").out.find("3.1415926535897931"), std::string::npos);
+}

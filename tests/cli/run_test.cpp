@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -107,4 +108,18 @@ TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {
       reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.string());
   EXPECT_EQ(ended.exitCode, 3) << ended.err;
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+}
+
+TEST(Run, TheFirstLineNamesTheMethodAndLeavesItsReasonToTheDataset) {
+  const Folder folder;
+  const Ended run = reach("run chain-slow --device simulated --trials 1 --seed 1 --fast --data " + folder.string());
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_EQ(run.err, fmt::format("run 1: chain-slow, 1 trial, method exact; recording to {}\n", logOf(folder)));
+}
+
+// 1.5 s, give or take 8.5 s, asks for no pace.
+TEST(List, AToleranceLongerThanTheReachIsToldAsALimit) {
+  const std::string out = reach("list experiments").out;
+  EXPECT_NE(out.find("point of 1 kg on torus, within 10 s\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("chain of 5 x 0.6 kg on line, 1.35 ± 0.5 s\n"), std::string::npos) << out;
 }
