@@ -122,7 +122,9 @@ TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
     EXPECT_EQ(fromBids.trials[i].result.outcome, fromLog.trials[i].result.outcome);
     EXPECT_EQ(fromBids.trials[i].used(), fromLog.trials[i].used());
     // Arming lies at most one sample (10 ms) later in the rows than in the log, which may move the grid of samples.
-    if (fromLog.trials[i].used()) EXPECT_NEAR(fromBids.trials[i].measures.duration, fromLog.trials[i].measures.duration, 0.002);
+    if (fromLog.trials[i].used()) {
+      EXPECT_NEAR(fromBids.trials[i].measures.duration, fromLog.trials[i].measures.duration, 0.002);
+    }
   }
 }
 

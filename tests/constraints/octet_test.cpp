@@ -21,9 +21,8 @@ void expectSameBits(const Curve& curve, const std::array<double, kOctet>& phi, c
       const auto& lanes = k == 0 ? octet.r : k == 1 ? octet.rPhi : octet.rPhiPhi;
       const double values[3] = {single[k].x, single[k].y, single[k].z};
       for (int c = 0; c < 3; ++c) {
-        if (std::isnan(values[c])) EXPECT_TRUE(std::isnan(lanes[c][lane])) << name << " at " << phi[lane];
-        else
-          EXPECT_EQ(std::bit_cast<std::uint64_t>(lanes[c][lane]), std::bit_cast<std::uint64_t>(values[c])) << name << " at " << phi[lane];
+        const auto bits = [](double x) { return std::isnan(x) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(x); };
+        EXPECT_EQ(bits(lanes[c][lane]), bits(values[c])) << name << " at " << phi[lane];
       }
     }
   }

@@ -88,8 +88,9 @@ TEST_F(Exported, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
   }
   EXPECT_EQ(motion.at("MotionChannelCount"), rows.size() - 1);
   for (const auto& [key, value] : motion.items())
-    if (key.ends_with("ChannelCount") && key != "MotionChannelCount")
+    if (key.ends_with("ChannelCount") && key != "MotionChannelCount") {
       EXPECT_EQ(value, counts[key.substr(0, key.size() - std::string("ChannelCount").size())]) << key;
+    }
   EXPECT_EQ(counts["LATENCY"], 1);
   EXPECT_EQ(motion.at("TrackedPointsCount"), points.size());
   EXPECT_EQ(motion.at("TaskName"), "made") << "the same as task- in the file's name";
@@ -104,7 +105,9 @@ TEST_F(Exported, EventsGiveOneRowATrialInOrderWithinTheRecording) {
   EXPECT_EQ(rows[0][0], "onset");
   EXPECT_EQ(rows[0][1], "duration");
   for (const std::string& column : rows[0])
-    if (column != "onset" && column != "duration") EXPECT_TRUE(described.contains(column)) << column;
+    if (column != "onset" && column != "duration") {
+      EXPECT_TRUE(described.contains(column)) << column;
+    }
   EXPECT_EQ(rows[2][0], "0.325") << "the second trial's onset, 275 + 50 ticks, less the first row's zero";
 }
 
