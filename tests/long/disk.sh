@@ -7,7 +7,7 @@ if [ "${REACHLAB_IN_NAMESPACE:-}" != 1 ]; then
 fi
 reach=$build/cli/reach
 work=$(mktemp -d)
-trap 'umount -l "$work"/* 2> /dev/null; rm -rf "$work"' EXIT
+trap 'umount -l "$work"/* 2> /dev/null || true; rm -rf "$work"' EXIT
 fail() { echo "disk: $*"; exit 1; }
 
 # Exit code 3, one sentence, and every announced trial in the log.
