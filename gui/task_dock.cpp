@@ -79,8 +79,9 @@ void TaskDock::setTask(const Task& task, ConstraintKind kind) {
   rule.list = QStringLiteral("target");
   target_->setRule(rule);
   targetLabel_->setText(QStringLiteral("target ") + unit);
-  const QString places = kind == ConstraintKind::Free ? QStringLiteral("three coordinates in metres")
-                                                      : QStringLiteral("the place on the constraint, by its own parameters (rad where one is an angle): ") + unit;
+  const QString places = kind == ConstraintKind::Free
+                             ? QStringLiteral("three coordinates in metres")
+                             : QStringLiteral("the place on the constraint, by its own parameters (rad where one is an angle): ") + unit;
   start_->setToolTip(places);
   target_->setToolTip(places);
   start_->setNumbers(task.start);

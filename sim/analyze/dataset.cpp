@@ -91,7 +91,8 @@ void appendEvenly(TrialData& trial, const SampleRows& rows, const Columns& colum
 // "chain-moderate (duration 1.5 s)": what sets an experiment apart from the first of its name.
 std::string nameApart(const std::string& name, const std::vector<std::string>& different) {
   constexpr std::size_t kMost = 2;
-  const std::vector<std::string> named(different.begin(), different.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, different.size())));
+  const std::vector<std::string> named(different.begin(),
+                                       different.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, different.size())));
   return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
 }
 
@@ -108,8 +109,8 @@ std::size_t conditionIndex(Dataset& dataset, const std::string& name, const Expe
   const std::string base = nameApart(name, different);
   std::string own = base;
   for (int number = 2;; ++number) {  // two may share the differences that are named; −9.81 and 9.81 would share a figure's file
-    const auto known = std::find_if(conditions.begin(), conditions.end(),
-                                    [&](const StudyCondition& c) { return fileNameOf(c.name) == fileNameOf(own); });
+    const auto known =
+        std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return fileNameOf(c.name) == fileNameOf(own); });
     if (known == conditions.end()) break;
     if (differences(known->experiment, experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
     own = fmt::format("{} {}", base, number);

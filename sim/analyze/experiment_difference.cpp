@@ -18,10 +18,17 @@ struct KeyWords {
 
 // "duration_s" is "duration" in "s"; longer endings before those that they end in.
 KeyWords wordsOf(std::string key) {
-  static constexpr std::pair<const char*, const char*> kEndings[] = {
-      {"_n_m_s_per_rad", "N m s/rad"}, {"_n_s_per_m", "N s/m"}, {"_n_per_m", "N/m"}, {"_m_per_s2", "m/s²"}, {"_m_per_s", "m/s"},
-      {"_kg_m2", "kg m²"},             {"_kg", "kg"},           {"_hz", "Hz"},       {"_s", "s"},           {"_m", "m"},
-      {"_n", "N"}};
+  static constexpr std::pair<const char*, const char*> kEndings[] = {{"_n_m_s_per_rad", "N m s/rad"},
+                                                                     {"_n_s_per_m", "N s/m"},
+                                                                     {"_n_per_m", "N/m"},
+                                                                     {"_m_per_s2", "m/s²"},
+                                                                     {"_m_per_s", "m/s"},
+                                                                     {"_kg_m2", "kg m²"},
+                                                                     {"_kg", "kg"},
+                                                                     {"_hz", "Hz"},
+                                                                     {"_s", "s"},
+                                                                     {"_m", "m"},
+                                                                     {"_n", "N"}};
   KeyWords words;
   for (const auto& [ending, unit] : kEndings)
     if (key.ends_with(ending)) {
@@ -76,8 +83,7 @@ std::vector<std::string> differences(const Experiment& first, const Experiment& 
   std::vector<std::string> found;
   compare({}, Json::parse(toJson(first)), Json::parse(toJson(other)), found);
   const std::string &before = first.constraint.definition, &now = other.constraint.definition;  // empty: the catalogue's
-  if (found.empty() && !before.empty() && !now.empty() && before != now)
-    found.push_back("another definition of " + other.constraint.name);
+  if (found.empty() && !before.empty() && !now.empty() && before != now) found.push_back("another definition of " + other.constraint.name);
   return found;
 }
 
