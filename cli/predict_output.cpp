@@ -8,6 +8,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "sim/experiment/unit_ending.h"
+
 namespace reachlab {
 namespace {
 
@@ -35,10 +37,8 @@ std::string labelOf(const std::string& key) {
   for (const SweepKey& known : sweepKeys())
     if (known.name == key) label = known.meaning;
   label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  for (const auto& [ending, unit] :
-       {std::pair{"_n_s_per_m", "N s/m"}, std::pair{"_n_per_m", "N/m"}, std::pair{"_kg", "kg"}, std::pair{"_s", "s"}})
-    if (key.ends_with(ending)) return label + " (" + unit + ")";
-  return label;
+  const std::string unit(splitUnit(key).unit);
+  return unit.empty() ? label : label + " (" + unit + ")";
 }
 
 // Where the number of peaks changes along the sweep, and where the hand begins or ceases to move backwards: half way between two values.

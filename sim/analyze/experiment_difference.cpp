@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sim/experiment/unit_ending.h"
+
 namespace reachlab {
 namespace {
 
@@ -16,28 +18,11 @@ struct KeyWords {
   std::string name, unit;
 };
 
-// "duration_s" is "duration" in "s"; longer endings before those that they end in.
-KeyWords wordsOf(std::string key) {
-  static constexpr std::pair<const char*, const char*> kEndings[] = {{"_n_m_s_per_rad", "N m s/rad"},
-                                                                     {"_n_s_per_m", "N s/m"},
-                                                                     {"_n_per_m", "N/m"},
-                                                                     {"_m_per_s2", "m/s²"},
-                                                                     {"_m_per_s", "m/s"},
-                                                                     {"_kg_m2", "kg m²"},
-                                                                     {"_kg", "kg"},
-                                                                     {"_hz", "Hz"},
-                                                                     {"_s", "s"},
-                                                                     {"_m", "m"},
-                                                                     {"_n", "N"}};
-  KeyWords words;
-  for (const auto& [ending, unit] : kEndings)
-    if (key.ends_with(ending)) {
-      key.resize(key.size() - std::string_view(ending).size());
-      words.unit = unit;
-      break;
-    }
-  std::replace(key.begin(), key.end(), '_', ' ');
-  words.name = std::move(key);
+KeyWords wordsOf(const std::string& key) {
+  const NamedQuantity quantity = splitUnit(key);
+  KeyWords words{std::string(quantity.name), std::string(quantity.unit)};
+  std::replace(words.name.begin(), words.name.end(), '_', ' ');
+  if (words.unit.ends_with("^2")) words.unit.replace(words.unit.size() - 2, 2, "²");
   return words;
 }
 

@@ -10,11 +10,7 @@
 namespace reachlab {
 namespace {
 
-std::string numbers(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", value);
-  return text;
-}
+std::string numbers(const std::vector<double>& values) { return fmt::format("{:.6g}", fmt::join(values, ", ")); }
 
 /// "0.6 kg each", or "0.6, 0.7 kg".
 std::string each(const std::vector<double>& values, const char* unit) {

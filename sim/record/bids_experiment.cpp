@@ -27,14 +27,15 @@ std::optional<Experiment> understood(const RunConfiguration& c) {
   }
 }
 
+std::string taskDescription(const RunConfiguration& c, const std::optional<Experiment>& experiment) {
+  return fmt::format("{} {}{}", kTaskDescription, c.experimentName, experiment ? kObjectFollows + describe(*experiment) : "");
+}
+
 }  // namespace
 
 std::string experimentPath(const RunConfiguration& c) { return "code/experiments/" + runName(c) + "_experiment.json"; }
 
-std::string describeTask(const RunConfiguration& c) {
-  const std::optional<Experiment> experiment = understood(c);
-  return fmt::format("{} {}{}", kTaskDescription, c.experimentName, experiment ? kObjectFollows + describe(*experiment) : "");
-}
+std::string describeTask(const RunConfiguration& c) { return taskDescription(c, understood(c)); }
 
 std::string experimentNameIn(const std::string& description) {
   const std::size_t at = description.find(kTaskDescription);
@@ -46,7 +47,7 @@ std::string experimentNameIn(const std::string& description) {
 std::string experimentJson(const RunConfiguration& c) {
   const std::optional<Experiment> experiment = understood(c);
   Json j;
-  j["description"] = describeTask(c);
+  j["description"] = taskDescription(c, experiment);
   const Json known = Json::parse(experiment ? toJson(*experiment) : c.experimentText, nullptr, false, true);
   j["experiment"] = known.is_discarded() ? Json() : known;
   j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);

@@ -3,27 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sim/experiment/unit_ending.h"
+
 namespace reachlab {
 
 std::string unitOfColumn(std::string_view column) {
-  // An ending stands before those that it ends in.
-  static constexpr std::pair<std::string_view, std::string_view> kEndings[] = {{"_m_per_s2", "m/s^2"},
-                                                                               {"_m_per_s", "m/s"},
-                                                                               {"_rad_per_s", "rad/s"},
-                                                                               {"_q1_per_s", "1/s"},
-                                                                               {"_q2_per_s", "1/s"},
-                                                                               {"_percent", "%"},
-                                                                               {"_years", "years"},
-                                                                               {"_kg", "kg"},
-                                                                               {"_hz", "Hz"},
-                                                                               {"_s", "s"},
-                                                                               {"_m", "m"},
-                                                                               {"_n", "N"},
-                                                                               {"_j", "J"}};
   if (column == "percent") return "%";
-  for (const auto& [ending, unit] : kEndings)
-    if (column.ends_with(ending)) return std::string(unit);
-  return {};
+  return std::string(splitUnit(column).unit);
 }
 
 std::string columnDictionary(std::string_view csv, std::span<const ColumnMeaning> meanings) {

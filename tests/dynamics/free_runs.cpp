@@ -11,12 +11,6 @@
 namespace reachlab {
 namespace {
 
-std::string numbers(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", value);
-  return text;
-}
-
 std::string outcome(const FreeRun& run) {
   if (run.status == StepStatus::Ok) return fmt::format("10 | {:.1e}", run.drift);
   const char* why = run.status == StepStatus::AtEnd            ? "end"
@@ -30,7 +24,8 @@ void printTable(std::uint64_t seed) {
   for (const Definition& definition : catalogue()) {
     const FreeRun shipped = runFree(definition, seed, false);
     const std::string elastic = shipped.status == StepStatus::AtEnd ? outcome(runFree(definition, seed, true)) : "|";
-    fmt::print("| {} | {} | {} | {} | {} |\n", definition.name, numbers(shipped.start), numbers(shipped.rate), outcome(shipped), elastic);
+    fmt::print("| {} | {:.4g} | {:.4g} | {} | {} |\n", definition.name, fmt::join(shipped.start, ", "), fmt::join(shipped.rate, ", "),
+               outcome(shipped), elastic);
   }
 }
 
