@@ -17,6 +17,7 @@
 #include "sim/record/bids.h"
 #include "sim/record/column_dictionary.h"
 #include "tests/analyze/recorded.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "sim/session/session_folder.h"
 #include "tests/record/made_run.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

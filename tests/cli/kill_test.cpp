@@ -21,6 +21,7 @@
 #include "sim/record/replay.h"
 #include "sim/session/session_folder.h"
 #include "tests/record/made_run.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

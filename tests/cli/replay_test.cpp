@@ -11,6 +11,7 @@
 #include "sim/record/log.h"
 #include "sim/session/session_folder.h"
 #include "tests/record/made_run.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

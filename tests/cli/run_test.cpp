@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/cli/program.h"
+#include "test_paths.h"
 
 using namespace reachlab::test;
 namespace fs = std::filesystem;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
+#include "test_paths.h"
 
 using namespace reachlab::test;
 using Json = nlohmann::json;

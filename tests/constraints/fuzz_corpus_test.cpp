@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tests/fuzz/formula_case.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

@@ -13,6 +13,7 @@
 #include "constraints/analysis.h"
 #include "constraints/definition.h"
 #include "constraints/program.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

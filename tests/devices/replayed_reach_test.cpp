@@ -10,6 +10,7 @@
 
 #include "constraints/error.h"
 #include "devices/natural_spline.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

@@ -3,6 +3,7 @@
 #include "sim/record/run_log.h"
 #include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "sim/record/recorder.h"
 #include "sim/record/run_log.h"
+#include "test_paths.h"
 
 namespace reachlab {
 

@@ -8,6 +8,7 @@
 
 #include "constraints/error.h"
 #include "sim/session/trial_order.h"
+#include "test_paths.h"
 
 namespace reachlab {
 namespace {
