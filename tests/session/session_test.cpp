@@ -2,19 +2,44 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "constraints/error.h"
+#include "constraints/json_tree.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab {
 namespace {
 
+std::string contentOf(const std::string& file) { return readTextFile(file); }
+
 std::vector<int> indicesOf(const BlockToRun& block) {
   std::vector<int> indices;
   for (const PlannedTrial& planned : block.trials) indices.push_back(planned.index);
   return indices;
+}
+
+// Records the block's trials with these outcomes, and closes the log.
+void recordOutcomes(const BlockToRun& block, const std::vector<Outcome>& outcomes) {
+  RunConfiguration configuration = block.configuration;
+  configuration.table = makeChannelTable(block.experiment, 1);
+  Recorder recorder(block.logPath, configuration, {.threaded = false});
+  MadeRun run(configuration.table.massCount);
+  for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial * outcomes.size(); ++tick) {
+    const std::size_t trial = tick / MadeRun::kTicksPerTrial;
+    if (tick % MadeRun::kTicksPerTrial == 0)
+      recorder.announce(static_cast<std::int32_t>(trial) + 1, block.trials[trial % block.trials.size()]);
+    TickState state = run.next();
+    if (state.phase == Phase::Done) {
+      state.result = {};
+      state.result.outcome = outcomes[trial];
+      state.result.reason = outcomes[trial] == Outcome::Success ? Reason::None : Reason::Experimenter;
+    }
+    recorder.onTick(state, Command::None, 0);
+  }
+  recorder.close();
 }
 
 // Does the first `count` trials of the block and half of one more, and breaks off without closing, as a killed program does.
@@ -208,6 +233,200 @@ TEST_F(PlannedSession, TakesLettersAndDigitsOnlyAsLabels) {
     r.place.subject = label;
     EXPECT_THROW(planSession(r), UsageError) << label;
   }
+}
+
+TEST_F(PlannedSession, GivesItsBlocksRunNumbersInTurn) {
+  const std::string plan = write("p.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
+      { "experiment": "chain-slow" }, { "experiment": "chain-fast" }, { "experiment": "chain-slow" } ] })");
+  SessionRequest r = request(plan);
+  const auto runs = [](const SessionToRun& session) {
+    std::vector<std::array<int, 3>> numbers;
+    for (const BlockToRun& block : session.blocks)
+      numbers.push_back({block.configuration.block, block.configuration.run, block.configuration.firstRun});
+    return numbers;
+  };
+  const SessionToRun first = planSession(r);
+  EXPECT_EQ(runs(first), (std::vector<std::array<int, 3>>{{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}));
+  for (const BlockToRun& block : first.blocks)
+    EXPECT_NE(block.logPath.find("_run-0" + std::to_string(block.configuration.run) + "_log"), std::string::npos) << block.logPath;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(first.blocks[k].blocksAfter, 2 - static_cast<int>(k));
+  for (const BlockToRun& block : first.blocks) EXPECT_EQ(block.configuration.seed, blockSeed(first.seed, block.configuration.block));
+
+  recordOutcomes(first.blocks[0], {Outcome::Success, Outcome::Failure});
+  recordAndBreakOff(first.blocks[1], 1);
+  r.resume = true;
+  const SessionToRun second = planSession(r);
+  EXPECT_EQ(runs(second), (std::vector<std::array<int, 3>>{{2, 3, 2}, {3, 4, 4}})) << "the block that is done is left out";
+  r.resume = false;
+  r.run = 7;
+  EXPECT_EQ(runs(planSession(r)), (std::vector<std::array<int, 3>>{{1, 7, 7}, {2, 8, 8}, {3, 9, 9}}));
+}
+
+TEST_F(PlannedSession, ResumesTheRunOfItsOwnExperimentAlone) {
+  SessionRequest slow = request("chain-slow"), fast = request("chain-fast");
+  slow.trials = fast.trials = 4;
+  slow.seed = 5;
+  recordAndBreakOff(planSession(slow).blocks[0], 2);
+  slow.resume = fast.resume = true;
+  slow.seed.reset();
+  fast.seed = 6;
+  const SessionToRun other = planSession(fast);
+  ASSERT_EQ(other.blocks.size(), 1u);
+  EXPECT_EQ(other.seed, 6u);
+  EXPECT_EQ(indicesOf(other.blocks[0]), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(other.blocks[0].configuration.experimentName, "chain-fast");
+  EXPECT_EQ(other.blocks[0].configuration.firstRun, other.blocks[0].configuration.run);
+  recordAndBreakOff(other.blocks[0], 3);
+  const SessionToRun own = planSession(slow);  // though a later run is another's
+  EXPECT_EQ(own.seed, 5u);
+  EXPECT_EQ(indicesOf(own.blocks[0]), (std::vector<int>{2, 3}));
+  EXPECT_EQ(own.blocks[0].configuration.firstRun, 1);
+
+  // The same experiment as a block of a plan is that plan's.
+  SessionRequest planned =
+      request(write("p.json", R"({ "schema_version": 1, "trials": 4, "blocks": [ { "experiment": "chain-slow" } ] })"));
+  planned.resume = true;
+  EXPECT_EQ(planSession(planned).blocks[0].trials.size(), 4u);
+  recordAndBreakOff(planSession(planned).blocks[0], 1);
+  EXPECT_EQ(indicesOf(planSession(slow).blocks[0]), (std::vector<int>{2, 3}));
+}
+
+TEST_F(PlannedSession, RefusesToResumeAnExperimentThatWasChangedUnderItsName) {
+  const std::string text = contentOf(resourceFolder() + "/experiments/chain-slow.json");
+  SessionRequest r = request(write("mine.json", text));
+  r.trials = 3;
+  recordAndBreakOff(planSession(r).blocks[0], 1);
+  write("mine.json", text + "\n");
+  r.resume = true;
+  EXPECT_THROW(planSession(r), UsageError);
+}
+
+TEST_F(PlannedSession, RepeatsWhatWasInterruptedAndWhatWasAbortedOnlyIfThePlanSaysSo) {
+  const std::vector<Outcome> outcomes{Outcome::Success, Outcome::Aborted, Outcome::Failure, Outcome::Interrupted};
+  for (const bool repeat : {false, true}) {
+    const std::string plan =
+        write(repeat ? "again.json" : "once.json", std::string(R"({ "schema_version": 1, "trials": 5, "repeat_aborted": )") +
+                                                       (repeat ? "true" : "false") + R"(, "blocks": [ { "experiment": "chain-slow" } ] })");
+    SessionRequest r = request(plan);
+    r.place.subject = repeat ? "01" : "02";
+    const SessionToRun first = planSession(r);
+    EXPECT_EQ(first.blocks[0].configuration.repeatAborted, repeat);
+    recordOutcomes(first.blocks[0], outcomes);
+    r.resume = true;
+    const SessionToRun second = planSession(r);
+    EXPECT_EQ(indicesOf(second.blocks[0]), (repeat ? std::vector<int>{1, 3, 4} : std::vector<int>{3, 4}));
+    // One stretch goes on with the number it broke off in; single trials get numbers that were not used.
+    EXPECT_EQ(second.blocks[0].configuration.firstTrial, repeat ? 5 : 4);
+  }
+}
+
+TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
+  const std::string text = R"({ "schema_version": 1, "order_seed": 12, "name": "mine", "blocks": [
+      { "experiment": "chain-slow", "trials": 2, "practice": true, "condition": "warm up", "day": 4, "pause_s": 1.5 },
+      { "experiment": "epitrochoid", "trials": 3 } ] })";
+  SessionRequest r = request(write("p.json", text));
+  r.place = {folder_ / "elsewhere", "s7", "b"};
+  r.day = 4;
+  r.everyTick = true;
+  r.participant = {31, "F", "L"};
+  r.notes = "cold";
+  r.device = "simulated:noise=0";
+  const SessionToRun session = planSession(r);
+  ASSERT_EQ(session.blocks.size(), 2u);
+  const RunConfiguration &a = session.blocks[0].configuration, &b = session.blocks[1].configuration;
+  EXPECT_TRUE(a.practice);
+  EXPECT_FALSE(b.practice);
+  EXPECT_EQ(a.condition, "warm up");
+  EXPECT_EQ(b.condition, "epitrochoid");
+  EXPECT_EQ(a.day, 4);
+  EXPECT_EQ(b.day, 0);
+  EXPECT_EQ(a.pauseSeconds, 1.5);
+  EXPECT_EQ(b.pauseSeconds, 0);
+  EXPECT_EQ(a.task, "chainslow");
+  EXPECT_EQ(b.task, "epitrochoid");
+  EXPECT_EQ(session.blocks[1].logPath, r.place.data + "/sourcedata/sub-s7_ses-b_task-epitrochoid_run-02_log.reach");
+  for (const BlockToRun& block : session.blocks) {
+    const RunConfiguration& c = block.configuration;
+    EXPECT_EQ(c.subject, "s7");
+    EXPECT_EQ(c.session, "b");
+    EXPECT_EQ(c.planText, text);
+    EXPECT_EQ(c.planName, "mine");
+    EXPECT_EQ(c.orderSeed, 12u);
+    EXPECT_EQ(c.sessionSeed, session.seed);
+    EXPECT_EQ(c.experimentName, block.experiment.name);
+    EXPECT_EQ(c.experimentText, contentOf(resourceFolder() + "/experiments/" + c.experimentName + ".json"));
+    EXPECT_EQ(c.definitionText, definitionTextOf(block.experiment));
+    EXPECT_NE(c.definitionText, "");
+    EXPECT_EQ(c.sampleEveryTicks, 1u);
+    EXPECT_EQ(c.samplingHz, 1000);
+    EXPECT_EQ(c.participant.age, 31);
+    EXPECT_EQ(c.participant.sex, "F");
+    EXPECT_EQ(c.participant.handedness, "L");
+    EXPECT_EQ(c.notes, "cold");
+    EXPECT_EQ(c.device, "simulated:noise=0");
+    EXPECT_EQ(c.trials.size(), block.trials.size());
+    EXPECT_EQ(c.firstTrial, 1);
+  }
+  r.everyTick = false;
+  EXPECT_EQ(planSession(r).blocks[0].configuration.sampleEveryTicks, 10u);
+  EXPECT_EQ(planSession(r).blocks[0].configuration.samplingHz, 100);
+}
+
+TEST_F(PlannedSession, RefusesTrialsForAPlanAndAsksForTheTrialsOnOfferOtherwise) {
+  SessionRequest r = request(write("p.json", R"({ "schema_version": 1, "trials": 4, "blocks": [ { "experiment": "chain-slow" } ] })"));
+  r.trials = 4;
+  EXPECT_THROW(planSession(r), UsageError);
+  r.what = "chain-slow";
+  EXPECT_EQ(planSession(r).blocks[0].trials.size(), 4u);
+  r.trials.reset();
+  r.trialsOnOffer = 19;
+  EXPECT_EQ(planSession(r).blocks[0].trials.size(), 19u);
+}
+
+TEST_F(PlannedSession, LeavesALogThatCannotBeReadOutAndSaysSo) {
+  SessionRequest r = request("chain-slow");
+  r.trials = 3;
+  recordAndBreakOff(planSession(r).blocks[0], 1);
+  write("data/sourcedata/sub-01_ses-01_task-chainslow_run-02_log.reach", "no log");
+  r.resume = true;
+  const SessionToRun session = planSession(r);
+  EXPECT_NE(session.hint.find("run-02"), std::string::npos) << session.hint;
+  EXPECT_EQ(session.blocks[0].configuration.run, 3);
+  EXPECT_EQ(indicesOf(session.blocks[0]), (std::vector<int>{1, 2}));
+}
+
+TEST_F(PlannedSession, RefusesATaskThatCannotBeCarriedOut) {
+  const std::string text = R"({ "schema_version": 1, "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+      "object": { "kind": "point", "masses_kg": [1], "stiffness_n_per_m": [] }, "coupling": { "stiffness_n_per_m": 600 },
+      "task": { "start": [0], "target": [0], "duration_s": 1, "tolerance": { "position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5 } } })";
+  EXPECT_THROW(planSession(request(write("still.json", text))), UsageError);
+}
+
+TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
+  const std::string all = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  EXPECT_EQ(labelOf(all), all);
+  EXPECT_EQ(labelOf("chain-moderate_2 (ü)/[`@{:"), "chainmoderate2");
+  EXPECT_EQ(labelOf("--"), "reach");
+}
+
+TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
+  const TemporaryFolder folder("runs");
+  const SessionPlace place{folder / "data", "1", "2"};
+  EXPECT_TRUE(recordedRuns(place).empty());
+  EXPECT_EQ(chooseRun(place, {}), 1);
+  for (const char* name :
+       {"sub-1_ses-2_task-a_run-10_log.reach", "sub-1_ses-2_task-b_run-9_log.reach", "sub-1_ses-21_task-a_run-50_log.reach",
+        "sub-11_ses-2_task-a_run-60_log.reach", "sub-1_ses-2_task-a_run-70_log.reach.damaged", "sub-1_ses-2_task-a_run-8x_log.reach"})
+    writeFileAtomically(folder / (std::string("data/sourcedata/") + name), "");
+  const std::vector<RecordedRun> runs = recordedRuns(place);
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].run, 9);
+  EXPECT_EQ(runs[0].task, "b");
+  EXPECT_EQ(runs[0].path, logPath(place, "b", 9).replace(logPath(place, "b", 9).find("run-09"), 6, "run-9"));
+  EXPECT_EQ(runs[1].run, 10);
+  EXPECT_EQ(chooseRun(place, {}), 11);
+  EXPECT_EQ(chooseRun(place, 3), 3);
+  EXPECT_THROW(chooseRun(place, 10), UsageError);
 }
 
 }  // namespace

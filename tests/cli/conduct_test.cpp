@@ -1,0 +1,126 @@
+// What conducting a session from the command line leaves on the disk, whoever does it inside.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "sim/record/run_log.h"
+#include "sim/session/session_folder.h"
+#include "tests/cli/program.h"
+
+namespace reachlab {
+namespace {
+
+using test::Ended;
+using test::Folder;
+using test::reach;
+using test::trialLines;
+
+std::vector<RunLog> logsOf(const Folder& folder) {
+  std::vector<RunLog> logs;
+  for (const RecordedRun& run : recordedRuns({.data = folder.string()})) logs.push_back(RunLog::open(run.path));
+  return logs;
+}
+
+// Nobody starts within a millisecond: every trial is aborted.
+std::string hurriedPlan(const Folder& folder, bool repeat) {
+  folder.write("hurried.json", R"({ "schema_version": 1, "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+    "object": { "kind": "point", "masses_kg": [1], "stiffness_n_per_m": [] }, "coupling": { "stiffness_n_per_m": 600 },
+    "task": { "start": [0], "target": [6.283185307179586], "duration_s": 1, "timeout_s": 0.001,
+              "tolerance": { "position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5 } } })");
+  return folder.write("plan.json", std::string(R"({ "schema_version": 1, "repeat_aborted": )") + (repeat ? "true" : "false") +
+                                       R"(, "blocks": [ { "experiment": "hurried.json", "trials": 3 } ] })");
+}
+
+TEST(Conduct, AnAbortedTrialIsPutUpOnceMoreAtTheEndIfThePlanSaysSo) {
+  for (const bool repeat : {false, true}) {
+    const Folder folder;
+    const Ended ended = reach("run " + hurriedPlan(folder, repeat) + " --device simulated --seed 1 --fast --data " + folder.string());
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+    EXPECT_EQ(trialLines(ended.out).size(), repeat ? 6u : 3u) << ended.out;
+    const std::vector<RunLog> logs = logsOf(folder);
+    ASSERT_EQ(logs.size(), 1u);
+    std::vector<int> indices;
+    for (const RecordedTrial& trial : logs[0].trials()) {
+      indices.push_back(trial.planned.index);
+      EXPECT_EQ(trial.result.outcome, Outcome::Aborted);
+      EXPECT_EQ(trial.trial, static_cast<int>(indices.size()));
+    }
+    EXPECT_EQ(indices, (repeat ? std::vector<int>{0, 1, 2, 0, 1, 2} : std::vector<int>{0, 1, 2})) << "a repeat is not repeated";
+  }
+}
+
+TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheDataset) {
+  const Folder folder;
+  const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
+    { "experiment": "chain-slow", "condition": "slow", "practice": true }, { "experiment": "dingwell" },
+    { "experiment": "chain-slow", "condition": "slow", "trials": 1 } ] })");
+  const Ended ended = reach("run " + plan + " --device simulated:noise=0 --seed 4 --fast --data " + folder.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(ended.err.find("seed="), std::string::npos);
+  const std::vector<RunLog> logs = logsOf(folder);
+  ASSERT_EQ(logs.size(), 3u);
+  const char *tasks[] = {"chainslow", "dingwell", "chainslow"}, *conditions[] = {"slow", "dingwell", "slow"};
+  const std::string scans = test::contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
+  for (int k = 0; k < 3; ++k) {
+    const RunLog& log = logs[static_cast<std::size_t>(k)];
+    const RunConfiguration& c = log.configuration();
+    EXPECT_EQ(c.run, k + 1);
+    EXPECT_EQ(c.block, k + 1);
+    EXPECT_EQ(c.task, tasks[k]);
+    EXPECT_EQ(c.condition, conditions[k]);
+    EXPECT_EQ(c.practice, k == 0);
+    EXPECT_EQ(log.trials().size(), k == 2 ? 1u : 2u);
+    EXPECT_TRUE(log.healthy());
+    EXPECT_TRUE(log.closed());
+    const std::string name = std::string("task-") + tasks[k] + "_tracksys-haptic_run-0" + std::to_string(k + 1);
+    EXPECT_NE(scans.find(name + "_motion.tsv"), std::string::npos) << scans;
+    EXPECT_NE(ended.err.find("run " + std::to_string(k + 1) + ": " + conditions[k]), std::string::npos) << ended.err;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "dataset_description.json"));
+  const Ended again = reach("run " + plan + " --device simulated:noise=0 --fast --resume --data " + folder.string());
+  EXPECT_EQ(again.exitCode, 0);
+  EXPECT_NE(again.err.find("nothing is left to do"), std::string::npos) << again.err;
+  EXPECT_EQ(logsOf(folder).size(), 3u);
+}
+
+TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
+  const Folder folder;
+  const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 1 --seed 2 --fast --data " + folder.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const std::vector<RunLog> logs = logsOf(folder);
+  ASSERT_EQ(logs.size(), 1u);
+  const RunConfiguration& c = logs[0].configuration();
+  EXPECT_EQ(c.device, "simulated:noise=0");
+  EXPECT_NE(c.deviceName, "");
+  EXPECT_NE(c.deviceVersion, "");
+  EXPECT_GT(c.deviceMaxForce, 0);
+  EXPECT_TRUE(c.virtualHand);
+  EXPECT_EQ(c.method, "exact");
+  EXPECT_NE(c.methodReason, "");
+  EXPECT_TRUE(c.softwareVersion.starts_with("reachlab ")) << c.softwareVersion;
+  EXPECT_NE(c.buildDescription, "");
+  EXPECT_TRUE(c.computer.starts_with("Linux ")) << c.computer;
+  EXPECT_EQ(c.clock, "virtual");
+  EXPECT_TRUE(std::regex_match(c.startedUtc, std::regex(R"(20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d\.\d\d\dZ)"))) << c.startedUtc;
+  EXPECT_EQ(c.table.massCount, 5);
+  EXPECT_EQ(c.table.parameterCount, 1);
+  for (const RecordedEvent& event : logs[0].events())
+    EXPECT_EQ(event.text.find("ticks/s"), std::string::npos) << "virtual time has no timing";
+}
+
+TEST(Conduct, InRealTimeTheRecordKeepsHowWellTheLoopKeptTime) {
+  const Folder folder;
+  const Ended ended = reach("run " + hurriedPlan(folder, false) + " --device simulated --seed 2 --data " + folder.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const std::vector<RunLog> logs = logsOf(folder);
+  ASSERT_EQ(logs.size(), 1u);
+  EXPECT_EQ(logs[0].configuration().clock, "monotonic");
+  std::string note;
+  for (const RecordedEvent& event : logs[0].events())
+    if (event.kind == EventKind::Note) note += event.text;
+  EXPECT_TRUE(note.starts_with("loop: ")) << note;
+  EXPECT_NE(ended.err.find(note), std::string::npos) << ended.err;
+}
+
+}  // namespace
+}  // namespace reachlab
