@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/standard_streams.h"
+#include "cli/stop_signals.h"
 #include "constraints/error.h"
 #include "constraints/names.h"
+#include "sim/haptics/os.h"
 
 namespace {
 
@@ -42,9 +45,7 @@ std::string proposal(const CLI::App& app) {
   return {};
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace reachlab;
   int exitCode = 0;
   CLI::App app{"reach: reaching experiments without a window", "reach"};
@@ -76,4 +77,13 @@ int main(int argc, char** argv) {
     return 3;
   }
   return exitCode;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  reachlab::os::holdStandardDescriptors();
+  reachlab::cli::guardStandardStreams();
+  reachlab::cli::endOnSignals();
+  return reachlab::cli::finishStandardOutput(run(argc, argv));
 }

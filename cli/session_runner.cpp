@@ -5,11 +5,11 @@
 
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <thread>
 
 #include "cli/at_option.h"
+#include "cli/stop_signals.h"
 #include "cli/success_table.h"
 #include "constraints/error.h"
 #include "devices/make_device.h"
@@ -19,11 +19,6 @@
 
 namespace reachlab {
 namespace {
-
-std::atomic<bool> stopAsked{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-
-void askToStop(int) { stopAsked = true; }
 
 std::string utcNow() {
   const auto now = std::chrono::system_clock::now();
@@ -59,7 +54,7 @@ void complete(RunConfiguration& configuration, const BlockToRun& block, const Ru
 }
 
 // The pause between trials; the haptic loop goes on meanwhile.
-void pauseFor(double seconds) {
+void pauseFor(double seconds, const std::atomic<bool>& stopAsked) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (!stopAsked && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
@@ -92,11 +87,12 @@ bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& tab
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", configuration.run, configuration.condition,
              block.trials.size(), block.trials.size() == 1 ? "" : "s", configuration.practice ? " of practice" : "", configuration.method,
              block.logPath);
+  cli::StopRequest stop;  // from here on a signal ends the trial, not the program
   run.start(recorder.get());
   bool interrupted = false;
   std::size_t conducted = 0;
   while (!interrupted) {
-    const std::optional<ConductedTrial> trial = run.runTrial(stopAsked);
+    const std::optional<ConductedTrial> trial = run.runTrial(stop.asked());
     if (!trial) break;
     fmt::print("{}\n", trialLine(recorder->lastTrial().trial, trial->result));
     std::fflush(stdout);
@@ -104,8 +100,8 @@ bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& tab
     interrupted = trial->result.outcome == Outcome::Interrupted;
     const bool isRepeat = ++conducted > block.trials.size();
     if (trial->result.outcome == Outcome::Aborted && configuration.repeatAborted && !isRepeat) run.append(trial->planned);
-    if (!request.fast && run.trialsLeft() > 0) pauseFor(configuration.pauseSeconds);
-    interrupted = interrupted || stopAsked;
+    if (!request.fast && run.trialsLeft() > 0) pauseFor(configuration.pauseSeconds, stop.asked());
+    interrupted = interrupted || stop.asked();
   }
   if (!request.fast) {
     const std::string report = describe(run.report());
@@ -113,6 +109,7 @@ bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& tab
     fmt::print(stderr, "{}\n", report);
   }
   run.finish();
+  stop.allInOrder();
   const RunLog log = RunLog::open(block.logPath);
   atOption("--data", [&] {
     writeBidsRun(log, request.place.data);
@@ -130,9 +127,6 @@ int runSession(const SessionRequest& request) {
   if (session.seedDrawn) fmt::print("seed={}\n", session.seed);
   if (session.blocks.empty()) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
-  stopAsked = false;
-  std::signal(SIGINT, askToStop);
-  std::signal(SIGTERM, askToStop);
   SuccessTable table;
   bool done = true;
   for (const BlockToRun& block : session.blocks) {
@@ -141,7 +135,7 @@ int runSession(const SessionRequest& request) {
   }
   fmt::print("{}", table.text());
   std::fflush(stdout);
-  return done ? 0 : 130;
+  return done || cli::StopRequest::exitCode() == 0 ? 0 : cli::StopRequest::exitCode();
 }
 
 }  // namespace reachlab

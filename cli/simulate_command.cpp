@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <set>
 
 #include "cli/commands.h"
 #include "cli/hand_laws.h"
+#include "cli/standard_streams.h"
 #include "constraints/error.h"
 #include "sim/dynamics/plant.h"
 
@@ -39,6 +39,7 @@ class Table {
     stream() << buffer_;
     buffer_.clear();
   }
+  bool nobodyReads() const { return !file_.is_open() && cli::isStandardOutputClosed(); }
   void close() {
     stream().flush();
     if (!stream()) throw ResourceError("the rows could not be written: is the disk full?");
@@ -80,33 +81,32 @@ void writeRow(Table& table, const Plant& plant, double time, const HandSample& h
   table.endRow();
 }
 
-/// Times at which a step must end: the rows, the end, and where the hand's law is not smooth. `rows` are those that are written.
-struct Schedule {
-  std::vector<double> stops;
-  std::set<double> rows;
+/// A time at which a step must end: a row's, the end, or one at which the hand's law is not smooth.
+struct Stop {
+  double time = 0;  // [s]
+  bool isRow = false;
 };
 
-Schedule makeSchedule(const Request& request, double until, const std::vector<double>& breaks) {
-  Schedule schedule;
+constexpr double kMostRows = 1e7, kMostSteps = 1e10;
+
+std::vector<Stop> makeSchedule(const Request& request, double until, const std::vector<double>& breaks) {
+  std::vector<Stop> all;
   const double nearly = 1e-9 * std::min(request.every, request.step);
   for (std::size_t k = 1;; ++k) {
     const double t = static_cast<double>(k) * request.every;
     if (!(t < until - nearly)) break;
-    schedule.rows.insert(t);
+    all.push_back({t, true});
   }
-  if (until > 0) schedule.rows.insert(until);
-  std::vector<double> all(schedule.rows.begin(), schedule.rows.end());
+  if (until > 0) all.push_back({until, true});
   for (const double t : breaks)
-    if (t > nearly && t < until - nearly) all.push_back(t);
-  std::sort(all.begin(), all.end());
-  for (const double t : all) {
-    if (!schedule.stops.empty() && t - schedule.stops.back() < nearly) {
-      if (schedule.rows.count(t)) schedule.stops.back() = t;  // the row's own time stands
-      continue;
-    }
-    schedule.stops.push_back(t);
+    if (t > nearly && t < until - nearly) all.push_back({t, false});
+  std::sort(all.begin(), all.end(), [](const Stop& a, const Stop& b) { return a.time < b.time; });
+  std::vector<Stop> stops;
+  for (const Stop& stop : all) {
+    if (stops.empty() || stop.time - stops.back().time >= nearly) stops.push_back(stop);
+    else if (stop.isRow) stops.back() = stop;  // the row's own time stands
   }
-  return schedule;
+  return stops;
 }
 
 // Nobody waits for a tick here: a step that would cost more than a tick may is taken in halves. `last` becomes the time reached.
@@ -134,8 +134,10 @@ void simulate(const Request& request) {
     throw UsageError("--until: is missing, and the experiment has no task.duration_s; allowed: seconds");
   const double until = request.until >= 0 ? request.until : experiment.task->duration;
   if (!std::isfinite(until)) throw UsageError("--until: is not finite; allowed: seconds");
-  if (until / request.every > 1e8 || until / request.step > 1e10)
-    throw UsageError("--until: too many rows or steps; allowed: fewer than 1e8 rows");
+  if (until / request.every > kMostRows || until / request.step > kMostSteps)
+    throw UsageError(
+        fmt::format("--until: {} s are too many rows or steps; allowed: up to {:.0e} rows of --every and {:.0e} steps of --step", until,
+                    kMostRows, kMostSteps));
   if (!request.method.empty()) experiment.method = request.method;
 
   const Constraint constraint = makeConstraint(experiment.constraint);
@@ -172,8 +174,8 @@ void simulate(const Request& request) {
   writeHeader(table, plant.massCount(), parameters);
   writeRow(table, plant, 0, law.function(0), coupled, parameters);
   double now = 0;
-  const Schedule schedule = makeSchedule(request, until, law.breaks);
-  for (const double stop : schedule.stops) {
+  for (const auto [stop, isRow] : makeSchedule(request, until, law.breaks)) {
+    if (table.nobodyReads()) return;
     const double steps = std::max(1.0, std::ceil((stop - now) / step * (1 - 1e-9)));
     double dt = (stop - now) / steps;
     if (std::abs(dt - step) < 1e-9 * step) dt = step;  // the compiled step, not its rounding
@@ -194,7 +196,7 @@ void simulate(const Request& request) {
       throw RefusedError(fmt::format("at {:.9g} s the step failed ({}); try a smaller --step, or --method adaptive", t, describe(status)));
     }
     now = stop;
-    if (schedule.rows.count(stop)) writeRow(table, plant, stop, law.function(stop), coupled, parameters);
+    if (isRow) writeRow(table, plant, stop, law.function(stop), coupled, parameters);
   }
   table.close();
 }

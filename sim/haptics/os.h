@@ -23,6 +23,12 @@ bool syncFolder(const std::string& folder) noexcept;
 /// Bytes free to this user where `path` lies; 0 when that cannot be known.
 std::uint64_t freeDiskSpace(const std::string& path) noexcept;
 
+/// Opens those of the descriptors 0, 1 and 2 that are closed on /dev/null, so that no file that is opened later becomes one of them and takes
+/// what is meant for the terminal. First of all in main.
+void holdStandardDescriptors() noexcept;
+/// `descriptor`, or a copy of it above 2 if it is one of those three; -1 with errno set when there is none.
+int aboveStandardDescriptors(int descriptor) noexcept;
+
 /// Processor time of the calling thread [ns].
 std::int64_t threadProcessorTime() noexcept;
 

@@ -57,6 +57,20 @@ bool syncFolder(const std::string& folder) noexcept {
   return synced;
 }
 
+void holdStandardDescriptors() noexcept {
+  for (int descriptor = 0; descriptor <= STDERR_FILENO; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) (void)!::open("/dev/null", O_RDWR);  // takes the lowest that is free
+}
+
+int aboveStandardDescriptors(int descriptor) noexcept {
+  if (descriptor < 0 || descriptor > STDERR_FILENO) return descriptor;
+  const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int fault = errno;
+  ::close(descriptor);
+  errno = fault;
+  return copy;
+}
+
 std::uint64_t freeDiskSpace(const std::string& path) noexcept {
   struct statvfs disk {};
   return ::statvfs(path.c_str(), &disk) == 0 ? static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize : 0;

@@ -49,7 +49,7 @@ void syncFolderOf(const std::string& path) {
 
 AppendFile AppendFile::create(const std::string& path) {
   makeFolders(std::filesystem::path(path).parent_path().string());
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
+  const int descriptor = os::aboveStandardDescriptors(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644));
   if (descriptor < 0) fail("cannot be created", path);
   ::flock(descriptor, LOCK_EX | LOCK_NB);
   syncFolderOf(path);
@@ -57,7 +57,7 @@ AppendFile AppendFile::create(const std::string& path) {
 }
 
 AppendFile AppendFile::openAt(const std::string& path, std::uint64_t size) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  const int descriptor = os::aboveStandardDescriptors(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   if (descriptor < 0) fail("cannot be opened for writing", path);
   AppendFile file(descriptor, path, size);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)

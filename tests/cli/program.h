@@ -60,6 +60,16 @@ inline Ended reach(const std::string& arguments, const std::string& environment 
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
 }
 
+/// Runs a line of bash in which $REACH is the program; for redirections, pipes and limits of its own.
+inline Ended shell(const std::string& line) {
+  const Folder folder;
+  const std::string script = folder.write("script", "REACH=\"" REACH_PROGRAM "\"\n" + line + "\n");
+  const std::string command =
+      "bash \"" + script + "\" > \"" + (folder / "out").string() + "\" 2> \"" + (folder / "err").string() + "\" < /dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+}
+
 inline std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> parts;
   std::istringstream in(line);

@@ -1,0 +1,82 @@
+// The standard streams: closed, full, a pipe that nobody reads any more, and names that talk to the terminal.
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kRun = "\"$REACH\" run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data ";
+
+int trialsIn(const std::string& data) {
+  const Folder csv;
+  const Ended exported = reach("export " + data + " --format csv --out " + csv.string());
+  EXPECT_EQ(exported.exitCode, 0) << exported.err;
+  EXPECT_EQ(exported.err, "") << "the log is damaged";
+  return static_cast<int>(parseCsv(contentOf(csv / "trials.csv")).rows.size());
+}
+
+void expectOneSentence(const Ended& ended) {
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("standard output: cannot be written: No space left on device"), std::string::npos) << ended.err;
+}
+
+}  // namespace
+
+TEST(StandardStreams, ClosedOnesNeverBecomeAFileOfTheRecording) {
+  for (const std::string closed : {"0<&- 1>&-", "0<&- 1>&- 2>&-", "1>&-", "2>&-", "0<&- 2>&-"}) {
+    const Folder data;
+    const Ended ended = shell(kRun + data.string() + " " + closed);
+    EXPECT_EQ(ended.exitCode, 0) << closed << ": " << ended.err;
+    EXPECT_EQ(trialsIn(data.string()), 5) << closed;
+  }
+}
+
+TEST(StandardStreams, WhatCannotBePrintedIsAnErrorOfOneSentence) {
+  for (const std::string command : {"list experiments", "list experiments --json", "constraint show torus", "constraint list",
+                                    "predict dingwell --criterion min-hand-jerk", "predict dingwell --criterion min-hand-jerk --json",
+                                    "simulate chain-moderate --hand hold", "validate dingwell", "--version"})
+    expectOneSentence(shell("\"$REACH\" " + command + " > /dev/full"));
+}
+
+TEST(StandardStreams, ARunThatCannotPrintIsRecordedToItsEndAndSaysSo) {
+  const Folder data;
+  expectOneSentence(shell(kRun + data.string() + " > /dev/full"));
+  EXPECT_EQ(trialsIn(data.string()), 5);
+  expectOneSentence(shell("\"$REACH\" export " + data.string() + " --format csv > /dev/full"));
+}
+
+TEST(StandardStreams, ARunWhoseMessagesCannotBePrintedIsRecordedToItsEnd) {
+  const Folder data;
+  EXPECT_EQ(shell(kRun + data.string() + " 2> /dev/full").exitCode, 0);
+  EXPECT_EQ(trialsIn(data.string()), 5);
+}
+
+TEST(StandardStreams, APipeThatNobodyReadsAnyMoreEndsQuietlyAndLosesNoRecording) {
+  const Folder data;
+  const Ended run = shell("set -o pipefail\n" + kRun + data.string() + " 2> /dev/null | head -n 1");
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(trialsIn(data.string()), 5);
+  // Ten million rows, of which one is read.
+  const Ended simulated =
+      shell("set -o pipefail\n\"$REACH\" simulate free-point --hand hold --until 9999 --every 0.001 | head -n 1 || exit 1");
+  EXPECT_LE(simulated.exitCode, 1);
+  EXPECT_EQ(simulated.err, "");
+}
+
+TEST(StandardStreams, ControlCharactersOfNamesAndKeysAreSpeltOut) {
+  const Folder folder;
+  const std::string file = folder.write("bad.json",
+                                        "{ \"schema_version\": 1, \"a\x7f\xc2\x9b"
+                                        "31mkey\": 1, \"\\u001b[31m\\u0007red\": 2 }");
+  const Ended ended = reach("validate " + file);
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_EQ(ended.err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(ended.err.find('\x07'), std::string::npos);
+  EXPECT_EQ(ended.err.find('\x7f'), std::string::npos);
+  EXPECT_EQ(ended.err.find('\x9b'), std::string::npos);
+  EXPECT_NE(ended.err.find("\\x1b[31m\\x07red"), std::string::npos) << ended.err;
+}
