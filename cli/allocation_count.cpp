@@ -37,4 +37,4 @@ void* allocate(std::size_t size, std::align_val_t alignment) noexcept {
 [[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept { std::free(memory); }
 
-std::uint64_t reachlab::countAllocations() noexcept { return allocations; }
+std::uint64_t reachlab::cli::countAllocations() noexcept { return allocations; }

@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// How often this thread has asked operator new for memory since it began. The program replaces operator new to know; any thread.
 std::uint64_t countAllocations() noexcept;
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

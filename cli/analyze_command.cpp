@@ -7,12 +7,12 @@
 #include "cli/at_option.h"
 #include "cli/commands.h"
 #include "cli/criterion_option.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "sim/analyze/write_analysis.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 struct AnalyzeOptions {
@@ -24,16 +24,18 @@ struct AnalyzeOptions {
   bool includePractice = false, json = false;
 };
 
-StudyOptions studyOptions(const AnalyzeOptions& o) {
-  StudyOptions s;
+analyze::StudyOptions studyOptions(const AnalyzeOptions& o) {
+  analyze::StudyOptions s;
   s.measure.cutoff = o.cutoff;
   s.measure.onset.percent = o.percent;
   s.measure.onset.speed = o.speed;
-  s.measure.onset.rule = o.onset == "absolute" ? OnsetRule::Absolute : o.onset == "task" ? OnsetRule::Task : OnsetRule::Percent;
+  s.measure.onset.rule = o.onset == "absolute" ? analyze::OnsetRule::Absolute
+                         : o.onset == "task"   ? analyze::OnsetRule::Task
+                                               : analyze::OnsetRule::Percent;
   s.includePractice = o.includePractice;
-  s.predictFor = o.duration == "task"   ? PredictionDuration::Task
-                 : o.duration == "mean" ? PredictionDuration::Moved
-                                        : PredictionDuration::Auto;
+  s.predictFor = o.duration == "task"   ? analyze::PredictionDuration::Task
+                 : o.duration == "mean" ? analyze::PredictionDuration::Moved
+                                        : analyze::PredictionDuration::Auto;
   s.ranking.resamples = o.resamples;
   s.ranking.seed = o.seed;
   s.learningBin = o.bin;
@@ -43,10 +45,10 @@ StudyOptions studyOptions(const AnalyzeOptions& o) {
   return s;
 }
 
-nlohmann::ordered_json jsonOf(const Ranking& ranking, const std::vector<Criterion>& criteria) {
+nlohmann::ordered_json jsonOf(const analyze::Ranking& ranking, const std::vector<predict::Criterion>& criteria) {
   auto places = nlohmann::ordered_json::array();
-  for (const RankedCriterion& p : ranking.places)
-    places.push_back({{"criterion", nameOf(criteria[p.criterion])},
+  for (const analyze::RankedCriterion& p : ranking.places)
+    places.push_back({{"criterion", predict::nameOf(criteria[p.criterion])},
                       {"epsilon_m_per_s", p.epsilon},
                       {"epsilon_interval_m_per_s", {p.interval.low, p.interval.high}},
                       {"difference_m_per_s", p.difference},
@@ -54,7 +56,7 @@ nlohmann::ordered_json jsonOf(const Ranking& ranking, const std::vector<Criterio
                       {"apart_from_first", p.apartFromFirst}});
   auto ties = nlohmann::ordered_json::array();
   for (const auto& [i, j] : ranking.ties)
-    ties.push_back({nameOf(criteria[ranking.places[i].criterion]), nameOf(criteria[ranking.places[j].criterion])});
+    ties.push_back({predict::nameOf(criteria[ranking.places[i].criterion]), predict::nameOf(criteria[ranking.places[j].criterion])});
   return {{"decided", ranking.decided()},
           {"trials", ranking.trials},
           {"subjects", ranking.subjects},
@@ -62,7 +64,7 @@ nlohmann::ordered_json jsonOf(const Ranking& ranking, const std::vector<Criterio
           {"not_told_apart", ties}};
 }
 
-std::string summaryJson(const StudyResult& study, const Dataset& dataset, const AnalysisFiles& files) {
+std::string summaryJson(const analyze::StudyResult& study, const analyze::Dataset& dataset, const analyze::AnalysisFiles& files) {
   nlohmann::ordered_json j;
   j["report"] = files.report;
   j["tables"] = files.tables;
@@ -71,14 +73,14 @@ std::string summaryJson(const StudyResult& study, const Dataset& dataset, const 
   j["notes"] = dataset.notes;
   j["conditions"] = nlohmann::ordered_json::array();
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
-    const ConditionResult& r = study.results[c];
+    const analyze::ConditionResult& r = study.results[c];
     nlohmann::ordered_json condition{{"name", study.conditions[c].name},    {"success", r.counts.success},
                                      {"failure", r.counts.failure},         {"aborted", r.counts.aborted},
                                      {"interrupted", r.counts.interrupted}, {"used", r.used}};
     if (r.used > 0) condition["mean_duration_s"] = r.duration.mean;
-    condition["hand_ranking"] = jsonOf(r.handRanking, criteriaOf(r));
-    condition["object_ranking"] = jsonOf(r.objectRanking, criteriaOf(r));
-    if (r.handOverSubjects) condition["hand_ranking_over_subjects"] = jsonOf(*r.handOverSubjects, criteriaOf(r));
+    condition["hand_ranking"] = jsonOf(r.handRanking, analyze::criteriaOf(r));
+    condition["object_ranking"] = jsonOf(r.objectRanking, analyze::criteriaOf(r));
+    if (r.handOverSubjects) condition["hand_ranking_over_subjects"] = jsonOf(*r.handOverSubjects, analyze::criteriaOf(r));
     j["conditions"].push_back(condition);
   }
   j["overall"] = jsonOf(study.overall, study.common);
@@ -86,38 +88,38 @@ std::string summaryJson(const StudyResult& study, const Dataset& dataset, const 
   return j.dump(2) + "\n";
 }
 
-void printSummary(const StudyResult& study, const Dataset& dataset, const AnalysisFiles& files) {
+void printSummary(const analyze::StudyResult& study, const analyze::Dataset& dataset, const analyze::AnalysisFiles& files) {
   for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
-    const ConditionResult& r = study.results[c];
-    fmt::print("{}: {}\n", study.conditions[c].name, describeCounts(r));
-    if (r.used > 0) fmt::print("  hand: {}\n", describeRanking(r.handRanking, criteriaOf(r)));
-    const std::string durations = describeDurations(r);
+    const analyze::ConditionResult& r = study.results[c];
+    fmt::print("{}: {}\n", study.conditions[c].name, analyze::describeCounts(r));
+    if (r.used > 0) fmt::print("  hand: {}\n", analyze::describeRanking(r.handRanking, analyze::criteriaOf(r)));
+    const std::string durations = analyze::describeDurations(r);
     if (!durations.empty()) fmt::print("  {}\n", durations);
   }
   if (study.conditions.size() > 1 && !study.overall.places.empty()) {
-    fmt::print("all conditions, over trials: {}\n", describeRanking(study.overall, study.common));
+    fmt::print("all conditions, over trials: {}\n", analyze::describeRanking(study.overall, study.common));
     if (study.overallOverSubjects)
-      fmt::print("all conditions, over subjects: {}\n", describeRanking(*study.overallOverSubjects, study.common));
+      fmt::print("all conditions, over subjects: {}\n", analyze::describeRanking(*study.overallOverSubjects, study.common));
   }
   fmt::print("{} tables, {} figures and {}\n", files.tables.size(), files.figures.size(), files.report);
 }
 
 void run(const AnalyzeOptions& o) {
-  const StudyOptions options = studyOptions(o);  // refused before hours of reading
+  const analyze::StudyOptions options = studyOptions(o);  // refused before hours of reading
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto progress = [terminal](const char* what, std::size_t done, std::size_t of) {
     if (terminal && of > 0) fmt::print(stderr, "\r{} {} of {} \033[K{}", what, done, of, done == of ? "\n" : "");
   };
-  Dataset dataset = openDataset(o.dataset, o.experiment,
-                                [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
-  const StudyResult study =
-      analyzeStudy(std::move(dataset.input), options, [&](std::size_t done, std::size_t of) { progress("measuring trial", done, of); });
+  analyze::Dataset dataset = analyze::openDataset(
+      o.dataset, o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
+  const analyze::StudyResult study = analyze::analyzeStudy(
+      std::move(dataset.input), options, [&](std::size_t done, std::size_t of) { progress("measuring trial", done, of); });
   std::string folder = o.dataset;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
-  const ReportHeader header{folder, REACHLAB_VERSION, "reach analyze " + o.dataset};
-  const AnalysisFiles files =
-      atOption("--out", [&] { return writeAnalysis(study, dataset, header, o.out.empty() ? folder + "/derivatives/reachlab" : o.out); });
+  const analyze::ReportHeader header{folder, REACHLAB_VERSION, "reach analyze " + o.dataset};
+  const analyze::AnalysisFiles files = atOption(
+      "--out", [&] { return analyze::writeAnalysis(study, dataset, header, o.out.empty() ? folder + "/derivatives/reachlab" : o.out); });
   if (o.json) fmt::print("{}", summaryJson(study, dataset, files));
   else printSummary(study, dataset, files);
 }
@@ -162,4 +164,4 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->callback([o] { run(*o); });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

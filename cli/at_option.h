@@ -2,9 +2,9 @@
 #include <string>
 #include <utility>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// Does what writes to the place that an option gave; a fault of the disk then begins with the option, so that it is clear which to change.
 template <class Action>
@@ -16,4 +16,4 @@ auto atOption(const std::string& option, Action&& action) {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -10,12 +10,12 @@
 #include "cli/allocation_count.h"
 #include "cli/commands.h"
 #include "cli/constraint_bench.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
 #include "sim/haptics/tick_timing.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 struct BenchArguments {
@@ -86,7 +86,7 @@ void benchTicks(const BenchArguments& arguments) {
   for (const bench::BenchScene& scene : scenes) {
     showProgress(scene.name + ": " + scene.title);
     try {
-      const TickTiming t = measureTicks(scene.experiment, arguments.ticks, countAllocations);
+      const haptics::TickTiming t = haptics::measureTicks(scene.experiment, arguments.ticks, countAllocations);
       fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max,
                  t.clock, t.allocations);
     } catch (const Error& e) {
@@ -155,4 +155,4 @@ void addBenchCommand(CLI::App& app, int&) {
   command->callback([arguments] { runBench(*arguments); });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// Each adds one subcommand to `reach`. The callback throws reachlab::Error for a fault; other exits set `exitCode`.
 void addListCommand(CLI::App& app, int& exitCode);
@@ -17,4 +17,4 @@ void addRecoverCommand(CLI::App& app, int& exitCode);
 void addConstraintCommand(CLI::App& app, int& exitCode);
 void addBenchCommand(CLI::App& app, int& exitCode);
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -8,14 +8,14 @@
 #include "constraints/constraint.h"
 #include "constraints/sincos.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
-void handTorus(const void*, const double* shape, double u, double v, SurfacePoint& p) noexcept {
+void handTorus(const void*, const double* shape, double u, double v, constraints::SurfacePoint& p) noexcept {
   const double major = shape[0], minor = shape[1];
   double su, cu, sv, cv;
-  sinCos(u, su, cu);
-  sinCos(v, sv, cv);
+  constraints::sinCos(u, su, cu);
+  constraints::sinCos(v, sv, cv);
   const double a = minor * cu, b = minor * su, ring = major + a;
   const double x = ring * cv, y = ring * sv, bc = b * cv, bs = b * sv;
   p.r = {x, y, b};
@@ -26,18 +26,18 @@ void handTorus(const void*, const double* shape, double u, double v, SurfacePoin
   p.rVv = {-x, -y, 0};
 }
 
-void handEpitrochoid(const void*, const double* shape, double phi, CurvePoint& p) noexcept {
+void handEpitrochoid(const void*, const double* shape, double phi, constraints::CurvePoint& p) noexcept {
   const double a = shape[0], d = shape[1];
   double s, c, s4, c4;
-  sinCos(phi, s, c);
-  sinCos(4 * phi, s4, c4);
+  constraints::sinCos(phi, s, c);
+  constraints::sinCos(4 * phi, s4, c4);
   const double as = a * s, ac = a * c, ds = d * s4, dc = d * c4;
   p.r = {ac - dc, as - ds, 0};
   p.rPhi = {4 * ds - as, ac - 4 * dc, 0};
   p.rPhiPhi = {16 * dc - ac, 16 * ds - as, 0};
 }
 
-void handMonkeySaddle(const void*, const double* shape, double u, double v, SurfacePoint& p) noexcept {
+void handMonkeySaddle(const void*, const double* shape, double u, double v, constraints::SurfacePoint& p) noexcept {
   const double width = shape[0], depth = shape[1];
   const double uu = u * u, vv = v * v, six = 6 * depth, sixU = six * u, sixV = six * v;
   p.r = {width * u, width * v, depth * (u * (uu - 3 * vv))};
@@ -56,21 +56,21 @@ double threadNanoseconds() {
 
 struct Candidate {
   std::string constraint, form;
-  Constraint evaluated;
+  constraints::Constraint evaluated;
   bool octet = false;
 };
 
 // Parameters as a moving mass has them: near the last, never the same.
 constexpr int kPlaces = 512, kRounds = 60;
 
-double measureOctets(const Curve& curve) {
+double measureOctets(const constraints::Curve& curve) {
   double sink = 0;
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)
-    for (int i = 0; i < kPlaces; i += kOctet) {
-      std::array<double, kOctet> phi{};
-      for (int lane = 0; lane < kOctet; ++lane) phi[static_cast<std::size_t>(lane)] = -0.9 + 0.0037 * (i + lane);
-      CurveOctet points;
+    for (int i = 0; i < kPlaces; i += constraints::kOctet) {
+      std::array<double, constraints::kOctet> phi{};
+      for (int lane = 0; lane < constraints::kOctet; ++lane) phi[static_cast<std::size_t>(lane)] = -0.9 + 0.0037 * (i + lane);
+      constraints::CurveOctet points;
       curve.octet(curve.program, curve.shape.data(), phi.data(), points);
       sink += points.rPhiPhi[0][0];
     }
@@ -81,14 +81,15 @@ double measureOctets(const Curve& curve) {
 }
 
 double measure(const Candidate& candidate) {
-  const Constraint& c = candidate.evaluated;
+  const constraints::Constraint& c = candidate.evaluated;
   if (candidate.octet) return measureOctets(c.curve);
   double sink = 0;
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)
     for (int i = 0; i < kPlaces; ++i) {
       const double u = -0.9 + 0.0037 * i, v = 0.3 + 0.0041 * i;
-      sink += c.kind == ConstraintKind::Curve ? evaluate(c.curve, u).rPhiPhi.x : evaluate(c.surface, u, v).rVv.x;
+      sink += c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, u).rPhiPhi.x
+                                                           : constraints::evaluate(c.surface, u, v).rVv.x;
     }
   const double elapsed = threadNanoseconds() - start;
   volatile double used = sink;
@@ -98,33 +99,34 @@ double measure(const Candidate& candidate) {
 
 std::vector<Candidate> candidates() {
   std::vector<Candidate> list;
-  const auto put = [&](const std::string& name, const Constraint& generated, const Constraint& typed, CurveFunction curve,
-                       SurfaceFunction surface) {
-    Constraint hand = generated;
+  const auto put = [&](const std::string& name, const constraints::Constraint& generated, const constraints::Constraint& typed,
+                       constraints::CurveFunction curve, constraints::SurfaceFunction surface) {
+    constraints::Constraint hand = generated;
     hand.curve.function = curve;
     hand.surface.function = surface;
     list.push_back({name, "hand-written", hand});
     list.push_back({name, "generated", generated});
     list.push_back({name, "typed", typed});
-    if (generated.kind != ConstraintKind::Curve) return;
+    if (generated.kind != constraints::ConstraintKind::Curve) return;
     list.push_back({name, "generated-x8", generated, true});
     list.push_back({name, "typed-x8", typed, true});
   };
-  const auto named = [](const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); };
+  const auto named = [](const char* name) { return constraints::makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); };
   put("torus", named("torus"),
-      makeConstraint({.name = {},
-                      .curve = {},
-                      .surface = {"(a + b*cos(u))*cos(v)", "(a + b*cos(u))*sin(v)", "b*sin(u)"},
-                      .shape = {{"a", 0.1}, {"b", 0.04}}}),
+      constraints::makeConstraint({.name = {},
+                                   .curve = {},
+                                   .surface = {"(a + b*cos(u))*cos(v)", "(a + b*cos(u))*sin(v)", "b*sin(u)"},
+                                   .shape = {{"a", 0.1}, {"b", 0.04}}}),
       nullptr, handTorus);
   put("epitrochoid", named("epitrochoid"),
-      makeConstraint({.name = {},
-                      .curve = {"a*cos(phi) - d*cos(4*phi)", "a*sin(phi) - d*sin(4*phi)", "0"},
-                      .surface = {},
-                      .shape = {{"a", 0.08}, {"d", 0.016}}}),
+      constraints::makeConstraint({.name = {},
+                                   .curve = {"a*cos(phi) - d*cos(4*phi)", "a*sin(phi) - d*sin(4*phi)", "0"},
+                                   .surface = {},
+                                   .shape = {{"a", 0.08}, {"d", 0.016}}}),
       handEpitrochoid, nullptr);
   put("monkey-saddle", named("monkey-saddle"),
-      makeConstraint({.name = {}, .curve = {}, .surface = {"w*u", "w*v", "d*(u^3 - 3*u*v^2)"}, .shape = {{"d", 0.05}, {"w", 0.1}}}),
+      constraints::makeConstraint(
+          {.name = {}, .curve = {}, .surface = {"w*u", "w*v", "d*(u^3 - 3*u*v^2)"}, .shape = {{"d", 0.05}, {"w", 0.1}}}),
       nullptr, handMonkeySaddle);
   return list;
 }
@@ -144,4 +146,4 @@ std::vector<ConstraintEvalRow> benchConstraintEval(int repetitions) {
   return rows;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// Time of one evaluation of r and all its derivatives (`reach bench --scene constraint-eval`).
 struct ConstraintEvalRow {
@@ -14,4 +14,4 @@ struct ConstraintEvalRow {
 /// Measures all of them, about a second. The three forms share flags, call and sine; they differ in the code between.
 std::vector<ConstraintEvalRow> benchConstraintEval(int repetitions = 25);
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -9,10 +9,10 @@
 #include "constraints/analysis.h"
 #include "constraints/cpp_writer.h"
 #include "constraints/definition.h"
-#include "constraints/error.h"
-#include "constraints/json_tree.h"
+#include "base/error.h"
+#include "base/json_tree.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string("null"); }
@@ -29,7 +29,7 @@ std::string shortList(const std::vector<double>& values) {
   for (const double value : values) text += (text.empty() ? "" : ", ") + fmt::format("{:.6g}", value);
   return "[" + text + "]";
 }
-bool isCurve(const Definition& d) { return d.kind == ConstraintKind::Curve; }
+bool isCurve(const constraints::Definition& d) { return d.kind == constraints::ConstraintKind::Curve; }
 
 double parseNumber(const std::string& text, const std::string& option) {
   double value = 0;
@@ -61,13 +61,13 @@ std::map<std::string, double> parseShape(const std::vector<std::string>& setting
 }
 
 // A name of the catalogue or of the user's folder, else a file.
-Definition definitionOf(const std::string& nameOrFile) {
-  if (const Definition* definition = findInCatalogue(nameOrFile)) return *definition;
-  if (nameOrFile.find_first_of("/.") != std::string::npos) return readDefinition(nameOrFile);
+constraints::Definition definitionOf(const std::string& nameOrFile) {
+  if (const constraints::Definition* definition = constraints::findInCatalogue(nameOrFile)) return *definition;
+  if (nameOrFile.find_first_of("/.") != std::string::npos) return constraints::readDefinition(nameOrFile);
   if (nameOrFile == "free") throw UsageError("constraint: free binds nothing: it has no formula; allowed: a curve or surface");
   std::error_code error;
-  if (std::filesystem::is_regular_file(nameOrFile, error)) return readDefinition(nameOrFile);
-  return findDefinition(nameOrFile, "constraint");
+  if (std::filesystem::is_regular_file(nameOrFile, error)) return constraints::readDefinition(nameOrFile);
+  return constraints::findDefinition(nameOrFile, "constraint");
 }
 
 struct Options {
@@ -79,32 +79,34 @@ struct Options {
 void printList(const Options& o) {
   if (o.json) fmt::print("[\n  {{\"name\": \"free\", \"kind\": \"free\", \"sentence\": \"Nothing binds the object.\"}}");
   else fmt::print("{:<22} {:<8} {}\n", "free", "free", "Nothing binds the object.");
-  const auto print = [&](const Definition& d) {
+  const auto print = [&](const constraints::Definition& d) {
     const char* kind = isCurve(d) ? "curve" : "surface";
     if (o.json) fmt::print(",\n  {{\"name\": {}, \"kind\": \"{}\", \"sentence\": {}}}", quoted(d.name), kind, quoted(d.sentence));
     else fmt::print("{:<22} {:<8} {}\n", d.name, kind, d.sentence);
   };
-  for (const Definition& d : catalogue()) print(d);
-  for (const Definition& d : readDefinitionFolder(userDefinitionFolder())) print(d);
+  for (const constraints::Definition& d : constraints::catalogue()) print(d);
+  for (const constraints::Definition& d : constraints::readDefinitionFolder(constraints::userDefinitionFolder())) print(d);
   if (o.json) fmt::print("\n]\n");
 }
 
 // One value for a curve, two in brackets for a surface.
 template <typename F>
-std::string perParameter(const Definition& d, F&& f) {
+std::string perParameter(const constraints::Definition& d, F&& f) {
   return isCurve(d) ? f(0) : "[" + f(0) + ", " + f(1) + "]";
 }
 
-void showJson(const Definition& d, const Constraint& c) {
+void showJson(const constraints::Definition& d, const constraints::Constraint& c) {
   std::string coordinates, shape;
   for (const std::string& line : d.coordinates) coordinates += (coordinates.empty() ? "" : ", ") + quoted(line);
-  for (const ShapeParameter& p : d.shape)
+  for (const constraints::ShapeParameter& p : d.shape)
     shape += fmt::format("{}    {}: {{\"default\": {}, \"min\": {}, \"max\": {}, \"unit\": {}, \"meaning\": {}{}}}",
                          shape.empty() ? "\n" : ",\n", quoted(p.name), number(p.defaultValue), number(p.min), number(p.max), quoted(p.unit),
                          quoted(p.meaning), p.whole ? ", \"whole\": true" : "");
   const auto domain = [&](std::size_t k) { return fmt::format("[{}, {}]", number(c.domain[k].lo), number(c.domain[k].hi)); };
   const auto periodic = [&](std::size_t k) { return std::string(c.domain[k].periodic ? "true" : "false"); };
-  const auto atEnd = [&](std::size_t k) { return std::string(c.domain[k].atEnd == AtEnd::Bounce ? "\"bounce\"" : "\"stop\""); };
+  const auto atEnd = [&](std::size_t k) {
+    return std::string(c.domain[k].atEnd == constraints::AtEnd::Bounce ? "\"bounce\"" : "\"stop\"");
+  };
   fmt::print(
       "{{\n  \"name\": {},\n  \"kind\": \"{}\",\n  \"{}\": [{}],\n  \"shape\": {{{}{}}},\n  \"domain\": {},\n  \"periodic\": {},\n"
       "  \"at_end\": {},\n  \"start\": {},\n  \"target\": {},\n  \"sentence\": {},\n  \"source\": {}\n}}\n",
@@ -113,64 +115,66 @@ void showJson(const Definition& d, const Constraint& c) {
       quoted(d.source));
 }
 
-void showPlaces(const Constraint& c) {
-  const std::array<Domain, 2> range = boundedDomain(c);
-  if (c.kind == ConstraintKind::Curve) {
-    fmt::print("length    {:.6g} m from phi = {:.6g} to {:.6g}\n", computeArcLength(c, range[0].lo, range[0].hi), range[0].lo, range[0].hi);
-    const SlowPlace slow = findMinSpeed(c, range[0].lo, range[0].hi);
+void showPlaces(const constraints::Constraint& c) {
+  const std::array<constraints::Domain, 2> range = constraints::boundedDomain(c);
+  if (c.kind == constraints::ConstraintKind::Curve) {
+    fmt::print("length    {:.6g} m from phi = {:.6g} to {:.6g}\n", constraints::computeArcLength(c, range[0].lo, range[0].hi), range[0].lo,
+               range[0].hi);
+    const constraints::SlowPlace slow = constraints::findMinSpeed(c, range[0].lo, range[0].hi);
     fmt::print("|r_phi|   at least {:.3g} m, at phi = {:.6g}\n", slow.speed, slow.phi);
-    const std::vector<double> cusps = findCusps(c, range[0].lo, range[0].hi);
+    const std::vector<double> cusps = constraints::findCusps(c, range[0].lo, range[0].hi);
     for (const double cusp : cusps)
       if (!range[0].periodic || cusp < range[0].hi - 1e-9) fmt::print("cusp      phi = {:.9g}\n", cusp);
     if (cusps.empty()) fmt::print("regular   no cusp\n");
   } else {
-    const std::vector<DegeneratePlace> places = findDegeneratePlaces(c);
-    for (const DegeneratePlace& p : places)
-      fmt::print("{:<9} {}\n", nameOf(p.kind),
+    const std::vector<constraints::DegeneratePlace> places = constraints::findDegeneratePlaces(c);
+    for (const constraints::DegeneratePlace& p : places)
+      fmt::print("{:<9} {}\n", constraints::nameOf(p.kind),
                  p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
                              : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
     if (places.empty())
       fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]\n", range[0].lo, range[0].hi, range[1].lo,
                  range[1].hi);
-    if (places.size() >= kMaxDegeneratePlaces)
-      fmt::print("…         isolated points are listed only up to {} places in all: there may be more of them\n", kMaxDegeneratePlaces);
+    if (places.size() >= constraints::kMaxDegeneratePlaces)
+      fmt::print("…         isolated points are listed only up to {} places in all: there may be more of them\n",
+                 constraints::kMaxDegeneratePlaces);
   }
 }
 
 void show(const Options& o) {
-  const Definition d = definitionOf(o.what);
-  const Constraint c = makeConstraint(d, parseShape(o.set));
+  const constraints::Definition d = definitionOf(o.what);
+  const constraints::Constraint c = constraints::makeConstraint(d, parseShape(o.set));
   if (o.json) return showJson(d, c);
   fmt::print("{}: {}\n", d.name, d.sentence);
   const char* axes[] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) fmt::print("{}         {}\n", axes[k], d.coordinates[k]);
-  for (const ShapeParameter& p : d.shape)
+  for (const constraints::ShapeParameter& p : d.shape)
     fmt::print("shape     {} = {:.6g}{}  ({:.6g} to {:.6g}): {}\n", p.name, p.defaultValue, p.unit == "1" ? "" : " " + p.unit, p.min, p.max,
                p.meaning);
-  const std::vector<std::string> variables = variablesOf(d.kind);
+  const std::vector<std::string> variables = constraints::variablesOf(d.kind);
   for (std::size_t k = 0; k < variables.size(); ++k)
     fmt::print("{:<9} {:.6g} to {:.6g}{}\n", variables[k], c.domain[k].lo, c.domain[k].hi,
-               c.domain[k].periodic                 ? ", periodic"
-               : std::isinf(c.domain[k].lo)         ? ""
-               : c.domain[k].atEnd == AtEnd::Bounce ? ", elastic ends"
-                                                    : ", stops at its ends");
+               c.domain[k].periodic                              ? ", periodic"
+               : std::isinf(c.domain[k].lo)                      ? ""
+               : c.domain[k].atEnd == constraints::AtEnd::Bounce ? ", elastic ends"
+                                                                 : ", stops at its ends");
   fmt::print("reach     from {} to {}\n", shortList(d.start), shortList(d.target));
   showPlaces(c);
   fmt::print("source    {}\n", d.source);
 }
 
 void eval(const Options& o) {
-  const Definition d = definitionOf(o.what);
-  const Constraint c = makeConstraint(d, parseShape(o.set));
+  const constraints::Definition d = definitionOf(o.what);
+  const constraints::Constraint c = constraints::makeConstraint(d, parseShape(o.set));
   const std::vector<double> q = parseNumbers(o.at, "--at");
   if (static_cast<int>(q.size()) != c.parameterCount())
     throw UsageError(fmt::format("--at: has {} numbers; allowed: {}", q.size(), isCurve(d) ? "one, phi" : "two, u,v"));
   std::vector<std::pair<const char*, Vec3>> rows;
   if (isCurve(d)) {
-    const CurvePoint p = evaluate(c.curve, q[0]);
+    const constraints::CurvePoint p = constraints::evaluate(c.curve, q[0]);
     rows = {{"r_m", p.r}, {"r_phi", p.rPhi}, {"r_phiphi", p.rPhiPhi}};
   } else {
-    const SurfacePoint p = evaluate(c.surface, q[0], q[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(c.surface, q[0], q[1]);
     rows = {{"r_m", p.r}, {"r_u", p.rU}, {"r_v", p.rV}, {"r_uu", p.rUu}, {"r_uv", p.rUv}, {"r_vv", p.rVv}};
   }
   for (const auto& [name, value] : rows)
@@ -191,11 +195,11 @@ void check(const Options& o) {
       const std::string text = readTextFile(file);
       if (parseJson(text, file).find("object") != nullptr)
         throw UsageError(fmt::format("{}: is an experiment file, no constraint definition; `reach validate` checks it", file));
-      const Definition d = parseDefinition(text, file);
-      const Constraint c = makeConstraint(d, {}, file);
-      for (const ShapeParameter& p : d.shape)
+      const constraints::Definition d = constraints::parseDefinition(text, file);
+      const constraints::Constraint c = constraints::makeConstraint(d, {}, file);
+      for (const constraints::ShapeParameter& p : d.shape)
         for (const double value : {p.min, p.max})
-          makeConstraint(d, {{p.name, value}}, fmt::format("{}: with {} = {}", file, p.name, value));
+          constraints::makeConstraint(d, {{p.name, value}}, fmt::format("{}: with {} = {}", file, p.name, value));
       fmt::print("{}: fine: {} {}\n", file, isCurve(d) ? "curve" : "surface", d.name);
       showPlaces(c);
     } catch (const UsageError& e) {
@@ -206,10 +210,10 @@ void check(const Options& o) {
 }
 
 void code(const Options& o) {
-  const Definition d = definitionOf(o.what);
+  const constraints::Definition d = definitionOf(o.what);
   std::vector<double> defaults;
-  for (const ShapeParameter& p : d.shape) defaults.push_back(p.defaultValue);
-  fmt::print("{}", writeDynamicsCode(*compileFormula(formulaOf(d), o.what), d.name, defaults));
+  for (const constraints::ShapeParameter& p : d.shape) defaults.push_back(p.defaultValue);
+  fmt::print("{}", constraints::writeDynamicsCode(*constraints::compileFormula(constraints::formulaOf(d), o.what), d.name, defaults));
 }
 
 }  // namespace
@@ -248,4 +252,4 @@ void addConstraintCommand(CLI::App& app, int&) {
   addName(add("code", "C++ of the coordinates and of M, L, V, Q (curve) or G, C, Q (surface)", "code epitrochoid", code));
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

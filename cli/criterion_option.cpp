@@ -2,16 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/tables.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
-Criterion parseCriterion(const std::string& name) {
-  if (const auto criterion = criterionFromName(name)) return *criterion;
+predict::Criterion parseCriterion(const std::string& name) {
+  if (const auto criterion = predict::criterionFromName(name)) return *criterion;
   std::string names;
-  for (int i = 0; i < kCriterionCount; ++i) names += (i ? ", " : "") + numberedName(static_cast<Criterion>(i));
+  for (int i = 0; i < predict::kCriterionCount; ++i) names += (i ? ", " : "") + analyze::numberedName(static_cast<predict::Criterion>(i));
   throw UsageError(fmt::format("--criterion: '{}' is not a criterion; allowed, behind the paper's numbers: {}", name, names));
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

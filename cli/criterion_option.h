@@ -3,9 +3,9 @@
 
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// The criterion that `--criterion` names. Throws UsageError listing the names with the paper's numbers.
-Criterion parseCriterion(const std::string& name);
+predict::Criterion parseCriterion(const std::string& name);
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -4,12 +4,12 @@
 
 #include "cli/at_option.h"
 #include "cli/commands.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/record/bids.h"
 #include "sim/record/run_log.h"
 #include "sim/record/tidy_csv.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,13 +24,13 @@ fs::path datasetOf(const std::string& log) {
   return folder.filename() == "sourcedata" ? folder.parent_path() : folder;
 }
 
-std::vector<RunLog> openAll(const std::string& what) {
-  std::vector<RunLog> runs;
+std::vector<record::RunLog> openAll(const std::string& what) {
+  std::vector<record::RunLog> runs;
   std::string faults;
-  for (const std::string& path : findLogs(what)) {
+  for (const std::string& path : record::findLogs(what)) {
     try {
-      runs.push_back(RunLog::open(path));
-      const RunLog& run = runs.back();
+      runs.push_back(record::RunLog::open(path));
+      const record::RunLog& run = runs.back();
       if (run.goodBytes() < run.fileBytes())
         fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(), run.fileBytes(),
                    run.trials().size());
@@ -44,12 +44,12 @@ std::vector<RunLog> openAll(const std::string& what) {
 }
 
 void exportLogs(const Options& options) {
-  const std::vector<RunLog> runs = openAll(options.what);
+  const std::vector<record::RunLog> runs = openAll(options.what);
   const fs::path dataset = datasetOf(runs.front().path());
   std::vector<std::string> written;
   atOption("--out", [&] {
-    if (options.format == "bids") written = writeBids(runs, options.out.empty() ? dataset.string() : options.out);
-    else written = writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
+    if (options.format == "bids") written = record::writeBids(runs, options.out.empty() ? dataset.string() : options.out);
+    else written = record::writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
   });
   for (const std::string& path : written) fmt::print("{}\n", path);
 }
@@ -75,4 +75,4 @@ void addExportCommand(CLI::App& app, int&) {
   command->callback([options] { exportLogs(*options); });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

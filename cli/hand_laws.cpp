@@ -10,51 +10,52 @@
 
 #include "cli/spline.h"
 #include "constraints/analysis.h"
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
-const Task& requireTask(const Experiment& experiment, const std::string& name) {
+const experiment::Task& requireTask(const experiment::Experiment& experiment, const std::string& name) {
   if (!experiment.task) throw RefusedError("--hand " + name + " needs the experiment's task (start, target, duration_s)");
   return *experiment.task;
 }
 
-Vec3 placeOf(const Constraint& c, const std::vector<double>& q, const char* what) {
-  const std::size_t wanted = c.kind == ConstraintKind::Free ? 3 : static_cast<std::size_t>(c.parameterCount());
+Vec3 placeOf(const constraints::Constraint& c, const std::vector<double>& q, const char* what) {
+  const std::size_t wanted = c.kind == constraints::ConstraintKind::Free ? 3 : static_cast<std::size_t>(c.parameterCount());
   if (q.size() != wanted) throw RefusedError(fmt::format("task.{} has {} numbers where the constraint has {}", what, q.size(), wanted));
   for (std::size_t k = 0; k < q.size(); ++k)
-    if (c.kind != ConstraintKind::Free && !c.domain[k].periodic && (q[k] < c.domain[k].lo || q[k] > c.domain[k].hi))
+    if (c.kind != constraints::ConstraintKind::Free && !c.domain[k].periodic && (q[k] < c.domain[k].lo || q[k] > c.domain[k].hi))
       throw RefusedError(fmt::format("task.{} {} lies off the constraint's domain, {} to {}", what, q[k], c.domain[k].lo, c.domain[k].hi));
-  const Vec3 r = c.kind == ConstraintKind::Free    ? Vec3{q[0], q[1], q[2]}
-                 : c.kind == ConstraintKind::Curve ? evaluate(c.curve, q[0]).r
-                                                   : evaluate(c.surface, q[0], q[1]).r;
+  const Vec3 r = c.kind == constraints::ConstraintKind::Free    ? Vec3{q[0], q[1], q[2]}
+                 : c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
+                                                                : constraints::evaluate(c.surface, q[0], q[1]).r;
   if (!isFinite(r)) throw RefusedError(fmt::format("the constraint is not finite at task.{}", what));
   return r;
 }
 
-HandLaw straightReach(const Experiment& experiment, const Constraint& c) {
-  const Task& task = requireTask(experiment, "min-jerk");
+HandLaw straightReach(const experiment::Experiment& experiment, const constraints::Constraint& c) {
+  const experiment::Task& task = requireTask(experiment, "min-jerk");
   const Vec3 start = placeOf(c, task.start, "start"), chord = placeOf(c, task.target, "target") - start;
   const double duration = task.duration;
   if (!(norm(chord) > 1e-12))
     throw RefusedError("--hand min-jerk: start and target are the same place, so there is no chord to follow; use min-jerk-along or hold");
   return {[start, chord, duration](double t) {
-            const MinJerk law = minJerk(t / duration);
-            return HandSample{start + law.s * chord, (law.rate / duration) * chord, true};
+            const dynamics::MinJerk law = dynamics::minJerk(t / duration);
+            return dynamics::HandSample{start + law.s * chord, (law.rate / duration) * chord, true};
           },
           {0, duration}};
 }
 
 /// Along the curve the arc length follows the law; phi is found from it by Newton, starting where the last answer was.
-HandLaw reachAlong(const Experiment& experiment, const Constraint& c) {
-  const Task& task = requireTask(experiment, "min-jerk-along");
+HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::Constraint& c) {
+  const experiment::Task& task = requireTask(experiment, "min-jerk-along");
   placeOf(c, task.start, "start");
   placeOf(c, task.target, "target");
-  if (c.kind == ConstraintKind::Surface) throw RefusedError("--hand min-jerk-along follows a curve; on a surface use min-jerk");
-  if (c.kind == ConstraintKind::Free) return straightReach(experiment, c);
+  if (c.kind == constraints::ConstraintKind::Surface)
+    throw RefusedError("--hand min-jerk-along follows a curve; on a surface use min-jerk");
+  if (c.kind == constraints::ConstraintKind::Free) return straightReach(experiment, c);
   const double from = task.start[0], to = task.target[0], duration = task.duration;
-  const double length = computeArcLength(c, from, to);
+  const double length = constraints::computeArcLength(c, from, to);
   if (!(std::abs(length) > 1e-12)) throw RefusedError("--hand min-jerk-along: start and target are the same place on the curve");
   struct Table {
     std::vector<double> phi, s;
@@ -63,11 +64,11 @@ HandLaw reachAlong(const Experiment& experiment, const Constraint& c) {
   const auto table = std::make_shared<Table>();
   for (int i = 0; i <= kPieces; ++i) {
     const double phi = from + (to - from) * i / kPieces;
-    table->s.push_back(i == 0 ? 0 : table->s.back() + computeArcLength(c, table->phi.back(), phi));
+    table->s.push_back(i == 0 ? 0 : table->s.back() + constraints::computeArcLength(c, table->phi.back(), phi));
     table->phi.push_back(phi);
   }
   return {[c, table, length, duration](double t) {
-            const MinJerk law = minJerk(t / duration);
+            const dynamics::MinJerk law = dynamics::minJerk(t / duration);
             const double total = table->s.back(), s = law.s * total;
             const double sign = total < 0 ? -1 : 1;
             std::size_t low = 0, high = table->s.size() - 1;
@@ -78,18 +79,18 @@ HandLaw reachAlong(const Experiment& experiment, const Constraint& c) {
             double a = table->phi[low], b = table->phi[high], sa = table->s[low];
             double phi = a + (b - a) * (s - sa) / (table->s[high] - sa);
             for (int round = 0; round < 60; ++round) {
-              const double error = sa + computeArcLength(c, table->phi[low], phi) - s;
+              const double error = sa + constraints::computeArcLength(c, table->phi[low], phi) - s;
               (sign * error > 0 ? b : a) = phi;
-              const double speed = norm(evaluate(c.curve, phi).rPhi);
+              const double speed = norm(constraints::evaluate(c.curve, phi).rPhi);
               double next = speed > 0 ? phi - error / speed : 0.5 * (a + b);
               if (!((next - a) * (next - b) <= 0)) next = 0.5 * (a + b);
               if (std::abs(next - phi) <= 1e-16 * (1 + std::abs(phi)) || error == 0) break;
               phi = next;
             }
-            const CurvePoint p = evaluate(c.curve, phi);
+            const constraints::CurvePoint p = constraints::evaluate(c.curve, phi);
             const double speed = norm(p.rPhi);
             const Vec3 v = speed > 0 ? (law.rate / duration * total / speed) * p.rPhi : Vec3{};
-            return HandSample{p.r, v, true};
+            return dynamics::HandSample{p.r, v, true};
           },
           {0, duration}};
 }
@@ -148,22 +149,22 @@ HandLaw sampledHand(const std::string& file) {
       std::array{Spline(columns[0], columns[1]), Spline(columns[0], columns[2]), Spline(columns[0], columns[3])});
   return {[splines](double t) {
             const auto x = (*splines)[0].at(t), y = (*splines)[1].at(t), z = (*splines)[2].at(t);
-            return HandSample{{x.x, y.x, z.x}, {x.rate, y.rate, z.rate}, true};
+            return dynamics::HandSample{{x.x, y.x, z.x}, {x.rate, y.rate, z.rate}, true};
           },
           columns[0]};
 }
 
 }  // namespace
 
-HandLaw makeHandLaw(const std::string& name, const Experiment& experiment, const Constraint& constraint) {
-  if (name == "none") return {[](double) { return HandSample{}; }, {}};
+HandLaw makeHandLaw(const std::string& name, const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
+  if (name == "none") return {[](double) { return dynamics::HandSample{}; }, {}};
   if (name == "min-jerk") return straightReach(experiment, constraint);
   if (name == "min-jerk-along") return reachAlong(experiment, constraint);
   if (name == "hold") {
     const Vec3 start = placeOf(constraint, requireTask(experiment, name).start, "start");
-    return {[start](double) { return HandSample{start, {}, true}; }, {}};
+    return {[start](double) { return dynamics::HandSample{start, {}, true}; }, {}};
   }
   return sampledHand(name);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

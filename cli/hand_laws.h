@@ -5,14 +5,14 @@
 #include "sim/dynamics/hand_function.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// The hand of `reach simulate`: hold, min-jerk, min-jerk-along, or the name of a CSV file with time_s, x_m, y_m, z_m. `breaks`: times at
 /// which the hand's law is not smooth, which a step should end at. Throws RefusedError (no task, zero chord) or UsageError (bad file).
 struct HandLaw {
-  HandFunction function;
+  dynamics::HandFunction function;
   std::vector<double> breaks;  // [s] increasing
 };
-HandLaw makeHandLaw(const std::string& name, const Experiment& experiment, const Constraint& constraint);
+HandLaw makeHandLaw(const std::string& name, const experiment::Experiment& experiment, const constraints::Constraint& constraint);
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -11,7 +11,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -23,12 +23,12 @@ std::string describeMasses(const std::vector<double>& masses) {
 }
 
 // A tolerance as long as the reach asks for no pace: it only says when it must be over.
-std::string describePace(const Task& task) {
+std::string describePace(const experiment::Task& task) {
   if (task.tolerance.time >= task.duration) return fmt::format(", within {:.4g} s", task.duration + task.tolerance.time);
   return fmt::format(", {:.4g} ± {:.4g} s", task.duration, task.tolerance.time);
 }
 
-std::string describe(const Experiment& e) {
+std::string describe(const experiment::Experiment& e) {
   const char* kinds[] = {"point of", "chain of", "parallel masses:", "body of"};
   const std::string& constraint = e.constraint.name;
   return fmt::format("{} {}{}{}", kinds[static_cast<int>(e.object.kind)], describeMasses(e.object.masses),
@@ -40,14 +40,16 @@ std::string describe(const Experiment& e) {
 
 Json listExperiments() {
   Json rows = Json::array();
-  for (const std::string& name : shippedExperiments()) rows.push_back({{"name", name}, {"description", describe(readExperiment(name))}});
+  for (const std::string& name : experiment::shippedExperiments())
+    rows.push_back({{"name", name}, {"description", describe(experiment::readExperiment(name))}});
   return rows;
 }
 
 Json listConstraints() {
   Json rows = Json::array({{{"name", "free"}, {"kind", "free"}, {"description", "Nothing binds the object."}}});
-  for (const Definition& d : catalogue())
-    rows.push_back({{"name", d.name}, {"kind", d.kind == ConstraintKind::Curve ? "curve" : "surface"}, {"description", d.sentence}});
+  for (const constraints::Definition& d : constraints::catalogue())
+    rows.push_back(
+        {{"name", d.name}, {"kind", d.kind == constraints::ConstraintKind::Curve ? "curve" : "surface"}, {"description", d.sentence}});
   return rows;
 }
 
@@ -62,16 +64,17 @@ Json listMethods() {
 
 Json listCriteria() {
   Json rows = Json::array();
-  for (int i = 0; i < kCriterionCount; ++i) {
-    const auto criterion = static_cast<Criterion>(i);
-    rows.push_back({{"name", nameOf(criterion)}, {"description", describe(criterion)}});
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
+    rows.push_back({{"name", predict::nameOf(criterion)}, {"description", predict::describe(criterion)}});
   }
   return rows;
 }
 
 Json listDevices() {
   Json rows = Json::array();
-  for (const DeviceDescription& device : knownDevices()) rows.push_back({{"name", device.name}, {"description", device.description}});
+  for (const devices::DeviceDescription& device : devices::knownDevices())
+    rows.push_back({{"name", device.name}, {"description", device.description}});
   return rows;
 }
 
@@ -100,4 +103,4 @@ void addListCommand(CLI::App& app, int&) {
   });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -7,9 +7,9 @@
 #include "cli/commands.h"
 #include "cli/standard_streams.h"
 #include "cli/stop_signals.h"
-#include "constraints/error.h"
-#include "constraints/names.h"
-#include "sim/haptics/os.h"
+#include "base/error.h"
+#include "base/names.h"
+#include "base/os.h"
 
 namespace {
 
@@ -47,6 +47,7 @@ std::string proposal(const CLI::App& app) {
 
 int run(int argc, char** argv) {
   using namespace reachlab;
+  using namespace reachlab::cli;
   int exitCode = 0;
   CLI::App app{"reach: reaching experiments without a window", "reach"};
   app.set_version_flag("--version", "reach " REACHLAB_VERSION);

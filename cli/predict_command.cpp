@@ -11,9 +11,9 @@
 #include "cli/commands.h"
 #include "cli/criterion_option.h"
 #include "cli/predict_output.h"
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 struct PredictArguments {
@@ -35,12 +35,12 @@ void writeText(const std::string& text, const std::string& path) {
 }
 
 // Median of repeated computations, on stderr: a figure for the machine at hand.
-void reportTime(const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
+void reportTime(const experiment::Experiment& experiment, predict::Criterion criterion, const predict::PredictOptions& options) {
   constexpr int kRuns = 21;
   std::vector<double> microseconds;
   for (int i = 0; i < kRuns; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    predict(experiment, criterion, options);
+    predict::predict(experiment, criterion, options);
     microseconds.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
   }
   std::nth_element(microseconds.begin(), microseconds.begin() + kRuns / 2, microseconds.end());
@@ -48,42 +48,44 @@ void reportTime(const Experiment& experiment, Criterion criterion, const Predict
 }
 
 // A prediction on a thread of its own; who waits longer than a moment is told so, on a terminal.
-std::unique_ptr<Prediction> predictPatiently(const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
+std::unique_ptr<predict::Prediction> predictPatiently(const experiment::Experiment& experiment, predict::Criterion criterion,
+                                                      const predict::PredictOptions& options) {
   using namespace std::chrono_literals;
   const auto begin = std::chrono::steady_clock::now();
-  auto result = std::async(std::launch::async, [&] { return predict(experiment, criterion, options); });
+  auto result = std::async(std::launch::async, [&] { return predict::predict(experiment, criterion, options); });
   bool told = false;
   for (auto pause = 250ms; isatty(STDERR_FILENO) && result.wait_for(pause) != std::future_status::ready; pause = 500ms) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::cerr << fmt::format("\rcomputing {} … {:.1f} s", nameOf(criterion), seconds) << std::flush;
+    std::cerr << fmt::format("\rcomputing {} … {:.1f} s", predict::nameOf(criterion), seconds) << std::flush;
     told = true;
   }
   if (told) std::cerr << '\n';
   return result.get();
 }
 
-void runSweep(const PredictArguments& arguments, const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
-  const Sweep sweep = parseSweep(arguments.sweep);
+void runSweep(const PredictArguments& arguments, const experiment::Experiment& experiment, predict::Criterion criterion,
+              const predict::PredictOptions& options) {
+  const predict::Sweep sweep = predict::parseSweep(arguments.sweep);
   const auto begin = std::chrono::steady_clock::now();
   double shown = 0;
-  const auto rows = computeFamily(experiment, criterion, options, sweep, [&](int done, int total) {
+  const auto rows = predict::computeFamily(experiment, criterion, options, sweep, [&](int done, int total) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (seconds < shown + 1) return;
     shown = seconds;
     std::cerr << fmt::format("{} of {}\n", done, total);
   });
-  for (const FamilyRow& row : rows)
+  for (const predict::FamilyRow& row : rows)
     if (!row.prediction) std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
   writeText(writeFamilyCsv(sweep, rows), arguments.out);
-  if (!arguments.figure.empty()) writeFigure(drawFamily(sweep, rows, criterion), arguments.figure);
+  if (!arguments.figure.empty()) figure::writeFigure(drawFamily(sweep, rows, criterion), arguments.figure);
 }
 
 void runPredict(const PredictArguments& arguments) {
-  const Criterion criterion = parseCriterion(arguments.criterion);
+  const predict::Criterion criterion = parseCriterion(arguments.criterion);
   if (arguments.samples < 2) throw UsageError("--samples: allowed: 2 or more");
   if (arguments.json && !arguments.sweep.empty()) throw UsageError("--sweep: writes CSV rows; --json is for a single prediction");
-  const Experiment experiment = readExperiment(arguments.experiment);
-  PredictOptions options;
+  const experiment::Experiment experiment = experiment::readExperiment(arguments.experiment);
+  predict::PredictOptions options;
   options.duration = arguments.duration;
   options.handDamping = arguments.handDamping;
   options.unknowns = arguments.unknowns;
@@ -95,15 +97,16 @@ void runPredict(const PredictArguments& arguments) {
   if (arguments.time) reportTime(experiment, criterion, options);
   if (arguments.json) std::cout << writePredictionJson(*prediction) << std::flush;
   if (!arguments.json || !arguments.out.empty()) writeText(writePredictionCsv(*prediction, arguments.samples), arguments.out);
-  if (!arguments.figure.empty()) writeFigure(drawPrediction(*prediction, arguments.samples), arguments.figure);
+  if (!arguments.figure.empty()) figure::writeFigure(drawPrediction(*prediction, arguments.samples), arguments.figure);
 }
 
 std::string footer() {
   std::string text = "Criteria:\n";
-  for (int i = 0; i < kCriterionCount; ++i)
-    text += fmt::format("  {:24}{}\n", nameOf(static_cast<Criterion>(i)), describe(static_cast<Criterion>(i)));
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    text += fmt::format("  {:24}{}\n", predict::nameOf(static_cast<predict::Criterion>(i)),
+                        predict::describe(static_cast<predict::Criterion>(i)));
   text += "Keys of --sweep:\n";
-  for (const SweepKey& key : sweepKeys()) text += fmt::format("  {:28}{}\n", key.name, key.meaning);
+  for (const predict::SweepKey& key : predict::sweepKeys()) text += fmt::format("  {:28}{}\n", key.name, key.meaning);
   return text +
          "Examples:\n"
          "  reach predict chain-moderate --criterion min-hand-jerk > hand.csv\n"
@@ -137,4 +140,4 @@ void addPredictCommand(CLI::App& app, int&) {
   command->callback([arguments] { runPredict(*arguments); });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -10,7 +10,7 @@
 
 #include "sim/experiment/unit_ending.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 std::string number(double value) { return fmt::format("{:.17g}", value); }
@@ -18,12 +18,13 @@ std::string orEmpty(const std::optional<double>& value) { return value ? number(
 std::string orNull(const std::optional<double>& value) { return value ? number(*value) : "null"; }
 std::string asJsonText(std::string_view text) { return nlohmann::json(text).dump(); }
 
-double sampleTime(const Prediction& prediction, int i, int samples) {
+double sampleTime(const predict::Prediction& prediction, int i, int samples) {
   return i == samples - 1 ? prediction.duration : prediction.duration * i / (samples - 1);
 }
 
-Series makeSeries(std::string label, Color color = palette::kBlack, Dash dash = Dash::Solid, double width = kNormal) {
-  Series series;
+figure::Series makeSeries(std::string label, figure::Color color = figure::palette::kBlack, figure::Dash dash = figure::Dash::Solid,
+                          double width = figure::kNormal) {
+  figure::Series series;
   series.label = std::move(label);
   series.color = color;
   series.dash = dash;
@@ -34,22 +35,22 @@ Series makeSeries(std::string label, Color color = palette::kBlack, Dash dash = 
 // "Movement time (s)" of duration_s.
 std::string labelOf(const std::string& key) {
   std::string label = key;
-  for (const SweepKey& known : sweepKeys())
+  for (const predict::SweepKey& known : predict::sweepKeys())
     if (known.name == key) label = known.meaning;
   label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  const std::string unit(splitUnit(key).unit);
+  const std::string unit(experiment::splitUnit(key).unit);
   return unit.empty() ? label : label + " (" + unit + ")";
 }
 
 // Where the number of peaks changes along the sweep, and where the hand begins or ceases to move backwards: half way between two values.
-std::vector<Rule> findTurns(const std::vector<FamilyRow>& rows) {
-  std::vector<Rule> turns;
+std::vector<figure::Rule> findTurns(const std::vector<predict::FamilyRow>& rows) {
+  std::vector<figure::Rule> turns;
   for (size_t i = 1; i < rows.size(); ++i) {
     if (!rows[i - 1].prediction || !rows[i].prediction) continue;
-    const ProfileShape &before = rows[i - 1].shape, &after = rows[i].shape;
-    Rule rule;
+    const predict::ProfileShape &before = rows[i - 1].shape, &after = rows[i].shape;
+    figure::Rule rule;
     rule.at = (rows[i - 1].value + rows[i].value) / 2;
-    if (before.reverses != after.reverses) rule.color = palette::kVermilion;
+    if (before.reverses != after.reverses) rule.color = figure::palette::kVermilion;
     if (before.velocityPeaks != after.velocityPeaks || before.reverses != after.reverses) turns.push_back(rule);
   }
   return turns;
@@ -57,7 +58,7 @@ std::vector<Rule> findTurns(const std::vector<FamilyRow>& rows) {
 
 }  // namespace
 
-std::string writePredictionCsv(const Prediction& prediction, int samples) {
+std::string writePredictionCsv(const predict::Prediction& prediction, int samples) {
   std::string out = "time_s,hand_m,hand_m_per_s,hand_m_per_s2";
   const auto n = static_cast<size_t>(prediction.massCount());
   for (size_t i = 1; i <= n; ++i) out += fmt::format(",mass{0}_m,mass{0}_m_per_s", i);
@@ -65,7 +66,7 @@ std::string writePredictionCsv(const Prediction& prediction, int samples) {
   std::vector<double> x(n), v(n);
   for (int i = 0; i < samples; ++i) {
     const double t = sampleTime(prediction, i, samples);
-    const PredictedHand hand = prediction.handAt(t);
+    const predict::PredictedHand hand = prediction.handAt(t);
     prediction.massesAt(t, x, v);
     out += number(t) + ',' + number(hand.position) + ',' + number(hand.velocity) + ',' + number(hand.acceleration);
     for (size_t m = 0; m < n; ++m) out += ',' + number(x[m]) + ',' + number(v[m]);
@@ -74,12 +75,12 @@ std::string writePredictionCsv(const Prediction& prediction, int samples) {
   return out;
 }
 
-std::string writePredictionJson(const Prediction& p) {
+std::string writePredictionJson(const predict::Prediction& p) {
   std::string warnings;
   for (const std::string& w : p.warnings) warnings += (warnings.empty() ? "" : ", ") + asJsonText(w);
   std::string out = "{\n";
   const auto line = [&](std::string_view key, const std::string& value) { out += fmt::format("  \"{}\": {},\n", key, value); };
-  line("criterion", asJsonText(nameOf(p.criterion)));
+  line("criterion", asJsonText(predict::nameOf(p.criterion)));
   line("duration_s", number(p.duration));
   line("distance_m", number(p.distance));
   line("cost", number(p.cost));
@@ -94,14 +95,14 @@ std::string writePredictionJson(const Prediction& p) {
   return out;
 }
 
-std::string writeFamilyCsv(const Sweep& sweep, const std::vector<FamilyRow>& rows) {
+std::string writeFamilyCsv(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows) {
   std::string out = sweep.key +
                     ",cost,hand_peak_m_per_s,hand_peak_s,object_peak_m_per_s,hand_jump_m,hand_jump_m_per_s,condition,travel_time_s,"
                     "hand_velocity_peaks,hand_reverses,refused\n";
-  for (const FamilyRow& row : rows) {
+  for (const predict::FamilyRow& row : rows) {
     out += number(row.value);
     if (row.prediction) {
-      const Prediction& p = *row.prediction;
+      const predict::Prediction& p = *row.prediction;
       for (const double value : {p.cost, p.handPeak, p.handPeakTime, p.objectPeak}) out += ',' + number(value);
       out += ',' + orEmpty(p.handJump) + ',' + orEmpty(p.handVelocityJump) + ',' + number(p.condition) + ',' + orEmpty(p.travelTime);
       out += fmt::format(",{},{},0\n", row.shape.velocityPeaks, row.shape.reverses ? 1 : 0);
@@ -112,9 +113,9 @@ std::string writeFamilyCsv(const Sweep& sweep, const std::vector<FamilyRow>& row
   return out;
 }
 
-Figure drawPrediction(const Prediction& prediction, int samples) {
-  Series hand = makeSeries("hand", palette::kBlack, Dash::Solid, kThick),
-         object = makeSeries("object", palette::kBlue, Dash::Dashed, kThick);
+figure::Figure drawPrediction(const predict::Prediction& prediction, int samples) {
+  figure::Series hand = makeSeries("hand", figure::palette::kBlack, figure::Dash::Solid, figure::kThick),
+                 object = makeSeries("object", figure::palette::kBlue, figure::Dash::Dashed, figure::kThick);
   const auto n = static_cast<size_t>(prediction.massCount());
   std::vector<double> x(n), v(n);
   for (int i = 0; i < samples; ++i) {
@@ -123,24 +124,26 @@ Figure drawPrediction(const Prediction& prediction, int samples) {
     hand.x.push_back(t), hand.y.push_back(prediction.handAt(t).velocity);
     object.x.push_back(t), object.y.push_back(v.back());
   }
-  Panel panel;
-  panel.title = nameOf(prediction.criterion);
+  figure::Panel panel;
+  panel.title = predict::nameOf(prediction.criterion);
   panel.x.label = "Time (s)";
   panel.y.label = "Velocity (m/s)";
   panel.series = {hand, object};
-  Figure figure;
+  figure::Figure figure;
   figure.panels = {panel};
   return figure;
 }
 
-Figure drawFamily(const Sweep& sweep, const std::vector<FamilyRow>& rows, Criterion criterion) {
+figure::Figure drawFamily(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows, predict::Criterion criterion) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  Series hand = makeSeries("hand"), object = makeSeries("object", palette::kBlue, Dash::Dashed), cost = makeSeries("");
-  Series count = makeSeries("peaks of the hand"), reversal = makeSeries("hand reverses", palette::kVermilion, Dash::Solid, 0);
-  reversal.marker = Marker::Cross;
-  for (const FamilyRow& row : rows) {
-    const Prediction* p = row.prediction.get();
-    for (Series* s : {&hand, &object, &cost, &count, &reversal}) s->x.push_back(row.value);
+  figure::Series hand = makeSeries("hand"), object = makeSeries("object", figure::palette::kBlue, figure::Dash::Dashed),
+                 cost = makeSeries("");
+  figure::Series count = makeSeries("peaks of the hand"),
+                 reversal = makeSeries("hand reverses", figure::palette::kVermilion, figure::Dash::Solid, 0);
+  reversal.marker = figure::Marker::Cross;
+  for (const predict::FamilyRow& row : rows) {
+    const predict::Prediction* p = row.prediction.get();
+    for (figure::Series* s : {&hand, &object, &cost, &count, &reversal}) s->x.push_back(row.value);
     hand.y.push_back(p ? std::abs(p->handPeak) : none);
     object.y.push_back(p ? std::abs(p->objectPeak) : none);
     cost.y.push_back(p ? p->cost : none);
@@ -148,8 +151,8 @@ Figure drawFamily(const Sweep& sweep, const std::vector<FamilyRow>& rows, Criter
     reversal.y.push_back(p && row.shape.reverses ? row.shape.velocityPeaks : none);
   }
   const std::string along = labelOf(sweep.key);
-  const auto panel = [&](const std::string& y, Scale scale, std::vector<Series> series) {
-    Panel made;
+  const auto panel = [&](const std::string& y, figure::Scale scale, std::vector<figure::Series> series) {
+    figure::Panel made;
     made.x.label = along;
     made.y.label = y;
     made.y.scale = scale;
@@ -158,20 +161,20 @@ Figure drawFamily(const Sweep& sweep, const std::vector<FamilyRow>& rows, Criter
     return made;
   };
   // What the lines across say, for the legend alone.
-  const Series change = makeSeries("their number changes", palette::kGrey, Dash::Dotted, kThin);
-  const Series turn = makeSeries("begins or ceases to reverse", palette::kVermilion, Dash::Dotted, kThin);
-  Panel peaks = panel("Peaks of the hand's velocity", Scale::Linear, {count, reversal, change, turn});
-  peaks.legend = LegendPlace::Below;
+  const figure::Series change = makeSeries("their number changes", figure::palette::kGrey, figure::Dash::Dotted, figure::kThin);
+  const figure::Series turn = makeSeries("begins or ceases to reverse", figure::palette::kVermilion, figure::Dash::Dotted, figure::kThin);
+  figure::Panel peaks = panel("Peaks of the hand's velocity", figure::Scale::Linear, {count, reversal, change, turn});
+  peaks.legend = figure::LegendPlace::Below;
   int most = 1;
-  for (const FamilyRow& row : rows) most = std::max(most, row.shape.velocityPeaks);
+  for (const predict::FamilyRow& row : rows) most = std::max(most, row.shape.velocityPeaks);
   peaks.y.from = 0;
   peaks.y.to = most + 0.5;
   for (int i = 0; i <= most; ++i) peaks.y.ticks.emplace_back(i, std::to_string(i));
-  Figure figure;
-  figure.title = nameOf(criterion);
+  figure::Figure figure;
+  figure.title = predict::nameOf(criterion);
   figure.columns = 3;
-  figure.panels = {panel("Peak velocity (m/s)", Scale::Linear, {hand, object}), panel("Cost", Scale::Log, {cost}), peaks};
+  figure.panels = {panel("Peak velocity (m/s)", figure::Scale::Linear, {hand, object}), panel("Cost", figure::Scale::Log, {cost}), peaks};
   return figure;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

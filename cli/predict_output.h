@@ -5,16 +5,16 @@
 #include "sim/figure/figure.h"
 #include "sim/predict/family.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// `samples` rows from 0 to T, inner limits at both ends: hand, then the masses [m], [m/s], [m/s^2], 17 significant digits.
-std::string writePredictionCsv(const Prediction& prediction, int samples);
-std::string writePredictionJson(const Prediction& prediction);
+std::string writePredictionCsv(const predict::Prediction& prediction, int samples);
+std::string writePredictionJson(const predict::Prediction& prediction);
 /// One row a value of the sweep; what was refused leaves its numbers empty.
-std::string writeFamilyCsv(const Sweep& sweep, const std::vector<FamilyRow>& rows);
+std::string writeFamilyCsv(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows);
 
-Figure drawPrediction(const Prediction& prediction, int samples);
+figure::Figure drawPrediction(const predict::Prediction& prediction, int samples);
 /// Peaks, their number and the cost against the swept parameter.
-Figure drawFamily(const Sweep& sweep, const std::vector<FamilyRow>& rows, Criterion criterion);
+figure::Figure drawFamily(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows, predict::Criterion criterion);
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "cli/commands.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/record/recover.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 namespace {
 
 void recover(const std::string& path) {
-  const Recovery recovery = recoverLog(path);
+  const record::Recovery recovery = record::recoverLog(path);
   if (!recovery.mended) {
     fmt::print("{}: healthy, {} trials, left as it is\n", path, recovery.trials);
     return;
@@ -52,4 +52,4 @@ void addRecoverCommand(CLI::App& app, int& exitCode) {
   });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -4,7 +4,7 @@
 #include "cli/success_table.h"
 #include "sim/record/replay.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 void addReplayCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("replay", "Simulates a recorded run again from its raw inputs");
@@ -19,14 +19,14 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
       "Example:\n"
       "  reach replay data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --check");
   command->callback([path, check, &exitCode] {
-    const RunLog log = RunLog::open(*path);
+    const record::RunLog log = record::RunLog::open(*path);
     if (log.goodBytes() < log.fileBytes()) fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
-    const Replay replay = replayRun(log);
-    for (const RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result));
+    const record::Replay replay = record::replayRun(log);
+    for (const record::RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result));
     fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows,
                replay.rowsThatDiffer, replay.trialsThatDiffer, replay.identical() ? "identical" : replay.firstDifference);
     if (*check && !replay.identical()) exitCode = 1;
   });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

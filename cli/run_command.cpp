@@ -2,11 +2,11 @@
 #include "cli/session_runner.h"
 #include "devices/make_device.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 void addRunCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Records a run of an experiment, or a session of a plan");
-  const auto r = std::make_shared<SessionRequest>();
+  const auto r = std::make_shared<session::SessionRequest>();
   command->add_option("experiment", r->what, "Experiment or session plan: a file, or the name of a shipped one")->required();
   command->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
       ->required();
@@ -37,9 +37,9 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       "  reach run chain-moderate --device replay:resources/reaches --fast\n"
       "  reach run paper --device simulated --subject 03 --session 01 --age 24 --sex F --handedness R --fast");
   command->callback([r, &exitCode] {
-    r->trialsOnOffer = trialsOnOffer(r->device);
+    r->trialsOnOffer = devices::trialsOnOffer(r->device);
     exitCode = runSession(*r);
   });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -11,13 +11,13 @@
 #include "cli/at_option.h"
 #include "cli/stop_signals.h"
 #include "cli/success_table.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/make_device.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/record/bids.h"
 #include "sim/record/recorder.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 std::string utcNow() {
@@ -36,9 +36,9 @@ std::string computerName() {
   return fmt::format("{} {} {}", system.sysname, system.release, system.machine);
 }
 
-void complete(RunConfiguration& configuration, const BlockToRun& block, const RunConductor& run, bool fast) {
-  const DeviceInfo device = run.device();
-  const TickEngine& engine = run.engine();
+void complete(record::RunConfiguration& configuration, const session::BlockToRun& block, const haptics::RunConductor& run, bool fast) {
+  const haptics::DeviceInfo device = run.device();
+  const haptics::TickEngine& engine = run.engine();
   configuration.deviceName = device.name;
   configuration.deviceVersion = device.version;
   configuration.deviceMaxForce = device.maxForce;
@@ -50,7 +50,7 @@ void complete(RunConfiguration& configuration, const BlockToRun& block, const Ru
   configuration.computer = computerName();
   configuration.startedUtc = utcNow();
   configuration.clock = fast ? "virtual" : "monotonic";
-  configuration.table = makeChannelTable(block.experiment, engine.constraint().parameterCount());
+  configuration.table = record::makeChannelTable(block.experiment, engine.constraint().parameterCount());
 }
 
 // The pause between trials; the haptic loop goes on meanwhile.
@@ -59,7 +59,7 @@ void pauseFor(double seconds, const std::atomic<bool>& stopAsked) {
   while (!stopAsked && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
-std::string describe(const LoopReport& report) {
+std::string describe(const haptics::LoopReport& report) {
   return fmt::format(
       "loop: {:.2f} ticks/s over {:.2f} s ({}); lateness p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; late {}, missed {}, "
       "longest gap {:.3f} "
@@ -70,19 +70,19 @@ std::string describe(const LoopReport& report) {
 }
 
 // True when it was done to its end.
-bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& table) {
-  std::unique_ptr<Recorder> recorder;  // outlives the run
-  RunConductor run(block.experiment, makeDevice(request.device, block.experiment, block.configuration.seed), block.trials,
-                   LoopOptions{.virtualClock = request.fast});
+bool runBlock(session::BlockToRun block, const session::SessionRequest& request, SuccessTable& table) {
+  std::unique_ptr<record::Recorder> recorder;  // outlives the run
+  haptics::RunConductor run(block.experiment, devices::makeDevice(request.device, block.experiment, block.configuration.seed), block.trials,
+                            haptics::LoopOptions{.virtualClock = request.fast});
   if (request.fast && !run.device().virtualHand)
     throw UsageError(fmt::format("--fast: device {} moves in real time; allowed: simulated, replay", request.device));
-  RunConfiguration configuration;
+  record::RunConfiguration configuration;
   atOption("--data", [&] {
-    const FolderHold hold(request.place.data);
-    takeFreeRun(block, request);
+    const session::FolderHold hold(request.place.data);
+    session::takeFreeRun(block, request);
     configuration = block.configuration;
     complete(configuration, block, run, request.fast);
-    recorder = std::make_unique<Recorder>(block.logPath, configuration, RecorderOptions{.threaded = !request.fast});
+    recorder = std::make_unique<record::Recorder>(block.logPath, configuration, record::RecorderOptions{.threaded = !request.fast});
   });
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", configuration.run, configuration.condition,
              block.trials.size(), block.trials.size() == 1 ? "" : "s", configuration.practice ? " of practice" : "", configuration.method,
@@ -92,14 +92,14 @@ bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& tab
   bool interrupted = false;
   std::size_t conducted = 0;
   while (!interrupted) {
-    const std::optional<ConductedTrial> trial = run.runTrial(stop.asked());
+    const std::optional<haptics::ConductedTrial> trial = run.runTrial(stop.asked());
     if (!trial) break;
     fmt::print("{}\n", trialLine(recorder->lastTrial().trial, trial->result));
     std::fflush(stdout);
     table.add(configuration.condition + (trial->planned.catchTrial ? " (catch)" : ""), trial->result);
-    interrupted = trial->result.outcome == Outcome::Interrupted;
+    interrupted = trial->result.outcome == trial::Outcome::Interrupted;
     const bool isRepeat = ++conducted > block.trials.size();
-    if (trial->result.outcome == Outcome::Aborted && configuration.repeatAborted && !isRepeat) run.append(trial->planned);
+    if (trial->result.outcome == trial::Outcome::Aborted && configuration.repeatAborted && !isRepeat) run.append(trial->planned);
     if (!request.fast && run.trialsLeft() > 0) pauseFor(configuration.pauseSeconds, stop.asked());
     interrupted = interrupted || stop.asked();
   }
@@ -110,26 +110,26 @@ bool runBlock(BlockToRun block, const SessionRequest& request, SuccessTable& tab
   }
   run.finish();
   stop.allInOrder();
-  const RunLog log = RunLog::open(block.logPath);
+  const record::RunLog log = record::RunLog::open(block.logPath);
   atOption("--data", [&] {
-    writeBidsRun(log, request.place.data);
-    const FolderHold hold(request.place.data);  // the tables are of all runs
-    writeBidsTables({log.configuration()}, request.place.data);
+    record::writeBidsRun(log, request.place.data);
+    const session::FolderHold hold(request.place.data);  // the tables are of all runs
+    record::writeBidsTables({log.configuration()}, request.place.data);
   });
   return !interrupted;
 }
 
 }  // namespace
 
-int runSession(const SessionRequest& request) {
-  const SessionToRun session = planSession(request);
+int runSession(const session::SessionRequest& request) {
+  const session::SessionToRun session = session::planSession(request);
   if (!session.hint.empty()) fmt::print(stderr, "{}\n", session.hint);
   if (session.seedDrawn) fmt::print("seed={}\n", session.seed);
   if (session.blocks.empty()) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
   SuccessTable table;
   bool done = true;
-  for (const BlockToRun& block : session.blocks) {
+  for (const session::BlockToRun& block : session.blocks) {
     done = runBlock(block, request, table);
     if (!done) break;
   }
@@ -138,4 +138,4 @@ int runSession(const SessionRequest& request) {
   return done || cli::StopRequest::exitCode() == 0 ? 0 : cli::StopRequest::exitCode();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

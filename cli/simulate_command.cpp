@@ -8,10 +8,10 @@
 #include "cli/commands.h"
 #include "cli/hand_laws.h"
 #include "cli/standard_streams.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 struct Request {
@@ -66,12 +66,12 @@ void writeHeader(Table& table, int masses, int parameters) {
   table.endRow();
 }
 
-void writeRow(Table& table, const Plant& plant, double time, const HandSample& hand, bool coupled, int parameters) {
-  std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));
+void writeRow(Table& table, const dynamics::Plant& plant, double time, const dynamics::HandSample& hand, bool coupled, int parameters) {
+  std::vector<dynamics::MassState> masses(static_cast<std::size_t>(plant.massCount()));
   plant.observe(hand, masses);
   table.number(time);
   table.vector(coupled ? hand.position : Vec3{});
-  for (const MassState& mass : masses) {
+  for (const dynamics::MassState& mass : masses) {
     for (int k = 0; k < parameters; ++k) table.number(mass.q[k]);
     for (int k = 0; k < parameters; ++k) table.number(mass.qRate[k]);
     table.vector(mass.r);
@@ -111,19 +111,19 @@ std::vector<Stop> makeSchedule(const Request& request, double until, const std::
 
 // Nobody waits for a tick here: a step that would cost more than a tick may is taken in halves. `last` becomes the time reached.
 constexpr int kMostHalvings = 12;
-StepStatus stepInHalves(Plant& plant, const HandLaw& law, double t, double dt, int halvings, double& last) {
-  StepStatus status = plant.step(makeSegment(law.function, t, dt), dt);
+dynamics::StepStatus stepInHalves(dynamics::Plant& plant, const HandLaw& law, double t, double dt, int halvings, double& last) {
+  dynamics::StepStatus status = plant.step(dynamics::makeSegment(law.function, t, dt), dt);
   // Capped, or before a place without continuation: it comes as near as 2^-12 of the step.
-  if ((status == StepStatus::Capped || status == StepStatus::NoContinuation) && halvings > 0) {
+  if ((status == dynamics::StepStatus::Capped || status == dynamics::StepStatus::NoContinuation) && halvings > 0) {
     status = stepInHalves(plant, law, t, dt / 2, halvings - 1, last);
-    return status == StepStatus::Ok ? stepInHalves(plant, law, t + dt / 2, dt / 2, halvings - 1, last) : status;
+    return status == dynamics::StepStatus::Ok ? stepInHalves(plant, law, t + dt / 2, dt / 2, halvings - 1, last) : status;
   }
-  last = t + (status == StepStatus::Ok ? dt : plant.lastStepFraction() * dt);
+  last = t + (status == dynamics::StepStatus::Ok ? dt : plant.lastStepFraction() * dt);
   return status;
 }
 
 void simulate(const Request& request) {
-  Experiment experiment = readExperiment(request.experiment);
+  experiment::Experiment experiment = experiment::readExperiment(request.experiment);
   const auto positive = [](double value, const char* option) {
     if (!(value > 0) || !std::isfinite(value))
       throw UsageError(fmt::format("{}: {} s; allowed: a positive number of seconds", option, value));
@@ -140,8 +140,8 @@ void simulate(const Request& request) {
                     kMostRows, kMostSteps));
   if (!request.method.empty()) experiment.method = request.method;
 
-  const Constraint constraint = makeConstraint(experiment.constraint);
-  const int parameters = constraint.kind == ConstraintKind::Free ? 0 : constraint.parameterCount();
+  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
+  const int parameters = constraint.kind == constraints::ConstraintKind::Free ? 0 : constraint.parameterCount();
   const std::size_t coordinates = parameters == 0 ? 3 : static_cast<std::size_t>(parameters);
   if (!experiment.task && request.at.empty()) throw RefusedError("simulate needs a start: give task.start, or --at");
   const HandLaw law = makeHandLaw(request.hand, experiment, constraint);
@@ -155,15 +155,15 @@ void simulate(const Request& request) {
   requireCount(at, "--at");
   requireCount(rate, "--rate");
   if (!request.force.empty() && request.force.size() != 3) throw UsageError("--force: allowed: three numbers X,Y,Z in N");
-  if (!experiment.task) experiment.task = Task{};
+  if (!experiment.task) experiment.task = experiment::Task{};
   experiment.task->start = at;
   if (experiment.task->target.empty()) experiment.task->target = at;
 
   // The longest equal step that divides a row and is no longer than asked.
   const double within = std::min(request.every, until > 0 ? until : request.every);
   const double step = within / std::max(1.0, std::ceil(within / request.step * (1 - 1e-12)));
-  Scene scene = compileScene(experiment, {request.method, step, 0});
-  Plant& plant = *scene.plant;
+  dynamics::Scene scene = dynamics::compileScene(experiment, {request.method, step, 0});
+  dynamics::Plant& plant = *scene.plant;
   const bool coupled = request.hand != "none";
   if (!request.force.empty()) plant.setExtraForce({request.force[0], request.force[1], request.force[2]});
   plant.setCoupled(coupled);
@@ -183,17 +183,18 @@ void simulate(const Request& request) {
     for (double k = 0; k < steps; ++k) {
       const double t = begin + (stop - begin) * (k / steps);
       double last = t;
-      const StepStatus status = stepInHalves(plant, law, t, dt, kMostHalvings, last);
-      if (status == StepStatus::Ok) continue;
+      const dynamics::StepStatus status = stepInHalves(plant, law, t, dt, kMostHalvings, last);
+      if (status == dynamics::StepStatus::Ok) continue;
       const std::string reason = plant.stopReason();
-      if (status == StepStatus::AtEnd || status == StepStatus::NoContinuation) {
+      if (status == dynamics::StepStatus::AtEnd || status == dynamics::StepStatus::NoContinuation) {
         if (last > now) writeRow(table, plant, last, law.function(last), coupled, parameters);
         table.close();
-        std::cerr << fmt::format("stopped at {:.9g} s: {}\n", last, reason.empty() ? std::string(describe(status)) : reason);
+        std::cerr << fmt::format("stopped at {:.9g} s: {}\n", last, reason.empty() ? std::string(dynamics::describe(status)) : reason);
         return;
       }
       table.close();
-      throw RefusedError(fmt::format("at {:.9g} s the step failed ({}); try a smaller --step, or --method adaptive", t, describe(status)));
+      throw RefusedError(
+          fmt::format("at {:.9g} s the step failed ({}); try a smaller --step, or --method adaptive", t, dynamics::describe(status)));
     }
     now = stop;
     if (isRow) writeRow(table, plant, stop, law.function(stop), coupled, parameters);
@@ -230,4 +231,4 @@ void addSimulateCommand(CLI::App& app, int&) {
   command->callback([request] { simulate(*request); });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::cli {
 
 Spline::Spline(std::vector<double> times, std::vector<double> values)
     : t_(std::move(times)), x_(std::move(values)), second_(t_.size(), 0.0) {
@@ -46,4 +46,4 @@ Spline::Value Spline::at(double t) const {
           (x_[i + 1] - x_[i]) / h + h / 6 * ((3 * u * u - 1) * second_[i + 1] - (3 * w * w - 1) * second_[i])};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// Cubic spline through (t_i, x_i) with two continuous derivatives and not-a-knot ends (fewer than four points: the polynomial through
 /// them); held beyond both ends with zero rate.
@@ -18,4 +18,4 @@ class Spline {
   std::vector<double> t_, x_, second_;  // second derivatives at the points
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

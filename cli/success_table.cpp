@@ -4,18 +4,18 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::cli {
 
-void SuccessTable::add(const std::string& condition, const TrialResult& result) {
+void SuccessTable::add(const std::string& condition, const trial::TrialResult& result) {
   auto row = std::find_if(rows_.begin(), rows_.end(), [&](const auto& r) { return r.first == condition; });
   if (row == rows_.end()) row = rows_.insert(rows_.end(), {condition, {}});
   OutcomeCounts& counts = row->second;
   ++counts.trials;
-  counts.success += result.outcome == Outcome::Success;
-  counts.failure += result.outcome == Outcome::Failure;
-  counts.aborted += result.outcome == Outcome::Aborted;
-  counts.interrupted += result.outcome == Outcome::Interrupted;
-  if (result.outcome != Outcome::Success) ++counts.reasons[std::string(nameOf(result.reason))];
+  counts.success += result.outcome == trial::Outcome::Success;
+  counts.failure += result.outcome == trial::Outcome::Failure;
+  counts.aborted += result.outcome == trial::Outcome::Aborted;
+  counts.interrupted += result.outcome == trial::Outcome::Interrupted;
+  if (result.outcome != trial::Outcome::Success) ++counts.reasons[std::string(trial::nameOf(result.reason))];
 }
 
 std::string SuccessTable::text() const {
@@ -33,12 +33,12 @@ std::string SuccessTable::text() const {
   return text;
 }
 
-std::string trialLine(int trial, const TrialResult& result) {
-  std::string line = fmt::format("trial={} outcome={}", trial, nameOf(result.outcome));
-  if (result.outcome != Outcome::Success) line += fmt::format(" reason={}", nameOf(result.reason));
+std::string trialLine(int trial, const trial::TrialResult& result) {
+  std::string line = fmt::format("trial={} outcome={}", trial, trial::nameOf(result.outcome));
+  if (result.outcome != trial::Outcome::Success) line += fmt::format(" reason={}", trial::nameOf(result.reason));
   if (result.mass > 0) line += fmt::format(" mass={}", result.mass);
   if (result.by != 0) line += fmt::format(" by={:.17g}", result.by);
   return line + fmt::format(" time_s={:.17g}", result.movementTime);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

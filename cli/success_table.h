@@ -5,7 +5,7 @@
 
 #include "sim/trial/outcome.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 
 /// Counts of a run, as printed at its end; the exported trials.csv gives the same.
 struct OutcomeCounts {
@@ -16,7 +16,7 @@ struct OutcomeCounts {
 /// Outcomes by condition, in the order in which the conditions came.
 class SuccessTable {
  public:
-  void add(const std::string& condition, const TrialResult& result);
+  void add(const std::string& condition, const trial::TrialResult& result);
   /// Columns: condition, trials, success, failure, aborted, interrupted, success_percent, reasons. Empty without trials.
   std::string text() const;
 
@@ -25,6 +25,6 @@ class SuccessTable {
 };
 
 /// `trial=3 outcome=failure reason=velocity mass=5 by=0.004 time_s=1.31`; what does not apply is left out.
-std::string trialLine(int trial, const TrialResult& result);
+std::string trialLine(int trial, const trial::TrialResult& result);
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

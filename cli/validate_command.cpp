@@ -5,13 +5,13 @@
 
 #include "cli/commands.h"
 #include "constraints/definition.h"
-#include "constraints/error.h"
-#include "constraints/json_reader.h"
+#include "base/error.h"
+#include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/plan.h"
 #include "sim/trial/task_check.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 constexpr const char* kExpected =
@@ -22,10 +22,10 @@ std::string fileOf(const std::string& fileOrName) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (fs::is_directory(fileOrName, error)) throw UsageError(fmt::format("{}: is a folder; allowed: {}", fileOrName, kExpected));
-  const std::vector<std::string> experiments = shippedExperiments();
+  const std::vector<std::string> experiments = experiment::shippedExperiments();
   if (!fs::exists(fileOrName, error) && std::find(experiments.begin(), experiments.end(), fileOrName) != experiments.end())
-    return fmt::format("{}/experiments/{}.json", resourceFolder(), fileOrName);
-  return findPlan(fileOrName).value_or(fileOrName);
+    return fmt::format("{}/experiments/{}.json", experiment::resourceFolder(), fileOrName);
+  return session::findPlan(fileOrName).value_or(fileOrName);
 }
 
 // A table or a recording would only be told where JSON breaks off.
@@ -43,21 +43,21 @@ void checkIsJsonObject(const std::string& text, const std::string& file) {
 void validateFile(const std::string& fileOrName) {
   const std::string file = fileOf(fileOrName);
   std::error_code error;
-  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && findInCatalogue(file) != nullptr) return;
-  if (!std::filesystem::exists(file, error)) readExperiment(file);  // says which names there are
+  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr) return;
+  if (!std::filesystem::exists(file, error)) experiment::readExperiment(file);  // says which names there are
   const std::string text = readTextFile(file);
   checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
     std::string faults;
-    for (const std::string& fault : planProblems(file)) faults += (faults.empty() ? "" : "\n") + fault;
+    for (const std::string& fault : session::planProblems(file)) faults += (faults.empty() ? "" : "\n") + fault;
     if (!faults.empty()) throw UsageError(faults);
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
-    parseDefinition(text, file);
+    constraints::parseDefinition(text, file);
   } else {
-    const Experiment experiment = parseExperiment(text, file);
-    if (experiment.task) checkTask(experiment, file);
-    for (const std::string& warning : implausibleNumbers(experiment, file)) fmt::print(stderr, "warning: {}\n", warning);
+    const experiment::Experiment experiment = experiment::parseExperiment(text, file);
+    if (experiment.task) trial::checkTask(experiment, file);
+    for (const std::string& warning : trial::implausibleNumbers(experiment, file)) fmt::print(stderr, "warning: {}\n", warning);
   }
 }
 
@@ -81,4 +81,4 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
   });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "constraints/formula.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr double kStill = 1e-9;  // of the largest |r_phi|: what rounding leaves of a cusp is far below, a near cusp far above
@@ -148,4 +148,4 @@ const char* nameOf(DegenerateKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

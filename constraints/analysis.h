@@ -5,7 +5,7 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 // What a constraint does between its points. Nothing here is for the haptic thread. Typed curves without a domain are looked at on
 // [0, 2 pi] (Eq. 10), typed surfaces on [-1, 1] x [-1, 1].
@@ -61,4 +61,4 @@ std::string findNonFinite(const Constraint& constraint, const std::array<Domain,
 /// Whether r_phi, or r_u x r_v, vanishes wherever one looks in the ranges.
 bool degeneratesEverywhere(const Constraint& constraint, const std::array<Domain, 2>& range);
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -2,11 +2,11 @@
 #include <filesystem>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "constraints/generated_catalogue.h"
-#include "constraints/names.h"
+#include "base/names.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 struct Entry {
@@ -68,4 +68,4 @@ GeneratedFunctions generatedFunctions(const Definition& definition) {
   return {};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

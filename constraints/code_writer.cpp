@@ -4,7 +4,7 @@
 
 #include "constraints/cpp_writer.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 const std::vector<std::string> kCurveMembers{"r", "rPhi", "rPhiPhi"};
@@ -163,4 +163,4 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
   return code + ") {\n" + indented(body) + "}\n";
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

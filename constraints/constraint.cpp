@@ -7,10 +7,10 @@
 
 #include "constraints/definition.h"
 #include "constraints/analysis.h"
-#include "constraints/error.h"
-#include "constraints/names.h"
+#include "base/error.h"
+#include "base/names.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::array<double, kMaxShapeParameters>& shape,
@@ -109,4 +109,4 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
   return c;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

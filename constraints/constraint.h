@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "constraints/octet.h"
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 inline constexpr int kMaxShapeParameters = 8;
 
@@ -102,4 +102,4 @@ struct Constraint {
 /// `origin` ("FILE:LINE:COLUMN: constraint") stands before each message.
 Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin = "constraint");
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

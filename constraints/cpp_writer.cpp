@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 // Words that a shape parameter may be called but a C++ variable may not.
@@ -166,4 +166,4 @@ std::string CppWriter::function(const ExpressionNode& n) const {
 
 std::string CppWriter::expression(std::size_t k) const { return print(roots_[k]).text; }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -5,7 +5,7 @@
 
 #include "constraints/formula.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// Prints graph nodes as C++: what is used more than once becomes a named constant (sinPhi, cos4Phi, t1 …), the rest stands where it is
 /// used. The operations and their order are those of the interpreter.
@@ -59,4 +59,4 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
 /// "spherical-spiral" as SphericalSpiral.
 std::string upperCamel(const std::string& name);
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

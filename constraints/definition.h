@@ -6,7 +6,7 @@
 #include "constraints/constraint.h"
 #include "constraints/formula.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// One number of a constraint's shape that the experimenter may move. SI; keys of the catalogue end in their unit (`radius_m`).
 struct ShapeParameter {
@@ -76,4 +76,4 @@ struct GeneratedFunctions {
 };
 GeneratedFunctions generatedFunctions(const Definition& definition);
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
-#include "constraints/json_reader.h"
+#include "base/error.h"
+#include "base/json_reader.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 const std::vector<std::string> kKinds{"curve", "surface"};
@@ -263,4 +263,4 @@ std::string userDefinitionFolder() {
   return variable("HOME") + "/.local/share/reachlab/constraints";
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -4,7 +4,7 @@
 
 #include "constraints/definition.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -55,4 +55,4 @@ std::string toJson(const Definition& d) {
   return j.dump(2) + "\n";
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -4,7 +4,7 @@
 
 #include "constraints/analysis.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr int kLines = 256;     // parameter lines looked at
@@ -183,4 +183,4 @@ std::vector<DegeneratePlace> findDegeneratePlaces(const Constraint& c) {
   return PlaceFinder(c).find();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

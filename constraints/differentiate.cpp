@@ -1,6 +1,6 @@
 #include "constraints/expression.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 // The rule of one operation, given the derivatives `d` of the nodes before it.
 int ExpressionGraph::derivativeOf(int id, const std::vector<int>& d) {
@@ -57,4 +57,4 @@ std::vector<int> ExpressionGraph::differentiate(std::span<const int> roots, int 
   return result;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "constraints/sincos.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr int kMaxIntegerExponent = 64;  // larger ones go through std::pow
@@ -291,4 +291,4 @@ std::vector<int> ExpressionGraph::expandPowers(std::span<const int> roots) {
   return result;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

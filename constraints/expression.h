@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 enum class Op : std::uint8_t {
   Constant,
@@ -104,4 +104,4 @@ class ExpressionGraph {
   std::unordered_map<Key, int, KeyHash> ids_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

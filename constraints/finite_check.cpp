@@ -7,7 +7,7 @@
 #include "constraints/formula.h"
 #include "constraints/interval.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr int kBudget = 6000;                // boxes; what is undecided after them is sampled
@@ -122,4 +122,4 @@ bool degeneratesEverywhere(const Constraint& c, const std::array<Domain, 2>& ran
   return true;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 struct Parsed {
@@ -130,4 +130,4 @@ std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const 
   return result;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -9,7 +9,7 @@
 #include "constraints/parser.h"
 #include "constraints/program.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// A curve or surface as text: one line a coordinate, in `phi` or in `u` and `v`, with named parameters.
 struct FormulaText {
@@ -44,4 +44,4 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
 /// Values of graph nodes, with the operations of the compiled forms. Allocates: not for the haptic thread.
 std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables);
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

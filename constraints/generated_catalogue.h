@@ -3,7 +3,7 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// One shipped definition: its file's text, and the functions generated from it (those of the other kind null).
 struct GeneratedEntry {
@@ -15,4 +15,4 @@ struct GeneratedEntry {
 /// Defined by the generated file in the build folder; by name.
 std::span<const GeneratedEntry> generatedEntries();
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -7,7 +7,7 @@
 
 // Direct-threaded: each operation ends with the jump to the next, so that the processor predicts each jump by its own history. Labels as
 // values are an extension of g++ and clang.
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr int kCodeCount = static_cast<int>(Code::TwoSquare) + 1;
@@ -190,4 +190,4 @@ void evaluateSurfaceProgram(const void* program, const double* shape, double u, 
   evaluateProgram<2, 18>(*static_cast<const Program*>(program), shape, variables, &out.r.x);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

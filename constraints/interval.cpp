@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -149,4 +149,4 @@ const std::vector<Finiteness>& IntervalEvaluator::evaluate(const std::array<Inte
   return result_;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

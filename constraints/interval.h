@@ -5,7 +5,7 @@
 
 #include "constraints/expression.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// Bounds of an expression over a box of its variables (natural interval extension, Moore 1966). Not rounded outwards: used to find
 /// places where a formula has no finite value, where a rounding more or less decides nothing.
@@ -36,4 +36,4 @@ class IntervalEvaluator {
   std::vector<Finiteness> result_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

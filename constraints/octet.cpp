@@ -2,7 +2,7 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 void evaluateSingly(CurveFunction function, const void* program, const double* shape, const double* phi, CurveOctet& out) noexcept {
   for (int i = 0; i < kOctet; ++i) {
@@ -15,4 +15,4 @@ void evaluateSingly(CurveFunction function, const void* program, const double* s
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 struct CurvePoint;
 
@@ -21,4 +21,4 @@ using CurveOctetFunction = void (*)(const void* program, const double* shape, co
 void evaluateSingly(void (*function)(const void*, const double*, double, CurvePoint&) noexcept, const void* program, const double* shape,
                     const double* phi, CurveOctet& out) noexcept;
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -5,7 +5,7 @@
 #include "constraints/sincos.h"
 
 // The interpreter for eight parameter values: each instruction's jump is paid once for eight results.
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 using Register = double[kOctet];
@@ -97,4 +97,4 @@ void evaluateCurveOctetProgram(const void* program, const double* shape, const d
   for (const Program::Copy& copy : p.copies) std::memcpy(&out.r[0][0] + kOctet * copy.slot, registers[copy.from], sizeof(Register));
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

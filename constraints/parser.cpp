@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/names.h"
+#include "base/names.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -225,4 +225,4 @@ std::string parameterNameFault(const std::string& name, const std::vector<std::s
   return {};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

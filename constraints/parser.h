@@ -6,7 +6,7 @@
 
 #include "constraints/expression.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 inline constexpr std::size_t kMaxFormulaCharacters = 2000;
 inline constexpr int kMaxFormulaDepth = 100;
@@ -39,4 +39,4 @@ ParsedFormula parseFormula(std::string_view text, const FormulaNames& names, Exp
 /// Why `name` can't name a shape parameter (clash with a variable, constant or function; not a name); empty when it can.
 std::string parameterNameFault(const std::string& name, const std::vector<std::string>& variables);
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

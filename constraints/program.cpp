@@ -3,9 +3,9 @@
 #include <map>
 #include <optional>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 class Compiler {
@@ -218,4 +218,4 @@ Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int p
   return Compiler(graph, roots, parameterCount, variableCount).compile();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

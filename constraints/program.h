@@ -6,7 +6,7 @@
 #include "constraints/constraint.h"
 #include "constraints/expression.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// Operations of the straight-line program. R: register, C: number kept in the instruction.
 enum class Code : std::uint16_t {
@@ -86,4 +86,4 @@ void evaluateSurfaceProgram(const void* program, const double* shape, double u, 
 /// Address that the interpreter jumps to for an operation.
 const void* handlerOf(Code code) noexcept;
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// Sine and cosine together, inlined; every fused operation is written out, so that generated code and typed formulas of one build give
 /// the same bits. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; libm beyond (and for what is not finite).
@@ -78,4 +78,4 @@ inline double cosine(double x) noexcept {
 /// -1, 0 or 1; not a number stays one.
 inline double signOf(double x) noexcept { return x > 0 ? 1.0 : x < 0 ? -1.0 : x; }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

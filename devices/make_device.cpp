@@ -1,19 +1,19 @@
 #include "devices/make_device.h"
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/replayed_reach.h"
 #include "devices/simulated_hand.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
-std::unique_ptr<HapticDevice> makeDevice(const std::string& spec, const Experiment& experiment, std::uint64_t seed) {
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {
   const std::size_t colon = spec.find(':');
   const std::string name = spec.substr(0, colon), argument = colon == std::string::npos ? "" : spec.substr(colon + 1);
   if (name == "simulated") return makeSimulatedHand(experiment, parseSubject(argument), seed);
   if (name == "replay") {
     if (argument.empty()) throw UsageError("--device replay: what to replay is missing; allowed: replay:FILE, replay:FOLDER");
-    const ProtocolSettings task = makeProtocolSettings(experiment, makeConstraint(experiment.constraint));
+    const trial::ProtocolSettings task = trial::makeProtocolSettings(experiment, constraints::makeConstraint(experiment.constraint));
     return makeReplayHand(argument, task.start, task.target);
   }
   if (name == "mouse") throw ResourceError("--device mouse: needs a window to point into; use `reachlab`");
@@ -31,4 +31,4 @@ std::vector<DeviceDescription> knownDevices() {
           {"mouse", "the pointer in the window of `reachlab`"}};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -7,7 +7,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/device.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// Makes the device that `NAME[:ARGUMENT]` names, for this experiment:
 ///   replay:FILE | replay:FOLDER          recorded reaches, the files of a folder in name order, one a trial, again from the first
@@ -15,7 +15,7 @@ namespace reachlab {
 ///   mouse                                only in the window, which makes it itself
 /// Trial i depends on (seed, i) alone. Throws UsageError (unknown name, key or value, a file that cannot be understood), ResourceError
 /// (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
-std::unique_ptr<HapticDevice> makeDevice(const std::string& spec, const Experiment& experiment, std::uint64_t seed);
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
 /// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws
 /// ResourceError when there is nothing to replay.
@@ -27,4 +27,4 @@ struct DeviceDescription {
 /// The devices that this program knows, for lists.
 std::vector<DeviceDescription> knownDevices();
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -4,24 +4,24 @@
 
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
-DeviceInfo MouseDevice::info() const {
-  DeviceInfo info;
+haptics::DeviceInfo MouseDevice::info() const {
+  haptics::DeviceInfo info;
   info.name = "mouse";
   info.version = "1";
   return info;
 }
 
-DeviceSample MouseDevice::read() noexcept {
+haptics::DeviceSample MouseDevice::read() noexcept {
   if (const Vec3* target = targets_.takeLatest()) target_ = *target;
   // Exact solution of the critically damped system over one tick, with the target held.
   constexpr double w = 1 / kSmoothing;
-  const double decay = std::exp(-w * kTickSeconds);
+  const double decay = std::exp(-w * trial::kTickSeconds);
   const Vec3 away = position_ - target_, slope = velocity_ + w * away;
-  position_ = target_ + decay * (away + kTickSeconds * slope);
-  velocity_ = decay * (velocity_ - w * kTickSeconds * slope);
-  DeviceSample sample;
+  position_ = target_ + decay * (away + trial::kTickSeconds * slope);
+  velocity_ = decay * (velocity_ - w * trial::kTickSeconds * slope);
+  haptics::DeviceSample sample;
   sample.position = position_;
   sample.velocity = velocity_;
   sample.hasVelocity = true;
@@ -30,4 +30,4 @@ DeviceSample MouseDevice::read() noexcept {
 
 void MouseDevice::write(const Vec3&) noexcept {}
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

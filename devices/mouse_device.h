@@ -1,12 +1,12 @@
 #pragma once
 #include "sim/haptics/device.h"
-#include "sim/haptics/triple_buffer.h"
+#include "base/triple_buffer.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// The pointer as a hand. The window sets a target (pixels come at 60-125 Hz, in steps); the hand follows it smoothly as a critically
 /// damped second-order system with time constant kSmoothing: x'' = (target - x)/T^2 - 2 x'/T, solved exactly over a tick. Renders no force.
-class MouseDevice final : public HapticDevice {
+class MouseDevice final : public haptics::HapticDevice {
  public:
   static constexpr double kSmoothing = 0.015;  // [s]
 
@@ -16,8 +16,8 @@ class MouseDevice final : public HapticDevice {
     if (isFinite(target)) targets_.publish(target);
   }
 
-  DeviceInfo info() const override;
-  DeviceSample read() noexcept override;
+  haptics::DeviceInfo info() const override;
+  haptics::DeviceSample read() noexcept override;
   void write(const Vec3& force) noexcept override;
 
  private:
@@ -25,4 +25,4 @@ class MouseDevice final : public HapticDevice {
   Vec3 position_, velocity_, target_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::devices {
 
 NaturalSpline::NaturalSpline(std::vector<double> time, std::vector<Vec3> value)
     : time_(std::move(time)), value_(std::move(value)), bend_(value_.size()) {
@@ -26,4 +26,4 @@ Vec3 NaturalSpline::at(double t) const {
   return a * value_[i] + b * value_[i + 1] + h * h / 6 * ((a * a * a - a) * bend_[i] + (b * b * b - b) * bend_[i + 1]);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

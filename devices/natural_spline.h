@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// C2 cubic through (time, value) with zero second derivative at both ends (de Boor, A Practical Guide to Splines, ch. IV). Two points
 /// give a straight line. Times strictly increase.
@@ -18,4 +18,4 @@ class NaturalSpline {
   std::vector<Vec3> value_, bend_;  // bend: the second derivative at the knots
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -2,16 +2,16 @@
 
 #include <utility>
 
-namespace reachlab {
+namespace reachlab::devices {
 
-PlayedHand::PlayedHand(DeviceInfo info, PlanReach plan) : info_(std::move(info)), plan_(std::move(plan)), playing_(plan_(0)) {
+PlayedHand::PlayedHand(haptics::DeviceInfo info, PlanReach plan) : info_(std::move(info)), plan_(std::move(plan)), playing_(plan_(0)) {
   info_.virtualHand = true;
 }
 
 void PlayedHand::prepareTrial(int index) { prepared_ = plan_(index); }
 
-void PlayedHand::cue(Cue cue) noexcept {
-  if (cue == Cue::Go) {
+void PlayedHand::cue(haptics::Cue cue) noexcept {
+  if (cue == haptics::Cue::Go) {
     going_ = true;
     return;
   }
@@ -20,8 +20,8 @@ void PlayedHand::cue(Cue cue) noexcept {
   going_ = false;
 }
 
-DeviceSample PlayedHand::read() noexcept {
-  DeviceSample sample;
+haptics::DeviceSample PlayedHand::read() noexcept {
+  haptics::DeviceSample sample;
   if (playing_.position.empty()) {
     sample.valid = false;
     return sample;
@@ -34,4 +34,4 @@ DeviceSample PlayedHand::read() noexcept {
   return sample;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -4,7 +4,7 @@
 
 #include "sim/haptics/device.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// A hand's motion from the go signal on, a sample a tick; at rest on the first sample before and on the last one after.
 struct PlayedReach {
@@ -17,19 +17,19 @@ using PlanReach = std::function<PlayedReach(int trial)>;
 
 /// A virtual hand that plays one reach a trial, by tick count, so that the same reaches give the same run at any speed of the clock.
 /// Renders no force.
-class PlayedHand final : public HapticDevice {
+class PlayedHand final : public haptics::HapticDevice {
  public:
   /// `plan` is called by prepareTrial, from the controlling thread; trial 0 at once, so that what cannot be planned is said at the start.
-  PlayedHand(DeviceInfo info, PlanReach plan);
+  PlayedHand(haptics::DeviceInfo info, PlanReach plan);
 
-  DeviceInfo info() const override { return info_; }
+  haptics::DeviceInfo info() const override { return info_; }
   void prepareTrial(int index) override;
-  void cue(Cue cue) noexcept override;
-  DeviceSample read() noexcept override;
+  void cue(haptics::Cue cue) noexcept override;
+  haptics::DeviceSample read() noexcept override;
   void write(const Vec3&) noexcept override {}
 
  private:
-  DeviceInfo info_;
+  haptics::DeviceInfo info_;
   PlanReach plan_;
   PlayedReach prepared_;  // the controlling thread's, until Cue::Place
   PlayedReach playing_;
@@ -37,4 +37,4 @@ class PlayedHand final : public HapticDevice {
   bool going_ = false;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -5,10 +5,10 @@
 #include <memory>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 namespace {
 
 // A plan and the time that the protocol will measure when it is carried out to the letter, from onset to arrival.
@@ -31,7 +31,7 @@ double computeArrival(double duration, HasLeft&& hasLeft, IsThere&& isThere) {
   return t - onset;
 }
 
-ReachPlan timeForTask(const Task& task, const MakePlan& makePlan) {
+ReachPlan timeForTask(const experiment::Task& task, const MakePlan& makePlan) {
   TimedPlan timed = makePlan(task.duration);
   if (timed.arrival >= task.duration - task.tolerance.time) return timed.plan;
   double shorter = task.duration, longer = task.duration;
@@ -46,29 +46,29 @@ ReachPlan timeForTask(const Task& task, const MakePlan& makePlan) {
 }
 
 // The same object on a straight line: what the criteria are defined for.
-Experiment onLine(const Experiment& experiment, double length) {
-  Experiment line = experiment;
+experiment::Experiment onLine(const experiment::Experiment& experiment, double length) {
+  experiment::Experiment line = experiment;
   line.constraint = {};
   line.constraint.name = "line";
   line.constraint.shape = {{"length_m", length}};
   line.task->start = {0};
   line.task->target = {2 * std::numbers::pi};
-  if (line.object.kind == ObjectKind::Body) line.object.kind = ObjectKind::Point;
+  if (line.object.kind == experiment::ObjectKind::Body) line.object.kind = experiment::ObjectKind::Point;
   return line;
 }
 
 // What the criterion predicts for a way of this length, timed; `place` lays a distance from the start into the world.
-ReachPlan planByPrediction(const Experiment& experiment, double length, Criterion criterion, std::optional<double> handMass,
-                           std::function<Vec3(double)> place) {
+ReachPlan planByPrediction(const experiment::Experiment& experiment, double length, predict::Criterion criterion,
+                           std::optional<double> handMass, std::function<Vec3(double)> place) {
   // Ways that no line has are predicted on the nearest one: the reaches of an object on springs scale with the distance.
   const double lineLength = std::clamp(length, kShortestLine, kLongestLine), scale = length / lineLength;
-  const Experiment line = onLine(experiment, lineLength);
-  const Task& task = *line.task;
+  const experiment::Experiment line = onLine(experiment, lineLength);
+  const experiment::Task& task = *line.task;
   return timeForTask(task, [&](double duration) {
-    PredictOptions options;
+    predict::PredictOptions options;
     options.handMass = handMass;
     options.duration = duration;
-    const std::shared_ptr<const Prediction> prediction = predict(line, criterion, options);
+    const std::shared_ptr<const predict::Prediction> prediction = predict::predict(line, criterion, options);
     std::vector<double> x(line.object.masses.size()), v(x.size());
     const auto hasLeft = [&](double t) { return scale * std::abs(prediction->handAt(t).position) > task.onset; };
     const auto isThere = [&](double t) {
@@ -82,7 +82,7 @@ ReachPlan planByPrediction(const Experiment& experiment, double length, Criterio
   });
 }
 
-ReachPlan planAlongChord(const Experiment& experiment, const Vec3& start, const Vec3& target, Criterion criterion,
+ReachPlan planAlongChord(const experiment::Experiment& experiment, const Vec3& start, const Vec3& target, predict::Criterion criterion,
                          std::optional<double> handMass) {
   const double length = norm(target - start);
   const Vec3 direction = (target - start) / length;
@@ -92,8 +92,8 @@ ReachPlan planAlongChord(const Experiment& experiment, const Vec3& start, const 
 // phi as a function of arc length from `from`, by Simpson's rule on equal parts of phi; beyond `to` the last part's slope goes on.
 class ArcTable {
  public:
-  ArcTable(const Curve& curve, double from, double to) : from_(from), step_((to - from) / kParts) {
-    const auto speed = [&](double phi) { return norm(evaluate(curve, phi).rPhi); };
+  ArcTable(const constraints::Curve& curve, double from, double to) : from_(from), step_((to - from) / kParts) {
+    const auto speed = [&](double phi) { return norm(constraints::evaluate(curve, phi).rPhi); };
     for (int i = 0; i < kParts; ++i) {
       const double a = from_ + i * step_;
       arc_[i + 1] = arc_[i] + std::abs(step_) / 6 * (speed(a) + 4 * speed(a + step_ / 2) + speed(a + step_));
@@ -113,11 +113,12 @@ class ArcTable {
   std::vector<double> arc_ = std::vector<double>(kParts + 1, 0.0);
 };
 
-ReachPlan planAlongCurve(const Experiment& experiment, const Constraint& constraint, Criterion criterion, std::optional<double> handMass) {
+ReachPlan planAlongCurve(const experiment::Experiment& experiment, const constraints::Constraint& constraint, predict::Criterion criterion,
+                         std::optional<double> handMass) {
   const ArcTable table(constraint.curve, experiment.task->start[0], experiment.task->target[0]);
   if (!(table.length() > 0)) throw UsageError("task: start and target are the same place");
   return planByPrediction(experiment, table.length(), criterion, handMass,
-                          [=](double s) { return evaluate(constraint.curve, table.phiAt(s)).r; });
+                          [=](double s) { return constraints::evaluate(constraint.curve, table.phiAt(s)).r; });
 }
 
 // Minimum-jerk law 10 x^3 - 15 x^4 + 6 x^5 (Flash and Hogan 1985) with its first two derivatives.
@@ -134,25 +135,26 @@ struct Motion {
 
 // The minimum-jerk law in the parameters of a curve or surface.
 struct ParameterReach {
-  Constraint constraint;
+  constraints::Constraint constraint;
   std::array<double, 2> from{}, by{};
 
   Motion at(double t, double duration) const {
     const MinimumJerk law = minimumJerkAt(t / duration);
     const double rate = law.rate / duration, change = law.acceleration / (duration * duration);
     const double q = from[0] + by[0] * law.value, u = by[0] * rate;
-    if (constraint.kind == ConstraintKind::Curve) {
-      const CurvePoint p = evaluate(constraint.curve, q);
+    if (constraint.kind == constraints::ConstraintKind::Curve) {
+      const constraints::CurvePoint p = constraints::evaluate(constraint.curve, q);
       return {p.r, u * p.rPhi, by[0] * change * p.rPhi + u * u * p.rPhiPhi};
     }
-    const SurfacePoint p = evaluate(constraint.surface, q, from[1] + by[1] * law.value);
+    const constraints::SurfacePoint p = constraints::evaluate(constraint.surface, q, from[1] + by[1] * law.value);
     const double w = by[1] * rate;
     return {p.r, u * p.rU + w * p.rV, by[0] * change * p.rU + by[1] * change * p.rV + u * u * p.rUu + 2 * u * w * p.rUv + w * w * p.rVv};
   }
 };
 
-ReachPlan planByInverseDynamics(const Experiment& experiment, const Constraint& constraint, const ProtocolSettings& place) {
-  const Task& task = *experiment.task;
+ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                const trial::ProtocolSettings& place) {
+  const experiment::Task& task = *experiment.task;
   const double mass = experiment.object.masses.at(0), stiffness = experiment.coupling->stiffness, viscosity = experiment.object.viscosity;
   ParameterReach reach{constraint};
   for (int k = 0; k < constraint.parameterCount(); ++k) {
@@ -177,18 +179,19 @@ ReachPlan planByInverseDynamics(const Experiment& experiment, const Constraint& 
 
 }  // namespace
 
-ReachPlan makeReachPlan(const Experiment& experiment, Criterion criterion, std::optional<double> handMass) {
-  const Constraint constraint = makeConstraint(experiment.constraint);
-  const ProtocolSettings place = makeProtocolSettings(experiment, constraint);
-  const bool flat = constraint.kind == ConstraintKind::Free || constraint.straight;
+ReachPlan makeReachPlan(const experiment::Experiment& experiment, predict::Criterion criterion, std::optional<double> handMass) {
+  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
+  const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment, constraint);
+  const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (flat && place.start == place.target) throw UsageError("task: start and target are the same place");
   if (flat) return planAlongChord(experiment, place.start, place.target, criterion, handMass);
-  const bool flexible = experiment.object.kind == ObjectKind::Chain || experiment.object.kind == ObjectKind::Parallel;
-  if (flexible && constraint.kind == ConstraintKind::Curve) return planAlongCurve(experiment, constraint, criterion, handMass);
+  const bool flexible =
+      experiment.object.kind == experiment::ObjectKind::Chain || experiment.object.kind == experiment::ObjectKind::Parallel;
+  if (flexible && constraint.kind == constraints::ConstraintKind::Curve) return planAlongCurve(experiment, constraint, criterion, handMass);
   if (flexible) throw RefusedError("the simulated subject has no plan for several masses on a surface; use one mass, or a curve");
   if (!experiment.coupling || !(experiment.coupling->stiffness > 0))
     throw RefusedError("coupling.stiffness_n_per_m: 0; nothing joins the simulated subject to the object");
   return planByInverseDynamics(experiment, constraint, place);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -4,7 +4,7 @@
 
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// Where a subject means to have the hand: a function of time on [0, duration] [m], world frame.
 struct ReachPlan {
@@ -23,6 +23,6 @@ struct ReachPlan {
 /// Gravity is not compensated, and a body is taken for a point: held ahead of its centre on the line of the reach it follows, held more
 /// than some millimetres beside that line it swings and does not come to rest. Throws UsageError (no task, start and target are one
 /// place), RefusedError from predict.
-ReachPlan makeReachPlan(const Experiment& experiment, Criterion criterion, std::optional<double> handMass);
+ReachPlan makeReachPlan(const experiment::Experiment& experiment, predict::Criterion criterion, std::optional<double> handMass);
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

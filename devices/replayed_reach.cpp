@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/natural_spline.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,9 +101,9 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
 
   PlayedReach played;
   const double begin = reach.time.front(), whole = reach.time.back() - begin;
-  const auto ticks = static_cast<std::size_t>(std::ceil((kRest + whole) / kTickSeconds - 1e-9));
+  const auto ticks = static_cast<std::size_t>(std::ceil((kRest + whole) / trial::kTickSeconds - 1e-9));
   for (std::size_t i = 0; i <= ticks; ++i) {
-    const double t = static_cast<double>(i) * kTickSeconds - kRest;
+    const double t = static_cast<double>(i) * trial::kTickSeconds - kRest;
     const double x = std::clamp(t / kJoin, 0.0, 1.0);
     const double blend = x * x * x * (10 + x * (6 * x - 15));
     const Vec3 recorded = spline.at(begin + std::clamp(t, 0.0, whole));
@@ -112,14 +112,14 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
   return played;
 }
 
-std::unique_ptr<HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target) {
+std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target) {
   std::vector<PlayedReach> reaches;
   for (const std::string& file : reachFiles(path)) reaches.push_back(layOnto(readReach(file), start, target));
-  DeviceInfo info;
+  haptics::DeviceInfo info;
   info.name = "replay";
   info.version = "1";
   return std::make_unique<PlayedHand>(
       info, [reaches = std::move(reaches)](int trial) { return reaches[static_cast<std::size_t>(trial) % reaches.size()]; });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

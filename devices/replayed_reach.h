@@ -5,7 +5,7 @@
 
 #include "devices/played_hand.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// Recorded hand positions at uneven times; columns time_s,x_m,y_m,z_m of a CSV file.
 struct RecordedReach {
@@ -27,6 +27,6 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
 std::vector<std::string> reachFiles(const std::string& path);
 
 /// A device that plays the file, or the CSV files of a folder in name order, one a trial, again from the first.
-std::unique_ptr<HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target);
+std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target);
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

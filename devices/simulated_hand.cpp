@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/played_hand.h"
 #include "devices/reach_plan.h"
-#include "sim/session/seeded.h"
+#include "base/seeded.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 namespace {
 
 /// Numbers of one trial; the same on every machine (the standard library's distributions are not).
@@ -74,14 +74,14 @@ PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uin
   const double sd = subject.noise * subject.speedSd;
 
   const double duration = plan.duration * stretch;
-  const auto still = static_cast<std::size_t>(std::max(1.0, reaction / kTickSeconds));
-  const auto steps = static_cast<std::size_t>(std::ceil(duration / kTickSeconds));
+  const auto still = static_cast<std::size_t>(std::max(1.0, reaction / trial::kTickSeconds));
+  const auto steps = static_cast<std::size_t>(std::ceil(duration / trial::kTickSeconds));
   PlayedReach reach;
   reach.position.reserve(still + steps + 2);
   Vec3 planned = plan.handAt(0), hand = planned;
   reach.position.assign(still, planned);
   for (std::size_t i = 1; i <= steps; ++i) {
-    const double t = std::min(static_cast<double>(i) * kTickSeconds, duration);
+    const double t = std::min(static_cast<double>(i) * trial::kTickSeconds, duration);
     const Vec3 next = plan.handAt(std::min(t / stretch, plan.duration)), by = next - planned;
     planned = next;
     hand += by;
@@ -94,7 +94,8 @@ PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uin
   reach.position.push_back(hand);
   const std::size_t count = reach.position.size();
   reach.velocity.resize(count);
-  for (std::size_t i = 1; i + 1 < count; ++i) reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * kTickSeconds);
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * trial::kTickSeconds);
   return reach;
 }
 
@@ -106,8 +107,8 @@ double readNumber(const std::string& key, const std::string& text, double most) 
   return value;
 }
 
-Criterion readCriterion(const std::string& text) {
-  if (const auto criterion = criterionFromName(text)) return *criterion;
+predict::Criterion readCriterion(const std::string& text) {
+  if (const auto criterion = predict::criterionFromName(text)) return *criterion;
   throw UsageError(fmt::format("--device simulated: criterion={}: allowed: the names of `reach list criteria`", text));
 }
 
@@ -135,12 +136,13 @@ SubjectSpec parseSubject(const std::string& text) {
   return subject;
 }
 
-std::unique_ptr<HapticDevice> makeSimulatedHand(const Experiment& experiment, const SubjectSpec& subject, std::uint64_t seed) {
+std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::Experiment& experiment, const SubjectSpec& subject,
+                                                         std::uint64_t seed) {
   const ReachPlan plan = makeReachPlan(experiment, subject.criterion, subject.handMass);
-  DeviceInfo info;
+  haptics::DeviceInfo info;
   info.name = "simulated";
   info.version = "1";
   return std::make_unique<PlayedHand>(info, [=](int trial) { return carryOut(plan, subject, seed, trial); });
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -7,7 +7,7 @@
 #include "sim/haptics/device.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 
 /// A virtual subject: plans by a criterion for this very object (reach_plan.h) and carries the plan out with motor noise.
 struct SubjectSpec {
@@ -15,7 +15,7 @@ struct SubjectSpec {
   double timeSd = 0.07;   // movement time: the plan is run through faster or slower by a factor 1 + timeSd z (paper: 0.09 of 1.35 s)
   double speedSd = 0.07;  // smooth noise proportional to speed, as a part of it, along the path and across
   double reaction = 0.2;  // [s] from go to the first movement, 15 % SD
-  Criterion criterion = Criterion::MinHandJerk;
+  predict::Criterion criterion = predict::Criterion::MinHandJerk;
   std::optional<double> handMass;  // [kg] for the criterion; nullopt: the experiment's
 };
 
@@ -23,6 +23,7 @@ struct SubjectSpec {
 SubjectSpec parseSubject(const std::string& text);
 
 /// Throws UsageError, RefusedError from the plan. Trial i is a function of (seed, i) alone.
-std::unique_ptr<HapticDevice> makeSimulatedHand(const Experiment& experiment, const SubjectSpec& subject, std::uint64_t seed);
+std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::Experiment& experiment, const SubjectSpec& subject,
+                                                         std::uint64_t seed);
 
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -2,11 +2,11 @@
 #include <array>
 #include <span>
 
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 #include "gui/constraint_mesh.h"
 
 /// The viewer's eye as a plain value, and what the pointer does to it. Pixels: y down, origin at the top left.
-namespace reachlab {
+namespace reachlab::gui {
 
 struct Camera {
   Vec3 position{0, 0, 1}, focus, up{0, 1, 0};  // [m]
@@ -38,4 +38,4 @@ Vec3 pointUnder(const Camera& camera, const Vec3& at, double x, double y, double
 /// The pixel of a world point.
 std::array<double, 2> pixelOf(const Camera& camera, const Vec3& world, double width, double height);
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

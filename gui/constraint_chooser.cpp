@@ -12,36 +12,36 @@
 #include <fstream>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "gui/formula_editor.h"
 #include "gui/scene_view.h"
 #include "gui/shape_sliders.h"
 #include "gui/thumbnail.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
-Experiment onePoint() {
-  Experiment e;
-  e.object.kind = ObjectKind::Point;
+experiment::Experiment onePoint() {
+  experiment::Experiment e;
+  e.object.kind = experiment::ObjectKind::Point;
   e.object.masses = {1};
-  e.coupling = Coupling{600, 0};
-  e.task = Task{};
+  e.coupling = experiment::Coupling{600, 0};
+  e.task = experiment::Task{};
   return e;
 }
 
 QString text(const std::string& s) { return QString::fromStdString(s); }
 
-QImage thumbnailOf(const Definition& definition, const QSize& size, double ratio) {
-  Experiment probe = onePoint();
+QImage thumbnailOf(const constraints::Definition& definition, const QSize& size, double ratio) {
+  experiment::Experiment probe = onePoint();
   probe.task->start = definition.start;
   probe.task->target = definition.target;
-  return drawThumbnail(planScene(probe, makeConstraint(definition)), size, ratio);
+  return drawThumbnail(planScene(probe, constraints::makeConstraint(definition)), size, ratio);
 }
 
 // A formula that no file speaks of begins in the middle of what is drawn of it and goes a quarter of the way.
-void givePlaces(Definition& definition) {
-  if (definition.kind == ConstraintKind::Surface) {
+void givePlaces(constraints::Definition& definition) {
+  if (definition.kind == constraints::ConstraintKind::Surface) {
     definition.start = {-0.5, -0.5};
     definition.target = {0.5, 0.5};
   } else {
@@ -51,10 +51,11 @@ void givePlaces(Definition& definition) {
 }
 
 // Start and target are the same place, or one of them is none.
-bool coincide(const Constraint& constraint, const ConstraintChoice& choice) {
+bool coincide(const constraints::Constraint& constraint, const ConstraintChoice& choice) {
   const auto place = [&](const std::vector<double>& q) {
-    if (constraint.kind == ConstraintKind::Curve && q.size() == 1) return evaluate(constraint.curve, q[0]).r;
-    if (constraint.kind == ConstraintKind::Surface && q.size() == 2) return evaluate(constraint.surface, q[0], q[1]).r;
+    if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) return constraints::evaluate(constraint.curve, q[0]).r;
+    if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2)
+      return constraints::evaluate(constraint.surface, q[0], q[1]).r;
     return Vec3{};
   };
   const double apart = norm(place(choice.target) - place(choice.start));
@@ -160,15 +161,16 @@ ConstraintChooser::~ConstraintChooser() = default;
 void ConstraintChooser::fillList() {
   const QSignalBlocker quiet(list_);
   list_->clear();
-  definitions_ = catalogue();
+  definitions_ = constraints::catalogue();
   try {
-    for (Definition& own : readDefinitionFolder(userDefinitionFolder())) definitions_.push_back(std::move(own));
+    for (constraints::Definition& own : constraints::readDefinitionFolder(constraints::userDefinitionFolder()))
+      definitions_.push_back(std::move(own));
   } catch (const Error& e) {
     saved_->setText(QString::fromUtf8(e.what()));
   }
-  for (const Definition& d : definitions_) {
+  for (const constraints::Definition& d : definitions_) {
     auto* item = new QListWidgetItem(QStringLiteral("%1\n%2").arg(
-        text(d.name), d.kind == ConstraintKind::Surface ? QStringLiteral("surface") : QStringLiteral("curve")));
+        text(d.name), d.kind == constraints::ConstraintKind::Surface ? QStringLiteral("surface") : QStringLiteral("curve")));
     item->setToolTip(text(d.sentence));
     item->setData(Qt::UserRole, (text(d.name) + QLatin1Char(' ') + item->text() + QLatin1Char(' ') + text(d.sentence)).toLower());
     try {
@@ -195,8 +197,8 @@ int ConstraintChooser::shownCount() const {
   return count;
 }
 
-void ConstraintChooser::setCurrent(const Experiment& experiment) {
-  const ConstraintSpec& spec = experiment.constraint;
+void ConstraintChooser::setCurrent(const experiment::Experiment& experiment) {
+  const constraints::ConstraintSpec& spec = experiment.constraint;
   for (std::size_t i = 0; i < definitions_.size(); ++i)
     if (spec.curve.empty() && spec.surface.empty() && definitions_[i].name == spec.name) {
       const QSignalBlocker quiet(list_);
@@ -206,7 +208,7 @@ void ConstraintChooser::setCurrent(const Experiment& experiment) {
     }
 }
 
-void ConstraintChooser::show(const Definition& definition, const std::map<std::string, double>& shape) {
+void ConstraintChooser::show(const constraints::Definition& definition, const std::map<std::string, double>& shape) {
   current_ = definition;
   title_->setText(text(definition.name));
   sentence_->setText(text(definition.sentence) +
@@ -220,8 +222,8 @@ bool ConstraintChooser::isTyped() const {
   return current_.name.empty() || formula_->kind() != current_.kind || formula_->coordinates() != current_.coordinates;
 }
 
-Definition ConstraintChooser::typedDefinition() const {
-  Definition d = current_;
+constraints::Definition ConstraintChooser::typedDefinition() const {
+  constraints::Definition d = current_;
   d.kind = formula_->kind();
   d.coordinates = formula_->coordinates();
   if (d.kind != current_.kind) {
@@ -230,8 +232,8 @@ Definition ConstraintChooser::typedDefinition() const {
   }
   d.shape.clear();
   for (const std::string& name : parameterNames(d.kind, d.coordinates)) {
-    ShapeParameter p{name, 0.1, -1, 1, "1", "typed"};
-    for (const ShapeParameter& known : current_.shape)
+    constraints::ShapeParameter p{name, 0.1, -1, 1, "1", "typed"};
+    for (const constraints::ShapeParameter& known : current_.shape)
       if (known.name == name) p = known;
     d.shape.push_back(p);
   }
@@ -246,7 +248,7 @@ void ConstraintChooser::formulaChanged() {
     dropVanishedSliders();
     return;
   }
-  Definition typed = typedDefinition();
+  constraints::Definition typed = typedDefinition();
   const std::string before = current_.name;
   if (!before.empty() && isTyped()) {
     typed.name.clear();
@@ -261,7 +263,7 @@ void ConstraintChooser::formulaChanged() {
   const auto values = sliders_->values();
   const bool sameNames =
       typed.shape.size() == values.size() &&
-      std::all_of(typed.shape.begin(), typed.shape.end(), [&](const ShapeParameter& p) { return values.contains(p.name); });
+      std::all_of(typed.shape.begin(), typed.shape.end(), [&](const constraints::ShapeParameter& p) { return values.contains(p.name); });
   current_ = typed;
   if (!sameNames) sliders_->setParameters(typed.shape, values);
   rebuild(true);
@@ -271,8 +273,8 @@ void ConstraintChooser::formulaChanged() {
 void ConstraintChooser::dropVanishedSliders() {
   const std::vector<std::string> names = parameterNames(formula_->kind(), formula_->coordinates());
   const auto values = sliders_->values();
-  std::vector<ShapeParameter> kept;
-  for (const ShapeParameter& p : current_.shape)
+  std::vector<constraints::ShapeParameter> kept;
+  for (const constraints::ShapeParameter& p : current_.shape)
     if (values.contains(p.name) && std::find(names.begin(), names.end(), p.name) != names.end()) kept.push_back(p);
   if (kept.size() < values.size()) sliders_->setParameters(kept, values);
 }
@@ -284,15 +286,15 @@ void ConstraintChooser::rebuild(bool resetCamera) {
   choice.target = current_.target;
   if (current_.name.empty()) {
     const std::vector<std::string> lines(current_.coordinates.begin(), current_.coordinates.end());
-    (current_.kind == ConstraintKind::Surface ? choice.spec.surface : choice.spec.curve) = lines;
-    choice.spec.name = current_.kind == ConstraintKind::Surface ? "surface" : "curve";
+    (current_.kind == constraints::ConstraintKind::Surface ? choice.spec.surface : choice.spec.curve) = lines;
+    choice.spec.name = current_.kind == constraints::ConstraintKind::Surface ? "surface" : "curve";
   } else {
     choice.spec.name = current_.name;
   }
   choice.spec.shape = sliders_->values();
   try {
-    const Constraint constraint =
-        current_.name.empty() ? makeConstraint(choice.spec, "formula") : makeConstraint(current_, choice.spec.shape);
+    const constraints::Constraint constraint = current_.name.empty() ? constraints::makeConstraint(choice.spec, "formula")
+                                                                     : constraints::makeConstraint(current_, choice.spec.shape);
     if (current_.name.empty() && coincide(constraint, choice)) {  // after another formula's places: nowhere to go
       givePlaces(current_);
       choice.start = current_.start;
@@ -313,17 +315,17 @@ void ConstraintChooser::rebuild(bool resetCamera) {
 
 void ConstraintChooser::save() {
   const std::string name = name_->text().trimmed().toLower().replace(QLatin1Char(' '), QLatin1Char('-')).toStdString();
-  Definition d = current_;
+  constraints::Definition d = current_;
   d.name = name;
   const auto values = sliders_->values();
-  for (ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
+  for (constraints::ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
   try {
     if (name.empty()) throw UsageError("a definition needs a name: lower-case words joined by '-'");
-    if (findInCatalogue(name) != nullptr) throw UsageError("there is already a definition of the name " + name);
-    const std::string content = toJson(d);
+    if (constraints::findInCatalogue(name) != nullptr) throw UsageError("there is already a definition of the name " + name);
+    const std::string content = constraints::toJson(d);
     namespace fs = std::filesystem;
-    const fs::path folder = userDefinitionFolder(), file = folder / (name + ".json");
-    (void)parseDefinition(content, file.string());  // nothing is saved that could not be read again
+    const fs::path folder = constraints::userDefinitionFolder(), file = folder / (name + ".json");
+    (void)constraints::parseDefinition(content, file.string());  // nothing is saved that could not be read again
     fs::create_directories(folder);
     std::ofstream out(file, std::ios::binary);
     out << content;
@@ -338,4 +340,4 @@ void ConstraintChooser::save() {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

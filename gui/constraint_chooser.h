@@ -11,7 +11,7 @@ class QLineEdit;
 class QListWidget;
 class QPushButton;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class FormulaEditor;
 class SceneView;
@@ -19,7 +19,7 @@ class ShapeSliders;
 
 /// A choice made: what an experiment needs to use it.
 struct ConstraintChoice {
-  ConstraintSpec spec;
+  constraints::ConstraintSpec spec;
   std::vector<double> start, target;
 };
 
@@ -31,29 +31,29 @@ class ConstraintChooser : public QDialog {
   explicit ConstraintChooser(QWidget* parent = nullptr);
   ~ConstraintChooser() override;
   /// Shows what is in use.
-  void setCurrent(const Experiment& experiment);
+  void setCurrent(const experiment::Experiment& experiment);
   /// What would be used now; nullopt while it cannot be.
   std::optional<ConstraintChoice> choice() const { return choice_; }
   SceneView* preview() { return preview_; }
   int shownCount() const;
 
  Q_SIGNALS:
-  void used(const reachlab::ConstraintChoice& choice);
+  void used(const reachlab::gui::ConstraintChoice& choice);
 
  private:
   void fillList();
   void filter(const QString& words);
-  void show(const Definition& definition, const std::map<std::string, double>& shape);
+  void show(const constraints::Definition& definition, const std::map<std::string, double>& shape);
   void formulaChanged();
   void dropVanishedSliders();
   void rebuild(bool resetCamera);
   void save();
-  Definition typedDefinition() const;
+  constraints::Definition typedDefinition() const;
   bool isTyped() const;
 
-  std::vector<Definition> definitions_;
-  Definition current_;
-  Experiment probe_;  // one mass on the constraint, for the picture
+  std::vector<constraints::Definition> definitions_;
+  constraints::Definition current_;
+  experiment::Experiment probe_;  // one mass on the constraint, for the picture
   std::optional<ConstraintChoice> choice_;
   QLineEdit *search_, *name_;
   QListWidget* list_;
@@ -64,4 +64,4 @@ class ConstraintChooser : public QDialog {
   QPushButton *use_, *save_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

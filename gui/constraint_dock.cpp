@@ -9,30 +9,30 @@
 #include <optional>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "gui/fault_label.h"
 #include "gui/shape_sliders.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 // Of the catalogue or the user's own folder; none while a file of it cannot be read.
-std::optional<Definition> definitionOf(const ConstraintSpec& spec) {
+std::optional<constraints::Definition> definitionOf(const constraints::ConstraintSpec& spec) {
   if (!spec.curve.empty() || !spec.surface.empty() || spec.name == "free") return {};
   try {
-    return findDefinition(spec.name, "constraint");
+    return constraints::findDefinition(spec.name, "constraint");
   } catch (const Error&) {
     return {};
   }
 }
 
 // A typed formula's own names: a slider from minus twice to twice what they are.
-std::vector<ShapeParameter> parametersOf(const ConstraintSpec& spec) {
+std::vector<constraints::ShapeParameter> parametersOf(const constraints::ConstraintSpec& spec) {
   if (spec.curve.empty() && spec.surface.empty()) {
-    const std::optional<Definition> definition = definitionOf(spec);
-    return definition ? definition->shape : std::vector<ShapeParameter>{};
+    const std::optional<constraints::Definition> definition = definitionOf(spec);
+    return definition ? definition->shape : std::vector<constraints::ShapeParameter>{};
   }
-  std::vector<ShapeParameter> parameters;
+  std::vector<constraints::ShapeParameter> parameters;
   for (const auto& [name, value] : spec.shape) {
     const double reach = std::max(2 * std::abs(value), 0.1);
     parameters.push_back({name, value, -reach, reach, "1", "typed"});
@@ -40,7 +40,7 @@ std::vector<ShapeParameter> parametersOf(const ConstraintSpec& spec) {
   return parameters;
 }
 
-bool sameFormula(const ConstraintSpec& a, const ConstraintSpec& b) {
+bool sameFormula(const constraints::ConstraintSpec& a, const constraints::ConstraintSpec& b) {
   return a.name == b.name && a.curve == b.curve && a.surface == b.surface;
 }
 
@@ -73,14 +73,14 @@ ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Co
   connect(choose, &QPushButton::clicked, this, &ConstraintDock::chooseRequested);
 }
 
-void ConstraintDock::setConstraint(const ConstraintSpec& spec, const Constraint& constraint) {
-  const char* kind = constraint.kind == ConstraintKind::Surface ? "surface"
-                     : constraint.kind == ConstraintKind::Curve ? "curve"
-                                                                : "no constraint";
+void ConstraintDock::setConstraint(const constraints::ConstraintSpec& spec, const constraints::Constraint& constraint) {
+  const char* kind = constraint.kind == constraints::ConstraintKind::Surface ? "surface"
+                     : constraint.kind == constraints::ConstraintKind::Curve ? "curve"
+                                                                             : "no constraint";
   name_->setText(QStringLiteral("<b>%1</b>  (%2)").arg(QString::fromStdString(spec.name), QLatin1String(kind)));
   QString formula;
   for (const auto& line : spec.curve.empty() ? spec.surface : spec.curve) formula += QString::fromStdString(line) + QLatin1Char('\n');
-  if (const std::optional<Definition> d = definitionOf(spec)) {
+  if (const std::optional<constraints::Definition> d = definitionOf(spec)) {
     formula = QString::fromStdString(d->sentence);
     if (formula.isEmpty())  // the user's own often have none
       for (const std::string& line : d->coordinates) formula += QString::fromStdString(line) + QLatin1Char('\n');
@@ -95,4 +95,4 @@ void ConstraintDock::setConstraint(const ConstraintSpec& spec, const Constraint&
 
 void ConstraintDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

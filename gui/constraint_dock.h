@@ -7,7 +7,7 @@
 
 class QLabel;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class FaultLabel;
 class ShapeSliders;
@@ -17,7 +17,7 @@ class ConstraintDock : public QDockWidget {
   Q_OBJECT
  public:
   explicit ConstraintDock(QWidget* parent = nullptr);
-  void setConstraint(const ConstraintSpec& spec, const Constraint& constraint);
+  void setConstraint(const constraints::ConstraintSpec& spec, const constraints::Constraint& constraint);
   void setFaults(const QStringList& faults);
 
  Q_SIGNALS:
@@ -28,7 +28,7 @@ class ConstraintDock : public QDockWidget {
   QLabel *name_, *formula_;
   FaultLabel* faults_;
   ShapeSliders* sliders_;
-  ConstraintSpec shown_;
+  constraints::ConstraintSpec shown_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 double angleBetween(const Vec3& a, const Vec3& b) {
@@ -129,11 +129,12 @@ std::size_t CurveMesh::pointCount() const {
   return count;
 }
 
-std::array<Domain, 2> drawnDomain(const Constraint& constraint, std::span<const double> start, std::span<const double> target) {
-  std::array<Domain, 2> drawn = constraint.domain;
-  const bool curve = constraint.kind == ConstraintKind::Curve;
+std::array<constraints::Domain, 2> drawnDomain(const constraints::Constraint& constraint, std::span<const double> start,
+                                               std::span<const double> target) {
+  std::array<constraints::Domain, 2> drawn = constraint.domain;
+  const bool curve = constraint.kind == constraints::ConstraintKind::Curve;
   for (std::size_t i = 0; i < (curve ? 1u : 2u); ++i) {
-    Domain& d = drawn[i];
+    constraints::Domain& d = drawn[i];
     const bool openLow = !std::isfinite(d.lo), openHigh = !std::isfinite(d.hi);
     if (!openLow && !openHigh) continue;
     const double usual = curve ? 2 * std::numbers::pi : 2;
@@ -153,19 +154,19 @@ std::array<Domain, 2> drawnDomain(const Constraint& constraint, std::span<const 
   }
   // A surface without ends is no ribbon along the reach: hills beside it are seen too.
   const auto endless = [&](std::size_t i) { return !std::isfinite(constraint.domain[i].lo) && !std::isfinite(constraint.domain[i].hi); };
-  if (constraint.kind == ConstraintKind::Surface && endless(0) && endless(1)) {
+  if (constraint.kind == constraints::ConstraintKind::Surface && endless(0) && endless(1)) {
     const double least = 0.75 * std::max(drawn[0].hi - drawn[0].lo, drawn[1].hi - drawn[1].lo);
-    for (Domain& d : drawn)
+    for (constraints::Domain& d : drawn)
       if (const double missing = least - (d.hi - d.lo); missing > 0) d.lo -= 0.5 * missing, d.hi += 0.5 * missing;
   }
   return drawn;
 }
 
-CurveMesh sampleCurve(const Curve& curve, double from, double to, const MeshOptions& options) {
-  const Probe probe = [&](double phi) { return std::vector<Vec3>{evaluate(curve, phi).r}; };
+CurveMesh sampleCurve(const constraints::Curve& curve, double from, double to, const MeshOptions& options) {
+  const Probe probe = [&](double phi) { return std::vector<Vec3>{constraints::evaluate(curve, phi).r}; };
   std::vector<Vec3> rough;
   for (const double phi : evenly(from, to, 96)) {
-    const Vec3 r = evaluate(curve, phi).r;
+    const Vec3 r = constraints::evaluate(curve, phi).r;
     if (isFinite(r)) rough.push_back(r);
   }
   std::vector<Vec3> points;
@@ -174,19 +175,20 @@ CurveMesh sampleCurve(const Curve& curve, double from, double to, const MeshOpti
   return {finitePieces(points)};
 }
 
-SurfaceMesh sampleSurface(const Surface& surface, const std::array<Domain, 2>& domain, const MeshOptions& options) {
+SurfaceMesh sampleSurface(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
+                          const MeshOptions& options) {
   const std::vector<double> probesU = evenly(domain[0].lo, domain[0].hi, 10), probesV = evenly(domain[1].lo, domain[1].hi, 10);
   std::vector<Vec3> rough;
   for (const double u : probesU)
     for (const double v : probesV)
-      if (const Vec3 r = evaluate(surface, u, v).r; isFinite(r)) rough.push_back(r);
+      if (const Vec3 r = constraints::evaluate(surface, u, v).r; isFinite(r)) rough.push_back(r);
   // A quad shows its bend less than a line does.
   const double error = 3 * options.chordError * sizeOf(rough), turn = 1.5 * options.turn;
   const auto along = [&](std::size_t which) {
     const Probe probe = [&](double at) {
       std::vector<Vec3> points;
       for (const double other : which == 0 ? probesV : probesU)
-        points.push_back(which == 0 ? evaluate(surface, at, other).r : evaluate(surface, other, at).r);
+        points.push_back(which == 0 ? constraints::evaluate(surface, at, other).r : constraints::evaluate(surface, other, at).r);
       return points;
     };
     std::vector<double> values;
@@ -198,7 +200,7 @@ SurfaceMesh sampleSurface(const Surface& surface, const std::array<Domain, 2>& d
   SurfaceMesh mesh;
   for (const double u : us)
     for (const double v : vs) {
-      const SurfacePoint p = evaluate(surface, u, v);
+      const constraints::SurfacePoint p = constraints::evaluate(surface, u, v);
       const Vec3 n = cross(p.rU, p.rV);
       const double length = norm(n), flat = 1e-7 * norm(p.rU) * norm(p.rV);
       mesh.points.push_back(p.r);
@@ -217,7 +219,8 @@ SurfaceMesh sampleSurface(const Surface& surface, const std::array<Domain, 2>& d
   const auto drawLines = [&](std::size_t which, const std::vector<double>& fine) {
     for (const double fixed : evenly(domain[which].lo, domain[which].hi, options.parameterLines)) {
       std::vector<Vec3> line;
-      for (const double at : fine) line.push_back(which == 0 ? evaluate(surface, fixed, at).r : evaluate(surface, at, fixed).r);
+      for (const double at : fine)
+        line.push_back(which == 0 ? constraints::evaluate(surface, fixed, at).r : constraints::evaluate(surface, at, fixed).r);
       for (auto& piece : finitePieces(line)) mesh.parameterLines.push_back(std::move(piece));
     }
   };
@@ -250,4 +253,4 @@ Box boxOf(const SurfaceMesh& mesh) {
   return box;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -8,7 +8,7 @@
 
 /// A constraint as points and lines to draw: computed from the same functions that the simulation moves on, and known to no graphics
 /// library. Sampling follows curvature and is bounded, so a wild formula costs no more than a tame one.
-namespace reachlab {
+namespace reachlab::gui {
 
 struct MeshOptions {
   double chordError = 5e-4;      // of the drawn size: how far a straight piece may leave the curve
@@ -20,14 +20,15 @@ struct MeshOptions {
 
 /// The stretch of each parameter that is drawn: the domain where it ends; [0, 2 pi] or [-1, 1] where it does not, widened so that start
 /// and target lie inside with a margin.
-std::array<Domain, 2> drawnDomain(const Constraint& constraint, std::span<const double> start, std::span<const double> target);
+std::array<constraints::Domain, 2> drawnDomain(const constraints::Constraint& constraint, std::span<const double> start,
+                                               std::span<const double> target);
 
 /// Pieces of a curve; a new piece begins where the formula is not finite. [m]
 struct CurveMesh {
   std::vector<std::vector<Vec3>> pieces;
   std::size_t pointCount() const;
 };
-CurveMesh sampleCurve(const Curve& curve, double from, double to, const MeshOptions& options = {});
+CurveMesh sampleCurve(const constraints::Curve& curve, double from, double to, const MeshOptions& options = {});
 
 /// A surface as a grid of quads over parameter lines that lie closer where it bends, and the lines that are drawn on it. [m]
 struct SurfaceMesh {
@@ -35,7 +36,8 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 4>> quads;  // counter-clockwise about the normal
   std::vector<std::vector<Vec3>> parameterLines;
 };
-SurfaceMesh sampleSurface(const Surface& surface, const std::array<Domain, 2>& domain, const MeshOptions& options = {});
+SurfaceMesh sampleSurface(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
+                          const MeshOptions& options = {});
 
 /// Smallest box around points; empty (valid() false) for none that is finite.
 struct Box {
@@ -48,4 +50,4 @@ struct Box {
 Box boxOf(const CurveMesh& mesh);
 Box boxOf(const SurfaceMesh& mesh);
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

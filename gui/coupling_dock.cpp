@@ -5,7 +5,7 @@
 #include "gui/fault_label.h"
 #include "gui/unit_spin_box.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupling of hand and object"), parent) {
   setObjectName(QStringLiteral("couplingDock"));
@@ -28,7 +28,7 @@ CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupli
   connect(damping_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, tell);
 }
 
-void CouplingDock::setCoupling(const std::optional<Coupling>& coupling) {
+void CouplingDock::setCoupling(const std::optional<experiment::Coupling>& coupling) {
   widget()->setEnabled(coupling.has_value());
   widget()->setToolTip(coupling ? QString() : QStringLiteral("the springs of a parallel object are the hand's own"));
   stiffness_->show(coupling ? coupling->stiffness : 0);
@@ -37,4 +37,4 @@ void CouplingDock::setCoupling(const std::optional<Coupling>& coupling) {
 
 void CouplingDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -4,7 +4,7 @@
 
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class FaultLabel;
 class UnitSpinBox;
@@ -15,15 +15,15 @@ class CouplingDock : public QDockWidget {
  public:
   explicit CouplingDock(QWidget* parent = nullptr);
   /// nullopt: a parallel object, whose springs are the hand's own.
-  void setCoupling(const std::optional<Coupling>& coupling);
+  void setCoupling(const std::optional<experiment::Coupling>& coupling);
   void setFaults(const QStringList& faults);
 
  Q_SIGNALS:
-  void edited(const reachlab::Coupling& coupling);
+  void edited(const reachlab::experiment::Coupling& coupling);
 
  private:
   UnitSpinBox *stiffness_, *damping_;
   FaultLabel* faults_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -13,7 +13,7 @@
 
 #include "constraints/formula.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 namespace {
 
@@ -27,25 +27,25 @@ bool oneLetterApart(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
+std::vector<std::string> parameterNames(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
   static const std::set<std::string> known{"pi",   "e",    "sin",  "cos", "tan", "asin", "acos", "atan", "atan2",
                                            "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs",  "sign"};
   static const QRegularExpression name(QStringLiteral("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*+(?!\\s*\\()"));
-  const std::vector<std::string> variables = variablesOf(kind);
+  const std::vector<std::string> variables = constraints::variablesOf(kind);
   std::vector<std::string> names;
   for (const std::string& line : coordinates) {
     auto matches = name.globalMatch(QString::fromStdString(line));
     while (matches.hasNext()) {
       const std::string found = matches.next().captured(0).toStdString();
       const auto in = [&](const auto& list) { return std::find(list.begin(), list.end(), found) != list.end(); };
-      if (!in(known) && !in(variables) && !in(names) && names.size() < kMaxShapeParameters) names.push_back(found);
+      if (!in(known) && !in(variables) && !in(names) && names.size() < constraints::kMaxShapeParameters) names.push_back(found);
     }
   }
   return names;
 }
 
-std::string variableMeant(ConstraintKind kind, const std::string& name) {
-  for (const std::string& variable : variablesOf(kind)) {
+std::string variableMeant(constraints::ConstraintKind kind, const std::string& name) {
+  for (const std::string& variable : constraints::variablesOf(kind)) {
     if (QString::fromStdString(name).toLower() == QString::fromStdString(variable)) return variable;
     const bool single = variable.size() == 1;  // any letter is one letter away from u: only a doubled one is a slip
     if (single ? name == variable + variable : oneLetterApart(name, variable)) return variable;
@@ -95,10 +95,10 @@ FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] { check(), Q_EMIT changed(); });
 }
 
-void FormulaEditor::setFormula(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
+void FormulaEditor::setFormula(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
   {
     const QSignalBlocker quietKind(kind_);
-    kind_->setCurrentIndex(kind == ConstraintKind::Surface ? 1 : 0);
+    kind_->setCurrentIndex(kind == constraints::ConstraintKind::Surface ? 1 : 0);
     for (std::size_t i = 0; i < 3; ++i) {
       const QSignalBlocker quiet(lines_[i]);
       lines_[i]->setText(QString::fromStdString(coordinates[i]));
@@ -108,7 +108,9 @@ void FormulaEditor::setFormula(ConstraintKind kind, const std::array<std::string
   check();
 }
 
-ConstraintKind FormulaEditor::kind() const { return kind_->currentIndex() == 1 ? ConstraintKind::Surface : ConstraintKind::Curve; }
+constraints::ConstraintKind FormulaEditor::kind() const {
+  return kind_->currentIndex() == 1 ? constraints::ConstraintKind::Surface : constraints::ConstraintKind::Curve;
+}
 
 std::array<std::string, 3> FormulaEditor::coordinates() const {
   return {lines_[0]->text().toStdString(), lines_[1]->text().toStdString(), lines_[2]->text().toStdString()};
@@ -121,10 +123,10 @@ void FormulaEditor::setFault(const QString& fault) {
 
 void FormulaEditor::check() {
   const auto text = coordinates();
-  const std::vector<FormulaFault> found = formulaFaults({kind(), text, parameterNames(kind(), text)});
+  const std::vector<constraints::FormulaFault> found = constraints::formulaFaults({kind(), text, parameterNames(kind(), text)});
   fine_ = found.empty();
   std::array<QString, 3> messages;
-  for (const FormulaFault& fault : found) {
+  for (const constraints::FormulaFault& fault : found) {
     QString& message = messages[static_cast<std::size_t>(std::clamp(fault.coordinate, 0, 2))];
     if (!message.isEmpty()) continue;  // the first says most
     message = QStringLiteral("character %1: %2").arg(fault.character).arg(QString::fromStdString(fault.what));
@@ -142,4 +144,4 @@ void FormulaEditor::check() {
   if (!fine_) setFault({});
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -12,21 +12,21 @@ class QComboBox;
 class QLabel;
 class QLineEdit;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// Names in the formulas that are neither variables, constants nor functions: the shape parameters, in order of appearance.
-std::vector<std::string> parameterNames(ConstraintKind kind, const std::array<std::string, 3>& coordinates);
+std::vector<std::string> parameterNames(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates);
 
 /// The variable that a parameter's name was perhaps to be: one letter away from it, or the same but for capitals; empty: none.
-std::string variableMeant(ConstraintKind kind, const std::string& name);
+std::string variableMeant(constraints::ConstraintKind kind, const std::string& name);
 
 /// Three lines of formula with the fault of each under it, at the character where it went wrong. Knows no scene.
 class FormulaEditor : public QWidget {
   Q_OBJECT
  public:
   explicit FormulaEditor(QWidget* parent = nullptr);
-  void setFormula(ConstraintKind kind, const std::array<std::string, 3>& coordinates);
-  ConstraintKind kind() const;
+  void setFormula(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates);
+  constraints::ConstraintKind kind() const;
   std::array<std::string, 3> coordinates() const;
   /// True when every line can be compiled.
   bool fine() const { return fine_; }
@@ -46,4 +46,4 @@ class FormulaEditor : public QWidget {
   bool fine_ = true;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "gui/main_window.h"
 #include "gui/picture_sheet.h"
 #include "gui/scene_view.h"
@@ -14,13 +14,13 @@
 namespace {
 
 struct Arguments {
-  reachlab::SessionRequest request;
+  reachlab::session::SessionRequest request;
   std::string pictures;
 };
 
 Arguments parse(CLI::App& app, int argc, char** argv) {
   Arguments a;
-  reachlab::SessionRequest& r = a.request;
+  reachlab::session::SessionRequest& r = a.request;
   r.what = "chain-moderate";
   r.device = "mouse";
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
@@ -51,17 +51,17 @@ int run(const Arguments& arguments, int argc, char** argv) {
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
-  reachlab::applySurfaceFormat();
+  reachlab::gui::applySurfaceFormat();
   QApplication application(argc, argv);
   QApplication::setApplicationName(QStringLiteral("reachlab"));
-  reachlab::applyTheme(application);
+  reachlab::gui::applyTheme(application);
   if (!arguments.pictures.empty()) {
-    const int drawn = reachlab::drawPictures(QString::fromStdString(arguments.pictures));
+    const int drawn = reachlab::gui::drawPictures(QString::fromStdString(arguments.pictures));
     std::printf("%d pictures in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
-  reachlab::MainWindow window(arguments.request);
-  window.setWindowIcon(QIcon(QString::fromStdString(reachlab::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
+  reachlab::gui::MainWindow window(arguments.request);
+  window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
   window.show();
   return QApplication::exec();
 }

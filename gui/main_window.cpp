@@ -21,7 +21,7 @@
 #include "gui/trial_texts.h"
 #include "gui/velocity_plot.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 constexpr int kFrameMs = 16;          // 60 Hz
@@ -31,7 +31,7 @@ constexpr int kStatusEvery = 12;      // frames
 // One edit of the experiment as a whole: small, and undone without a special case.
 class EditCommand : public QUndoCommand {
  public:
-  EditCommand(SessionController& session, Experiment before, Experiment after, const QString& what)
+  EditCommand(SessionController& session, experiment::Experiment before, experiment::Experiment after, const QString& what)
       : QUndoCommand(what), session_(session), before_(std::move(before)), after_(std::move(after)) {}
   void redo() override {
     if (!std::exchange(fresh_, false)) session_.tryEdit(after_);  // what is pushed has been done already
@@ -47,13 +47,13 @@ class EditCommand : public QUndoCommand {
  private:
   bool fresh_ = true;
   SessionController& session_;
-  Experiment before_, after_;
+  experiment::Experiment before_, after_;
 };
 
 }  // namespace
 
-const Task& MainWindow::Impl::currentTask() const {
-  static const Task none;
+const experiment::Task& MainWindow::Impl::currentTask() const {
+  static const experiment::Task none;
   return session.experiment().task ? *session.experiment().task : none;
 }
 
@@ -62,16 +62,17 @@ void MainWindow::Impl::say(const QString& sentence) {
   message->setVisible(!sentence.isEmpty());
 }
 
-void MainWindow::Impl::edit(const Experiment& changed, const QString& what, const std::function<void(const QStringList&)>& showFaults) {
-  const Experiment before = session.experiment();
-  if (toJson(changed) == toJson(before)) return showFaults({});  // back to what holds: the run goes on
+void MainWindow::Impl::edit(const experiment::Experiment& changed, const QString& what,
+                            const std::function<void(const QStringList&)>& showFaults) {
+  const experiment::Experiment before = session.experiment();
+  if (experiment::toJson(changed) == experiment::toJson(before)) return showFaults({});  // back to what holds: the run goes on
   const QStringList faults = session.tryEdit(changed);
   showFaults(faults);
   if (faults.isEmpty()) edits->push(new EditCommand(session, before, changed, what));
 }
 
 void MainWindow::Impl::showExperiment() {
-  const Experiment& e = session.experiment();
+  const experiment::Experiment& e = session.experiment();
   object->setObject(e.object);
   coupling->setCoupling(e.coupling);
   if (e.task) task->setTask(*e.task, session.constraint().kind);
@@ -101,7 +102,8 @@ void MainWindow::Impl::showOverlay() {
     overlay.instruction = QStringLiteral("Press Space to begin");
   if (session.run() && session.run()->trialsLeft() == 0 && !session.underWay()) overlay.detail = QStringLiteral("the run is complete");
   const WindowRun* open = session.run();
-  if (open == nullptr || (open->latest().trial <= 1 && (open->latest().phase == Phase::Idle || open->latest().phase == Phase::Waiting))) {
+  if (open == nullptr ||
+      (open->latest().trial <= 1 && (open->latest().phase == trial::Phase::Idle || open->latest().phase == trial::Phase::Waiting))) {
     const std::vector<Vec3>& shifts = view->plan().massShift;
     overlay.task = taskText(session.experiment(),
                             shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; }));
@@ -141,9 +143,9 @@ void MainWindow::Impl::drain() {
       trace.clear();
       plot->beginTrial();
     }
-    if (p.phase != Phase::Armed && p.phase != Phase::Moving) continue;
+    if (p.phase != trial::Phase::Armed && p.phase != trial::Phase::Moving) continue;
     trace.push_back(p);
-    if (p.phase == Phase::Moving) plot->add(p.trialTime, path.along(p.handVelocity, p.firstQ), path.along(p.lastVelocity, p.lastQ));
+    if (p.phase == trial::Phase::Moving) plot->add(p.trialTime, path.along(p.handVelocity, p.firstQ), path.along(p.lastVelocity, p.lastQ));
   }
 }
 
@@ -171,7 +173,7 @@ void MainWindow::Impl::tendForecasts() {
 
 void MainWindow::Impl::drawPredictions() {
   std::vector<VelocityPlot::Line> lines;
-  const std::vector<Criterion> chosen = predictions->chosen();
+  const std::vector<predict::Criterion> chosen = predictions->chosen();
   for (const CriterionForecast& forecast : forecasts) {
     if (!forecast.prediction || std::find(chosen.begin(), chosen.end(), forecast.criterion) == chosen.end()) continue;
     VelocityPlot::Line line{titleOf(forecast.criterion), colourOf(forecast.criterion), {}, {}};
@@ -187,10 +189,10 @@ void MainWindow::Impl::drawPredictions() {
 }
 
 void MainWindow::Impl::trialEnded() {
-  const ConductedTrial trial = *session.lastTrial();
+  const haptics::ConductedTrial trial = *session.lastTrial();
   dock->count(trial.result);
-  if (trial.result.outcome == Outcome::Success) sound.play();
-  errorsDue = trial.result.outcome == Outcome::Success || trial.result.outcome == Outcome::Failure;
+  if (trial.result.outcome == trial::Outcome::Success) sound.play();
+  errorsDue = trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure;
   WindowRun* run = session.run();
   const double planned = run ? run->configuration().pauseSeconds : 0;
   if (run && run->trialsLeft() > 0 && (dock->repeatsByItself() || planned > 0)) {
@@ -204,8 +206,8 @@ void MainWindow::Impl::trialEnded() {
 void MainWindow::Impl::showStatus() {
   WindowRun* run = session.run();
   if (run == nullptr) return;
-  const LoopReport report = run->report();
-  const TickState& s = run->latest();
+  const haptics::LoopReport report = run->report();
+  const haptics::TickState& s = run->latest();
   rate->setText(QStringLiteral("%1 Hz").arg(report.rate, 0, 'f', 1));
   rate->setToolTip(QStringLiteral("%1; lateness p50 %2 µs, p99 %3 µs, max %4 µs")
                        .arg(QString::fromStdString(report.mode))
@@ -224,13 +226,13 @@ void MainWindow::Impl::runOpened() {
   dock->clearTally();
   predictions->clearErrors();
   traceTrial = 0;
-  const MethodChoice& choice = run->choice();
+  const dynamics::MethodChoice& choice = run->choice();
   method->setText(QStringLiteral("%1 (%2)").arg(QString::fromStdString(choice.method), QString::fromStdString(choice.form)));
   QString why = QString::fromStdString(choice.reason);
   for (const std::string& warning : choice.warnings) why += QLatin1Char('\n') + QString::fromStdString(warning);
   method->setToolTip(why);
   recording->setText(QString::fromStdString(run->logPath()));
-  const RunConfiguration& c = run->configuration();
+  const record::RunConfiguration& c = run->configuration();
   QString text = QStringLiteral("run %1, block %2: %3").arg(c.run).arg(c.block).arg(QString::fromStdString(c.condition));
   if (c.practice) text += QStringLiteral(" (practice)");
   if (c.day > 0) text += QStringLiteral(", day %1").arg(c.day);
@@ -256,7 +258,7 @@ void MainWindow::Impl::oneFrame() {
   }
 }
 
-MainWindow::MainWindow(const SessionRequest& request, QWidget* parent)
+MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent)
     : QMainWindow(parent), impl_(std::make_unique<Impl>(*this, request)) {
   setObjectName(QStringLiteral("reachlab"));
   resize(1560, 960);
@@ -264,7 +266,7 @@ MainWindow::MainWindow(const SessionRequest& request, QWidget* parent)
   impl_->makeStatusBar();
   impl_->makeMenus();
   impl_->dock->setRequest([&] {
-    SessionRequest shown = request;
+    session::SessionRequest shown = request;
     if (!impl_->session.isPlan() && !shown.trials) shown.trials = 20;
     return shown;
   }());
@@ -294,9 +296,9 @@ ConstraintChooser& MainWindow::chooser() {
   if (impl_->chooser == nullptr) {
     impl_->chooser = new ConstraintChooser(this);
     connect(impl_->chooser, &ConstraintChooser::used, this, [this](const ConstraintChoice& choice) {
-      Experiment e = impl_->session.experiment();
+      experiment::Experiment e = impl_->session.experiment();
       e.constraint = choice.spec;
-      if (!e.task) e.task = Task{};
+      if (!e.task) e.task = experiment::Task{};
       e.task->start = choice.start;
       e.task->target = choice.target;
       impl_->edit(e, QStringLiteral("constraint"), [this](const QStringList& faults) { impl_->say(faults.join(QLatin1Char('\n'))); });
@@ -333,4 +335,4 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QMainWindow::closeEvent(event);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

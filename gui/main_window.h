@@ -4,7 +4,7 @@
 
 #include "sim/session/session.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class ConstraintChooser;
 class SceneView;
@@ -20,7 +20,7 @@ class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
   /// Throws UsageError when the experiment cannot be read.
-  explicit MainWindow(const SessionRequest& request, QWidget* parent = nullptr);
+  explicit MainWindow(const session::SessionRequest& request, QWidget* parent = nullptr);
   ~MainWindow() override;
 
   SessionController& session();
@@ -48,4 +48,4 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

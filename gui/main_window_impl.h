@@ -16,7 +16,7 @@ class QLabel;
 class QTimer;
 class QUndoStack;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class ConstraintDock;
 class CouplingDock;
@@ -56,11 +56,11 @@ struct MainWindow::Impl {
   std::chrono::steady_clock::time_point nextAt{};
   bool nextPlanned = false;
 
-  Impl(MainWindow& w, const SessionRequest& request) : window(w), session(request) {}
+  Impl(MainWindow& w, const session::SessionRequest& request) : window(w), session(request) {}
 
-  const Task& currentTask() const;
+  const experiment::Task& currentTask() const;
   void say(const QString& sentence);
-  void edit(const Experiment& changed, const QString& what, const std::function<void(const QStringList&)>& showFaults);
+  void edit(const experiment::Experiment& changed, const QString& what, const std::function<void(const QStringList&)>& showFaults);
   void showExperiment();
   void rebuildScene();
   void showOverlay();
@@ -83,4 +83,4 @@ struct MainWindow::Impl {
   void saveExperiment();
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -9,7 +9,7 @@
 #include <QUndoStack>
 #include <QVBoxLayout>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "gui/constraint_dock.h"
 #include "gui/coupling_dock.h"
 #include "gui/main_window_impl.h"
@@ -22,7 +22,7 @@
 #include "gui/velocity_plot.h"
 
 // Docks, menus and status bar of the main window, and what is connected to what.
-namespace reachlab {
+namespace reachlab::gui {
 
 void MainWindow::Impl::makeDocks() {
   auto* middle = new QWidget;
@@ -74,7 +74,7 @@ void MainWindow::Impl::makeStatusBar() {
 
 void MainWindow::Impl::openExperiment(const QString& what) {
   try {
-    Experiment e = readExperiment(what.toStdString());
+    experiment::Experiment e = experiment::readExperiment(what.toStdString());
     edit(e, QStringLiteral("open %1").arg(what), [this](const QStringList& faults) { say(faults.join(QLatin1Char('\n'))); });
   } catch (const Error& e) {
     say(QString::fromUtf8(e.what()));
@@ -87,7 +87,7 @@ void MainWindow::Impl::saveExperiment() {
                                    QStringLiteral("Experiments (*.json)"));
   if (file.isEmpty()) return;
   QSaveFile out(file);
-  const std::string text = toJson(session.experiment());
+  const std::string text = experiment::toJson(session.experiment());
   if (!out.open(QIODevice::WriteOnly) || out.write(text.data(), static_cast<qint64>(text.size())) < 0 || !out.commit())
     say(QStringLiteral("%1: could not be written: %2").arg(file, out.errorString()));
 }
@@ -107,7 +107,7 @@ void MainWindow::Impl::makeMenus() {
     if (!chosen.isEmpty()) openExperiment(chosen);
   });
   QMenu* shipped = file->addMenu(QStringLiteral("S&hipped"));
-  for (const std::string& name : shippedExperiments())
+  for (const std::string& name : experiment::shippedExperiments())
     add(shipped, QString::fromStdString(name), {}, [this, name] { openExperiment(QString::fromStdString(name)); });
   add(file, QStringLiteral("&Save as…"), QKeySequence::SaveAs, [this] { saveExperiment(); });
   file->addSeparator();
@@ -148,7 +148,7 @@ void MainWindow::Impl::makeMenus() {
   });
   aside->setCheckable(true);
   aside->setObjectName(QStringLiteral("sideBySide"));
-  aside->setChecked(session.experiment().object.kind == ObjectKind::Parallel);
+  aside->setChecked(session.experiment().object.kind == experiment::ObjectKind::Parallel);
   QAction* wire = add(show, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
                       [this](bool on) { view->setSurfaceStyle(on ? SurfaceStyle::Wire : SurfaceStyle::Glass); });
   wire->setCheckable(true);
@@ -186,25 +186,25 @@ void MainWindow::Impl::makeMenus() {
 
 void MainWindow::Impl::wire() {
   MainWindow* w = &window;
-  QObject::connect(object, &ObjectDock::edited, w, [this](const Object& o) {
-    Experiment e = session.experiment();
+  QObject::connect(object, &ObjectDock::edited, w, [this](const experiment::Object& o) {
+    experiment::Experiment e = session.experiment();
     e.object = o;
-    if (o.kind == ObjectKind::Parallel) e.coupling.reset();
-    else if (!e.coupling) e.coupling = Coupling{600, 0};
+    if (o.kind == experiment::ObjectKind::Parallel) e.coupling.reset();
+    else if (!e.coupling) e.coupling = experiment::Coupling{600, 0};
     edit(e, QStringLiteral("object"), [this](const QStringList& f) { object->setFaults(f); });
   });
-  QObject::connect(coupling, &CouplingDock::edited, w, [this](const Coupling& c) {
-    Experiment e = session.experiment();
+  QObject::connect(coupling, &CouplingDock::edited, w, [this](const experiment::Coupling& c) {
+    experiment::Experiment e = session.experiment();
     e.coupling = c;
     edit(e, QStringLiteral("coupling"), [this](const QStringList& f) { coupling->setFaults(f); });
   });
-  QObject::connect(task, &TaskDock::edited, w, [this](const Task& t) {
-    Experiment e = session.experiment();
+  QObject::connect(task, &TaskDock::edited, w, [this](const experiment::Task& t) {
+    experiment::Experiment e = session.experiment();
     e.task = t;
     edit(e, QStringLiteral("task"), [this](const QStringList& f) { task->setFaults(f); });
   });
   QObject::connect(constraint, &ConstraintDock::shapeMoved, w, [this](const std::map<std::string, double>& shape) {
-    Experiment e = session.experiment();
+    experiment::Experiment e = session.experiment();
     e.constraint.shape = shape;
     edit(e, QStringLiteral("shape"), [this](const QStringList& f) { constraint->setFaults(f); });
   });
@@ -236,4 +236,4 @@ void MainWindow::Impl::wire() {
   timer->start(16);  // until it is known who draws
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -11,7 +11,7 @@
 
 #include "gui/scene_actors.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 using Actor = vtkSmartPointer<vtkActor>;
@@ -140,4 +140,4 @@ void ObjectActors::show(const SceneFrame& frame) {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -9,13 +9,15 @@
 #include "gui/number_list_edit.h"
 #include "gui/unit_spin_box.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 // As many springs as the kind needs; new ones like the last.
-void fitSprings(Object& object) {
+void fitSprings(experiment::Object& object) {
   const std::size_t masses = object.masses.size();
-  const std::size_t wanted = object.kind == ObjectKind::Parallel ? masses : object.kind == ObjectKind::Chain && masses > 0 ? masses - 1 : 0;
+  const std::size_t wanted = object.kind == experiment::ObjectKind::Parallel              ? masses
+                             : object.kind == experiment::ObjectKind::Chain && masses > 0 ? masses - 1
+                                                                                          : 0;
   object.stiffness.resize(wanted, object.stiffness.empty() ? 600 : object.stiffness.back());
   object.damping.resize(wanted, object.damping.empty() ? 0 : object.damping.back());
 }
@@ -62,11 +64,11 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
 
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] {
     object_ = accepted_;  // a kind that was refused leaves nothing behind
-    object_.kind = static_cast<ObjectKind>(kind_->currentIndex());
-    if (object_.kind == ObjectKind::Point || object_.kind == ObjectKind::Body) object_.masses.resize(1, 1.0);
-    if (object_.kind == ObjectKind::Parallel)
+    object_.kind = static_cast<experiment::ObjectKind>(kind_->currentIndex());
+    if (object_.kind == experiment::ObjectKind::Point || object_.kind == experiment::ObjectKind::Body) object_.masses.resize(1, 1.0);
+    if (object_.kind == experiment::ObjectKind::Parallel)
       object_.masses.resize(std::max<std::size_t>(2, object_.masses.size()), object_.masses.empty() ? 1.0 : object_.masses.back());
-    if (object_.kind == ObjectKind::Body && object_.inertia[0][0] == 0)
+    if (object_.kind == experiment::ObjectKind::Body && object_.inertia[0][0] == 0)
       for (std::size_t i = 0; i < 3; ++i) object_.inertia[i][i] = 4e-4 * object_.masses[0];
     fitSprings(object_);
     tell();
@@ -89,10 +91,10 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
             [this, part = parts[i]](double v) { object_.gravity.*part = v, tell(); });
 }
 
-void ObjectDock::setObject(const Object& object) {
+void ObjectDock::setObject(const experiment::Object& object) {
   object_ = accepted_ = object;
   kind_->setCurrentIndex(static_cast<int>(object.kind));
-  const bool springs = object.kind == ObjectKind::Chain || object.kind == ObjectKind::Parallel;
+  const bool springs = object.kind == experiment::ObjectKind::Chain || object.kind == experiment::ObjectKind::Parallel;
   stiffness_->setEnabled(springs);
   damping_->setEnabled(springs);
   setRules();
@@ -105,8 +107,9 @@ void ObjectDock::setObject(const Object& object) {
 }
 
 void ObjectDock::setRules() {
-  const bool springs = object_.kind == ObjectKind::Chain || object_.kind == ObjectKind::Parallel;
-  NumberListRule rule{QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, 1, springs ? kMaxMasses : 1u};
+  const bool springs = object_.kind == experiment::ObjectKind::Chain || object_.kind == experiment::ObjectKind::Parallel;
+  NumberListRule rule{
+      QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, 1, springs ? experiment::kMaxMasses : 1u};
   masses_->setRule(rule);
   rule = {QStringLiteral("springs"), QStringLiteral("spring"), {}, QStringLiteral("N/m"), 0};
   rule.fewest = rule.most = object_.stiffness.size();
@@ -121,4 +124,4 @@ void ObjectDock::setFaults(const QStringList& faults) { faults_->setFaults(fault
 
 void ObjectDock::tell() { Q_EMIT edited(object_); }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -6,7 +6,7 @@
 
 class QComboBox;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class FaultLabel;
 class NumberListEdit;
@@ -17,17 +17,17 @@ class ObjectDock : public QDockWidget {
   Q_OBJECT
  public:
   explicit ObjectDock(QWidget* parent = nullptr);
-  void setObject(const Object& object);  // displays; emits nothing
+  void setObject(const experiment::Object& object);  // displays; emits nothing
   void setFaults(const QStringList& faults);
 
  Q_SIGNALS:
-  void edited(const reachlab::Object& object);  // the user changed something; may be faulty
+  void edited(const reachlab::experiment::Object& object);  // the user changed something; may be faulty
 
  private:
   void tell();
   void setRules();  // of the lists, for the kind and as many masses as there are
 
-  Object object_, accepted_;  // as entered, which may be refused; as it holds
+  experiment::Object object_, accepted_;  // as entered, which may be refused; as it holds
   QComboBox* kind_;
   NumberListEdit *masses_, *stiffness_, *damping_;
   UnitSpinBox* viscosity_;
@@ -35,4 +35,4 @@ class ObjectDock : public QDockWidget {
   FaultLabel* faults_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -6,24 +6,24 @@
 #include <QPainter>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "gui/scene_view.h"
 #include "gui/theme.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 360, kAcross = 4, kDown = 3;
 
-ScenePlan planOf(const Definition& definition) {
-  Experiment e;
-  e.object.kind = ObjectKind::Point;
+ScenePlan planOf(const constraints::Definition& definition) {
+  experiment::Experiment e;
+  e.object.kind = experiment::ObjectKind::Point;
   e.object.masses = {1};
-  e.coupling = Coupling{600, 0};
-  e.task = Task{};
+  e.coupling = experiment::Coupling{600, 0};
+  e.task = experiment::Task{};
   e.task->start = definition.start;
   e.task->target = definition.target;
-  return planScene(e, makeConstraint(definition));
+  return planScene(e, constraints::makeConstraint(definition));
 }
 
 void save(const QImage& image, const QString& file) {
@@ -46,7 +46,7 @@ int drawPictures(const QString& folder) {
     if (!sheet.isNull()) save(sheet, QStringLiteral("%1/sheet-%2.png").arg(folder).arg(++sheets));
     sheet = {};
   };
-  for (const Definition& definition : catalogue()) {
+  for (const constraints::Definition& definition : constraints::catalogue()) {
     const QString name = QString::fromStdString(definition.name);
     overlay.counter = name;
     view.setOverlay(overlay);
@@ -66,4 +66,4 @@ int drawPictures(const QString& folder) {
   return drawn;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

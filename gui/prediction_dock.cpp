@@ -11,7 +11,7 @@
 #include "gui/criterion_style.h"
 #include "gui/theme.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 enum Column { kName, kPeak, kLast, kAll, kColumns };
@@ -23,11 +23,12 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 }  // namespace
 
 PredictionDock::PredictionDock(QWidget* parent)
-    : QDockWidget(QStringLiteral("Predictions"), parent), latest_(kCriterionCount), sums_(kCriterionCount), counts_(kCriterionCount) {
+    : QDockWidget(QStringLiteral("Predictions"), parent), latest_(predict::kCriterionCount), sums_(predict::kCriterionCount),
+      counts_(predict::kCriterionCount) {
   setObjectName(QStringLiteral("predictionDock"));
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
-  table_ = new QTableWidget(kCriterionCount, kColumns);
+  table_ = new QTableWidget(predict::kCriterionCount, kColumns);
   table_->setObjectName(QStringLiteral("criteria"));
   table_->setHorizontalHeaderLabels(
       {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
@@ -42,13 +43,13 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(kName, QHeaderView::Stretch);
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  for (int i = 0; i < kCriterionCount; ++i) {
-    const auto criterion = static_cast<Criterion>(i);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
     auto* name = new QTableWidgetItem(titleOf(criterion));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
-    name->setCheckState(criterion == Criterion::MinHandJerk ? Qt::Checked : Qt::Unchecked);
+    name->setCheckState(criterion == predict::Criterion::MinHandJerk ? Qt::Checked : Qt::Unchecked);
     name->setForeground(colourOf(criterion));
-    name->setToolTip(text(describe(criterion)));
+    name->setToolTip(text(predict::describe(criterion)));
     table_->setItem(i, kName, name);
     for (const int column : {kPeak, kLast, kAll}) {
       auto* item = new QTableWidgetItem;
@@ -56,7 +57,7 @@ PredictionDock::PredictionDock(QWidget* parent)
       table_->setItem(i, column, item);
     }
   }
-  table_->setFixedHeight(kCriterionCount * 23 + 30);
+  table_->setFixedHeight(predict::kCriterionCount * 23 + 30);
   layout->addWidget(table_);
   note_ = new QLabel(QStringLiteral("m/s; dashed on the plot where ticked"));
   note_->setProperty("role", "quiet");
@@ -71,7 +72,7 @@ PredictionDock::PredictionDock(QWidget* parent)
 
 void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecasts) {
   const QSignalBlocker quiet(table_);
-  for (int i = 0; i < kCriterionCount; ++i) {
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
     QTableWidgetItem* peak = table_->item(i, kPeak);
     peak->setText(forecasts.empty() ? QStringLiteral("…") : QStringLiteral("–"));
     for (const CriterionForecast& forecast : forecasts) {
@@ -80,7 +81,7 @@ void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecast
       QString why = QString::fromStdString(forecast.refusal);
       if (forecast.prediction)
         for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
-      table_->item(i, kName)->setToolTip(text(describe(forecast.criterion)) +
+      table_->item(i, kName)->setToolTip(text(predict::describe(forecast.criterion)) +
                                          (why.isEmpty() ? QString() : QStringLiteral("\n\n") + why.trimmed()));
       table_->item(i, kName)->setForeground(forecast.prediction ? colourOf(forecast.criterion) : toQColor(colours::kNeutral));
     }
@@ -88,7 +89,7 @@ void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecast
 }
 
 void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors) {
-  latest_.assign(kCriterionCount, std::nullopt);
+  latest_.assign(predict::kCriterionCount, std::nullopt);
   for (std::size_t i = 0; i < errors.size() && i < latest_.size(); ++i) {
     latest_[i] = errors[i];
     if (!errors[i]) continue;
@@ -99,7 +100,7 @@ void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors)
 }
 
 void PredictionDock::clearErrors() {
-  latest_.assign(kCriterionCount, std::nullopt);
+  latest_.assign(predict::kCriterionCount, std::nullopt);
   std::fill(sums_.begin(), sums_.end(), 0.0);
   std::fill(counts_.begin(), counts_.end(), 0);
   fillErrors();
@@ -110,7 +111,7 @@ void PredictionDock::fillErrors() {
   std::optional<double> best;
   for (const auto& error : latest_)
     if (error && (!best || *error < *best)) best = error;
-  for (int i = 0; i < kCriterionCount; ++i) {
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
     const auto k = static_cast<std::size_t>(i);
     QTableWidgetItem* last = table_->item(i, kLast);
     last->setText(latest_[k] ? speed(*latest_[k]) : QString());
@@ -121,21 +122,21 @@ void PredictionDock::fillErrors() {
   }
 }
 
-std::vector<Criterion> PredictionDock::chosen() const {
-  std::vector<Criterion> criteria;
-  for (int i = 0; i < kCriterionCount; ++i)
-    if (table_->item(i, kName)->checkState() == Qt::Checked) criteria.push_back(static_cast<Criterion>(i));
+std::vector<predict::Criterion> PredictionDock::chosen() const {
+  std::vector<predict::Criterion> criteria;
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    if (table_->item(i, kName)->checkState() == Qt::Checked) criteria.push_back(static_cast<predict::Criterion>(i));
   return criteria;
 }
 
-void PredictionDock::setChosen(const std::vector<Criterion>& criteria) {
+void PredictionDock::setChosen(const std::vector<predict::Criterion>& criteria) {
   {
     const QSignalBlocker quiet(table_);
-    for (int i = 0; i < kCriterionCount; ++i)
+    for (int i = 0; i < predict::kCriterionCount; ++i)
       table_->item(i, kName)->setCheckState(
-          std::find(criteria.begin(), criteria.end(), static_cast<Criterion>(i)) != criteria.end() ? Qt::Checked : Qt::Unchecked);
+          std::find(criteria.begin(), criteria.end(), static_cast<predict::Criterion>(i)) != criteria.end() ? Qt::Checked : Qt::Unchecked);
   }
   Q_EMIT chosenChanged();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

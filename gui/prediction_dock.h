@@ -8,7 +8,7 @@
 class QTableWidget;
 class QLabel;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// The criteria: which are drawn on the plot, and how far the last trial and all trials of the run were from each. Knows no simulator.
 class PredictionDock : public QDockWidget {
@@ -20,8 +20,8 @@ class PredictionDock : public QDockWidget {
   /// One a criterion, in the forecasts' order. [m/s]
   void addErrors(const std::vector<std::optional<double>>& errors);
   void clearErrors();
-  std::vector<Criterion> chosen() const;
-  void setChosen(const std::vector<Criterion>& criteria);
+  std::vector<predict::Criterion> chosen() const;
+  void setChosen(const std::vector<predict::Criterion>& criteria);
 
  Q_SIGNALS:
   void chosenChanged();
@@ -36,4 +36,4 @@ class PredictionDock : public QDockWidget {
   std::vector<int> counts_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

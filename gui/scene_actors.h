@@ -9,7 +9,7 @@ class vtkProp;
 class vtkRenderer;
 
 /// Builders of the scene's actors. The caller adds them to a renderer and keeps or drops them. Window's thread.
-namespace reachlab {
+namespace reachlab::gui {
 
 struct Look {
   Colour colour;
@@ -36,4 +36,4 @@ vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look
 /// Lays a coil between two points. Neither allocates nor rebuilds. [m]
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius);
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -7,7 +7,7 @@
 
 #include "gui/theme.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 QString lengthText(double metres) {
@@ -64,11 +64,11 @@ void SceneOverlay::setLabel(const QString& text, const QPointF& at) {
   update();
 }
 
-QColor SceneOverlay::colourOf(Semaphore semaphore) {
+QColor SceneOverlay::colourOf(trial::Semaphore semaphore) {
   switch (semaphore) {
-    case Semaphore::Green: return toQColor(colours::kGreen);
-    case Semaphore::Red: return toQColor(colours::kRed);
-    case Semaphore::Neutral: break;
+    case trial::Semaphore::Green: return toQColor(colours::kGreen);
+    case trial::Semaphore::Red: return toQColor(colours::kRed);
+    case trial::Semaphore::Neutral: break;
   }
   return toQColor(colours::kNeutral);
 }
@@ -164,4 +164,4 @@ void SceneOverlay::paintAxes(QPainter& painter) const {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

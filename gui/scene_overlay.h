@@ -6,11 +6,11 @@
 
 #include "sim/trial/outcome.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// What is written over the scene.
 struct OverlayState {
-  Semaphore semaphore = Semaphore::Neutral;
+  trial::Semaphore semaphore = trial::Semaphore::Neutral;
   bool semaphoreShown = true;
   QString counter;      // "Trial 3 of 20"
   QString instruction;  // what the subject is to do
@@ -34,7 +34,7 @@ class SceneOverlay : public QWidget {
   void setLabel(const QString& text, const QPointF& at);
   const QString& label() const { return label_; }
   /// The square's colour at this moment, for tests.
-  static QColor colourOf(Semaphore semaphore);
+  static QColor colourOf(trial::Semaphore semaphore);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -58,4 +58,4 @@ double pointsToFit(const QString& text, QFont font, double most, double room);
 /// A round length (1, 2 or 5 times a power of ten) not above `most`. [same unit]
 double roundLength(double most);
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

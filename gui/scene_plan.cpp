@@ -3,21 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
-Vec3 placeOnConstraint(const Constraint& constraint, const std::vector<double>& q) {
+Vec3 placeOnConstraint(const constraints::Constraint& constraint, const std::vector<double>& q) {
   Vec3 r;
-  if (constraint.kind == ConstraintKind::Curve && q.size() == 1) r = evaluate(constraint.curve, q[0]).r;
-  if (constraint.kind == ConstraintKind::Surface && q.size() == 2) r = evaluate(constraint.surface, q[0], q[1]).r;
-  if (constraint.kind == ConstraintKind::Free && q.size() == 3) r = {q[0], q[1], q[2]};
+  if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) r = constraints::evaluate(constraint.curve, q[0]).r;
+  if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2) r = constraints::evaluate(constraint.surface, q[0], q[1]).r;
+  if (constraint.kind == constraints::ConstraintKind::Free && q.size() == 3) r = {q[0], q[1], q[2]};
   return isFinite(r) ? r : Vec3{};
 }
 
 // Looks at the broadest side of the box, a little from above and from the right.
-Vec3 viewDirection(const Box& box, ConstraintKind kind) {
+Vec3 viewDirection(const Box& box, constraints::ConstraintKind kind) {
   const Vec3 extent = box.high - box.low;
-  if (kind == ConstraintKind::Surface) return extent.z < 0.35 * std::max(extent.x, extent.y) ? Vec3{0.45, -0.9, 1.1} : Vec3{0.6, 0.55, 1};
+  if (kind == constraints::ConstraintKind::Surface)
+    return extent.z < 0.35 * std::max(extent.x, extent.y) ? Vec3{0.45, -0.9, 1.1} : Vec3{0.6, 0.55, 1};
   const double thin = 0.02 * box.diagonal();
   if (extent.x <= thin && extent.z > thin) return {1, 0.22, 0.3};  // lies in the y-z plane
   if (extent.y <= thin && extent.z > thin) return {0.1, 1, 0.55};  // in the x-z plane
@@ -34,13 +35,13 @@ std::vector<double> radiiOf(const std::vector<double>& masses, double unit) {
   return radii;
 }
 
-bool isSideBySide(const Object& object, ViewOptions::SideBySide wish) {
+bool isSideBySide(const experiment::Object& object, ViewOptions::SideBySide wish) {
   if (object.masses.size() < 2 || wish == ViewOptions::SideBySide::Never) return false;
-  return wish == ViewOptions::SideBySide::Always || object.kind == ObjectKind::Parallel;
+  return wish == ViewOptions::SideBySide::Always || object.kind == experiment::ObjectKind::Parallel;
 }
 
-void planMasses(const Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
-  const Object& object = experiment.object;
+void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
+  const experiment::Object& object = experiment.object;
   const std::size_t count = object.masses.size();
   plan.massRadius = radiiOf(object.masses, std::max(plan.unit, 0.6 * plan.size));
   plan.massRole.assign(count, MassRole::Middle);
@@ -52,17 +53,18 @@ void planMasses(const Experiment& experiment, ViewOptions::SideBySide wish, Scen
   if (!shifted)  // where all coincide the driven one would hide the rest
     for (std::size_t i = 1; i + 1 < count; ++i) plan.massRadius[i] *= 0.72;
   if (shifted) {
-    const Vec3 across = plan.kind == ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit ? Vec3{0, -1, 0}
-                                                                                                                       : Vec3{0.7, -0.7, 0};
+    const Vec3 across = plan.kind == constraints::ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit
+                            ? Vec3{0, -1, 0}
+                            : Vec3{0.7, -0.7, 0};
     const double step = std::min(0.22, 0.5 / static_cast<double>(count)) * plan.unit;
-    const double middle = object.kind == ObjectKind::Parallel ? 0.5 * static_cast<double>(count - 1) : 0.0;
+    const double middle = object.kind == experiment::ObjectKind::Parallel ? 0.5 * static_cast<double>(count - 1) : 0.0;
     for (std::size_t i = 0; i < count; ++i) plan.massShift[i] = ((static_cast<double>(i) - middle) * step) * across;
   }
   const int last = static_cast<int>(count);
-  if (object.kind == ObjectKind::Parallel)
+  if (object.kind == experiment::ObjectKind::Parallel)
     for (int i = 0; i < last; ++i) plan.springs.push_back({-1, i, false});
   else if (experiment.coupling) plan.springs.push_back({-1, 0, true});
-  if (object.kind == ObjectKind::Chain)
+  if (object.kind == experiment::ObjectKind::Chain)
     for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, false});
 }
 
@@ -87,19 +89,19 @@ std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
 
 }  // namespace
 
-ScenePlan planScene(const Experiment& experiment, const Constraint& constraint, const ViewOptions& options) {
+ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options) {
   ScenePlan plan;
   plan.kind = constraint.kind;
-  plan.body = experiment.object.kind == ObjectKind::Body;
+  plan.body = experiment.object.kind == experiment::ObjectKind::Body;
   const std::vector<double> none;
   const auto& from = experiment.task ? experiment.task->start : none;
   const auto& to = experiment.task ? experiment.task->target : none;
   Box box;
-  if (constraint.kind == ConstraintKind::Curve) {
-    const Domain domain = drawnDomain(constraint, from, to)[0];
+  if (constraint.kind == constraints::ConstraintKind::Curve) {
+    const constraints::Domain domain = drawnDomain(constraint, from, to)[0];
     plan.curve = sampleCurve(constraint.curve, domain.lo, domain.hi);
     box = boxOf(plan.curve);
-  } else if (constraint.kind == ConstraintKind::Surface) {
+  } else if (constraint.kind == constraints::ConstraintKind::Surface) {
     plan.surface = sampleSurface(constraint.surface, drawnDomain(constraint, from, to));
     box = boxOf(plan.surface);
   }
@@ -132,7 +134,7 @@ SceneFrame restingFrame(const ScenePlan& plan) {
   return frame;
 }
 
-void copyToFrame(const TickState& state, SceneFrame& frame) {
+void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
   frame.hand = state.hand.position;
   frame.handValid = state.hand.valid;
   frame.body = state.body;
@@ -149,4 +151,4 @@ int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
   return static_cast<int>(count);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

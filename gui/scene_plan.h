@@ -6,7 +6,7 @@
 #include "sim/haptics/tick_state.h"
 
 /// What is to be drawn of an experiment, as plain data: sizes, places, colours' roles. Known to no graphics library.
-namespace reachlab {
+namespace reachlab::gui {
 
 enum class MassRole { Driven, Middle, Last };
 
@@ -16,7 +16,7 @@ struct SpringPlan {
 };
 
 struct ScenePlan {
-  ConstraintKind kind = ConstraintKind::Free;
+  constraints::ConstraintKind kind = constraints::ConstraintKind::Free;
   CurveMesh curve;
   SurfaceMesh surface;
   Vec3 start, target;  // [m]
@@ -40,19 +40,19 @@ struct ViewOptions {
   SideBySide sideBySide = SideBySide::Auto;  // Auto: parallel masses only, as in the paper's Fig. 7
 };
 
-ScenePlan planScene(const Experiment& experiment, const Constraint& constraint, const ViewOptions& options = {});
+ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
 
 /// One instant of it: what actors are moved to.
 struct SceneFrame {
   Vec3 hand;                 // [m]
   std::vector<Vec3> masses;  // [m] true places
-  BodyState body;
+  dynamics::BodyState body;
   bool handValid = true;
 };
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
-void copyToFrame(const TickState& state, SceneFrame& frame);
+void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
 /// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -17,7 +17,7 @@
 #include "gui/colours.h"
 #include "gui/scene_actors.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 // Key light from the upper left, a weak fill from the right, both fixed to the viewer.
@@ -84,7 +84,7 @@ struct SceneView::Impl {
     const int count = massesAtOnePlace(plan, frame);
     if (count == 0) return overlay->setLabel({}, {});
     const Vec3 at = frame.masses.back() + plan.massShift.back();
-    const auto [x, y] = reachlab::pixelOf(camera, at, width(), height());
+    const auto [x, y] = reachlab::gui::pixelOf(camera, at, width(), height());
     const double radius = plan.massRadius.back() / metresPerPixel(camera, at, height());
     overlay->setLabel(QStringLiteral("%1 masses").arg(count), {x, y + radius});
   }
@@ -212,7 +212,7 @@ bool SceneView::drawsInSoftware() const {
 }
 
 QPointF SceneView::pixelOf(const Vec3& world) const {
-  const auto [x, y] = reachlab::pixelOf(impl_->camera, world, impl_->width(), impl_->height());
+  const auto [x, y] = reachlab::gui::pixelOf(impl_->camera, world, impl_->width(), impl_->height());
   return {x, y};
 }
 
@@ -271,4 +271,4 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

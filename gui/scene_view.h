@@ -7,7 +7,7 @@
 #include "gui/scene_overlay.h"
 #include "gui/scene_plan.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// The OpenGL format that the scene needs; before the QApplication is made.
 void applySurfaceFormat();
@@ -62,4 +62,4 @@ class SceneView : public QWidget {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

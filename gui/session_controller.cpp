@@ -3,27 +3,27 @@
 #include <QRegularExpression>
 #include <QThread>
 
-#include "constraints/error.h"
-#include "constraints/json_tree.h"
+#include "base/error.h"
+#include "base/json_tree.h"
 #include "sim/session/plan.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 // The experiment that is shown before anything is run: the file itself, or a plan's first block.
-Experiment firstExperiment(const SessionRequest& request, bool& isPlanFile) {
+experiment::Experiment firstExperiment(const session::SessionRequest& request, bool& isPlanFile) {
   isPlanFile = false;
-  if (const auto file = findPlan(request.what)) {
+  if (const auto file = session::findPlan(request.what)) {
     const std::string text = readTextFile(*file);
-    if (isPlan(text, *file)) {
+    if (session::isPlan(text, *file)) {
       isPlanFile = true;
-      const SessionToRun session = planSession(request);
+      const session::SessionToRun session = session::planSession(request);
       if (session.blocks.empty())
         throw UsageError(request.what + ": every trial of this session is recorded; allowed: another --session or --subject");
       return session.blocks.front().experiment;
     }
   }
-  return readExperiment(request.what);
+  return experiment::readExperiment(request.what);
 }
 
 // The reader speaks of a file's lines and keys; what is edited here has neither.
@@ -38,26 +38,26 @@ QString inWords(const std::string& problem) {
 
 }  // namespace
 
-SessionController::SessionController(const SessionRequest& request, QObject* parent)
-    : QObject(parent), experiment_(firstExperiment(request, isPlan_)), constraint_(makeConstraint(experiment_.constraint)),
+SessionController::SessionController(const session::SessionRequest& request, QObject* parent)
+    : QObject(parent), experiment_(firstExperiment(request, isPlan_)), constraint_(constraints::makeConstraint(experiment_.constraint)),
       resume_(request.resume) {}
 
 SessionController::~SessionController() = default;
 
-QStringList SessionController::tryEdit(const Experiment& experiment) {
+QStringList SessionController::tryEdit(const experiment::Experiment& experiment) {
   QStringList faults;
-  for (const std::string& problem : problems(experiment)) faults << inWords(problem);
+  for (const std::string& problem : experiment::problems(experiment)) faults << inWords(problem);
   if (!faults.isEmpty()) return faults;
   try {
-    Constraint constraint = makeConstraint(experiment.constraint);
-    Experiment probe = experiment;
-    (void)compileScene(probe);  // refused now, with the reason, and not when the subject sits there
+    constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
+    experiment::Experiment probe = experiment;
+    (void)dynamics::compileScene(probe);  // refused now, with the reason, and not when the subject sits there
     constraint_ = std::move(constraint);
   } catch (const Error& e) {
     return {QString::fromUtf8(e.what())};
   }
   experiment_ = experiment;
-  experiment_.text = toJson(experiment_);
+  experiment_.text = experiment::toJson(experiment_);
   edited_ = true;
   if (underWay()) endAfterTrial_ = true;
   else endRun();
@@ -65,12 +65,12 @@ QStringList SessionController::tryEdit(const Experiment& experiment) {
   return {};
 }
 
-void SessionController::open(const SessionRequest& request) {
-  SessionRequest asked = request;
+void SessionController::open(const session::SessionRequest& request) {
+  session::SessionRequest asked = request;
   asked.resume = resume_;
-  BlockToRun block;
+  session::BlockToRun block;
   if (!isPlan_ || blocks_.empty()) {
-    SessionToRun session = planSession(asked);
+    session::SessionToRun session = session::planSession(asked);
     if (session.blocks.empty()) throw UsageError("nothing is left to do: every trial of this session is recorded");
     blocks_ = std::move(session.blocks);
     resume_ = false;
@@ -80,19 +80,19 @@ void SessionController::open(const SessionRequest& request) {
   if (!isPlan_) blocks_.clear();
   if (isPlan_) {
     experiment_ = block.experiment;
-    constraint_ = makeConstraint(experiment_.constraint);
+    constraint_ = constraints::makeConstraint(experiment_.constraint);
     Q_EMIT experimentChanged();
   } else if (edited_) {
     block.experiment = experiment_;
     block.configuration.experimentText = experiment_.text;
-    block.configuration.definitionText = definitionTextOf(experiment_);
+    block.configuration.definitionText = experiment::definitionTextOf(experiment_);
   }
   run_ = std::make_unique<WindowRun>(block, asked.device, asked.place.data);
   last_.reset();
   Q_EMIT runOpened();
 }
 
-bool SessionController::next(const SessionRequest& request) {
+bool SessionController::next(const session::SessionRequest& request) {
   if (underWay()) return false;
   if (run_ && run_->trialsLeft() == 0) {
     const bool more = !isPlan_ || !blocks_.empty();
@@ -166,4 +166,4 @@ void SessionController::fail(const std::exception& fault) {
   Q_EMIT runClosed();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

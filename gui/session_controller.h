@@ -7,7 +7,7 @@
 
 #include "gui/window_run.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// The session behind the window: the experiment as edited, the blocks still to be done, and the run that is open. Knows no widget.
 /// Changes take effect between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so
@@ -16,18 +16,18 @@ class SessionController : public QObject {
   Q_OBJECT
  public:
   /// Reads the experiment, or the plan and its first block. Throws UsageError.
-  explicit SessionController(const SessionRequest& request, QObject* parent = nullptr);
+  explicit SessionController(const session::SessionRequest& request, QObject* parent = nullptr);
   ~SessionController() override;
 
-  const Experiment& experiment() const { return experiment_; }
-  const Constraint& constraint() const { return constraint_; }
+  const experiment::Experiment& experiment() const { return experiment_; }
+  const constraints::Constraint& constraint() const { return constraint_; }
   /// A plan has its settings in its file: they are shown, not edited.
   bool isPlan() const { return isPlan_; }
   /// Every fault of an edited experiment; it is taken over when there is none.
-  QStringList tryEdit(const Experiment& experiment);
+  QStringList tryEdit(const experiment::Experiment& experiment);
 
   /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error.
-  bool next(const SessionRequest& request);
+  bool next(const session::SessionRequest& request);
   void abort();
   /// The last trial once more, at the end of the run. False when there was none.
   bool repeat();
@@ -39,7 +39,7 @@ class SessionController : public QObject {
 
   WindowRun* run() { return run_.get(); }  // null: none is open
   bool underWay() const { return run_ && run_->underWay(); }
-  std::optional<ConductedTrial> lastTrial() const { return last_; }
+  std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
 
  Q_SIGNALS:
   void experimentChanged();
@@ -51,15 +51,15 @@ class SessionController : public QObject {
   void failed(const QString& sentence);
 
  private:
-  void open(const SessionRequest& request);
+  void open(const session::SessionRequest& request);
   void fail(const std::exception& fault);
 
-  Experiment experiment_;
-  Constraint constraint_;
+  experiment::Experiment experiment_;
+  constraints::Constraint constraint_;
   bool isPlan_ = false, edited_ = false, endAfterTrial_ = false, resume_ = false;
-  std::vector<BlockToRun> blocks_;  // of the plan, still to be done
+  std::vector<session::BlockToRun> blocks_;  // of the plan, still to be done
   std::unique_ptr<WindowRun> run_;
-  std::optional<ConductedTrial> last_;
+  std::optional<haptics::ConductedTrial> last_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

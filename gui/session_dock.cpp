@@ -12,14 +12,14 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/make_device.h"
 #include "gui/fault_label.h"
 #include "gui/trial_texts.h"
 #include "gui/unit_spin_box.h"
 #include "sim/record/run_configuration.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"), parent) {
   setObjectName(QStringLiteral("sessionDock"));
@@ -71,7 +71,8 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   data_->setObjectName(QStringLiteral("data"));
   form->addRow(QStringLiteral("data in"), data_);
   QString devices;
-  for (const DeviceDescription& d : knownDevices()) devices += QString::fromStdString(d.name + ": " + d.description + "\n");
+  for (const devices::DeviceDescription& d : devices::knownDevices())
+    devices += QString::fromStdString(d.name + ": " + d.description + "\n");
   device_->setToolTip(devices.trimmed());
   layout->addWidget(who_);
   faults_ = new FaultLabel;
@@ -144,7 +145,7 @@ void SessionDock::check() {
   };
   const auto labelFault = [](QLineEdit* field, const char* name) {
     try {
-      checkLabel(field->text().trimmed().toStdString(), name);
+      record::checkLabel(field->text().trimmed().toStdString(), name);
     } catch (const UsageError& e) {
       return QString::fromUtf8(e.what());
     }
@@ -163,7 +164,7 @@ void SessionDock::check() {
 
 QString SessionDock::fault() const { return faults_->text(); }
 
-void SessionDock::setRequest(const SessionRequest& request) {
+void SessionDock::setRequest(const session::SessionRequest& request) {
   request_ = request;
   subject_->setText(QString::fromStdString(request.place.subject));
   session_->setText(QString::fromStdString(request.place.session));
@@ -175,8 +176,8 @@ void SessionDock::setRequest(const SessionRequest& request) {
   if (request.participant.age) age_->setText(QString::number(*request.participant.age));
 }
 
-SessionRequest SessionDock::request() const {
-  SessionRequest r = request_;
+session::SessionRequest SessionDock::request() const {
+  session::SessionRequest r = request_;
   r.place.subject = subject_->text().trimmed().toStdString();
   r.place.session = session_->text().trimmed().toStdString();
   r.place.data = data_->text().trimmed().toStdString();
@@ -213,11 +214,11 @@ void SessionDock::clearTally() {
   tally_->setText(QStringLiteral("no trials yet"));
 }
 
-void SessionDock::count(const TrialResult& result) {
-  if (result.outcome == Outcome::Success) ++successes_;
-  else if (result.outcome == Outcome::Failure) ++failures_;
+void SessionDock::count(const trial::TrialResult& result) {
+  if (result.outcome == trial::Outcome::Success) ++successes_;
+  else if (result.outcome == trial::Outcome::Failure) ++failures_;
   else ++others_;
-  if (result.outcome != Outcome::Success) ++reasons_[result.reason];
+  if (result.outcome != trial::Outcome::Success) ++reasons_[result.reason];
   const int judged = successes_ + failures_;
   QString text =
       judged > 0
@@ -232,4 +233,4 @@ void SessionDock::count(const TrialResult& result) {
 
 QString SessionDock::tallyText() const { return tally_->text(); }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

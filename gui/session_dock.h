@@ -14,7 +14,7 @@ class QPlainTextEdit;
 class QPushButton;
 class QSpinBox;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class FaultLabel;
 class UnitSpinBox;
@@ -25,9 +25,9 @@ class SessionDock : public QDockWidget {
  public:
   explicit SessionDock(QWidget* parent = nullptr);
 
-  void setRequest(const SessionRequest& request);
+  void setRequest(const session::SessionRequest& request);
   /// What is typed; `what`, `fast` and the like as they came.
-  SessionRequest request() const;
+  session::SessionRequest request() const;
   /// What is wrong with the fields, a line each, as it stands under them; empty: nothing.
   QString fault() const;
   std::string device() const;
@@ -39,7 +39,7 @@ class SessionDock : public QDockWidget {
   void setStage(Stage stage);
   void setRun(const QString& text);
   void clearTally();
-  void count(const TrialResult& result);
+  void count(const trial::TrialResult& result);
   QString tallyText() const;
 
  Q_SIGNALS:
@@ -53,7 +53,7 @@ class SessionDock : public QDockWidget {
  private:
   void check();
 
-  SessionRequest request_;
+  session::SessionRequest request_;
   QLineEdit *subject_, *session_, *data_, *note_, *age_;
   QComboBox *device_, *sex_, *hand_;
   QSpinBox *trials_, *day_;
@@ -64,7 +64,7 @@ class SessionDock : public QDockWidget {
   QLabel *run_, *tally_;
   QPushButton *next_, *abort_, *repeat_, *end_;
   int successes_ = 0, failures_ = 0, others_ = 0;
-  std::map<Reason, int> reasons_;
+  std::map<trial::Reason, int> reasons_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -10,19 +10,19 @@
 
 #include "gui/unit_spin_box.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 constexpr int kSteps = 500;
 
-bool isWhole(const ShapeParameter& p) {
+bool isWhole(const constraints::ShapeParameter& p) {
   return p.unit == "1" && p.max - p.min >= 2 && p.min == std::floor(p.min) && p.max == std::floor(p.max) &&
          p.defaultValue == std::floor(p.defaultValue);
 }
 
 }  // namespace
 
-QString plainName(const ShapeParameter& p) {
+QString plainName(const constraints::ShapeParameter& p) {
   QString name = QString::fromStdString(p.name);
   const QString suffix = QLatin1Char('_') + QString::fromStdString(p.unit);
   if (p.unit == "1" || !name.endsWith(suffix)) return name;
@@ -35,20 +35,20 @@ ShapeSliders::ShapeSliders(QWidget* parent) : QWidget(parent) {
   layout->setContentsMargins(0, 0, 0, 0);
 }
 
-void ShapeSliders::setParameters(const std::vector<ShapeParameter>& parameters, const std::map<std::string, double>& values) {
+void ShapeSliders::setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values) {
   rows_.clear();
   delete body_;
   body_ = new QWidget;
   layout()->addWidget(body_);
   form_ = new QFormLayout(body_);
   form_->setContentsMargins(0, 0, 0, 0);
-  for (const ShapeParameter& p : parameters) {
+  for (const constraints::ShapeParameter& p : parameters) {
     const auto given = values.find(p.name);
     addRow(p, given == values.end() ? p.defaultValue : given->second);
   }
 }
 
-void ShapeSliders::addRow(const ShapeParameter& p, double value) {
+void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {
   auto* slider = new QSlider(Qt::Horizontal);
   slider->setObjectName(QStringLiteral("slider_") + QString::fromStdString(p.name));
   const bool whole = isWhole(p);
@@ -87,4 +87,4 @@ std::map<std::string, double> ShapeSliders::values() const {
   return values;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

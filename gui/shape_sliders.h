@@ -9,12 +9,12 @@
 class QFormLayout;
 class QSlider;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class UnitSpinBox;
 
 /// "minor radius" of minor_radius_m: its unit stands behind the number.
-QString plainName(const ShapeParameter& parameter);
+QString plainName(const constraints::ShapeParameter& parameter);
 
 /// A slider and a number for each shape parameter of a definition.
 class ShapeSliders : public QWidget {
@@ -22,7 +22,7 @@ class ShapeSliders : public QWidget {
  public:
   explicit ShapeSliders(QWidget* parent = nullptr);
   /// Rows for these; values not given stand at their defaults.
-  void setParameters(const std::vector<ShapeParameter>& parameters, const std::map<std::string, double>& values = {});
+  void setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values = {});
   std::map<std::string, double> values() const;
 
  Q_SIGNALS:
@@ -30,15 +30,15 @@ class ShapeSliders : public QWidget {
 
  private:
   struct Row {
-    ShapeParameter parameter;
+    constraints::ShapeParameter parameter;
     QSlider* slider = nullptr;
     UnitSpinBox* box = nullptr;
   };
-  void addRow(const ShapeParameter& parameter, double value);
+  void addRow(const constraints::ShapeParameter& parameter, double value);
 
   std::vector<Row> rows_;
   QWidget* body_ = nullptr;
   QFormLayout* form_ = nullptr;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

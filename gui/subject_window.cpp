@@ -6,7 +6,7 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
-namespace reachlab {
+namespace reachlab::gui {
 
 SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   setWindowTitle(QStringLiteral("Reachlab – subject"));
@@ -30,4 +30,4 @@ void SubjectWindow::closeEvent(QCloseEvent* event) {
   Q_EMIT closed();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -3,7 +3,7 @@
 
 #include "gui/scene_view.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// What the subject sees: the scene alone, over a whole screen. Esc, F11 or a closed window ends it.
 class SubjectWindow : public QWidget {
@@ -24,4 +24,4 @@ class SubjectWindow : public QWidget {
   SceneView* view_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

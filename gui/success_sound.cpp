@@ -5,10 +5,10 @@
 #include <QSoundEffect>
 #include <QUrl>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 struct SuccessSound::Impl {
   std::unique_ptr<QSoundEffect> effect;  // none without a sound device
@@ -17,7 +17,7 @@ struct SuccessSound::Impl {
 SuccessSound::SuccessSound() : impl_(std::make_unique<Impl>()) {
   if (QAudioDeviceInfo::defaultOutputDevice().isNull()) return;
   try {
-    const QString file = QString::fromStdString(resourceFolder()) + QStringLiteral("/sounds/success.wav");
+    const QString file = QString::fromStdString(experiment::resourceFolder()) + QStringLiteral("/sounds/success.wav");
     if (!QFileInfo::exists(file)) return;
     impl_->effect = std::make_unique<QSoundEffect>();
     impl_->effect->setSource(QUrl::fromLocalFile(file));
@@ -34,4 +34,4 @@ void SuccessSound::play() {
 
 bool SuccessSound::canBeHeard() const { return impl_->effect != nullptr; }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

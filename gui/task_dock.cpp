@@ -8,7 +8,7 @@
 #include "gui/number_list_edit.h"
 #include "gui/unit_spin_box.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent) {
   setObjectName(QStringLiteral("taskDock"));
@@ -47,10 +47,10 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
       Q_EMIT edited(task_);
     });
   };
-  bind(duration_, [](Task& t, double v) { t.duration = v; });
-  bind(time_, [](Task& t, double v) { t.tolerance.time = v; });
-  bind(position_, [](Task& t, double v) { t.tolerance.position = v; });
-  bind(velocity_, [](Task& t, double v) { t.tolerance.velocity = v; });
+  bind(duration_, [](experiment::Task& t, double v) { t.duration = v; });
+  bind(time_, [](experiment::Task& t, double v) { t.tolerance.time = v; });
+  bind(position_, [](experiment::Task& t, double v) { t.tolerance.position = v; });
+  bind(velocity_, [](experiment::Task& t, double v) { t.tolerance.velocity = v; });
   connect(start_, &NumberListEdit::numbersEdited, this, [this] {
     task_.start = *start_->numbers();
     Q_EMIT edited(task_);
@@ -61,15 +61,15 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   });
 }
 
-void TaskDock::setTask(const Task& task, ConstraintKind kind) {
+void TaskDock::setTask(const experiment::Task& task, constraints::ConstraintKind kind) {
   task_ = task;
   NumberListRule rule;
   QString unit;
-  if (kind == ConstraintKind::Free) {
+  if (kind == constraints::ConstraintKind::Free) {
     rule.names = QStringList{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
     unit = QStringLiteral("x y z [m]");
   } else {
-    for (const std::string& name : variablesOf(kind)) rule.names << QString::fromStdString(name);
+    for (const std::string& name : constraints::variablesOf(kind)) rule.names << QString::fromStdString(name);
     unit = rule.names.join(QLatin1Char(' ')) + QStringLiteral(" [1]");  // a formula's own measure, rad where it is an angle
   }
   rule.fewest = rule.most = static_cast<std::size_t>(rule.names.size());
@@ -79,7 +79,7 @@ void TaskDock::setTask(const Task& task, ConstraintKind kind) {
   rule.list = QStringLiteral("target");
   target_->setRule(rule);
   targetLabel_->setText(QStringLiteral("target ") + unit);
-  const QString places = kind == ConstraintKind::Free
+  const QString places = kind == constraints::ConstraintKind::Free
                              ? QStringLiteral("three coordinates in metres")
                              : QStringLiteral("the place on the constraint, by its own parameters (rad where one is an angle): ") + unit;
   start_->setToolTip(places);
@@ -94,4 +94,4 @@ void TaskDock::setTask(const Task& task, ConstraintKind kind) {
 
 void TaskDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

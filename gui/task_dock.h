@@ -5,7 +5,7 @@
 
 class QLabel;
 
-namespace reachlab {
+namespace reachlab::gui {
 
 class FaultLabel;
 class NumberListEdit;
@@ -17,18 +17,18 @@ class TaskDock : public QDockWidget {
  public:
   explicit TaskDock(QWidget* parent = nullptr);
   /// `kind`: what the numbers of start and target are.
-  void setTask(const Task& task, ConstraintKind kind);
+  void setTask(const experiment::Task& task, constraints::ConstraintKind kind);
   void setFaults(const QStringList& faults);
 
  Q_SIGNALS:
-  void edited(const reachlab::Task& task);
+  void edited(const reachlab::experiment::Task& task);
 
  private:
-  Task task_;
+  experiment::Task task_;
   NumberListEdit *start_, *target_;
   UnitSpinBox *duration_, *time_, *position_, *velocity_;
   QLabel *startLabel_, *targetLabel_;
   FaultLabel* faults_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -7,7 +7,7 @@
 #include "gui/camera.h"
 #include "gui/theme.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 struct Projector {
@@ -83,4 +83,4 @@ QImage drawThumbnail(const ScenePlan& plan, const QSize& size, double pixelRatio
   return image;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

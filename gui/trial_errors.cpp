@@ -1,11 +1,11 @@
 #include "gui/trial_errors.h"
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/measures.h"
 #include "sim/analyze/predicted_profile.h"
 #include "sim/analyze/ranking.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 Vec3 unitOrZero(const Vec3& v) {
@@ -13,21 +13,22 @@ Vec3 unitOrZero(const Vec3& v) {
   return length > 0 && std::isfinite(length) ? v / length : Vec3{};
 }
 
-Vec3 placeOf(const Constraint& constraint, const std::vector<double>& q) {
-  if (constraint.kind == ConstraintKind::Curve && q.size() == 1) return evaluate(constraint.curve, q[0]).r;
-  if (constraint.kind == ConstraintKind::Surface && q.size() == 2) return evaluate(constraint.surface, q[0], q[1]).r;
+Vec3 placeOf(const constraints::Constraint& constraint, const std::vector<double>& q) {
+  if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) return constraints::evaluate(constraint.curve, q[0]).r;
+  if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2)
+    return constraints::evaluate(constraint.surface, q[0], q[1]).r;
   return q.size() == 3 ? Vec3{q[0], q[1], q[2]} : Vec3{};
 }
 
 }  // namespace
 
-std::vector<CriterionForecast> forecastAll(const Experiment& experiment, const std::stop_token& stop) {
+std::vector<CriterionForecast> forecastAll(const experiment::Experiment& experiment, const std::stop_token& stop) {
   std::vector<CriterionForecast> forecasts;
-  for (int i = 0; i < kCriterionCount && !stop.stop_requested(); ++i) {
+  for (int i = 0; i < predict::kCriterionCount && !stop.stop_requested(); ++i) {
     CriterionForecast forecast;
-    forecast.criterion = static_cast<Criterion>(i);
+    forecast.criterion = static_cast<predict::Criterion>(i);
     try {
-      forecast.prediction = predict(experiment, forecast.criterion);
+      forecast.prediction = predict::predict(experiment, forecast.criterion);
     } catch (const Error& e) {
       forecast.refusal = e.what();
     }
@@ -36,19 +37,20 @@ std::vector<CriterionForecast> forecastAll(const Experiment& experiment, const s
   return forecasts;
 }
 
-PathDirection::PathDirection(const Experiment& experiment, const Constraint& constraint) : constraint_(constraint) {
+PathDirection::PathDirection(const experiment::Experiment& experiment, const constraints::Constraint& constraint)
+    : constraint_(constraint) {
   if (!experiment.task) return;
-  const Task& task = *experiment.task;
+  const experiment::Task& task = *experiment.task;
   start_ = placeOf(constraint, task.start);
   target_ = placeOf(constraint, task.target);
   chord_ = unitOrZero(target_ - start_);
-  straight_ = constraint.straight || constraint.kind == ConstraintKind::Free;
-  if (constraint.kind == ConstraintKind::Curve && task.target[0] < task.start[0]) sign_ = -1;
+  straight_ = constraint.straight || constraint.kind == constraints::ConstraintKind::Free;
+  if (constraint.kind == constraints::ConstraintKind::Curve && task.target[0] < task.start[0]) sign_ = -1;
 }
 
 Vec3 PathDirection::at(double q) const {
   if (straight_) return chord_;
-  if (constraint_.kind == ConstraintKind::Curve) return sign_ * unitOrZero(evaluate(constraint_.curve, q).rPhi);
+  if (constraint_.kind == constraints::ConstraintKind::Curve) return sign_ * unitOrZero(constraints::evaluate(constraint_.curve, q).rPhi);
   return {};
 }
 
@@ -58,10 +60,10 @@ double PathDirection::along(const Vec3& velocity, double q) const {
 }
 
 std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
-                                                     const std::vector<CriterionForecast>& forecasts, const Task& task) {
+                                                     const std::vector<CriterionForecast>& forecasts, const experiment::Task& task) {
   std::vector<std::optional<double>> errors(forecasts.size());
   if (trace.size() < 8) return errors;
-  TrialData trial;
+  analyze::TrialData trial;
   trial.rate = TraceSink::kRate;
   trial.start = path.start();
   trial.target = path.target();
@@ -73,20 +75,21 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
     if (path.straight()) trial.along = {path.at(0)};
     else if (const Vec3 direction = path.at(p.firstQ); !(direction == Vec3{})) trial.along.push_back(direction);
   }
-  const MeasureOptions options;
-  const TrialSignals signals = computeSignals(trial, options);
+  const analyze::MeasureOptions options;
+  const analyze::TrialSignals signals = analyze::computeSignals(trial, options);
   if (!signals.movement.found) return errors;
   const double duration = signals.movement.duration();
-  const double endLevel = valueAt(signals.speed, trial.rate, signals.movement.offset) / signals.movement.peak;
-  const std::vector<double> measured = normaliseTime(signals.handVelocity, trial.rate, signals.movement.onset, signals.movement.offset);
+  const double endLevel = analyze::valueAt(signals.speed, trial.rate, signals.movement.offset) / signals.movement.peak;
+  const std::vector<double> measured =
+      analyze::normaliseTime(signals.handVelocity, trial.rate, signals.movement.onset, signals.movement.offset);
   for (std::size_t i = 0; i < forecasts.size(); ++i) {
     if (!forecasts[i].prediction) continue;
-    const PredictedProfile predicted =
-        scaledTo(profileUntil(recordPrediction(*forecasts[i].prediction, options, task), endLevel), duration);
-    const double error = computeRmsError(predicted.hand, measured);
+    const analyze::PredictedProfile predicted =
+        analyze::scaledTo(analyze::profileUntil(analyze::recordPrediction(*forecasts[i].prediction, options, task), endLevel), duration);
+    const double error = analyze::computeRmsError(predicted.hand, measured);
     if (std::isfinite(error)) errors[i] = error;
   }
   return errors;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -1,6 +1,6 @@
 #include "gui/trial_texts.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 QString number(double value, int digits) { return QString::number(value, 'f', digits); }
@@ -9,48 +9,48 @@ QString massName(int mass) { return mass > 0 ? QStringLiteral("mass %1").arg(mas
 
 }  // namespace
 
-QString outcomeText(const TrialResult& result) {
+QString outcomeText(const trial::TrialResult& result) {
   switch (result.reason) {
-    case Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
-    case Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
-    case Reason::Position:
+    case trial::Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
+    case trial::Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
+    case trial::Reason::Position:
       return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
-    case Reason::Velocity:
+    case trial::Reason::Velocity:
       return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
-    case Reason::ForceLimit: return QStringLiteral("The force went over its limit");
-    case Reason::DeviceLost: return QStringLiteral("The device was lost");
-    case Reason::NoOnset: return QStringLiteral("No movement began");
-    case Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");
-    case Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
-    case Reason::Computation: return QStringLiteral("The simulation could not go on");
-    case Reason::Program: return QStringLiteral("Interrupted");
-    case Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
-    case Reason::None: break;
+    case trial::Reason::ForceLimit: return QStringLiteral("The force went over its limit");
+    case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
+    case trial::Reason::NoOnset: return QStringLiteral("No movement began");
+    case trial::Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");
+    case trial::Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
+    case trial::Reason::Computation: return QStringLiteral("The simulation could not go on");
+    case trial::Reason::Program: return QStringLiteral("Interrupted");
+    case trial::Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
+    case trial::Reason::None: break;
   }
-  if (result.outcome == Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
+  if (result.outcome == trial::Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
   return {};
 }
 
-QString reasonText(Reason reason) {
+QString reasonText(trial::Reason reason) {
   switch (reason) {
-    case Reason::TimeShort: return QStringLiteral("too fast");
-    case Reason::TimeLong: return QStringLiteral("too slow");
-    case Reason::Position: return QStringLiteral("too far from the target");
-    case Reason::Velocity: return QStringLiteral("still moving");
-    case Reason::ForceLimit: return QStringLiteral("over the force limit");
-    case Reason::DeviceLost: return QStringLiteral("device lost");
-    case Reason::NoOnset: return QStringLiteral("no movement");
-    case Reason::Experimenter: return QStringLiteral("stopped by the experimenter");
-    case Reason::EndOfConstraint: return QStringLiteral("off the end of the path");
-    case Reason::Computation: return QStringLiteral("not computable");
-    case Reason::Program: return QStringLiteral("interrupted");
-    case Reason::FalseStart: return QStringLiteral("too early");
-    case Reason::None: break;
+    case trial::Reason::TimeShort: return QStringLiteral("too fast");
+    case trial::Reason::TimeLong: return QStringLiteral("too slow");
+    case trial::Reason::Position: return QStringLiteral("too far from the target");
+    case trial::Reason::Velocity: return QStringLiteral("still moving");
+    case trial::Reason::ForceLimit: return QStringLiteral("over the force limit");
+    case trial::Reason::DeviceLost: return QStringLiteral("device lost");
+    case trial::Reason::NoOnset: return QStringLiteral("no movement");
+    case trial::Reason::Experimenter: return QStringLiteral("stopped by the experimenter");
+    case trial::Reason::EndOfConstraint: return QStringLiteral("off the end of the path");
+    case trial::Reason::Computation: return QStringLiteral("not computable");
+    case trial::Reason::Program: return QStringLiteral("interrupted");
+    case trial::Reason::FalseStart: return QStringLiteral("too early");
+    case trial::Reason::None: break;
   }
   return QStringLiteral("no reason");
 }
 
-OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlanned, bool mouse) {
+OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse) {
   OverlayState o;
   o.semaphore = state.semaphore;
   o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
@@ -60,30 +60,30 @@ OverlayState overlayOf(const TickState& state, const Task& task, int trialsPlann
                  ? QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2))
                  : QStringLiteral("reach in at most %1 s").arg(number(latest, 2));
   switch (state.phase) {
-    case Phase::Idle: o.instruction = QStringLiteral("Wait"); break;
-    case Phase::Waiting:
+    case trial::Phase::Idle: o.instruction = QStringLiteral("Wait"); break;
+    case trial::Phase::Waiting:
       o.instruction = mouse ? QStringLiteral("Drag the hand to the grey sphere") : QStringLiteral("Move the hand to the grey sphere");
       break;
-    case Phase::Armed: o.instruction = QStringLiteral("Move to the small yellow sphere, and stop there"); break;
-    case Phase::Moving: o.instruction = QStringLiteral("%1 s").arg(number(state.trialTime, 2)); break;
-    case Phase::Done:
+    case trial::Phase::Armed: o.instruction = QStringLiteral("Move to the small yellow sphere, and stop there"); break;
+    case trial::Phase::Moving: o.instruction = QStringLiteral("%1 s").arg(number(state.trialTime, 2)); break;
+    case trial::Phase::Done:
       o.instruction = outcomeText(state.result);
-      o.tone = state.result.outcome == Outcome::Success ? OverlayState::Tone::Good : OverlayState::Tone::Bad;
+      o.tone = state.result.outcome == trial::Outcome::Success ? OverlayState::Tone::Good : OverlayState::Tone::Bad;
       o.detail = QStringLiteral("Space: next trial");
       break;
   }
   return o;
 }
 
-QString taskText(const Experiment& experiment, bool hiding) {
+QString taskText(const experiment::Experiment& experiment, bool hiding) {
   if (!experiment.task) return {};
-  const Task& task = *experiment.task;
+  const experiment::Task& task = *experiment.task;
   const auto digits = [](double value) { return QString::number(value, 'g', 4); };
   const std::size_t masses = experiment.object.masses.size();
-  const QString what = experiment.object.kind == ObjectKind::Body ? QStringLiteral("the body")
-                       : masses == 1                              ? QStringLiteral("the mass")
-                       : masses == 2                              ? QStringLiteral("both masses")
-                                                                  : QStringLiteral("all %1 masses").arg(masses);
+  const QString what = experiment.object.kind == experiment::ObjectKind::Body ? QStringLiteral("the body")
+                       : masses == 1                                          ? QStringLiteral("the mass")
+                       : masses == 2                                          ? QStringLiteral("both masses")
+                                                                              : QStringLiteral("all %1 masses").arg(masses);
   const double earliest = task.duration - task.tolerance.time, latest = task.duration + task.tolerance.time;
   const QString when = earliest > 0 ? QStringLiteral("%1 to %2 s").arg(digits(earliest), digits(latest))
                                     : QStringLiteral("at most %1 s").arg(digits(latest));
@@ -103,4 +103,4 @@ OverlayState restingOverlay(const QString& experiment, bool mouse) {
   return o;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

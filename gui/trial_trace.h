@@ -1,17 +1,17 @@
 #pragma once
 #include <cstdint>
 
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 #include "sim/haptics/run_sink.h"
-#include "sim/haptics/spsc_queue.h"
+#include "base/spsc_queue.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 
 /// What the plot needs of a tick. World frame, SI.
 struct TracePoint {
   std::uint64_t tick = 0;
   std::int32_t trial = 0;
-  Phase phase = Phase::Idle;
+  trial::Phase phase = trial::Phase::Idle;
   double trialTime = 0;          // [s] since onset
   Vec3 hand, handVelocity;       // [m], [m/s]
   Vec3 last, lastVelocity;       // of the last mass
@@ -20,16 +20,16 @@ struct TracePoint {
 };
 
 /// A run's ticks go two ways: all of them to the recorder (if there is one), and every fifth to the window's plot. Neither waits.
-class TraceSink final : public RunSink {
+class TraceSink final : public haptics::RunSink {
  public:
   static constexpr std::uint64_t kEvery = 5;                             // ticks a point
   static constexpr double kRate = 1000.0 / static_cast<double>(kEvery);  // [Hz]
 
   /// `recorder` may be null and outlives this.
-  explicit TraceSink(RunSink* recorder) : recorder_(recorder) {}
+  explicit TraceSink(haptics::RunSink* recorder) : recorder_(recorder) {}
 
-  bool onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept override;
-  void announce(std::int32_t trial, const PlannedTrial& planned) override;
+  bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
+  void announce(std::int32_t trial, const trial::PlannedTrial& planned) override;
   void awaitTrial(std::int32_t trial) override;
   void close() override;
 
@@ -37,8 +37,8 @@ class TraceSink final : public RunSink {
   bool tryTake(TracePoint& point) noexcept { return points_.tryPop(point); }
 
  private:
-  RunSink* recorder_;
+  haptics::RunSink* recorder_;
   SpscQueue<TracePoint, 4096> points_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -18,7 +18,7 @@
 
 #include "gui/theme.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 QwtText axisTitle(const QString& text) {
@@ -193,4 +193,4 @@ double VelocityPlot::timeSpan() const { return impl_->span; }
 
 std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->times.size()); }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -10,7 +10,7 @@
 #include "sim/record/channels.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 std::string nowUtc() { return QDateTime::currentDateTimeUtc().toString(Qt::ISODateWithMs).toStdString(); }
@@ -22,22 +22,23 @@ std::string computerName() {
 
 }  // namespace
 
-WindowRun::WindowRun(const BlockToRun& block, const std::string& deviceSpec, const std::string& dataFolder)
+WindowRun::WindowRun(const session::BlockToRun& block, const std::string& deviceSpec, const std::string& dataFolder)
     : configuration_(block.configuration), logPath_(block.logPath), dataFolder_(dataFolder), trialCount_(block.trials.size()) {
-  std::unique_ptr<HapticDevice> device;
+  std::unique_ptr<haptics::HapticDevice> device;
   if (deviceSpec == "mouse") {
-    const ProtocolSettings task = makeProtocolSettings(block.experiment, makeConstraint(block.experiment.constraint));
-    auto mouse = std::make_unique<MouseDevice>(task.start);
+    const trial::ProtocolSettings task =
+        trial::makeProtocolSettings(block.experiment, constraints::makeConstraint(block.experiment.constraint));
+    auto mouse = std::make_unique<devices::MouseDevice>(task.start);
     mouse_ = mouse.get();
     device = std::move(mouse);
   } else {
-    device = makeDevice(deviceSpec, block.experiment, configuration_.seed);
+    device = devices::makeDevice(deviceSpec, block.experiment, configuration_.seed);
   }
-  const DeviceInfo info = device->info();
-  conductor_ = std::make_unique<RunConductor>(block.experiment, std::move(device), block.trials);
+  const haptics::DeviceInfo info = device->info();
+  conductor_ = std::make_unique<haptics::RunConductor>(block.experiment, std::move(device), block.trials);
   choice_ = conductor_->engine().choice();
 
-  RunConfiguration& c = configuration_;
+  record::RunConfiguration& c = configuration_;
   c.device = deviceSpec;
   c.deviceName = info.name;
   c.deviceVersion = info.version;
@@ -50,8 +51,8 @@ WindowRun::WindowRun(const BlockToRun& block, const std::string& deviceSpec, con
   c.computer = computerName();
   c.startedUtc = nowUtc();
   c.clock = "monotonic";
-  c.table = makeChannelTable(block.experiment, conductor_->engine().constraint().parameterCount());
-  if (!logPath_.empty()) recorder_ = std::make_unique<Recorder>(logPath_, c);
+  c.table = record::makeChannelTable(block.experiment, conductor_->engine().constraint().parameterCount());
+  if (!logPath_.empty()) recorder_ = std::make_unique<record::Recorder>(logPath_, c);
   sink_ = std::make_unique<TraceSink>(recorder_.get());
   conductor_->start(sink_.get());
 }
@@ -63,7 +64,7 @@ WindowRun::~WindowRun() {
   }
 }
 
-void WindowRun::repeat(const PlannedTrial& trial) {
+void WindowRun::repeat(const trial::PlannedTrial& trial) {
   conductor_->append(trial);
   ++trialCount_;
 }
@@ -81,9 +82,9 @@ void WindowRun::finish() {
   finished_ = true;
   conductor_->finish();
   if (logPath_.empty()) return;
-  const RunLog log = RunLog::open(logPath_);
-  writeBidsRun(log, dataFolder_);
-  writeBidsTables({log.configuration()}, dataFolder_);
+  const record::RunLog log = record::RunLog::open(logPath_);
+  record::writeBidsRun(log, dataFolder_);
+  record::writeBidsTables({log.configuration()}, dataFolder_);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -8,12 +8,13 @@
 
 #include "constraints/cpp_writer.h"
 #include "constraints/definition.h"
-#include "constraints/error.h"
-#include "constraints/json_tree.h"
+#include "base/error.h"
+#include "base/json_tree.h"
 
 namespace {
 
 using namespace reachlab;
+using namespace reachlab::constraints;
 
 std::string generate(const std::vector<std::string>& files) {
   std::string functions, table;
@@ -31,9 +32,11 @@ std::string generate(const std::vector<std::string>& files) {
                          curve ? fmt::format("{0}, {0}Octet, nullptr", function) : "nullptr, nullptr, " + function);
   }
   return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
-         "#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab {\nnamespace {\n\n" +
+         "#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab::constraints "
+         "{\nnamespace {\n\n" +
          functions + "constexpr GeneratedEntry kEntries[] = {\n" + table +
-         "};\n\n}  // namespace\n\nstd::span<const GeneratedEntry> generatedEntries() { return kEntries; }\n\n}  // namespace reachlab\n";
+         "};\n\n}  // namespace\n\nstd::span<const GeneratedEntry> generatedEntries() { return kEntries; }\n\n}  // namespace "
+         "reachlab::constraints\n";
 }
 
 }  // namespace

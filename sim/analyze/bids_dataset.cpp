@@ -7,13 +7,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/dataset.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,12 +40,12 @@ std::string labelIn(const std::string& name, const std::string& key) {
 
 std::uint64_t tickOf(double seconds) { return std::isfinite(seconds) ? static_cast<std::uint64_t>(std::llround(seconds * 1000)) : 0; }
 
-ChannelTable readChannels(const fs::path& path) {
-  const TsvTable text = parseTsv(readWholeFile(path.string()));
+record::ChannelTable readChannels(const fs::path& path) {
+  const TsvTable text = parseTsv(record::readWholeFile(path.string()));
   const std::size_t name = columnOf(text, "name", path);
-  ChannelTable table;
+  record::ChannelTable table;
   for (const auto& row : text.rows) {
-    Channel channel;
+    record::Channel channel;
     channel.name = row.at(name);
     if (channel.name.starts_with("mass") && channel.name.ends_with("_pos_x")) ++table.massCount;
     if (channel.name.starts_with("mass1_q") && !channel.name.ends_with("_rate")) ++table.parameterCount;
@@ -54,9 +54,9 @@ ChannelTable readChannels(const fs::path& path) {
   return table;
 }
 
-SampleRows readMotion(const fs::path& path, std::size_t columns) {
-  const std::string text = readWholeFile(path.string());
-  SampleRows rows;
+record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
+  const std::string text = record::readWholeFile(path.string());
+  record::SampleRows rows;
   rows.columns = columns;
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -78,20 +78,20 @@ SampleRows readMotion(const fs::path& path, std::size_t columns) {
   return rows;
 }
 
-Outcome outcomeFrom(const std::string& text) {
-  for (const Outcome o : {Outcome::Success, Outcome::Failure, Outcome::Aborted, Outcome::Interrupted})
-    if (nameOf(o) == text) return o;
-  return Outcome::None;
+trial::Outcome outcomeFrom(const std::string& text) {
+  for (const trial::Outcome o : {trial::Outcome::Success, trial::Outcome::Failure, trial::Outcome::Aborted, trial::Outcome::Interrupted})
+    if (trial::nameOf(o) == text) return o;
+  return trial::Outcome::None;
 }
 
-Reason reasonFrom(const std::string& text) {
-  for (int i = 0; i <= static_cast<int>(Reason::FalseStart); ++i)
-    if (nameOf(static_cast<Reason>(i)) == text) return static_cast<Reason>(i);
-  return Reason::None;
+trial::Reason reasonFrom(const std::string& text) {
+  for (int i = 0; i <= static_cast<int>(trial::Reason::FalseStart); ++i)
+    if (trial::nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
+  return trial::Reason::None;
 }
 
 /// When the trial was armed is no column of events.tsv: it is the first of the rows before its end in which the phase says so.
-std::uint64_t armedTickOf(const SampleRows& rows, const ChannelTable& table, int trial) {
+std::uint64_t armedTickOf(const record::SampleRows& rows, const record::ChannelTable& table, int trial) {
   const std::size_t trialColumn = table.indexOf("trial"), phase = table.indexOf("phase");
   for (std::size_t row = 0; row < rows.size(); ++row)
     if (static_cast<int>(rows.at(row, trialColumn)) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3)
@@ -105,25 +105,25 @@ RunSource readRun(const fs::path& motion) {
     return motion.parent_path() / (name.substr(0, name.size() - std::string("motion.tsv").size()) + ending);
   };
   RunSource run;
-  RunConfiguration& c = run.configuration;
+  record::RunConfiguration& c = run.configuration;
   c.subject = labelIn(name, "sub");
   c.session = labelIn(name, "ses");
   c.task = labelIn(name, "task");
   c.run = static_cast<int>(numberOf(labelIn(name, "run")));
   c.table = readChannels(sibling("channels.tsv"));
   c.device = "n/a";
-  const auto about = nlohmann::json::parse(readWholeFile(sibling("motion.json").string()), nullptr, false);
-  if (about.is_object()) c.experimentName = experimentNameIn(about.value("TaskDescription", ""));
+  const auto about = nlohmann::json::parse(record::readWholeFile(sibling("motion.json").string()), nullptr, false);
+  if (about.is_object()) c.experimentName = record::experimentNameIn(about.value("TaskDescription", ""));
 
-  auto rows = std::make_shared<SampleRows>(readMotion(motion, c.table.size()));
+  auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table.size()));
   if (rows->size() > 1) c.sampleEveryTicks = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, rows->ticks[1] - rows->ticks[0]));
   c.samplingHz = 1000.0 / c.sampleEveryTicks;
 
   const fs::path eventsFile = sibling("events.tsv");
-  const TsvTable events = parseTsv(readWholeFile(eventsFile.string()));
+  const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
   const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
   for (const auto& row : events.rows) {
-    RecordedTrial trial;
+    record::RecordedTrial trial;
     trial.trial = static_cast<int>(numberOf(row.at(column("trial"))));
     trial.planned.catchTrial = row.at(column("trial_type")) == "catch";
     trial.result.outcome = outcomeFrom(row.at(column("outcome")));
@@ -146,7 +146,7 @@ RunSource readRun(const fs::path& motion) {
     run.trials.push_back(trial);
   }
   run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) {
-    SampleRows part;
+    record::SampleRows part;
     part.columns = rows->columns;
     for (std::size_t row = 0; row < rows->size(); ++row) {
       if (rows->ticks[row] < first || rows->ticks[row] > last) continue;
@@ -176,4 +176,4 @@ std::vector<RunSource> readBidsRuns(const std::string& folder) {
   return runs;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 void countTrial(const TrialData& data, const StudyTrial& trial, std::size_t conditions, std::vector<ConditionResult>& results) {
   results.resize(conditions);
@@ -16,14 +16,14 @@ void countTrial(const TrialData& data, const StudyTrial& trial, std::size_t cond
   if (data.practice) ++result.counts.practice;
   if (trial.exclusion == "practice") return;
   switch (data.result.outcome) {
-    case Outcome::Success: ++result.counts.success; break;
-    case Outcome::Failure: ++result.counts.failure; break;
-    case Outcome::Aborted: ++result.counts.aborted; break;
-    case Outcome::Interrupted: ++result.counts.interrupted; break;
-    case Outcome::None: break;
+    case trial::Outcome::Success: ++result.counts.success; break;
+    case trial::Outcome::Failure: ++result.counts.failure; break;
+    case trial::Outcome::Aborted: ++result.counts.aborted; break;
+    case trial::Outcome::Interrupted: ++result.counts.interrupted; break;
+    case trial::Outcome::None: break;
   }
-  if (data.result.outcome != Outcome::Success && data.result.reason != Reason::None)
-    ++result.reasons[std::string(nameOf(data.result.reason))];
+  if (data.result.outcome != trial::Outcome::Success && data.result.reason != trial::Reason::None)
+    ++result.reasons[std::string(trial::nameOf(data.result.reason))];
 }
 
 std::vector<SuccessCell> successTable(const std::vector<StudyTrial>& trials) {
@@ -35,7 +35,7 @@ std::vector<SuccessCell> successTable(const std::vector<StudyTrial>& trials) {
     cell.day = trial.key.day;
     cell.condition = trial.condition;
     ++cell.trials;
-    if (trial.result.outcome == Outcome::Success) ++cell.successes;
+    if (trial.result.outcome == trial::Outcome::Success) ++cell.successes;
   }
   std::vector<SuccessCell> out;
   for (auto& [key, cell] : cells) {
@@ -62,10 +62,10 @@ std::vector<LearningPoint> learningCurves(const std::vector<StudyTrial>& trials,
     LearningPoint& point = out.back();
     point.lastTrial = counted;
     ++point.trials;
-    if (trial.result.outcome == Outcome::Success) ++point.successes;
+    if (trial.result.outcome == trial::Outcome::Success) ++point.successes;
   }
   if (!out.empty()) close(out.back());
   return out;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

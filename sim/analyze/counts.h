@@ -3,7 +3,7 @@
 
 #include "sim/analyze/study.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// Enters one trial into its condition's counts; `results` grows to `conditions`.
 void countTrial(const TrialData& data, const StudyTrial& trial, std::size_t conditions, std::vector<ConditionResult>& results);
@@ -15,4 +15,4 @@ std::vector<SuccessCell> successTable(const std::vector<StudyTrial>& trials);
 /// Success over consecutive groups of `bin` counted trials of one subject and condition; a group never spans two sessions.
 std::vector<LearningPoint> learningCurves(const std::vector<StudyTrial>& trials, int bin);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -10,20 +10,20 @@
 #include <set>
 
 #include "constraints/constraint.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/experiment_difference.h"
 #include "sim/analyze/tables.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 /// Where the columns that are needed stand in this run's table.
 struct Columns {
   std::size_t hand, force, object, velocity;
   std::size_t parameter = 0;  // of mass 1, on curves
-  explicit Columns(const ChannelTable& table) {
+  explicit Columns(const record::ChannelTable& table) {
     const std::string last = fmt::format("mass{}", table.massCount);
     hand = table.indexOf("hand_pos_x");
     force = table.indexOf("coupling_force_x");
@@ -33,44 +33,44 @@ struct Columns {
   }
 };
 
-Vec3 vectorAt(const SampleRows& rows, std::size_t row, std::size_t column) {
+Vec3 vectorAt(const record::SampleRows& rows, std::size_t row, std::size_t column) {
   return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
 }
 
-Vec3 pointAt(const Constraint& constraint, const std::vector<double>& at) {
+Vec3 pointAt(const constraints::Constraint& constraint, const std::vector<double>& at) {
   switch (constraint.kind) {
-    case ConstraintKind::Curve: return evaluate(constraint.curve, at.at(0)).r;
-    case ConstraintKind::Surface: return evaluate(constraint.surface, at.at(0), at.at(1)).r;
-    case ConstraintKind::Free: return {at.at(0), at.at(1), at.at(2)};
+    case constraints::ConstraintKind::Curve: return constraints::evaluate(constraint.curve, at.at(0)).r;
+    case constraints::ConstraintKind::Surface: return constraints::evaluate(constraint.surface, at.at(0), at.at(1)).r;
+    case constraints::ConstraintKind::Free: return {at.at(0), at.at(1), at.at(2)};
   }
   return {};
 }
 
 /// The path's unit direction: from start to target on a line and in free space, the tangent under the driven mass on other curves.
 struct Path {
-  Constraint constraint;
+  constraints::Constraint constraint;
   Vec3 start, target, chord;
   double sense = 1;  // of the parameter, on curves
 
-  Path(const Experiment& experiment) : constraint(makeConstraint(experiment.constraint)) {
-    const Task& task = *experiment.task;
+  Path(const experiment::Experiment& experiment) : constraint(constraints::makeConstraint(experiment.constraint)) {
+    const experiment::Task& task = *experiment.task;
     start = pointAt(constraint, task.start);
     target = pointAt(constraint, task.target);
     const Vec3 way = target - start;
     chord = norm(way) > 0 ? way / norm(way) : Vec3{};
-    if (constraint.kind == ConstraintKind::Curve) sense = task.target[0] >= task.start[0] ? 1 : -1;
+    if (constraint.kind == constraints::ConstraintKind::Curve) sense = task.target[0] >= task.start[0] ? 1 : -1;
   }
-  bool bent() const { return constraint.kind == ConstraintKind::Curve && !constraint.straight; }
-  bool directed() const { return constraint.kind != ConstraintKind::Surface && (bent() || norm(chord) > 0); }
+  bool bent() const { return constraint.kind == constraints::ConstraintKind::Curve && !constraint.straight; }
+  bool directed() const { return constraint.kind != constraints::ConstraintKind::Surface && (bent() || norm(chord) > 0); }
   Vec3 tangent(double parameter) const {
-    const Vec3 d = evaluate(constraint.curve, parameter).rPhi;
+    const Vec3 d = constraints::evaluate(constraint.curve, parameter).rPhi;
     const double length = norm(d);
     return length > 0 ? sense / length * d : Vec3{};
   }
 };
 
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
-void appendEvenly(TrialData& trial, const SampleRows& rows, const Columns& columns, const Path& path, std::uint64_t every) {
+void appendEvenly(TrialData& trial, const record::SampleRows& rows, const Columns& columns, const Path& path, std::uint64_t every) {
   const auto put = [&](std::size_t a, std::size_t b, double part) {
     const auto mix = [&](std::size_t column) { return (1 - part) * vectorAt(rows, a, column) + part * vectorAt(rows, b, column); };
     trial.hand.push_back(mix(columns.hand));
@@ -96,7 +96,7 @@ std::string nameApart(const std::string& name, const std::vector<std::string>& d
   return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
 }
 
-std::size_t conditionIndex(Dataset& dataset, const std::string& name, const Experiment& experiment) {
+std::size_t conditionIndex(Dataset& dataset, const std::string& name, const experiment::Experiment& experiment) {
   auto& conditions = dataset.input.conditions;
   const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return c.name == name; });
   if (first == conditions.end()) {
@@ -122,7 +122,7 @@ std::size_t conditionIndex(Dataset& dataset, const std::string& name, const Expe
   return conditions.size() - 1;
 }
 
-RunProvenance provenanceOf(const RunConfiguration& c, std::size_t trials) {
+RunProvenance provenanceOf(const record::RunConfiguration& c, std::size_t trials) {
   RunProvenance p;
   p.subject = c.subject;
   p.session = c.session;
@@ -158,9 +158,9 @@ void noteMixedDevices(Dataset& dataset) {
 
 }  // namespace
 
-void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset) {
+void addRun(const RunSource& run, const experiment::Experiment& experiment, Dataset& dataset) {
   constexpr std::uint64_t kAfterTicks = 500;  // the hand may come to rest a little after the trial has ended
-  const RunConfiguration& c = run.configuration;
+  const record::RunConfiguration& c = run.configuration;
   dataset.runs.push_back(provenanceOf(c, run.trials.size()));
   if (!experiment.task) {
     dataset.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
@@ -171,7 +171,7 @@ void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset
   const Path path(experiment);
   const std::uint64_t every = std::max<std::uint64_t>(1, c.sampleEveryTicks);
   for (std::size_t i = 0; i < run.trials.size(); ++i) {
-    const RecordedTrial& recorded = run.trials[i];
+    const record::RecordedTrial& recorded = run.trials[i];
     TrialData trial;
     trial.key = {c.subject, c.session, dataset.input.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
     trial.practice = c.practice;
@@ -184,7 +184,7 @@ void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset
     if (recorded.armedTick > 0) {
       std::uint64_t last = recorded.lastTick + kAfterTicks;
       if (i + 1 < run.trials.size()) last = std::min(last, std::max(recorded.lastTick, run.trials[i + 1].startTick - 1));
-      const SampleRows rows = run.rowsOf(recorded.armedTick, last);
+      const record::SampleRows rows = run.rowsOf(recorded.armedTick, last);
       if (rows.size() > 0) {
         appendEvenly(trial, rows, columns, path, every);
         const auto seconds = [&](std::uint64_t tick) {
@@ -219,19 +219,19 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
   Dataset dataset;
   std::vector<std::string> logs;
   try {
-    logs = findLogs(folder);
+    logs = record::findLogs(folder);
   } catch (const UsageError&) {
     // No logs: the exported files may still be there.
   }
-  std::map<std::pair<std::string, std::string>, Experiment> parsed;
+  std::map<std::pair<std::string, std::string>, experiment::Experiment> parsed;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
     try {
-      const RunLog log = RunLog::open(logs[i]);
-      const RunConfiguration& c = log.configuration();
+      const record::RunLog log = record::RunLog::open(logs[i]);
+      const record::RunConfiguration& c = log.configuration();
       auto known = parsed.find({c.experimentText, c.definitionText});
-      if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, recordedExperiment(c)).first;
-      Experiment experiment = known->second;
+      if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
+      experiment::Experiment experiment = known->second;
       experiment.text = c.experimentText;
       addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset);
       dataset.runs.back().file = logs[i];
@@ -244,13 +244,13 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
   if (logs.empty()) {
     bool foreign = false;  // an experiment that may not be the recorded one
     for (const RunSource& run : readBidsRuns(folder)) {
-      const std::string own = folder + "/" + experimentPath(run.configuration);
+      const std::string own = folder + "/" + record::experimentPath(run.configuration);
       std::error_code error;
       const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
       if (!hasOwn) foreign = true;
       addRun(run,
-             hasOwn ? experimentFromJson(readWholeFile(own), own)
-                    : readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
+             hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
+                    : experiment::readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
              dataset);
     }
     dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
@@ -266,4 +266,4 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
   return dataset;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -8,7 +8,7 @@
 #include "sim/analyze/study.h"
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// One recorded run, for the report's list of what was analysed.
 struct RunProvenance {
@@ -37,16 +37,16 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
 
 /// What a run's rows are turned into; `rowsOf` gives the rows between two ticks. Shared by both ways of reading.
 struct RunSource {
-  RunConfiguration configuration;
-  std::vector<RecordedTrial> trials;
-  std::function<SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
+  record::RunConfiguration configuration;
+  std::vector<record::RecordedTrial> trials;
+  std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
 };
 /// Adds the run's trials; the day of a run without one is 0 until numberDays.
-void addRun(const RunSource& run, const Experiment& experiment, Dataset& dataset);
+void addRun(const RunSource& run, const experiment::Experiment& experiment, Dataset& dataset);
 /// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order.
 void numberDays(std::span<TrialData> trials);
 
 /// The runs of a dataset without logs, from its motion, channels and events files.
 std::vector<RunSource> readBidsRuns(const std::string& folder);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -8,7 +8,7 @@
 
 #include "sim/experiment/unit_ending.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -19,7 +19,7 @@ struct KeyWords {
 };
 
 KeyWords wordsOf(const std::string& key) {
-  const NamedQuantity quantity = splitUnit(key);
+  const experiment::NamedQuantity quantity = experiment::splitUnit(key);
   KeyWords words{std::string(quantity.name), std::string(quantity.unit)};
   std::replace(words.name.begin(), words.name.end(), '_', ' ');
   if (words.unit.ends_with("^2")) words.unit.replace(words.unit.size() - 2, 2, "²");
@@ -64,12 +64,12 @@ void compare(const std::string& group, const Json& first, const Json& other, std
 
 }  // namespace
 
-std::vector<std::string> differences(const Experiment& first, const Experiment& other) {
+std::vector<std::string> differences(const experiment::Experiment& first, const experiment::Experiment& other) {
   std::vector<std::string> found;
-  compare({}, Json::parse(toJson(first)), Json::parse(toJson(other)), found);
+  compare({}, Json::parse(experiment::toJson(first)), Json::parse(experiment::toJson(other)), found);
   const std::string &before = first.constraint.definition, &now = other.constraint.definition;  // empty: the catalogue's
   if (found.empty() && !before.empty() && !now.empty() && before != now) found.push_back("another definition of " + other.constraint.name);
   return found;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -8,7 +8,7 @@
 
 #include "sim/analyze/tables.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 constexpr std::size_t kMostTrials = 60;  // more thin lines than this are a blot, not data
@@ -20,25 +20,25 @@ std::vector<double> timeAxis(double duration) {
 }
 
 struct CriterionLook {
-  Color color;
-  Dash dash;
+  figure::Color color;
+  figure::Dash dash;
 };
-CriterionLook lookOf(Criterion criterion) {
+CriterionLook lookOf(predict::Criterion criterion) {
   switch (criterion) {
-    case Criterion::MinHandJerk: return {palette::kBlue, Dash::Solid};
-    case Criterion::MinTorqueChange: return {palette::kSky, Dash::DashDot};
-    case Criterion::MinCrackle: return {palette::kVermilion, Dash::Dashed};
-    case Criterion::MinHandForce: return {palette::kPurple, Dash::Dotted};
-    case Criterion::MinHandForceChange: return {palette::kGreen, Dash::DashDot};
-    case Criterion::MinComAcceleration: return {palette::kOrange, Dash::Dashed};
-    case Criterion::MinHandCrackle: return {palette::kGrey, Dash::Dashed};
+    case predict::Criterion::MinHandJerk: return {figure::palette::kBlue, figure::Dash::Solid};
+    case predict::Criterion::MinTorqueChange: return {figure::palette::kSky, figure::Dash::DashDot};
+    case predict::Criterion::MinCrackle: return {figure::palette::kVermilion, figure::Dash::Dashed};
+    case predict::Criterion::MinHandForce: return {figure::palette::kPurple, figure::Dash::Dotted};
+    case predict::Criterion::MinHandForceChange: return {figure::palette::kGreen, figure::Dash::DashDot};
+    case predict::Criterion::MinComAcceleration: return {figure::palette::kOrange, figure::Dash::Dashed};
+    case predict::Criterion::MinHandCrackle: return {figure::palette::kGrey, figure::Dash::Dashed};
   }
-  return {palette::kBlack, Dash::Solid};
+  return {figure::palette::kBlack, figure::Dash::Solid};
 }
 
-Series predictionSeries(const PredictedProfile& p, double duration, bool object) {
+figure::Series predictionSeries(const PredictedProfile& p, double duration, bool object) {
   const CriterionLook look = lookOf(p.criterion);
-  Series s;
+  figure::Series s;
   s.label = numberedName(p.criterion);
   s.x = timeAxis(duration);
   s.y = object ? p.object : p.hand;
@@ -48,7 +48,7 @@ Series predictionSeries(const PredictedProfile& p, double duration, bool object)
   return s;
 }
 
-void addTrials(Panel& panel, const StudyResult& study, std::size_t condition, bool object) {
+void addTrials(figure::Panel& panel, const StudyResult& study, std::size_t condition, bool object) {
   const ConditionResult& r = study.results[condition];
   std::vector<const StudyTrial*> used;
   for (const StudyTrial& t : study.trials)
@@ -56,26 +56,26 @@ void addTrials(Panel& panel, const StudyResult& study, std::size_t condition, bo
   const std::size_t shown = std::min(used.size(), kMostTrials);
   for (std::size_t i = 0; i < shown; ++i) {
     const StudyTrial& trial = *used[i * used.size() / shown];
-    Series s;
+    figure::Series s;
     if (i == 0) {
       const std::string what = fmt::format("{}trial{}", r.onlyFailures ? "failed " : "", used.size() == 1 ? "" : "s");
       s.label = shown == used.size() ? fmt::format("{} {}", shown, what) : fmt::format("{} of {} {}", shown, used.size(), what);
     }
     s.x = timeAxis(r.duration.mean);
     for (const double v : object ? trial.object : trial.hand) s.y.push_back(v * trial.measures.duration / r.duration.mean);
-    s.color = palette::faded(palette::kGrey, 0.45);
-    s.width = kThin;
+    s.color = figure::palette::faded(figure::palette::kGrey, 0.45);
+    s.width = figure::kThin;
     panel.series.push_back(std::move(s));
   }
 }
 
-void addMean(Panel& panel, const MeanProfile& profile, double duration) {
-  Series mean;
+void addMean(figure::Panel& panel, const MeanProfile& profile, double duration) {
+  figure::Series mean;
   mean.label = "mean";
   mean.x = timeAxis(duration);
   mean.y = profile.mean;
   mean.width = 2.8;  // so that a prediction drawn over it leaves both to be seen
-  Band band;
+  figure::Band band;
   band.label = "± SD";
   band.x = mean.x;
   for (std::size_t i = 0; i < profile.mean.size(); ++i) {
@@ -86,12 +86,12 @@ void addMean(Panel& panel, const MeanProfile& profile, double duration) {
   panel.series.push_back(mean);
 }
 
-Panel velocityPanel(const char* title, const char* label) {
-  Panel panel;
+figure::Panel velocityPanel(const char* title, const char* label) {
+  figure::Panel panel;
   panel.title = title;
   panel.x.label = "Time from onset (s)";
   panel.y.label = label;
-  panel.legend = LegendPlace::Below;
+  panel.legend = figure::LegendPlace::Below;
   return panel;
 }
 
@@ -102,12 +102,12 @@ std::string shortened(const std::string& text, std::size_t most = 34) {
   return text.size() <= most ? text : text.substr(0, most - 1) + "…";
 }
 
-Panel rankingPanel(const std::string& title, const Ranking& ranking, const std::vector<Criterion>& criteria) {
-  Panel panel;
+figure::Panel rankingPanel(const std::string& title, const Ranking& ranking, const std::vector<predict::Criterion>& criteria) {
+  figure::Panel panel;
   panel.title = shortened(title);
   panel.x.label = "RMS error ε of hand velocity (m/s)";
   panel.x.from = 0.0;
-  panel.legend = LegendPlace::None;
+  panel.legend = figure::LegendPlace::None;
   const double n = static_cast<double>(ranking.places.size());
   panel.y.from = 0.4;
   panel.y.to = n + 0.6;
@@ -115,15 +115,15 @@ Panel rankingPanel(const std::string& title, const Ranking& ranking, const std::
     const RankedCriterion& p = ranking.places[i];
     const double y = n - static_cast<double>(i);
     panel.y.ticks.emplace_back(y, numberedName(criteria[p.criterion]));
-    Series s;
+    figure::Series s;
     s.x = {p.epsilon};
     s.y = {y};
     s.errorLeft = {p.interval.low};
     s.errorRight = {p.interval.high};
     s.width = 0;
-    s.marker = Marker::Circle;
+    s.marker = figure::Marker::Circle;
     // Filled dark: the first, and whatever cannot be told from it.
-    s.color = i == 0 || !p.apartFromFirst ? palette::kBlue : palette::kGrey;
+    s.color = i == 0 || !p.apartFromFirst ? figure::palette::kBlue : figure::palette::kGrey;
     panel.series.push_back(s);
   }
   return panel;
@@ -135,15 +135,16 @@ NamedFigure velocityFigure(const StudyResult& study, std::size_t condition) {
   const ConditionResult& r = study.results[condition];
   NamedFigure out;
   out.name = "velocity_" + fileNameOf(study.conditions[condition].name);
-  Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
-  std::optional<Criterion> best;
+  figure::Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"),
+                object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
+  std::optional<predict::Criterion> best;
   if (!r.handRanking.places.empty()) best = r.predictions[r.handRanking.places.front().criterion].criterion;
-  for (Panel* panel : {&hand, &object}) {
+  for (figure::Panel* panel : {&hand, &object}) {
     const bool isObject = panel == &object;
     addTrials(*panel, study, condition, isObject);
     if (r.used > 0) addMean(*panel, isObject ? r.object : r.hand, r.duration.mean);
     for (const PredictedProfile& p : r.predictions)
-      if (p.criterion == Criterion::MinHandJerk || p.criterion == Criterion::MinCrackle || p.criterion == best)
+      if (p.criterion == predict::Criterion::MinHandJerk || p.criterion == predict::Criterion::MinCrackle || p.criterion == best)
         panel->series.push_back(predictionSeries(p, shownDuration(r, p), isObject));
   }
   out.figure.columns = 2;
@@ -159,8 +160,9 @@ NamedFigure predictionFigure(const StudyResult& study, std::size_t condition) {
   const ConditionResult& r = study.results[condition];
   NamedFigure out;
   out.name = "predictions_" + fileNameOf(study.conditions[condition].name);
-  Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
-  for (Panel* panel : {&hand, &object}) {
+  figure::Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"),
+                object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
+  for (figure::Panel* panel : {&hand, &object}) {
     const bool isObject = panel == &object;
     if (r.used > 0) addMean(*panel, isObject ? r.object : r.hand, r.duration.mean);
     for (const PredictedProfile& p : r.predictions) panel->series.push_back(predictionSeries(p, shownDuration(r, p), isObject));
@@ -182,7 +184,7 @@ NamedFigure rankingFigure(const StudyResult& study) {
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
     if (r.handRanking.places.empty()) continue;
-    std::vector<Criterion> criteria;
+    std::vector<predict::Criterion> criteria;
     for (const PredictedProfile& p : r.predictions) criteria.push_back(p.criterion);
     out.figure.panels.push_back(rankingPanel(study.conditions[c].name, r.handRanking, criteria));
     ++shown;
@@ -201,24 +203,24 @@ NamedFigure learningFigure(const StudyResult& study) {
       fmt::format("Success in groups of {} trials, in the order they were made, with Wilson's 95 % interval. A broken line parts sessions.",
                   study.options.learningBin);
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
-    Panel panel;
+    figure::Panel panel;
     panel.title = shortened(study.conditions[c].name);
     panel.x.label = "Trial";
     panel.y.label = "Success (%)";
     panel.y.from = 0.0;
     panel.y.to = 100.0;
     panel.x.from = 0.0;
-    std::map<std::string, Series> bySubject;
+    std::map<std::string, figure::Series> bySubject;
     std::map<std::string, std::string> session;
     for (const LearningPoint& p : study.learning) {
       if (p.condition != c) continue;
-      Series& s = bySubject[p.subject];
+      figure::Series& s = bySubject[p.subject];
       const bool newSession = !s.x.empty() && session[p.subject] != p.session;
       session[p.subject] = p.session;
       const int i = static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), p.subject) - study.subjects.begin());
       s.label = "subject " + p.subject;
-      s.color = palette::series(i);
-      s.marker = markerOf(i);
+      s.color = figure::palette::series(i);
+      s.marker = figure::markerOf(i);
       const auto add = [&](double x, double y, double low, double high) {
         s.x.push_back(x), s.y.push_back(y), s.errorLow.push_back(low), s.errorHigh.push_back(high);
       };
@@ -229,7 +231,7 @@ NamedFigure learningFigure(const StudyResult& study) {
           100.0 * static_cast<double>(p.successes) / static_cast<double>(p.trials), 100 * p.interval.low, 100 * p.interval.high);
     }
     for (auto& [subject, series] : bySubject) panel.series.push_back(std::move(series));
-    panel.legend = c == 0 ? LegendPlace::Below : LegendPlace::None;
+    panel.legend = c == 0 ? figure::LegendPlace::Below : figure::LegendPlace::None;
     if (!panel.series.empty()) out.figure.panels.push_back(std::move(panel));
   }
   out.figure.columns = static_cast<int>(std::min<std::size_t>(3, std::max<std::size_t>(1, out.figure.panels.size())));
@@ -250,4 +252,4 @@ std::vector<NamedFigure> makeFigures(const StudyResult& study) {
   return out;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,12 +6,12 @@
 #include "sim/analyze/study.h"
 #include "sim/figure/figure.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 struct NamedFigure {
   std::string name;     // of its file, without ending
   std::string caption;  // plain words, for the report
-  Figure figure;
+  figure::Figure figure;
 };
 
 /// Fig. 5 and 6 (9 and 10) of one condition: hand and object velocity; thin lines trials, thick black their mean, band SD, thick solid
@@ -27,4 +27,4 @@ NamedFigure learningFigure(const StudyResult& study);
 /// All figures of the study that have something to show.
 std::vector<NamedFigure> makeFigures(const StudyResult& study);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 /// Direct form II transposed, started in the steady state of a constant `x0`.
@@ -68,4 +68,4 @@ std::vector<double> differentiate(std::span<const double> x, double rate) {
   return v;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -4,7 +4,7 @@
 #include <vector>
 
 /// Signals sampled evenly at `rate` [Hz]. Pure functions; any thread.
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// Second-order section y = (b0 x + b1 x' + b2 x'' - a1 y' - a2 y''), a0 = 1; primes are one and two samples back.
 struct Biquad {
@@ -28,4 +28,4 @@ std::vector<double> lowPass(std::span<const double> signal, double rate, double 
 /// [unit/s]; zeros for fewer than three samples.
 std::vector<double> differentiate(std::span<const double> signal, double rate);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -7,7 +7,7 @@
 #include "sim/analyze/filter.h"
 #include "sim/analyze/smoothness.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -119,4 +119,4 @@ TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signal
   return m;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -2,7 +2,7 @@
 #include "sim/analyze/movement.h"
 #include "sim/analyze/trial_data.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 struct MeasureOptions {
   OnsetOptions onset;
@@ -39,4 +39,4 @@ struct TrialSignals {
 TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options);
 TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signals);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

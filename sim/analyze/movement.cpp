@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 void findPeak(std::span<const double> speed, double rate, std::size_t first, std::size_t last, Movement& movement) {
@@ -111,4 +111,4 @@ std::vector<double> scaleVelocity(std::span<const double> velocity, double rate,
   return out;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

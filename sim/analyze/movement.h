@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Where a movement begins and ends, and how movements of unlike duration are laid over one another. Pure functions; any thread.
-namespace reachlab {
+namespace reachlab::analyze {
 
 enum class OnsetRule {
   Percent,   // of the movement's own peak speed
@@ -50,4 +50,4 @@ std::vector<double> normaliseTime(std::span<const double> signal, double rate, d
 /// (offset - onset) / duration and keep the distance. 101 instants from 0 to `duration`.
 std::vector<double> scaleVelocity(std::span<const double> velocity, double rate, double onset, double offset, double duration);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -5,9 +5,9 @@
 
 #include "sim/analyze/filter.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
-PredictedSignal recordPrediction(const Prediction& prediction, const MeasureOptions& options, const Task& task) {
+PredictedSignal recordPrediction(const predict::Prediction& prediction, const MeasureOptions& options, const experiment::Task& task) {
   constexpr double kRate = 1000;      // [Hz] fine enough that its own interpolation does not show (1e-6 of the peak)
   constexpr std::size_t kRest = 300;  // samples of rest on either side, in which the filter dies out
   const double T = prediction.duration;
@@ -24,7 +24,7 @@ PredictedSignal recordPrediction(const Prediction& prediction, const MeasureOpti
   std::size_t moved = steps;
   for (std::size_t i = steps + 1; i-- > 0;) {
     const double t = std::min(T, static_cast<double>(i) / signal.rate);
-    const PredictedHand at = prediction.handAt(t);
+    const predict::PredictedHand at = prediction.handAt(t);
     prediction.massesAt(t, position, velocity);
     signal.hand[i + kRest] = at.velocity;
     signal.object[i + kRest] = velocity.empty() ? 0 : velocity.back();
@@ -65,4 +65,4 @@ PredictedProfile scaledTo(PredictedProfile profile, double duration) {
   return profile;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

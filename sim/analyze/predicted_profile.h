@@ -5,12 +5,12 @@
 #include "sim/analyze/measures.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// A prediction as if it had been recorded: the hand through the same filter, at rest before and after. Jumps of the hand at the ends
 /// (criteria 4 and 6, criterion 5 without a hand mass) are numbers of the prediction, not part of its velocity, and stay out.
 struct PredictedSignal {
-  Criterion criterion{};
+  predict::Criterion criterion{};
   double taskDuration = 0;            // [s] T it was predicted for
   double rate = 0;                    // [Hz]
   std::vector<double> hand, object;   // [m/s] along the path
@@ -20,11 +20,11 @@ struct PredictedSignal {
 };
 
 /// `options` as for the trials; for OnsetRule::Task the movement begins where the hand has moved `task.onset`.
-PredictedSignal recordPrediction(const Prediction& prediction, const MeasureOptions& options, const Task& task);
+PredictedSignal recordPrediction(const predict::Prediction& prediction, const MeasureOptions& options, const experiment::Task& task);
 
 /// From onset to the end, 101 instants.
 struct PredictedProfile {
-  Criterion criterion{};
+  predict::Criterion criterion{};
   double taskDuration = 0;           // [s] T it was predicted for
   double duration = 0;               // [s] onset to end
   std::vector<double> hand, object;  // [m/s] along the path, at 0 … 100 % of `duration`
@@ -39,4 +39,4 @@ PredictedProfile profileUntil(const PredictedSignal& signal, double endLevel);
 /// Time-scaled to `duration` like a trial: velocities keep the distance.
 PredictedProfile scaledTo(PredictedProfile profile, double duration);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 using Groups = std::vector<std::vector<const TrialErrors*>>;
@@ -105,4 +105,4 @@ std::optional<Ranking> rankOverSubjects(std::span<const TrialErrors> trials, con
   return rank(trials, options, true);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -9,7 +9,7 @@
 #include "sim/analyze/statistics.h"
 
 /// Which criterion is nearest to the measured profiles, and how sure that is. Pure functions; any thread.
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// The paper's error of one series (sec. 5): sqrt(1/N sum (v_pred - v_exp)^2) over all N samples.   [unit of the profiles]
 /// Both of the same length; NaN for none.
@@ -54,4 +54,4 @@ Ranking rankOverTrials(std::span<const TrialErrors> trials, const RankingOptions
 /// Bootstrap over subjects: subjects are drawn with replacement, then trials within each drawn one. nullopt for fewer than two subjects.
 std::optional<Ranking> rankOverSubjects(std::span<const TrialErrors> trials, const RankingOptions& options);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -11,7 +11,7 @@
 #include "sim/analyze/wording.h"
 #include "sim/experiment/describe.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 constexpr const char* kStyle = R"(
@@ -38,7 +38,7 @@ struct Html {
 
 /// Inline: without the XML declaration, with a name for who cannot see it, ids apart from other figures'.
 std::string inlineSvg(const NamedFigure& figure, std::size_t number) {
-  std::string svg = renderSvg(figure.figure, fmt::format("f{}-", number));
+  std::string svg = figure::renderSvg(figure.figure, fmt::format("f{}-", number));
   svg.erase(0, svg.find("<svg"));
   svg.insert(4, " role=\"img\" aria-label=\"" + escaped(figure.caption) + "\"");
   return svg;
@@ -138,7 +138,7 @@ void addMeasures(Html& html, const StudyResult& study, std::size_t condition) {
   const auto summary = [&](const Line& line, bool success) -> std::string {
     std::vector<double> values;
     for (const StudyTrial& t : study.trials)
-      if (t.condition == condition && t.counted && (t.result.outcome == Outcome::Success) == success)
+      if (t.condition == condition && t.counted && (t.result.outcome == trial::Outcome::Success) == success)
         values.push_back(line.scale * t.measures.*line.value);
     const MeanSd s = computeMeanSd(values);
     if (s.count == 0) return "–";
@@ -156,7 +156,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   const ConditionResult& r = study.results[c];
   const std::string file = fileNameOf(study.conditions[c].name);
   html.heading(2, study.conditions[c].name);
-  html.paragraph("Moved: " + describe(study.conditions[c].experiment) + ".");
+  html.paragraph("Moved: " + experiment::describe(study.conditions[c].experiment) + ".");
   html.paragraph(describeCounts(r));
   if (r.onlyFailures)
     html.paragraph(
@@ -262,4 +262,4 @@ std::string makeReport(const ReportHeader& header, const StudyResult& study, con
   return html.text;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -5,7 +5,7 @@
 #include "sim/analyze/dataset.h"
 #include "sim/analyze/figures.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// What the report says of itself.
 struct ReportHeader {
@@ -20,4 +20,4 @@ std::string makeReport(const ReportHeader& header, const StudyResult& study, con
 /// Text as HTML text.
 std::string escaped(const std::string& text);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -80,4 +80,4 @@ std::size_t countPeaks(std::span<const double> speed, double prominence) {
   return peaks;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -3,7 +3,7 @@
 #include <span>
 
 /// How smooth a movement is, from its speed alone. Pure functions; any thread.
-namespace reachlab {
+namespace reachlab::analyze {
 
 struct SparcOptions {
   int padding = 4;          // powers of two of zeros appended
@@ -24,4 +24,4 @@ double computeLogDimensionlessJerk(std::span<const double> speed, double rate);
 /// higher one (to the ends where there is none). A bell-shaped profile has 1.
 std::size_t countPeaks(std::span<const double> speed, double prominence = 0.05);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 MeanSd computeMeanSd(std::span<const double> values) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -65,4 +65,4 @@ std::size_t drawIndex(std::mt19937_64& random, std::size_t n) {
   return static_cast<std::size_t>(random() % n);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -5,7 +5,7 @@
 #include <vector>
 
 /// The few statistics that the tables need, each by its textbook formula. Pure functions; any thread.
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// Mean and sample standard deviation (n - 1) of the finite values; NaN where there are none (SD: fewer than two).
 struct MeanSd {
@@ -33,4 +33,4 @@ std::size_t drawIndex(std::mt19937_64& random, std::size_t n);
 /// Quantile of the standard normal distribution, share in (0, 1); absolute error below 1e-9.
 double normalQuantile(double share);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -7,10 +7,10 @@
 #include <set>
 #include <tuple>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/counts.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 auto orderOf(const StudyTrial& t) { return std::tie(t.condition, t.key.subject, t.key.session, t.key.run, t.key.trial); }
@@ -18,7 +18,7 @@ auto orderOf(const StudyTrial& t) { return std::tie(t.condition, t.key.subject, 
 std::string whyExcluded(const StudyTrial& trial, bool catchTrial, const Movement& movement, bool includePractice) {
   if (catchTrial) return "catch trial";
   if (trial.practice && !includePractice) return "practice";
-  if (trial.result.outcome != Outcome::Success) return std::string(nameOf(trial.result.outcome));
+  if (trial.result.outcome != trial::Outcome::Success) return std::string(trial::nameOf(trial.result.outcome));
   if (!movement.found) return "no movement found";
   return {};
 }
@@ -33,7 +33,7 @@ StudyTrial measureTrial(TrialData& data, std::size_t condition, const StudyOptio
   trial.measures = computeMeasures(data, signals);
   trial.exclusion = whyExcluded(trial, data.catchTrial, signals.movement, options.includePractice);
   trial.counted = !data.catchTrial && (!data.practice || options.includePractice) &&
-                  (data.result.outcome == Outcome::Success || data.result.outcome == Outcome::Failure);
+                  (data.result.outcome == trial::Outcome::Success || data.result.outcome == trial::Outcome::Failure);
   if (signals.movement.found) {
     trial.hand = normaliseTime(signals.handVelocity, data.rate, signals.movement.onset, signals.movement.offset);
     trial.object = normaliseTime(signals.objectVelocity, data.rate, signals.movement.onset, signals.movement.offset);
@@ -75,20 +75,20 @@ MeanProfile computeMeanProfile(const std::vector<std::vector<double>>& profiles)
   return out;
 }
 
-std::vector<Criterion> wantedCriteria(const StudyOptions& options) {
+std::vector<predict::Criterion> wantedCriteria(const StudyOptions& options) {
   if (!options.criteria.empty()) return options.criteria;
-  std::vector<Criterion> all;
-  for (int i = 0; i < kCriterionCount; ++i) all.push_back(static_cast<Criterion>(i));
+  std::vector<predict::Criterion> all;
+  for (int i = 0; i < predict::kCriterionCount; ++i) all.push_back(static_cast<predict::Criterion>(i));
   return all;
 }
 
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
-PredictedSignal signalLasting(const StudyCondition& condition, Criterion criterion, PredictOptions how, const StudyOptions& options,
-                              const ConditionResult& result) {
+PredictedSignal signalLasting(const StudyCondition& condition, predict::Criterion criterion, predict::PredictOptions how,
+                              const StudyOptions& options, const ConditionResult& result) {
   how.duration = condition.experiment.task->duration;
   PredictedSignal signal;
   for (int step = 0; step < 8; ++step) {
-    signal = recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task);
+    signal = recordPrediction(*predict::predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task);
     const double ratio = result.duration.mean / profileUntil(signal, result.endLevel).duration;
     if (std::abs(ratio - 1) < 1e-6) break;
     how.duration *= ratio;
@@ -101,16 +101,17 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
     result.refusals.push_back("the experiment has no task to predict");
     return;
   }
-  PredictOptions how;
+  predict::PredictOptions how;
   how.handMass = options.handMass;
   how.handDamping = options.handDamping;
-  for (const Criterion criterion : wantedCriteria(options)) {
+  for (const predict::Criterion criterion : wantedCriteria(options)) {
     try {
       result.signals.push_back(
-          recordPrediction(*predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
+          recordPrediction(*predict::predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
     } catch (const Error& error) {
       const std::string what = error.what();
-      result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
+      result.refusals.push_back(what.starts_with(predict::nameOf(criterion)) ? what
+                                                                             : fmt::format("{}: {}", predict::nameOf(criterion), what));
     }
   }
   if (result.used > 0 && !result.signals.empty()) {
@@ -127,7 +128,7 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
       try {
         signal = signalLasting(condition, signal.criterion, how, options, result);
       } catch (const Error& error) {
-        result.refusals.push_back(fmt::format("{}: {}; compared at the task's T", nameOf(signal.criterion), error.what()));
+        result.refusals.push_back(fmt::format("{}: {}; compared at the task's T", predict::nameOf(signal.criterion), error.what()));
       }
     }
     const PredictedProfile profile = profileUntil(signal, result.endLevel);
@@ -194,10 +195,10 @@ void rankTogether(StudyResult& study) {
   bool first = true;
   for (const ConditionResult& result : study.results) {
     if (result.used == 0 || result.onlyFailures) continue;
-    std::vector<Criterion> here;
+    std::vector<predict::Criterion> here;
     for (const PredictedProfile& p : result.predictions) here.push_back(p.criterion);
     if (first) study.common = here;
-    else std::erase_if(study.common, [&](Criterion c) { return std::find(here.begin(), here.end(), c) == here.end(); });
+    else std::erase_if(study.common, [&](predict::Criterion c) { return std::find(here.begin(), here.end(), c) == here.end(); });
     first = false;
   }
   std::vector<TrialErrors> all;
@@ -205,7 +206,7 @@ void rankTogether(StudyResult& study) {
     if (!trial.used() || study.results[trial.condition].onlyFailures) continue;
     const auto& predictions = study.results[trial.condition].predictions;
     std::vector<double> errors;
-    for (const Criterion c : study.common)
+    for (const predict::Criterion c : study.common)
       for (std::size_t k = 0; k < predictions.size(); ++k)
         if (predictions[k].criterion == c) errors.push_back(trial.handError[k]);
     all.push_back(squaresOf(trial, errors));
@@ -282,4 +283,4 @@ StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const St
   return study;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

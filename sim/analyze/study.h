@@ -10,7 +10,7 @@
 #include "sim/analyze/ranking.h"
 
 /// From recorded trials to everything that tables, figures and report show. Pure: the same trials and options give the same numbers.
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// What T criteria are predicted for. Task: the task's. Moved: for each criterion the T whose movement lasts as long as the trials did.
 /// Auto: the task's where the trials kept to it within kKeptDuration, else as Moved.
@@ -20,9 +20,9 @@ enum class PredictionDuration { Auto, Task, Moved };
 struct StudyOptions {
   MeasureOptions measure;
   bool includePractice = false;
-  std::vector<Criterion> criteria;  // empty: all that are defined for the object
-  std::optional<double> handMass;   // [kg] of the predictions; nullopt: the experiment's
-  double handDamping = 0;           // [N s/m]
+  std::vector<predict::Criterion> criteria;  // empty: all that are defined for the object
+  std::optional<double> handMass;            // [kg] of the predictions; nullopt: the experiment's
+  double handDamping = 0;                    // [N s/m]
   PredictionDuration predictFor = PredictionDuration::Auto;
   RankingOptions ranking;
   int learningBin = 10;  // trials a point of the learning curve
@@ -31,7 +31,7 @@ struct StudyOptions {
 /// What a condition asks, and the experiment it was recorded with.
 struct StudyCondition {
   std::string name;
-  Experiment experiment;
+  experiment::Experiment experiment;
 };
 
 /// A recorded study: trials in any order, each of a condition (index). Filled by openDataset or by a test.
@@ -45,7 +45,7 @@ struct StudyInput {
 struct StudyTrial {
   TrialKey key;
   std::size_t condition = 0;
-  TrialResult result;
+  trial::TrialResult result;
   bool practice = false;
   std::string exclusion;  // why it is not in the profiles and errors; empty: it is
   bool counted = false;   // success or failure of a proper trial: it counts for success rates
@@ -113,8 +113,8 @@ struct StudyResult {
   std::vector<SeriesResult> series;
   std::vector<SuccessCell> success;
   std::vector<LearningPoint> learning;
-  std::vector<Criterion> common;  // criteria predicted in every condition that has used trials
-  Ranking overall;                // hand, all conditions with successes together, places index `common`
+  std::vector<predict::Criterion> common;  // criteria predicted in every condition that has used trials
+  Ranking overall;                         // hand, all conditions with successes together, places index `common`
   std::optional<Ranking> overallOverSubjects;
   std::vector<std::string> subjects;
 };
@@ -124,4 +124,4 @@ using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
 /// Consumes the trials (their signals are freed one by one). Throws UsageError for options out of range.
 StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const StudyProgress& progress = {});
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

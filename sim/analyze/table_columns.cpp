@@ -4,31 +4,31 @@
 #include "sim/analyze/tables.h"
 #include "sim/record/column_dictionary.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
-constexpr ColumnMeaning kShared[] = {{"subject", "Subject's label, letters and digits; read it as text: 01 is not 1"},
-                                     {"session", "Session's label, letters and digits; read it as text: 01 is not 1"},
-                                     {"run", "Run number within the session, as in the file names"},
-                                     {"block", "Block of the session's plan, from 1"},
-                                     {"trial", "Trial number within the block, from 1"},
-                                     {"day", "Day of the plan, else the session's place among the subject's"},
-                                     {"condition", "Condition of the plan, else the experiment's name"},
-                                     {"criterion", "Optimality criterion, as reach list criteria names it"},
-                                     {"signal", "Whose velocity: hand, or object (the last mass)"},
-                                     {"percent", "Place in the movement, from onset (0) to offset (100)"},
-                                     {"time_s", "Time since onset, scaled to the condition's mean duration"},
-                                     {"successes", "Attempts that ended as success"},
-                                     {"success_percent", "Share of the attempts that ended as success"},
-                                     {"low_percent", "Lower end of Wilson's 95 % interval of that share"},
-                                     {"high_percent", "Upper end of Wilson's 95 % interval of that share"},
-                                     {"experiment", "Name of the experiment"},
-                                     {"mean_duration_s", "Mean duration, onset to offset, of the used trials"},
-                                     {"sd_duration_s", "Standard deviation (n - 1) of that duration"},
-                                     {"mean_movement_time_s", "Mean of the task's own movement time over the used trials"},
-                                     {"sd_movement_time_s", "Standard deviation (n - 1) of that time"}};
+constexpr record::ColumnMeaning kShared[] = {{"subject", "Subject's label, letters and digits; read it as text: 01 is not 1"},
+                                             {"session", "Session's label, letters and digits; read it as text: 01 is not 1"},
+                                             {"run", "Run number within the session, as in the file names"},
+                                             {"block", "Block of the session's plan, from 1"},
+                                             {"trial", "Trial number within the block, from 1"},
+                                             {"day", "Day of the plan, else the session's place among the subject's"},
+                                             {"condition", "Condition of the plan, else the experiment's name"},
+                                             {"criterion", "Optimality criterion, as reach list criteria names it"},
+                                             {"signal", "Whose velocity: hand, or object (the last mass)"},
+                                             {"percent", "Place in the movement, from onset (0) to offset (100)"},
+                                             {"time_s", "Time since onset, scaled to the condition's mean duration"},
+                                             {"successes", "Attempts that ended as success"},
+                                             {"success_percent", "Share of the attempts that ended as success"},
+                                             {"low_percent", "Lower end of Wilson's 95 % interval of that share"},
+                                             {"high_percent", "Upper end of Wilson's 95 % interval of that share"},
+                                             {"experiment", "Name of the experiment"},
+                                             {"mean_duration_s", "Mean duration, onset to offset, of the used trials"},
+                                             {"sd_duration_s", "Standard deviation (n - 1) of that duration"},
+                                             {"mean_movement_time_s", "Mean of the task's own movement time over the used trials"},
+                                             {"sd_movement_time_s", "Standard deviation (n - 1) of that time"}};
 
-constexpr ColumnMeaning kTrials[] = {
+constexpr record::ColumnMeaning kTrials[] = {
     {"phase",
      "Whether the block counts: practice or recorded. In exported samples a column of this name is the trial's own phase, a number"},
     {"outcome", "How the trial was judged: success, failure, aborted or interrupted"},
@@ -59,21 +59,21 @@ constexpr ColumnMeaning kTrials[] = {
     {"epsilon_hand_*", "RMS error of the hand's velocity against the criterion that the column names; empty if not used"},
     {"epsilon_object_*", "RMS error of the last mass's velocity against the criterion that the column names; empty if not used"}};
 
-constexpr ColumnMeaning kProfiles[] = {{"hand_m_per_s", "Hand's velocity, time-scaled to the condition's mean duration"},
-                                       {"object_m_per_s", "Last mass's velocity, time-scaled to the condition's mean duration"}};
+constexpr record::ColumnMeaning kProfiles[] = {{"hand_m_per_s", "Hand's velocity, time-scaled to the condition's mean duration"},
+                                               {"object_m_per_s", "Last mass's velocity, time-scaled to the condition's mean duration"}};
 
-constexpr ColumnMeaning kMeanProfiles[] = {{"trials", "Trials that the mean is over"},
-                                           {"hand_mean_m_per_s", "Mean velocity of the hand over the used trials"},
-                                           {"hand_sd_m_per_s", "Standard deviation (n - 1) of the hand's velocity"},
-                                           {"object_mean_m_per_s", "Mean velocity of the last mass over the used trials"},
-                                           {"object_sd_m_per_s", "Standard deviation (n - 1) of the last mass's velocity"}};
+constexpr record::ColumnMeaning kMeanProfiles[] = {{"trials", "Trials that the mean is over"},
+                                                   {"hand_mean_m_per_s", "Mean velocity of the hand over the used trials"},
+                                                   {"hand_sd_m_per_s", "Standard deviation (n - 1) of the hand's velocity"},
+                                                   {"object_mean_m_per_s", "Mean velocity of the last mass over the used trials"},
+                                                   {"object_sd_m_per_s", "Standard deviation (n - 1) of the last mass's velocity"}};
 
-constexpr ColumnMeaning kPredictions[] = {
+constexpr record::ColumnMeaning kPredictions[] = {
     {"predicted_duration_s", "T that was predicted for"},
     {"hand_m_per_s", "Predicted velocity of the hand, cut at the trials' mean end level and scaled to their mean duration"},
     {"object_m_per_s", "Predicted velocity of the last mass, cut and scaled as the hand's"}};
 
-constexpr ColumnMeaning kRanking[] = {
+constexpr record::ColumnMeaning kRanking[] = {
     {"condition", "Condition; all: every condition together"},
     {"bootstrap_over", "What was resampled for the intervals: trials, or subjects with their trials"},
     {"rank", "Place of the criterion, 1 is the nearest"},
@@ -89,44 +89,45 @@ constexpr ColumnMeaning kRanking[] = {
     {"trials", "Trials that the errors are over"},
     {"subjects", "Subjects that the trials are from"}};
 
-constexpr ColumnMeaning kSeries[] = {{"epsilon_m_per_s", "RMS error of the velocity over all samples of the run's used trials"},
-                                     {"trials", "Used trials of the run"}};
+constexpr record::ColumnMeaning kSeries[] = {{"epsilon_m_per_s", "RMS error of the velocity over all samples of the run's used trials"},
+                                             {"trials", "Used trials of the run"}};
 
-constexpr ColumnMeaning kSuccess[] = {{"trials", "Attempts: successes and failures; aborted and interrupted trials are none"}};
+constexpr record::ColumnMeaning kSuccess[] = {{"trials", "Attempts: successes and failures; aborted and interrupted trials are none"}};
 
-constexpr ColumnMeaning kLearning[] = {{"first_trial", "First attempt of the group, counted through all the subject's sessions, from 1"},
-                                       {"last_trial", "Last attempt of the group, counted likewise"},
-                                       {"trials", "Attempts of the group"}};
+constexpr record::ColumnMeaning kLearning[] = {
+    {"first_trial", "First attempt of the group, counted through all the subject's sessions, from 1"},
+    {"last_trial", "Last attempt of the group, counted likewise"},
+    {"trials", "Attempts of the group"}};
 
-constexpr ColumnMeaning kConditions[] = {{"task_duration_s", "Duration that the task asks for"},
-                                         {"success", "Number of successes"},
-                                         {"failure", "Number of failures"},
-                                         {"aborted", "Number of aborted trials"},
-                                         {"interrupted", "Number of interrupted trials"},
-                                         {"practice", "Number of practice trials, left out unless they were asked for"},
-                                         {"catch", "Number of catch trials, always left out"},
-                                         {"used", "Number of trials in profiles and errors"},
-                                         {"used_outcome", "Outcome of the used trials: success, or failure where none succeeded"},
-                                         {"onset_rule", "Rule for onset and offset: percent, absolute or task"},
-                                         {"onset_percent", "Share of the trial's peak speed, for the rule percent"},
-                                         {"onset_speed_m_per_s", "Speed, for the rule absolute"},
-                                         {"cutoff_hz", "Cut-off of the low-pass on the hand's velocity; 0: none"},
-                                         {"hand_mass_kg", "Mass of the hand in the predictions"},
-                                         {"resamples", "Number of bootstrap resamples"},
-                                         {"bootstrap_seed", "Seed of the bootstrap"}};
+constexpr record::ColumnMeaning kConditions[] = {{"task_duration_s", "Duration that the task asks for"},
+                                                 {"success", "Number of successes"},
+                                                 {"failure", "Number of failures"},
+                                                 {"aborted", "Number of aborted trials"},
+                                                 {"interrupted", "Number of interrupted trials"},
+                                                 {"practice", "Number of practice trials, left out unless they were asked for"},
+                                                 {"catch", "Number of catch trials, always left out"},
+                                                 {"used", "Number of trials in profiles and errors"},
+                                                 {"used_outcome", "Outcome of the used trials: success, or failure where none succeeded"},
+                                                 {"onset_rule", "Rule for onset and offset: percent, absolute or task"},
+                                                 {"onset_percent", "Share of the trial's peak speed, for the rule percent"},
+                                                 {"onset_speed_m_per_s", "Speed, for the rule absolute"},
+                                                 {"cutoff_hz", "Cut-off of the low-pass on the hand's velocity; 0: none"},
+                                                 {"hand_mass_kg", "Mass of the hand in the predictions"},
+                                                 {"resamples", "Number of bootstrap resamples"},
+                                                 {"bootstrap_seed", "Seed of the bootstrap"}};
 
 }  // namespace
 
 std::string tableDictionary(const std::string& name, const std::string& csv) {
-  static const std::map<std::string, std::span<const ColumnMeaning>> kOwn{
+  static const std::map<std::string, std::span<const record::ColumnMeaning>> kOwn{
       {"trials.csv", kTrials},           {"profiles.csv", kProfiles}, {"mean_profiles.csv", kMeanProfiles},
       {"predictions.csv", kPredictions}, {"ranking.csv", kRanking},   {"series.csv", kSeries},
       {"success_table.csv", kSuccess},   {"learning.csv", kLearning}, {"conditions.csv", kConditions}};
   const auto own = kOwn.find(name);
   if (own == kOwn.end()) return {};
-  std::vector<ColumnMeaning> meanings(own->second.begin(), own->second.end());  // a table's own word goes before the shared one
+  std::vector<record::ColumnMeaning> meanings(own->second.begin(), own->second.end());  // a table's own word goes before the shared one
   meanings.insert(meanings.end(), std::begin(kShared), std::end(kShared));
-  return columnDictionary(csv, meanings);
+  return record::columnDictionary(csv, meanings);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

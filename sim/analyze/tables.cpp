@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 TableText csv(const std::vector<std::string>& columns) {
@@ -18,19 +18,19 @@ TableText csv(const std::vector<std::string>& columns) {
 TableText& count(TableText& table, std::size_t n) { return table.whole(static_cast<long long>(n)); }
 
 /// Criteria that were predicted in any condition, in the paper's order: the columns of the trial and series tables.
-std::vector<Criterion> allCriteria(const StudyResult& study) {
-  std::vector<Criterion> out;
-  for (int i = 0; i < kCriterionCount; ++i)
+std::vector<predict::Criterion> allCriteria(const StudyResult& study) {
+  std::vector<predict::Criterion> out;
+  for (int i = 0; i < predict::kCriterionCount; ++i)
     for (const ConditionResult& result : study.results)
       if (std::any_of(result.predictions.begin(), result.predictions.end(),
-                      [&](const PredictedProfile& p) { return p.criterion == static_cast<Criterion>(i); })) {
-        out.push_back(static_cast<Criterion>(i));
+                      [&](const PredictedProfile& p) { return p.criterion == static_cast<predict::Criterion>(i); })) {
+        out.push_back(static_cast<predict::Criterion>(i));
         break;
       }
   return out;
 }
 
-double errorFor(const std::vector<double>& errors, const ConditionResult& result, Criterion criterion) {
+double errorFor(const std::vector<double>& errors, const ConditionResult& result, predict::Criterion criterion) {
   for (std::size_t k = 0; k < result.predictions.size() && k < errors.size(); ++k)
     if (result.predictions[k].criterion == criterion) return errors[k];
   return kNotMeasured;
@@ -70,14 +70,17 @@ std::string trialsTable(const StudyResult& study) {
                                    "ldlj",
                                    "peak_force_n",
                                    "mean_force_n"};
-  const std::vector<Criterion> criteria = allCriteria(study);
+  const std::vector<predict::Criterion> criteria = allCriteria(study);
   for (const char* what : {"hand", "object"})
-    for (const Criterion c : criteria) columns.push_back(std::string("epsilon_") + what + "_" + columnOf(c) + "_m_per_s");
+    for (const predict::Criterion c : criteria) columns.push_back(std::string("epsilon_") + what + "_" + columnOf(c) + "_m_per_s");
   TableText table = csv(columns);
   for (const StudyTrial& t : study.trials) {
     table.cell(t.key.subject).cell(t.key.session).whole(t.key.run).whole(t.key.block).whole(t.key.trial).whole(t.key.day);
-    table.cell(study.conditions[t.condition].name).cell(t.practice ? "practice" : "recorded").cell(nameOf(t.result.outcome));
-    table.cell(t.result.reason == Reason::None ? "" : nameOf(t.result.reason)).whole(t.result.mass).number(t.result.by).whole(t.used());
+    table.cell(study.conditions[t.condition].name).cell(t.practice ? "practice" : "recorded").cell(trial::nameOf(t.result.outcome));
+    table.cell(t.result.reason == trial::Reason::None ? "" : trial::nameOf(t.result.reason))
+        .whole(t.result.mass)
+        .number(t.result.by)
+        .whole(t.used());
     table.cell(t.exclusion);
     const TrialMeasures& m = t.measures;
     for (const double v : {m.reactionTime, m.onset, m.offset, m.duration, m.movementTime, m.peakSpeed, m.timeToPeak, m.timeToPeakPercent,
@@ -85,7 +88,7 @@ std::string trialsTable(const StudyResult& study) {
                            m.objectOvershoot, m.sparc, m.ldlj, m.peakForce, m.meanForce})
       table.number(v);
     for (const auto* errors : {&t.handError, &t.objectError})
-      for (const Criterion c : criteria) table.number(errorFor(*errors, study.results[t.condition], c));
+      for (const predict::Criterion c : criteria) table.number(errorFor(*errors, study.results[t.condition], c));
     table.endRow();
   }
   return table.text();
@@ -125,7 +128,7 @@ std::string predictionsTable(const StudyResult& study) {
     for (const PredictedProfile& p : r.predictions) {
       const double duration = r.used > 0 ? r.duration.mean : p.duration;
       for (std::size_t i = 0; i < kProfilePoints; ++i) {
-        table.cell(study.conditions[c].name).cell(nameOf(p.criterion)).number(p.taskDuration).whole(static_cast<long long>(i));
+        table.cell(study.conditions[c].name).cell(predict::nameOf(p.criterion)).number(p.taskDuration).whole(static_cast<long long>(i));
         table.number(duration * static_cast<double>(i) / 100).number(p.hand[i]).number(p.object[i]).endRow();
       }
     }
@@ -134,10 +137,10 @@ std::string predictionsTable(const StudyResult& study) {
 }
 
 void addRanking(TableText& table, const std::string& condition, const char* signal, const char* over, const Ranking& ranking,
-                const std::vector<Criterion>& criteria) {
+                const std::vector<predict::Criterion>& criteria) {
   int place = 0;
   for (const RankedCriterion& p : ranking.places) {
-    table.cell(condition).cell(signal).cell(over).whole(++place).cell(nameOf(criteria[p.criterion])).number(p.epsilon);
+    table.cell(condition).cell(signal).cell(over).whole(++place).cell(predict::nameOf(criteria[p.criterion])).number(p.epsilon);
     table.number(p.interval.low).number(p.interval.high).number(p.difference).number(p.differenceInterval.low);
     table.number(p.differenceInterval.high).number(p.firstShare);
     table.cell(place == 1 ? "" : p.apartFromFirst ? "yes" : "no");
@@ -145,7 +148,7 @@ void addRanking(TableText& table, const std::string& condition, const char* sign
     for (const auto& [i, j] : ranking.ties) {
       const auto self = static_cast<std::size_t>(place - 1);
       if (i != self && j != self) continue;
-      equals += (equals.empty() ? "" : ";") + std::string(nameOf(criteria[ranking.places[i == self ? j : i].criterion]));
+      equals += (equals.empty() ? "" : ";") + std::string(predict::nameOf(criteria[ranking.places[i == self ? j : i].criterion]));
     }
     table.cell(equals);
     count(table, ranking.trials);
@@ -159,7 +162,7 @@ std::string rankingTable(const StudyResult& study) {
                          "share_of_resamples_first", "apart_from_first", "not_told_apart_from", "trials", "subjects"});
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
-    std::vector<Criterion> criteria;
+    std::vector<predict::Criterion> criteria;
     for (const PredictedProfile& p : r.predictions) criteria.push_back(p.criterion);
     const std::string& name = study.conditions[c].name;
     addRanking(table, name, "hand", "trials", r.handRanking, criteria);
@@ -179,7 +182,7 @@ std::string seriesTable(const StudyResult& study) {
     for (const auto& [signal, errors] : {std::pair{"hand", &s.handError}, std::pair{"object", &s.objectError}})
       for (std::size_t k = 0; k < predictions.size(); ++k) {
         table.cell(s.key.subject).cell(s.key.session).whole(s.key.run).whole(s.key.block).whole(s.key.day);
-        table.cell(study.conditions[s.condition].name).cell(signal).cell(nameOf(predictions[k].criterion)).number((*errors)[k]);
+        table.cell(study.conditions[s.condition].name).cell(signal).cell(predict::nameOf(predictions[k].criterion)).number((*errors)[k]);
         count(table, s.trials).endRow();
       }
   }
@@ -235,7 +238,7 @@ std::string conditionsTable(const StudyResult& study) {
                          "bootstrap_seed"});
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
-    const Experiment& e = study.conditions[c].experiment;
+    const experiment::Experiment& e = study.conditions[c].experiment;
     table.cell(study.conditions[c].name).cell(e.name).number(e.task ? e.task->duration : kNotMeasured);
     for (const std::size_t n :
          {r.counts.success, r.counts.failure, r.counts.aborted, r.counts.interrupted, r.counts.practice, r.counts.catchTrials, r.used})
@@ -267,13 +270,13 @@ std::map<std::string, std::string> makeTables(const StudyResult& study) {
           {"conditions.csv", conditionsTable(study)}};
 }
 
-std::string numberedName(Criterion criterion) {
-  static constexpr std::array<const char*, kCriterionCount> kNumbers{"(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(3h)"};
-  return std::string(kNumbers[static_cast<std::size_t>(criterion)]) + " " + std::string(nameOf(criterion));
+std::string numberedName(predict::Criterion criterion) {
+  static constexpr std::array<const char*, predict::kCriterionCount> kNumbers{"(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(3h)"};
+  return std::string(kNumbers[static_cast<std::size_t>(criterion)]) + " " + std::string(predict::nameOf(criterion));
 }
 
-std::string columnOf(Criterion criterion) {
-  std::string name(nameOf(criterion));
+std::string columnOf(predict::Criterion criterion) {
+  std::string name(predict::nameOf(criterion));
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
@@ -289,4 +292,4 @@ std::string fileNameOf(const std::string& condition) {
   return name.empty() ? "condition" : name;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -4,7 +4,7 @@
 
 #include "sim/analyze/study.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 /// The study as tidy CSV files, by file name (docs/analysis.md has their columns). Every number of a figure or of the report is in one.
 /// Numbers read back equal; an empty cell is what could not be measured.
@@ -14,10 +14,10 @@ std::map<std::string, std::string> makeTables(const StudyResult& study);
 std::string tableDictionary(const std::string& name, const std::string& csv);
 
 /// "(1) min-hand-jerk", with the paper's number; "(3h)" is the literal hand-crackle variant.
-std::string numberedName(Criterion criterion);
+std::string numberedName(predict::Criterion criterion);
 /// The name with underscores, for columns.
-std::string columnOf(Criterion criterion);
+std::string columnOf(predict::Criterion criterion);
 /// A condition's name as part of a file name: letters, digits and dashes.
 std::string fileNameOf(const std::string& condition);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

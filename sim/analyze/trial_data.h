@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 #include "sim/trial/outcome.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
@@ -22,7 +22,7 @@ struct TrialKey {
 struct TrialData {
   TrialKey key;
   bool practice = false, catchTrial = false;
-  TrialResult result;
+  trial::TrialResult result;
   double rate = 100;                                          // [Hz]
   double goTime = kNotMeasured;                               // [s] go signal
   double taskOnset = kNotMeasured, taskEnd = kNotMeasured;    // [s] the task's own window: t = 0 and t_e (or where it was broken off)
@@ -36,4 +36,4 @@ struct TrialData {
   Vec3 start, target;  // [m] of the object
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,7 +6,7 @@
 
 #include "sim/analyze/tables.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -26,13 +26,13 @@ std::string shortNumber(double value) {
   return text;
 }
 
-std::vector<Criterion> criteriaOf(const ConditionResult& result) {
-  std::vector<Criterion> criteria;
+std::vector<predict::Criterion> criteriaOf(const ConditionResult& result) {
+  std::vector<predict::Criterion> criteria;
   for (const PredictedProfile& p : result.predictions) criteria.push_back(p.criterion);
   return criteria;
 }
 
-std::string describeRanking(const Ranking& ranking, const std::vector<Criterion>& criteria) {
+std::string describeRanking(const Ranking& ranking, const std::vector<predict::Criterion>& criteria) {
   if (ranking.places.empty()) return "Nothing to rank: no successful trial, or no criterion that can be predicted here.";
   const RankedCriterion& first = ranking.places.front();
   const std::string name = numberedName(criteria[first.criterion]);
@@ -121,4 +121,4 @@ std::string describeDurations(const ConditionResult& r) {
                      : "predictions for the task's T are scaled to them, which an object with its own frequencies does not quite allow.");
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,7 +6,7 @@
 #include "sim/analyze/dataset.h"
 #include "sim/analyze/report.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 
 struct AnalysisFiles {
   std::string report;
@@ -17,4 +17,4 @@ struct AnalysisFiles {
 /// `folder`; each file replaced in one step. The same study gives the same bytes. Throws ResourceError.
 AnalysisFiles writeAnalysis(const StudyResult& study, const Dataset& dataset, const ReportHeader& header, const std::string& folder);
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -32,7 +32,7 @@ struct Contender {
 };
 
 /// The hand of every step of the scene, prepared: what the haptic loop gives a plant. The same for every contender and never timed.
-using Segments = std::shared_ptr<const std::vector<HandSegment>>;
+using Segments = std::shared_ptr<const std::vector<dynamics::HandSegment>>;
 Segments makeSegments(const BenchScene& scene, double step);
 
 /// The plant that compileScene gives for this method, driven through its public interface. Throws RefusedError as compileScene does.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/quad.h"
 
 namespace reachlab::bench {

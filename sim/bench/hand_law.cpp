@@ -5,7 +5,7 @@
 namespace reachlab::bench {
 namespace {
 
-constexpr int kTerms = HandSegment::kMaxDegree + 2;  // one more than the position keeps, for the velocity
+constexpr int kTerms = dynamics::HandSegment::kMaxDegree + 2;  // one more than the position keeps, for the velocity
 using Series = std::array<double, kTerms>;
 
 // mj((t0 + s dt)/T) in powers of s: the derivatives of 10 p^3 - 15 p^4 + 6 p^5 at p0 over the factorials.
@@ -41,7 +41,7 @@ void sineCosineSeries(const Series& a, Series& sine, Series& cosine) {
 
 }  // namespace
 
-HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
+dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
   const Series q = minimumJerkSeries(t0, dt, law.duration);
   std::array<Series, 3> r{};
   if (law.kind == HandLaw::Kind::None || law.kind == HandLaw::Kind::Straight) {
@@ -63,9 +63,9 @@ HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
       }
     }
   }
-  HandSegment segment;
+  dynamics::HandSegment segment;
   constexpr double kNegligiblePosition = 1e-18, kNegligibleVelocity = 1e-16;  // [m], [m/s]: below rounding of 0.1
-  for (int k = 0; k <= HandSegment::kMaxDegree; ++k) {
+  for (int k = 0; k <= dynamics::HandSegment::kMaxDegree; ++k) {
     segment.position[k] = {r[0][k], r[1][k], r[2][k]};
     segment.velocity[k] = ((k + 1) / dt) * Vec3{r[0][k + 1], r[1][k + 1], r[2][k + 1]};
     if (norm(segment.position[k]) > kNegligiblePosition || norm(segment.velocity[k]) > kNegligibleVelocity) segment.degree = k;
@@ -73,7 +73,7 @@ HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
   return segment;
 }
 
-HandSample makeSample(const HandLaw& law, double t) {
+dynamics::HandSample makeSample(const HandLaw& law, double t) {
   double r[3], v[3];
   evaluate(law, t, r, v);
   return {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, true};

@@ -1,5 +1,5 @@
 #pragma once
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 #include "sim/bench/systems.h"
 #include "sim/dynamics/hand_segment.h"
 
@@ -36,8 +36,8 @@ void evaluate(const HandLaw& law, const T& t, T* r, T* v) {
 
 /// The law over [t0, t0 + dt] within [0, T] as the polynomial that a plant is driven with: its Taylor series, cut where the rest is below
 /// rounding (5th degree is exact for a chord).
-HandSegment makeSegment(const HandLaw& law, double t0, double dt);
+dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt);
 
-HandSample makeSample(const HandLaw& law, double t);
+dynamics::HandSample makeSample(const HandLaw& law, double t);
 
 }  // namespace reachlab::bench

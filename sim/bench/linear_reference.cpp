@@ -141,7 +141,7 @@ Reference propagate(const BenchScene& scene, const System& system) {
 }  // namespace
 
 Reference modalChainReference(const BenchScene& scene) {
-  const Object& o = scene.experiment.object;
+  const experiment::Object& o = scene.experiment.object;
   const int n = static_cast<int>(o.masses.size());
   const Quad k = o.stiffness[0], m = o.masses[0];
   // pi to 113 bits: the double, and what it lacks.

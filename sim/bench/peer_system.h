@@ -10,7 +10,7 @@ template <class System>
 struct PeerSystem {
   static constexpr int kStates = 2 * System::kCoordinates;
   System system;
-  const HandSegment* segment = nullptr;
+  const dynamics::HandSegment* segment = nullptr;
   std::uint64_t evaluations = 0;
 
   void rate(const double* y, double* dy, double t) {
@@ -70,7 +70,7 @@ void appendSample(const System& system, const double* y, Trajectory& out) {
 
 /// Drives `tick(segment index)` through a reach and takes samples; `tick` returns false when it gave up. `y` points to the state.
 template <class System, class Tick>
-void runReach(PeerSystem<System>& peer, const std::vector<HandSegment>& segments, const double* y, Trajectory* out, Tick tick) {
+void runReach(PeerSystem<System>& peer, const std::vector<dynamics::HandSegment>& segments, const double* y, Trajectory* out, Tick tick) {
   peer.evaluations = 0;
   if (out) appendSample(peer.system, y, *out);
   std::uint64_t before = 0;

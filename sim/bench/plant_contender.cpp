@@ -6,30 +6,30 @@
 namespace reachlab::bench {
 namespace {
 
-void takeSample(const BenchScene& scene, const Plant& plant, const HandSample& hand, Trajectory& out) {
-  std::vector<MassState> masses(plant.massCount());
+void takeSample(const BenchScene& scene, const dynamics::Plant& plant, const dynamics::HandSample& hand, Trajectory& out) {
+  std::vector<dynamics::MassState> masses(plant.massCount());
   plant.observe(hand, masses);
   const bool line = scene.experiment.constraint.name == "line";
   const int perMass = line || scene.cartesian ? 1 : static_cast<int>(scene.start.size());
   for (const bool rates : {false, true})
-    for (const MassState& m : masses) {
+    for (const dynamics::MassState& m : masses) {
       const Vec3& cartesian = rates ? m.v : m.r;
       if (scene.cartesian) out.states.insert(out.states.end(), {cartesian.x, cartesian.y, cartesian.z});
       else if (line) out.states.push_back(rates ? m.v.x : m.r.x - scene.hand.from.x);
       else out.states.insert(out.states.end(), (rates ? m.qRate : m.q).begin(), (rates ? m.qRate : m.q).begin() + perMass);
     }
-  for (const MassState& m : masses) out.positions.insert(out.positions.end(), {m.r.x, m.r.y, m.r.z});
+  for (const dynamics::MassState& m : masses) out.positions.insert(out.positions.end(), {m.r.x, m.r.y, m.r.z});
 }
 
 struct PlantRun {
   BenchScene scene;
-  Scene compiled;
+  dynamics::Scene compiled;
   Segments segments;
   double step;
   int stepsPerTick;
 
   void operator()(Trajectory* out) {
-    Plant& plant = *compiled.plant;
+    dynamics::Plant& plant = *compiled.plant;
     plant.setCoupled(scene.hand.kind != HandLaw::Kind::None);
     if (scene.rate.empty()) plant.placeAtRest(scene.start);
     else plant.place(scene.start, scene.rate);
@@ -37,22 +37,22 @@ struct PlantRun {
       runSampled(plant, *out);
       return;
     }
-    StepStatus status = StepStatus::Ok;
-    for (const HandSegment& segment : *segments) {
+    dynamics::StepStatus status = dynamics::StepStatus::Ok;
+    for (const dynamics::HandSegment& segment : *segments) {
       status = plant.step(segment, step);
-      if (status != StepStatus::Ok) break;
+      if (status != dynamics::StepStatus::Ok) break;
     }
     consume(static_cast<double>(static_cast<int>(status)));
   }
 
-  void runSampled(Plant& plant, Trajectory& out) {
+  void runSampled(dynamics::Plant& plant, Trajectory& out) {
     const std::uint64_t before = plant.rhsEvaluations();
     takeSample(scene, plant, makeSample(scene.hand, 0), out);
     std::uint64_t tickStart = before;
     for (std::size_t i = 0; i < segments->size(); ++i) {
-      const StepStatus status = plant.step((*segments)[i], step);
-      if (status != StepStatus::Ok) {
-        out.failure = std::string(describe(status)) + " at " + std::to_string(static_cast<double>(i) * step) + " s";
+      const dynamics::StepStatus status = plant.step((*segments)[i], step);
+      if (status != dynamics::StepStatus::Ok) {
+        out.failure = std::string(dynamics::describe(status)) + " at " + std::to_string(static_cast<double>(i) * step) + " s";
         return;
       }
       ++out.steps;
@@ -61,7 +61,7 @@ struct PlantRun {
         out.worstTick = std::max(out.worstTick, now - tickStart);
         tickStart = now;
       }
-      if ((i + 1) % (stepsPerTick * kTicksPerSample) == 0) takeSample(scene, plant, endOf((*segments)[i]), out);
+      if ((i + 1) % (stepsPerTick * kTicksPerSample) == 0) takeSample(scene, plant, dynamics::endOf((*segments)[i]), out);
     }
     out.rhsEvaluations = plant.rhsEvaluations() - before;
   }
@@ -70,13 +70,13 @@ struct PlantRun {
 }  // namespace
 
 Contender makePlantContender(const BenchScene& scene, const std::string& method, double step, double tolerance) {
-  SceneOptions options;
+  dynamics::SceneOptions options;
   options.method = method, options.step = step, options.tolerance = tolerance;
-  auto run = std::make_shared<PlantRun>(PlantRun{scene, compileScene(scene.experiment, options), makeSegments(scene, step), step,
+  auto run = std::make_shared<PlantRun>(PlantRun{scene, dynamics::compileScene(scene.experiment, options), makeSegments(scene, step), step,
                                                  static_cast<int>(std::lround(kTick / step))});
   Contender out;
   out.method = method, out.step = step, out.tolerance = tolerance;
-  const MethodChoice& choice = run->compiled.choice;
+  const dynamics::MethodChoice& choice = run->compiled.choice;
   out.form = (method == "auto" ? choice.method + ", " : "") + choice.form;
   out.run = [run](Trajectory* trajectory) { (*run)(trajectory); };
   return out;

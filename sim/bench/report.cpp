@@ -70,7 +70,7 @@ std::string formatRatios(const std::vector<Row>& rows) {
 }
 
 std::string drawWorkPrecision(const std::vector<Row>& rows) {
-  Figure figure;
+  figure::Figure figure;
   figure.columns = 4;
   figure.panelWidth = 62, figure.panelHeight = 48;
   std::vector<std::string> methods;  // the same colour in every panel
@@ -79,21 +79,21 @@ std::string drawWorkPrecision(const std::vector<Row>& rows) {
   const auto automatic = std::find(methods.begin(), methods.end(), "auto");
   if (automatic != methods.end()) std::rotate(automatic, automatic + 1, methods.end());  // drawn last: it lies on the method it chose
   for (const std::string& scene : scenesOf(rows)) {
-    Panel panel;
+    figure::Panel panel;
     panel.title = scene;
     panel.x.label = "Processor time (ns per simulated ms)";
     panel.y.label = "Largest state error (SI)";
-    panel.x.scale = panel.y.scale = Scale::Log;
-    panel.legend = figure.panels.empty() ? LegendPlace::Auto : LegendPlace::None;
+    panel.x.scale = panel.y.scale = figure::Scale::Log;
+    panel.legend = figure.panels.empty() ? figure::LegendPlace::Auto : figure::LegendPlace::None;
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const std::vector<const Row*> own = worthwhile(rows, scene, methods[i]);
       if (own.empty() && !figure.panels.empty()) continue;
-      Series series;
+      figure::Series series;
       series.label = methods[i];
-      series.color = palette::series(static_cast<int>(i));
-      series.marker = markerOf(static_cast<int>(i));
+      series.color = figure::palette::series(static_cast<int>(i));
+      series.marker = figure::markerOf(static_cast<int>(i));
       if (methods[i] == "auto") series.markerSize *= 1.8;
-      if (!own.empty() && isPeer(*own.front())) series.dash = Dash::Dashed;
+      if (!own.empty() && isPeer(*own.front())) series.dash = figure::Dash::Dashed;
       for (const Row* row : own) {
         series.x.push_back(row->nsPerMs);
         series.y.push_back(std::max(row->error.state, 1e-16));  // exact to rounding is drawn at the bottom
@@ -102,7 +102,7 @@ std::string drawWorkPrecision(const std::vector<Row>& rows) {
     }
     figure.panels.push_back(std::move(panel));
   }
-  return renderSvg(figure);
+  return figure::renderSvg(figure);
 }
 
 }  // namespace reachlab::bench

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/measure.h"
 #include "sim/bench/suite.h"
 #include "sim/dynamics/hand_path.h"
@@ -47,22 +47,22 @@ Vec3 pathVelocity(const std::vector<Vec3>& r, int newest, int count) {
 }
 
 double positionError(const BenchScene& scene, const Reference& reference, const std::string& method, int samples, Measurement measurement) {
-  SceneOptions options;
+  dynamics::SceneOptions options;
   options.method = method;
-  const Scene compiled = compileScene(scene.experiment, options);
-  Plant& plant = *compiled.plant;
+  const dynamics::Scene compiled = dynamics::compileScene(scene.experiment, options);
+  dynamics::Plant& plant = *compiled.plant;
   plant.placeAtRest(scene.start);
   const std::vector<Vec3> r = measuredPositions(scene, measurement);
   // A held sample is the one read before the step; every other path ends at the newest.
-  HandPath path(samples);
+  dynamics::HandPath path(samples);
   path.push({r[0], {}, true});
-  std::vector<MassState> masses(plant.massCount());
+  std::vector<dynamics::MassState> masses(plant.massCount());
   double worst = 0;
   for (int tick = 1; tick < static_cast<int>(r.size()); ++tick) {
     const int newest = samples == 1 ? tick - 1 : tick;
-    const HandSample hand{r[newest], pathVelocity(r, newest, samples), true};
+    const dynamics::HandSample hand{r[newest], pathVelocity(r, newest, samples), true};
     path.push(hand);
-    if (plant.step(path.segment(), kTick) != StepStatus::Ok) return std::numeric_limits<double>::quiet_NaN();
+    if (plant.step(path.segment(), kTick) != dynamics::StepStatus::Ok) return std::numeric_limits<double>::quiet_NaN();
     if (tick % kTicksPerSample != 0) continue;
     plant.observe(hand, masses);
     const Quad* expected = &reference.positions[static_cast<std::size_t>(tick / kTicksPerSample) * masses.size() * 3];

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
 namespace reachlab::bench {
 namespace {
@@ -11,25 +11,26 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kReach = 1.35;  // [s]
 
-Task makeTask(double start, double target) {
-  Task task;
+experiment::Task makeTask(double start, double target) {
+  experiment::Task task;
   task.start = {start}, task.target = {target}, task.duration = kReach;
   return task;
 }
 
-BenchScene onLine(std::string name, std::string title, ObjectKind kind, int count, double mass, double stiffness, double damping) {
+BenchScene onLine(std::string name, std::string title, experiment::ObjectKind kind, int count, double mass, double stiffness,
+                  double damping) {
   BenchScene s;
   s.name = std::move(name), s.title = std::move(title);
-  Experiment& e = s.experiment;
+  experiment::Experiment& e = s.experiment;
   e.name = s.name;
   e.constraint.name = "line";
   e.constraint.shape["length_m"] = 0.2;
   e.object.kind = kind;
   e.object.masses.assign(count, mass);
-  const int springs = kind == ObjectKind::Chain ? count - 1 : count;
+  const int springs = kind == experiment::ObjectKind::Chain ? count - 1 : count;
   e.object.stiffness.assign(springs, stiffness);
   e.object.damping.assign(springs, damping);
-  if (kind != ObjectKind::Parallel) e.coupling = Coupling{600, 0};
+  if (kind != experiment::ObjectKind::Parallel) e.coupling = experiment::Coupling{600, 0};
   s.start = {0};
   e.task = makeTask(0, 2 * kPi);
   s.hand.kind = HandLaw::Kind::Straight;
@@ -40,11 +41,11 @@ BenchScene onLine(std::string name, std::string title, ObjectKind kind, int coun
 }
 
 void setBead(BenchScene& s, double viscosity) {
-  Object& o = s.experiment.object;
-  o.kind = ObjectKind::Point;
+  experiment::Object& o = s.experiment.object;
+  o.kind = experiment::ObjectKind::Point;
   o.masses = {1};
   o.viscosity = viscosity;
-  s.experiment.coupling = Coupling{600, 5};
+  s.experiment.coupling = experiment::Coupling{600, 5};
 }
 
 BenchScene onEllipse(std::string name, std::string title, double a, double b, double from, double viscosity) {
@@ -81,7 +82,7 @@ BenchScene nearCusp(std::string name, std::string title, double small) {
 
 // So that the scene is compiled where it begins.
 void setStart(BenchScene& s) {
-  Task task;
+  experiment::Task task;
   task.start = task.target = s.start;
   task.duration = kReach;
   s.experiment.task = task;
@@ -125,9 +126,9 @@ BenchScene pastPole(std::string name, std::string title, double tilt) {
 
 std::vector<BenchScene> benchScenes() {
   std::vector<BenchScene> all;
-  all.push_back(onLine("S1", "chain of 5 on a line", ObjectKind::Chain, 5, 0.6, 600, 0));
-  all.push_back(onLine("S1b50", "chain of 50, 3 kg", ObjectKind::Chain, 50, 3.0 / 50, 600, 0));
-  all.push_back(onLine("S1b500", "chain of 500, 3 kg", ObjectKind::Chain, 500, 3.0 / 500, 600, 0));
+  all.push_back(onLine("S1", "chain of 5 on a line", experiment::ObjectKind::Chain, 5, 0.6, 600, 0));
+  all.push_back(onLine("S1b50", "chain of 50, 3 kg", experiment::ObjectKind::Chain, 50, 3.0 / 50, 600, 0));
+  all.push_back(onLine("S1b500", "chain of 500, 3 kg", experiment::ObjectKind::Chain, 500, 3.0 / 500, 600, 0));
   all.push_back(onEllipse("S2a", "bead on an ellipse", 0.1, 0.06, 0, 0));
   all.push_back(onEllipse("S2b", "the same, viscous", 0.1, 0.06, 0, 2));
 
@@ -141,13 +142,13 @@ std::vector<BenchScene> benchScenes() {
   all.push_back(nearCusp("S5", "bead, 1 % from a cusp", 0.0198));
   all.push_back(nearCusp("S5h", "bead, 0.1 % from a cusp", 0.01998));
 
-  BenchScene parallel = onLine("S6", "two masses in parallel", ObjectKind::Parallel, 2, 3, 50, 0);
+  BenchScene parallel = onLine("S6", "two masses in parallel", experiment::ObjectKind::Parallel, 2, 3, 50, 0);
   parallel.experiment.object.stiffness = {50, 250};
   parallel.experiment.task->duration = parallel.hand.duration = parallel.duration = 2.5;
   all.push_back(parallel);
 
-  all.push_back(onLine("S7a", "stiff chain of light masses", ObjectKind::Chain, 5, 0.01, 20000, 0));
-  BenchScene damped = onLine("S7b", "the same, strongly damped", ObjectKind::Chain, 5, 0.01, 20000, 50);
+  all.push_back(onLine("S7a", "stiff chain of light masses", experiment::ObjectKind::Chain, 5, 0.01, 20000, 0));
+  BenchScene damped = onLine("S7b", "the same, strongly damped", experiment::ObjectKind::Chain, 5, 0.01, 20000, 50);
   damped.experiment.coupling->damping = 5;
   all.push_back(damped);
   all.push_back(onEllipse("S7c", "through the tip of a flat ellipse", 0.1, 1e-4, kPi / 4, 0));
@@ -155,7 +156,7 @@ std::vector<BenchScene> benchScenes() {
   all.push_back(pastPole("S7e", "geodesic 1e-6 rad past a pole", 1e-6));
 
   BenchScene chain = onEllipse("S8", "chain of 5 on an ellipse", 0.1, 0.06, 0, 0);
-  chain.experiment.object.kind = ObjectKind::Chain;
+  chain.experiment.object.kind = experiment::ObjectKind::Chain;
   chain.experiment.object.masses.assign(5, 0.6);
   chain.experiment.object.stiffness.assign(4, 600);
   chain.experiment.object.damping.assign(4, 1);

@@ -11,7 +11,7 @@ namespace reachlab::bench {
 struct BenchScene {
   std::string name;   // S1 … S8
   std::string title;  // what it is, in a line
-  Experiment experiment;
+  experiment::Experiment experiment;
   HandLaw hand;                     // kind None: nobody holds the object
   double duration = 1.35;           // [s]
   std::vector<double> start, rate;  // common constraint parameters and rates of all masses; rate empty: at rest

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/peers.h"
 
 namespace reachlab::bench {

@@ -1,7 +1,7 @@
 #pragma once
 #include <type_traits>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/scenes.h"
 #include "sim/bench/systems.h"
 
@@ -10,8 +10,8 @@ namespace reachlab::bench {
 /// Calls f(system) with the hand-written right-hand side of the scene, its numbers taken from the scene's experiment.
 template <class F>
 auto visitSystem(const BenchScene& scene, F&& f) {
-  const Object& o = scene.experiment.object;
-  const Coupling coupling = scene.experiment.coupling.value_or(Coupling{});
+  const experiment::Object& o = scene.experiment.object;
+  const experiment::Coupling coupling = scene.experiment.coupling.value_or(experiment::Coupling{});
   const auto& shape = scene.experiment.constraint.shape;
   const double mass = o.masses[0];
   const std::string& n = scene.name;

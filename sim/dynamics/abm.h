@@ -8,7 +8,7 @@
 
 #include "sim/dynamics/adaptive.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): at most two right-hand sides and one
 /// hand sample a tick. Predictor of order 7, corrector of order 8: y = p + dt gamma_7 nabla^7 f(p). Where the correction is near
@@ -243,4 +243,4 @@ class AbmWith {
 template <class System>
 using Abm = AbmWith<System, Adaptive>;
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -6,7 +6,7 @@
 #include "sim/dynamics/hand_segment.h"
 #include "sim/dynamics/step_report.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 inline constexpr double kDefaultTolerance = 1e-13;  // per sub-step, relative to each number's scale
 
@@ -120,4 +120,4 @@ class Adaptive {
   double last_ = 0;  // [s] size of the last good sub-step
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,7 +1,7 @@
 #pragma once
 #include "sim/dynamics/hand_segment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 inline constexpr int kForceTerms = HandSegment::kMaxDegree + 1;
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -35,4 +35,4 @@ auto withDegree(int degree, F&& f) noexcept {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/abm.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/make_plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 /// Adds what a body has beyond a point: orientation, the force at the FP, energy of rotation.
@@ -35,7 +35,7 @@ class BodyPlant final : public SystemPlant<BodySystem, Method> {
 
 }  // namespace
 
-BodySystem::BodySystem(const ObjectModel& model, const Object& object)
+BodySystem::BodySystem(const ObjectModel& model, const experiment::Object& object)
     : springs(model), inertia(object.inertia), fpOffset(object.fpOffset) {
   const Matrix3& m = inertia;
   const auto minor = [&](int i, int j) {
@@ -53,7 +53,7 @@ BodySystem::BodySystem(const ObjectModel& model, const Object& object)
     for (int j = 0; j < 3; ++j) inverseInertia[i][j] = minor(j, i) / determinant;
 }
 
-std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& object, const MethodRequest& request) {
+std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const experiment::Object& object, const MethodRequest& request) {
   const BodySystem system(model, object);
   if (request.method == "rk4") return std::make_unique<BodyPlant<Rk4>>(model, system, request.tolerance);
   if (request.method == "stiff") return std::make_unique<BodyPlant<Stiff>>(model, system, request.tolerance);
@@ -61,4 +61,4 @@ std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& obj
   return std::make_unique<BodyPlant<Abm>>(model, system, request.tolerance);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

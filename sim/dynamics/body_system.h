@@ -2,7 +2,7 @@
 #include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
@@ -25,7 +25,7 @@ struct BodySystem {
   Matrix3 inertia{}, inverseInertia{};
   Vec3 fpOffset;
 
-  BodySystem(const ObjectModel& model, const Object& object);
+  BodySystem(const ObjectModel& model, const experiment::Object& object);
   static constexpr int states() noexcept { return 13; }
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
   Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
@@ -92,4 +92,4 @@ struct BodySystem {
   void accelerate(const State&, const State& ds, std::span<MassState> masses) const noexcept { masses[0].a = {ds[3], ds[4], ds[5]}; }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -5,7 +5,7 @@
 
 #include "sim/dynamics/oscillator_core.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 using Real = long double;
@@ -117,8 +117,8 @@ ChainModes computeModes(const ObjectModel& model, bool coupled) {
 }
 
 bool canBeModal(const ObjectModel& model) {
-  if (model.kind == ObjectKind::Parallel) return true;
+  if (model.kind == experiment::ObjectKind::Parallel) return true;
   return computeModes(model, true).proportional && computeModes(model, false).proportional;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -4,7 +4,7 @@
 
 #include "sim/dynamics/object_model.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Modes of a chain: x = toMasses e, e = toModes x, with toMasses^T M toMasses = 1, e_j'' + damping_j e_j' + squaredFrequency_j e_j =
 /// toMasses(0, j) f for a force f on mass 1.
@@ -19,4 +19,4 @@ struct ChainModes {
 /// beside fast ones.
 ChainModes computeModes(const ObjectModel& model, bool coupled);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

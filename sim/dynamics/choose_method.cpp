@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/stability.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr double kMultistepReach = 0.3;  // |eigenvalue| times step up to which order 7 in one step a tick is accurate and stable
@@ -101,4 +101,4 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
   return choice;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

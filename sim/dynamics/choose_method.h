@@ -2,7 +2,7 @@
 #include "sim/dynamics/object_model.h"
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// What the choice of a method looks at.
 struct SceneFacts {
@@ -18,4 +18,4 @@ struct SceneFacts {
 /// the numbers and a remedy when the method asked for is unstable, or cannot do the scene.
 MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, const SceneFacts& facts);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

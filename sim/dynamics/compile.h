@@ -5,7 +5,7 @@
 #include "sim/dynamics/linear_plant.h"
 #include "sim/dynamics/quadric.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 struct MethodRequest {
   std::string method;    // rk4 | abm | adaptive | stiff
@@ -17,20 +17,20 @@ struct MethodRequest {
 std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpace& space, double dt);
 std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request);
 std::unique_ptr<Plant> makeFreePlant(const ObjectModel& model, const MethodRequest& request);
-std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const Object& object, const MethodRequest& request);
+std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const experiment::Object& object, const MethodRequest& request);
 /// Of a curve's equations: `tangential` is the speed along the curve as velocity, for curves that are hard somewhere.
 struct CurveForm {
   bool tangential = false;
   double largestSpeed = 1;  // [m] |r_phi|
 };
-std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form,
+std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                                       const MethodRequest& request);
-std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const Constraint& constraint, const MethodRequest& request);
+std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraints::Constraint& constraint, const MethodRequest& request);
 /// `edges`: some end of the domain is an edge and not a pole.
-std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const Constraint& constraint, const Quadric& quadric, bool edges,
-                                        const MethodRequest& request);
+std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& quadric,
+                                        bool edges, const MethodRequest& request);
 
 /// A straight scene's space: the line's axis, or free space when `constraint` is Free.
-LinearSpace linearSpace(const Constraint& constraint);
+LinearSpace linearSpace(const constraints::Constraint& constraint);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

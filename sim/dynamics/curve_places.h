@@ -4,7 +4,7 @@
 
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Where the masses of a curve's system are: phi_i is number i of its state, omega_i (Tangential: the speed v_i) number rates() + i.
 /// `N` masses, 0: as many as the model has; `Room` numbers for the phi, 0: as many as masses.
@@ -15,17 +15,17 @@ struct CurvePlaces {
   static constexpr bool kEnds = true;
   static constexpr const char* kNoContinuation = "the mass rests on a cusp of the curve: which way it would leave is not determined";
 
-  Curve curve;
-  Domain domain;
+  constraints::Curve curve;
+  constraints::Domain domain;
   double speedScale;  // [m] typical |r_phi|
   int count, room;
 
-  CurvePlaces(const ObjectModel& model, const Constraint& constraint, double typicalSpeed, int roomForPhi)
+  CurvePlaces(const ObjectModel& model, const constraints::Constraint& constraint, double typicalSpeed, int roomForPhi)
       : curve(constraint.curve), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()), room(roomForPhi) {}
   constexpr int n() const noexcept { return N > 0 ? N : count; }
   constexpr int rates() const noexcept { return Room > 0 ? Room : room; }
   constexpr int states() const noexcept { return 2 * rates(); }
-  double speedAt(double phi) const noexcept { return norm(evaluate(curve, phi).rPhi); }
+  double speedAt(double phi) const noexcept { return norm(constraints::evaluate(curve, phi).rPhi); }
   double scale(int i) const noexcept { return i < rates() ? 0.1 : Tangential ? 0.1 : 1.0; }
 
   /// All masses at one place; room beyond them rests there too.
@@ -40,7 +40,7 @@ struct CurvePlaces {
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     for (std::size_t k = 0; k < masses.size(); ++k) {
       const double phi = y[static_cast<int>(k)], rate = y[rates() + static_cast<int>(k)];
-      const CurvePoint p = evaluate(curve, phi);
+      const constraints::CurvePoint p = constraints::evaluate(curve, phi);
       const double omega = Tangential ? rate / std::fmax(norm(p.rPhi), 1e-290) : rate;
       masses[k].q = {phi, 0};
       masses[k].qRate = {omega, 0};
@@ -53,7 +53,7 @@ struct CurvePlaces {
     for (std::size_t k = 0; k < masses.size(); ++k) {
       const int i = static_cast<int>(k);
       const double rate = y[rates() + i], slope = dy[rates() + i];
-      const CurvePoint p = evaluate(curve, y[i]);
+      const constraints::CurvePoint p = constraints::evaluate(curve, y[i]);
       if constexpr (Tangential) {
         // a = v' T + v^2 times the curvature vector, whose tangential part is left out
         const double square = std::fmax(dot(p.rPhi, p.rPhi), 1e-290);
@@ -66,7 +66,7 @@ struct CurvePlaces {
   }
 
   bool bounded() const noexcept { return !domain.periodic && (std::isfinite(domain.lo) || std::isfinite(domain.hi)); }
-  bool bounces() const noexcept { return domain.atEnd == AtEnd::Bounce; }
+  bool bounces() const noexcept { return domain.atEnd == constraints::AtEnd::Bounce; }
   template <class State>
   bool inside(const State& y) const noexcept {
     for (int i = 0; i < n(); ++i)
@@ -85,4 +85,4 @@ struct CurvePlaces {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -5,7 +5,7 @@
 #include "sim/dynamics/make_plant.h"
 #include "sim/dynamics/octet_system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 template <class System>
@@ -21,24 +21,26 @@ std::unique_ptr<Plant> makeExplicit(const ObjectModel& model, const System& syst
 }
 
 template <bool Parallel, bool Tangential>
-std::unique_ptr<Plant> make(const ObjectModel& model, const Constraint& constraint, double speedScale, const MethodRequest& request) {
+std::unique_ptr<Plant> make(const ObjectModel& model, const constraints::Constraint& constraint, double speedScale,
+                            const MethodRequest& request) {
   if (request.method == "stiff") {
     using System = CurveSystem<0, Parallel, Tangential>;
     return std::make_unique<SystemPlant<System, Stiff>>(model, System(model, constraint, speedScale), request.tolerance);
   }
   if (model.count() == 1) return makeExplicit(model, CurveSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
-  if (model.count() <= kOctet) return makeExplicit(model, OctetSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
+  if (model.count() <= constraints::kOctet)
+    return makeExplicit(model, OctetSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
   return makeExplicit(model, OctetSystem<0, Parallel, Tangential>(model, constraint, speedScale), request);
 }
 
 }  // namespace
 
-std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const Constraint& constraint, const CurveForm& form,
+std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                                       const MethodRequest& request) {
   const double scale = form.largestSpeed;
-  if (model.kind == ObjectKind::Parallel)
+  if (model.kind == experiment::ObjectKind::Parallel)
     return form.tangential ? make<true, true>(model, constraint, scale, request) : make<true, false>(model, constraint, scale, request);
   return form.tangential ? make<false, true>(model, constraint, scale, request) : make<false, false>(model, constraint, scale, request);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,7 +1,7 @@
 #pragma once
 #include "sim/dynamics/curve_places.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Chain, parallel object or point on a curve; springs act along the chords in space (paper sec. 4), Eq. (11) for each mass.
 /// Tangential = false: y = (phi_i, omega_i), phi' = omega, |r_phi|^2 omega' = r_phi.(F/m - r_phiphi omega^2).
@@ -17,7 +17,7 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
 
   Springs<N, Parallel> springs;
 
-  CurveSystem(const ObjectModel& model, const Constraint& constraint, double typicalSpeed)
+  CurveSystem(const ObjectModel& model, const constraints::Constraint& constraint, double typicalSpeed)
       : Places(model, constraint, typicalSpeed, model.count()), springs(model) {}
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
   Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
@@ -25,7 +25,7 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
 
   /// A vector for each mass.
   struct Vectors {
-    Unfilled<std::array<Vec3, kMostMasses<N>>> all;
+    constraints::Unfilled<std::array<Vec3, kMostMasses<N>>> all;
     Vec3& operator[](int i) noexcept { return all.value[i]; }
     const Vec3& operator[](int i) const noexcept { return all.value[i]; }
     void set(int i, const Vec3& v) noexcept { all.value[i].x = v.x, all.value[i].y = v.y, all.value[i].z = v.z; }
@@ -33,12 +33,12 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     // Each point stays where the curve wrote it; what follows is copied component by component.
-    Unfilled<std::array<CurvePoint, kMostMasses<N>>> points;
+    constraints::Unfilled<std::array<constraints::CurvePoint, kMostMasses<N>>> points;
     Vectors r, v, force, tangent;
     std::array<double, kMostMasses<N>> measure, bend;  // Tangential: 1/|r_phi| or 1/|r_phi|^2, r_phi.r_phiphi
     for (int i = 0; i < n(); ++i) curve.function(curve.program, curve.shape.data(), y[i], points.value[i]);
     for (int i = 0; i < n(); ++i) {
-      const CurvePoint& p = points.value[i];
+      const constraints::CurvePoint& p = points.value[i];
       const double square = dot(p.rPhi, p.rPhi);
       if constexpr (Tangential) {
         measure[i] = 1 / std::fmax(std::sqrt(square), 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it
@@ -68,4 +68,4 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

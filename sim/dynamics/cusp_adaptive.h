@@ -2,7 +2,7 @@
 #include "sim/dynamics/adaptive.h"
 #include "sim/dynamics/curve_system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Ticks near and through cusps, for curves in their tangential form. Where |r_phi| is small the independent variable becomes a
 /// fictitious time tau with dt = |r_phi|/c dtau (Sundman's transformation; |r_phi| of the mass nearest its cusp): then
@@ -52,7 +52,7 @@ class CuspAdaptive {
     return lead;
   }
   static double slope(const System& system, double phi) noexcept {
-    const CurvePoint p = evaluate(system.curve, phi);
+    const constraints::CurvePoint p = constraints::evaluate(system.curve, phi);
     return dot(p.rPhi, p.rPhiPhi);
   }
 
@@ -172,7 +172,7 @@ class CuspAdaptive {
     double low = std::min(from, to), high = std::max(from, to);
     phi = 0.5 * (low + high);
     for (int round = 0; round < 80 && high - low > 1e-16 * (std::abs(low) + std::abs(high)); ++round) {
-      const CurvePoint p = evaluate(system.curve, phi);
+      const constraints::CurvePoint p = constraints::evaluate(system.curve, phi);
       const double s = dot(p.rPhi, p.rPhiPhi);
       if (s == 0) break;
       (s > 0 ? high : low) = phi;
@@ -189,4 +189,4 @@ class CuspAdaptive {
   double last_ = 0;  // size of the last sub-step in tau
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -7,7 +7,7 @@
 #include "sim/dynamics/lanes.h"
 #include "sim/dynamics/propagator.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// One exact step of a chain by its propagator: 2N columns, all sizes known to the compiler (N = 0: known when compiled).
 template <int N>
@@ -109,4 +109,4 @@ class DenseCore {
   std::vector<Column> columns_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,7 +1,7 @@
 #pragma once
 #include "sim/dynamics/dop853.h"
 
-namespace reachlab::dop853 {
+namespace reachlab::dynamics::dop853 {
 
 /// The state within an accepted step, of order 7 (Hairer, Norsett, Wanner I, II.6: continuous extension of the pair of order 8).
 template <int S>
@@ -71,4 +71,4 @@ DenseOutput<S> makeDenseOutput(const Rate& rate, double t, double h, const Numbe
   return dense;
 }
 
-}  // namespace reachlab::dop853
+}  // namespace reachlab::dynamics::dop853

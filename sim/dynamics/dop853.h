@@ -7,7 +7,7 @@
 
 #include "sim/dynamics/numbers.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Dormand and Prince's pair of order 8 with error estimators of order 5 and 3 (Hairer, Norsett, Wanner: Solving Ordinary Differential
 /// Equations I, 2nd ed., II.5 and II.10), sub-stepping inside a tick.
@@ -135,4 +135,4 @@ inline double growth(double error, double most) noexcept {
 }
 }  // namespace dop853
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

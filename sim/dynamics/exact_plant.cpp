@@ -2,7 +2,7 @@
 #include "sim/dynamics/dense_core.h"
 #include "sim/dynamics/oscillator_core.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 template <class Core>
@@ -13,14 +13,14 @@ std::unique_ptr<Plant> make(const ObjectModel& model, const LinearSpace& space, 
 
 }  // namespace
 
-LinearSpace linearSpace(const Constraint& constraint) {
-  if (constraint.kind == ConstraintKind::Free) return {3, {}, {}, {}};
-  const CurvePoint p = evaluate(constraint.curve, 0.0);
+LinearSpace linearSpace(const constraints::Constraint& constraint) {
+  if (constraint.kind == constraints::ConstraintKind::Free) return {3, {}, {}, {}};
+  const constraints::CurvePoint p = constraints::evaluate(constraint.curve, 0.0);
   return {1, p.r, p.rPhi, constraint.domain[0]};
 }
 
 std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpace& space, double dt) {
-  if (model.kind == ObjectKind::Parallel) return make<OscillatorCore>(model, space, dt);
+  if (model.kind == experiment::ObjectKind::Parallel) return make<OscillatorCore>(model, space, dt);
   // In its modes a chain costs less from three masses on, and no state waits for another.
   if (model.count() >= 3 && canBeModal(model)) return make<OscillatorCore>(model, space, dt);
   switch (model.count()) {
@@ -37,4 +37,4 @@ std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpac
   return make<DenseCore<0>>(model, space, dt);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

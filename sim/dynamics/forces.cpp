@@ -1,6 +1,6 @@
 #include "sim/dynamics/forces.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 Vec3 handForce(const ObjectModel& model, const Surroundings& around, const MassState& mass, int i) noexcept {
   if (!around.coupled) return {};
@@ -37,4 +37,4 @@ double computeEnergy(const ObjectModel& model, const Surroundings& around, std::
   return energy;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -4,7 +4,7 @@
 #include "sim/dynamics/object_model.h"
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// What acts on the object from outside at one instant.
 struct Surroundings {
@@ -20,4 +20,4 @@ Vec3 netForce(const ObjectModel& model, const Surroundings& around, std::span<co
 /// Kinetic + elastic (springs and coupling) + gravity energy [J], without a body's rotation.
 double computeEnergy(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses) noexcept;
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,7 +1,7 @@
 #pragma once
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A point, chain or parallel object in free space, y = (r_1 … r_N, v_1 … v_N). For methods other than the exact one.
 template <int N, bool Parallel>
@@ -63,4 +63,4 @@ struct FreeSystem {
   static void put(State& y, int i, const Vec3& value) noexcept { y[3 * i] = value.x, y[3 * i + 1] = value.y, y[3 * i + 2] = value.z; }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr int kPoints = HandSegment::kMaxDegree + 1;
@@ -70,4 +70,4 @@ MinJerk minJerk(double x) noexcept {
   return {s, 30 * x * x * y * y};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -3,7 +3,7 @@
 
 #include "sim/dynamics/hand_segment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A hand known at every time [s]: position and exact derivative.
 using HandFunction = std::function<HandSample(double time)>;
@@ -21,4 +21,4 @@ struct MinJerk {
 };
 MinJerk minJerk(double x) noexcept;
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

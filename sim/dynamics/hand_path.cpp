@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 /// Coefficients in s of the polynomial through p[0] at s = 1, p[1] at 0, p[2] at -1, p[3] at -2 (the first `count` of them).
@@ -51,4 +51,4 @@ HandSegment HandPath::segment() const noexcept {
   return segment;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -3,7 +3,7 @@
 
 #include "sim/dynamics/hand_segment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// The last device samples, and the polynomial that the hand follows over the tick that ends at the newest. One sample: held; two: a
 /// straight line; three: a parabola; four: a cubic. Position and velocity are interpolated alike, each through its own samples.
@@ -33,4 +33,4 @@ class HandPath {
   std::array<HandSample, 4> last_{};  // newest first
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,6 +1,6 @@
 #include "sim/dynamics/hand_segment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
@@ -24,4 +24,4 @@ HandSegment part(const HandSegment& whole, double s0, double s1) noexcept {
   return result;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
 
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// The HIP during one step, a polynomial in s = t/dt in [0, 1]: r(s) = sum position[k] s^k [m], v(s) = sum velocity[k] s^k [m/s].
 /// Velocity has its own polynomial, because for a device it comes from an estimator and not from the positions; for a hand given as a
@@ -47,4 +47,4 @@ inline HandSample endOf(const HandSegment& hand) noexcept {
   return {position, velocity, true};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

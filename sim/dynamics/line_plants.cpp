@@ -1,10 +1,10 @@
 #include "sim/dynamics/line_system.h"
 #include "sim/dynamics/make_plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request) {
-  if (model.kind == ObjectKind::Parallel) {
+  if (model.kind == experiment::ObjectKind::Parallel) {
     if (model.count() == 2) return makePlant(model, LineSystem<2, true>(model, space), request);
     return makePlant(model, LineSystem<0, true>(model, space), request);
   }
@@ -16,4 +16,4 @@ std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -2,7 +2,7 @@
 #include "sim/dynamics/linear_plant.h"
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A chain or parallel object on a straight line, y = (x_1 … x_N, v_1 … v_N) in metres along it. For the methods that an experimenter may
 /// ask for beside the exact one.
@@ -67,7 +67,7 @@ struct LineSystem {
   }
 
   bool bounded() const noexcept { return !space.domain.periodic && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi)); }
-  bool bounces() const noexcept { return space.domain.atEnd == AtEnd::Bounce; }
+  bool bounces() const noexcept { return space.domain.atEnd == constraints::AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {
     for (int i = 0; i < n(); ++i)
       if (!(y[i] >= space.domain.lo * length && y[i] <= space.domain.hi * length)) return false;
@@ -84,4 +84,4 @@ struct LineSystem {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

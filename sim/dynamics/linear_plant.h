@@ -6,14 +6,14 @@
 #include "sim/dynamics/axis_hand.h"
 #include "sim/dynamics/plant_base.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Where a linear object lives: one axis of a straight line r(phi) = origin + phi * tangent, or the three axes of free space.
 struct LinearSpace {
   int axes = 1;
-  Vec3 origin;    // [m] r(0)
-  Vec3 tangent;   // [m] r_phi, constant
-  Domain domain;  // of phi
+  Vec3 origin;                 // [m] r(0)
+  Vec3 tangent;                // [m] r_phi, constant
+  constraints::Domain domain;  // of phi
 };
 
 /// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore): the state is that of the differential equation at each tick to
@@ -153,7 +153,7 @@ class LinearPlant final : public PlantBase {
     bool outside = false;
     for (int i = 0; i < n; ++i) outside = outside || x1[i] < lo || x1[i] > hi;
     if (!outside) return false;
-    std::array<double, kMaxMasses> x0, v0;
+    std::array<double, experiment::kMaxMasses> x0, v0;
     core().read(state()[0], {x0.data(), static_cast<std::size_t>(n)}, {v0.data(), static_cast<std::size_t>(n)});
     const double dt = current_->dt;
     const auto cubic = [&](int i, double s) {
@@ -170,7 +170,7 @@ class LinearPlant final : public PlantBase {
       }
       first = std::min(first, inside);
     }
-    std::array<double, kMaxMasses> x, v;
+    std::array<double, experiment::kMaxMasses> x, v;
     for (int i = 0; i < n; ++i) {
       const auto [place, speed] = cubic(i, first);
       x[i] = std::fmin(std::fmax(place, lo), hi);
@@ -194,4 +194,4 @@ class LinearPlant final : public PlantBase {
   mutable bool fresh_ = false;         // one axis: the masses' places now, read once a step (N^2 from modes)
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -8,7 +8,7 @@
 #include "sim/dynamics/stiff.h"
 #include "sim/dynamics/system_plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// The method's name to its type, for one system.
 template <class System>
@@ -19,4 +19,4 @@ std::unique_ptr<Plant> makePlant(const ObjectModel& model, const System& system,
   return std::make_unique<SystemPlant<System, Abm>>(model, system, request.tolerance);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

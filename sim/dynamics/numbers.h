@@ -3,7 +3,7 @@
 
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// S numbers on the stack with the size known to the compiler; S = 0: the size is known when the scene is compiled, within a bound, so
 /// that a step allocates nothing either way. Left uninitialised: every method writes before it reads.
@@ -16,7 +16,7 @@ struct Numbers {
   const double& operator[](int i) const noexcept { return values[i]; }
 };
 
-inline constexpr int kMostStates = 6 * kMaxMasses;
+inline constexpr int kMostStates = 6 * experiment::kMaxMasses;
 
 template <>
 struct Numbers<0> {
@@ -39,4 +39,4 @@ struct Numbers<0> {
   std::array<double, kMostStates> values_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

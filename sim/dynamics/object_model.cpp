@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 void requireUsable(const std::vector<double>& values, const char* what, bool positive) {
@@ -19,9 +19,9 @@ void requireUsable(const std::vector<double>& values, const char* what, bool pos
 
 }  // namespace
 
-ObjectModel makeObjectModel(const Experiment& experiment) {
-  const Object& object = experiment.object;
-  const Coupling coupling = experiment.coupling.value_or(Coupling{});
+ObjectModel makeObjectModel(const experiment::Experiment& experiment) {
+  const experiment::Object& object = experiment.object;
+  const experiment::Coupling coupling = experiment.coupling.value_or(experiment::Coupling{});
   ObjectModel model;
   model.kind = object.kind;
   model.mass = object.masses;
@@ -29,8 +29,9 @@ ObjectModel makeObjectModel(const Experiment& experiment) {
   model.gravity = object.gravity;
   const std::size_t n = model.mass.size();
   if (n == 0) throw RefusedError("the object has no mass: give masses_kg");
-  if (n > static_cast<std::size_t>(kMaxMasses)) throw RefusedError("more than " + std::to_string(kMaxMasses) + " masses");
-  const bool parallel = object.kind == ObjectKind::Parallel;
+  if (n > static_cast<std::size_t>(experiment::kMaxMasses))
+    throw RefusedError("more than " + std::to_string(experiment::kMaxMasses) + " masses");
+  const bool parallel = object.kind == experiment::ObjectKind::Parallel;
   std::vector<double> damping = object.damping;
   damping.resize(object.stiffness.size(), 0.0);
   if (object.stiffness.size() != (parallel ? n : n - 1))
@@ -69,4 +70,4 @@ double boundFastestMode(const ObjectModel& model) {
   return fastest;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -6,20 +6,20 @@
 
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Eight numbers that the compiler keeps in a vector register (split where the processor has narrower ones).
-using Octet = double __attribute__((vector_size(8 * kOctet)));
-using OctetIndex = std::int64_t __attribute__((vector_size(8 * kOctet)));
+using Octet = double __attribute__((vector_size(8 * constraints::kOctet)));
+using OctetIndex = std::int64_t __attribute__((vector_size(8 * constraints::kOctet)));
 
-constexpr int octetsFor(int masses) noexcept { return (masses + kOctet - 1) / kOctet; }
+constexpr int octetsFor(int masses) noexcept { return (masses + constraints::kOctet - 1) / constraints::kOctet; }
 template <int Octets>
-inline constexpr int kMostOctets = Octets > 0 ? Octets : octetsFor(kMaxMasses);
+inline constexpr int kMostOctets = Octets > 0 ? Octets : octetsFor(experiment::kMaxMasses);
 
 inline Octet atLeast(const Octet& x, double least) noexcept { return x > least ? x : Octet{} + least; }
 inline Octet squareRoot(const Octet& x) noexcept {
   Octet root;
-  for (int lane = 0; lane < kOctet; ++lane) root[lane] = std::sqrt(x[lane]);
+  for (int lane = 0; lane < constraints::kOctet; ++lane) root[lane] = std::sqrt(x[lane]);
   return root;
 }
 /// x of the next mass in each lane; of the mass before.
@@ -49,20 +49,20 @@ struct OctetSprings {
   explicit OctetSprings(const ObjectModel& model) : row(static_cast<std::size_t>(octetsFor(model.count()))), gravity(model.gravity) {
     row[0].first[0] = 1;
     for (int i = 0; i < model.count(); ++i) {
-      Row& own = row[i / kOctet];
-      own.inverseMass[i % kOctet] = 1 / model.mass[i];
-      own.drag[i % kOctet] = model.viscosity / model.mass[i];
-      own.used[i % kOctet] = -1;
+      Row& own = row[i / constraints::kOctet];
+      own.inverseMass[i % constraints::kOctet] = 1 / model.mass[i];
+      own.drag[i % constraints::kOctet] = model.viscosity / model.mass[i];
+      own.used[i % constraints::kOctet] = -1;
       if (Parallel || i + 1 >= model.count()) continue;
-      own.stiffness[i % kOctet] = model.stiffness[i];
-      own.damping[i % kOctet] = model.damping[i];
+      own.stiffness[i % constraints::kOctet] = model.stiffness[i];
+      own.damping[i % constraints::kOctet] = model.damping[i];
     }
     setCoupled(model, true);
   }
   void setCoupled(const ObjectModel& model, bool coupled) noexcept {
     for (int i = 0; i < model.count(); ++i) {
-      row[i / kOctet].handStiffness[i % kOctet] = coupled ? model.handStiffness[i] : 0;
-      row[i / kOctet].handDamping[i % kOctet] = coupled ? model.handDamping[i] : 0;
+      row[i / constraints::kOctet].handStiffness[i % constraints::kOctet] = coupled ? model.handStiffness[i] : 0;
+      row[i / constraints::kOctet].handDamping[i % constraints::kOctet] = coupled ? model.handDamping[i] : 0;
     }
   }
   int octets() const noexcept { return Octets > 0 ? Octets : static_cast<int>(row.size()); }
@@ -88,4 +88,4 @@ struct OctetSprings {
   static double component(const Vec3& v, int k) noexcept { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

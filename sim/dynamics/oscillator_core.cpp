@@ -5,7 +5,7 @@
 
 #include "sim/dynamics/chain_modes.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt) : n_(model.count()) {
   struct Oscillator {
@@ -20,7 +20,7 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
     one.handDamping = {damping};
     return one;
   };
-  if (model.kind == ObjectKind::Parallel) {
+  if (model.kind == experiment::ObjectKind::Parallel) {
     for (int i = 0; i < n_; ++i) {
       const double k = coupled ? model.handStiffness[i] : 0, b = coupled ? model.handDamping[i] : 0;
       ObjectModel one = single(k, b, model.mass[i]);
@@ -147,4 +147,4 @@ bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& ne
   return allFinite(check);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

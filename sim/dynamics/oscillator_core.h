@@ -6,7 +6,7 @@
 #include "sim/dynamics/dense_core.h"
 #include "sim/dynamics/lanes.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Independent oscillators e_j'' + c_j e_j' + w_j^2 e_j = g_j f, four at a time, each by its own exact propagator. A parallel object is
 /// one as it stands; a chain is one in its modes, where N masses cost O(N) a step.
@@ -46,4 +46,4 @@ class OscillatorCore {
 /// True if K's modes diagonalise the damping to rounding (none, viscosity on equal masses, damping proportional to stiffness).
 bool canBeModal(const ObjectModel& model);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

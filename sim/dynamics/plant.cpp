@@ -1,6 +1,6 @@
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 std::string_view describe(StepStatus status) {
   switch (status) {
@@ -14,4 +14,4 @@ std::string_view describe(StepStatus status) {
   return "";
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

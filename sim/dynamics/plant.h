@@ -9,7 +9,7 @@
 #include "sim/dynamics/hand_segment.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// How a step ended; everything but Ok leads to zero force. Counted per kind, never thrown.
 enum class StepStatus : std::uint8_t { Ok, HandLost, NotFinite, Capped, AtEnd, NoContinuation };
@@ -88,10 +88,10 @@ struct SceneOptions {
 struct Scene {
   std::unique_ptr<Plant> plant;
   MethodChoice choice;
-  Constraint constraint;
+  constraints::Constraint constraint;
 };
 
 /// Compiles the experiment. Throws RefusedError (method unstable here, singular start …) with numbers and a remedy.
-Scene compileScene(const Experiment& experiment, const SceneOptions& options = {});
+Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options = {});
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -5,7 +5,7 @@
 #include "sim/dynamics/forces.h"
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// What every plant has in common: the object, its surroundings, forces and energy from the masses' places, and counters.
 class PlantBase : public Plant {
@@ -18,7 +18,7 @@ class PlantBase : public Plant {
     place(q, std::span(rest).first(q.size()));
   }
   Vec3 couplingForce(const HandSample& hand) const noexcept override {
-    const int count = model_.kind == ObjectKind::Parallel ? model_.count() : 1;
+    const int count = model_.kind == experiment::ObjectKind::Parallel ? model_.count() : 1;
     const std::span<MassState> masses{located_.data(), static_cast<std::size_t>(count)};
     locate(masses);
     Vec3 force;
@@ -45,4 +45,4 @@ class PlantBase : public Plant {
   mutable std::vector<MassState> located_;  // room of the scene's size: clearing room for the most masses took most of a tick
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

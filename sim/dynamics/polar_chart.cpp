@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 std::array<double, 2> PolarChart::toLocal(double u, double v) const noexcept {
   const double angle = fixed == 1 ? u : v, radius = side * ((fixed == 1 ? v : u) - pole);
@@ -14,7 +14,7 @@ std::array<double, 2> PolarChart::toBase(double xi, double eta) const noexcept {
   return fixed == 1 ? std::array{angle, across} : std::array{across, angle};
 }
 
-void PolarChart::evaluateChart(const void* chart, const double*, double xi, double eta, SurfacePoint& out) noexcept {
+void PolarChart::evaluateChart(const void* chart, const double*, double xi, double eta, constraints::SurfacePoint& out) noexcept {
   const PolarChart& c = *static_cast<const PolarChart*>(chart);
   double rho = std::hypot(xi, eta);
   const double x0 = xi, y0 = eta;
@@ -26,7 +26,7 @@ void PolarChart::evaluateChart(const void* chart, const double*, double xi, doub
     eta = rho * std::sin(angle);
   }
   const std::array<double, 2> q = c.toBase(xi, eta);
-  SurfacePoint p = evaluate(c.base, q[0], q[1]);
+  constraints::SurfacePoint p = constraints::evaluate(c.base, q[0], q[1]);
   if (c.fixed == 0) {  // u is the radius: name the angle u
     std::swap(p.rU, p.rV);
     std::swap(p.rUu, p.rVv);
@@ -44,4 +44,4 @@ void PolarChart::evaluateChart(const void* chart, const double*, double xi, doub
   if (close) out.r += (x0 - xi) * out.rU + (y0 - eta) * out.rV;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -1,25 +1,25 @@
 #pragma once
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A local chart about a pole of a surface r(u, v), where a whole parameter line is one point: the line's own parameter is the angle
 /// and the distance of the other from the pole the radius of (xi, eta) = radius (cos angle, sin angle). In xi, eta the surface is smooth
 /// there and its equations of motion are those of any other chart. Angles must have the period 2 pi.
 struct PolarChart {
-  Surface base;
+  constraints::Surface base;
   int fixed = 1;          // which parameter is constant on the pole's line
   double pole = 0;        // its value there
   double side = 1;        // +1: the surface lies at larger values
   double nearest = 1e-6;  // closer, the derivatives are taken at this radius: rounding would grow like 1/radius
 
   /// The chart as a surface of its own; `this` must outlive it.
-  Surface surface() const noexcept { return {evaluateChart, this, {}}; }
+  constraints::Surface surface() const noexcept { return {evaluateChart, this, {}}; }
   std::array<double, 2> toLocal(double u, double v) const noexcept;
   std::array<double, 2> toBase(double xi, double eta) const noexcept;
 
  private:
-  static void evaluateChart(const void* chart, const double* shape, double xi, double eta, SurfacePoint& out) noexcept;
+  static void evaluateChart(const void* chart, const double* shape, double xi, double eta, constraints::SurfacePoint& out) noexcept;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

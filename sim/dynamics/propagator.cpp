@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 #ifdef __SIZEOF_FLOAT128__
@@ -186,4 +186,4 @@ Propagator computePropagator(const ObjectModel& model, bool coupled, double dt) 
   return model.count() <= 24 ? compute<Wide>(model, coupled, dt) : compute<long double>(model, coupled, dt);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

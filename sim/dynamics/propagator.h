@@ -5,7 +5,7 @@
 #include "sim/dynamics/axis_hand.h"
 #include "sim/dynamics/object_model.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// The exact step of a linear object on one axis, for a force polynomial f(s) = sum f_k s^k on mass 1, s = t/dt:
 ///   z(dt) = z + D z + sum_k f_k Q_k + g G,   D = exp(A dt) - 1,   Q_k = int_0^dt exp(A (dt-t)) b (t/dt)^k dt.
@@ -23,4 +23,4 @@ struct Propagator {
 /// above 24 masses), so that every entry is right to the last bit of a double whatever the stiffness. Allocates; not for a tick.
 Propagator computePropagator(const ObjectModel& model, bool coupled, double dt);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -4,28 +4,29 @@
 #include <algorithm>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr int kAcross = 12;          // samples along u and v
 constexpr double kVanishes = 1e-13;  // of the largest singular value: rounding of 144 sums of ten terms
 constexpr double kUnique = 1e-7;     // the next singular value must stand clear of that
 
-double sampleAt(const Domain& domain, double start, double fraction) {
+double sampleAt(const constraints::Domain& domain, double start, double fraction) {
   const double lo = std::isfinite(domain.lo) ? domain.lo : start - 3, hi = std::isfinite(domain.hi) ? domain.hi : start + 3;
   return lo + (hi - lo) * fraction;
 }
 
 }  // namespace
 
-std::optional<Quadric> fitQuadric(const Surface& surface, const std::array<Domain, 2>& domain, const std::array<double, 2>& start) {
+std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
+                                  const std::array<double, 2>& start) {
   std::vector<Vec3> points;
   Vec3 centre;
   for (int i = 0; i < kAcross; ++i)
     for (int j = 0; j < kAcross; ++j) {
       // Off the lattice's corners, and unevenly, so that no symmetry of the surface is mistaken for a law.
       const double fu = (i + 0.37 + 0.011 * j) / (kAcross + 0.5), fv = (j + 0.41 + 0.013 * i) / (kAcross + 0.5);
-      const Vec3 r = evaluate(surface, sampleAt(domain[0], start[0], fu), sampleAt(domain[1], start[1], fv)).r;
+      const Vec3 r = constraints::evaluate(surface, sampleAt(domain[0], start[0], fu), sampleAt(domain[1], start[1], fv)).r;
       if (!isFinite(r)) return std::nullopt;
       points.push_back(r);
       centre += r;
@@ -60,4 +61,4 @@ std::optional<Quadric> fitQuadric(const Surface& surface, const std::array<Domai
   return q;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -4,7 +4,7 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A surface of second degree, F(r) = d.A d + b.d + c = 0 with d = r - centre [m]; F is scaled so that its gradient is of order one.
 /// Spheres, ellipsoids, paraboloids, cones, cylinders, hyperboloids: on them a mass can be followed in world coordinates, where no
@@ -28,6 +28,7 @@ struct Quadric {
 
 /// The quadric on which the whole parametrised surface lies, found from samples of r(u, v) alone (the null vector of their monomials), or
 /// nothing: not of second degree, not unique (a plane), or not finite. Infinite domains are sampled over `start` ± 3. Allocates.
-std::optional<Quadric> fitQuadric(const Surface& surface, const std::array<Domain, 2>& domain, const std::array<double, 2>& start);
+std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
+                                  const std::array<double, 2>& start);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

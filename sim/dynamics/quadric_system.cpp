@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 void QuadricSystem::follow(const Vec3& r) const noexcept {
   const auto newton = [&](std::array<double, 2> q) {
     for (int round = 0; round < 20; ++round) {
-      const SurfacePoint p = evaluate(surface, q[0], q[1]);
+      const constraints::SurfacePoint p = constraints::evaluate(surface, q[0], q[1]);
       const std::array<double, 2> step = solveRates(p, r - p.r);
       const double limit = std::min(1.0, 0.5 / std::max(std::abs(step[0]), std::abs(step[1])));
       q[0] += limit * step[0];
@@ -17,7 +17,7 @@ void QuadricSystem::follow(const Vec3& r) const noexcept {
     return q;
   };
   const auto distance = [&](const std::array<double, 2>& q) {
-    const double d = norm(evaluate(surface, q[0], q[1]).r - r);
+    const double d = norm(constraints::evaluate(surface, q[0], q[1]).r - r);
     return std::isfinite(d) ? d : 1e300;
   };
   const double close = 1e-9 * (1 + norm(r));
@@ -47,7 +47,7 @@ void QuadricSystem::meetEnd(const State& beyond, State& y, bool bounce) const no
     const bool low = outside[k] < domain[k].lo;
     if (domain[k].periodic || (!low && !(outside[k] > domain[k].hi))) continue;
     parameters[k] = low ? domain[k].lo : domain[k].hi;
-    const SurfacePoint p = evaluate(surface, parameters[0], parameters[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(surface, parameters[0], parameters[1]);
     Vec3 v{y[3], y[4], y[5]};
     if (bounce) {
       const Vec3 edge = k == 0 ? p.rV : p.rU, through = k == 0 ? p.rU : p.rV;
@@ -59,4 +59,4 @@ void QuadricSystem::meetEnd(const State& beyond, State& y, bool bounce) const no
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -3,7 +3,7 @@
 #include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A point on a surface of second degree in world coordinates, y = (r, v): r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and
 /// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for.
@@ -18,13 +18,13 @@ struct QuadricSystem {
 
   Springs<1, true> springs;
   Quadric quadric;
-  Surface surface;
-  std::array<Domain, 2> domain;
+  constraints::Surface surface;
+  std::array<constraints::Domain, 2> domain;
   bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
 
-  QuadricSystem(const ObjectModel& model, const Constraint& constraint, const Quadric& q)
+  QuadricSystem(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& q)
       : springs(model), quadric(q), surface(constraint.surface), domain(constraint.domain) {}
   static constexpr int states() noexcept { return 6; }
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
@@ -59,7 +59,7 @@ struct QuadricSystem {
   bool lost(const State& y) const noexcept { return norm(quadric.gradient({y[0], y[1], y[2]})) < 0.1; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
-    const SurfacePoint p = evaluate(surface, q[0], q[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(surface, q[0], q[1]);
     const Vec3 v = qRate[0] * p.rU + qRate[1] * p.rV;
     y.values = {p.r.x, p.r.y, p.r.z, v.x, v.y, v.z};
     parameters = {q[0], q[1]};
@@ -70,13 +70,13 @@ struct QuadricSystem {
     masses[0].v = {y[3], y[4], y[5]};
     follow(masses[0].r);
     masses[0].q = parameters;
-    const SurfacePoint p = evaluate(surface, parameters[0], parameters[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(surface, parameters[0], parameters[1]);
     masses[0].qRate = solveRates(p, masses[0].v);
   }
   void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept { masses[0].a = {dy[3], dy[4], dy[5]}; }
 
   bool bounded() const noexcept { return edges; }
-  bool bounces() const noexcept { return domain[0].atEnd == AtEnd::Bounce || domain[1].atEnd == AtEnd::Bounce; }
+  bool bounces() const noexcept { return domain[0].atEnd == constraints::AtEnd::Bounce || domain[1].atEnd == constraints::AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {
     follow({y[0], y[1], y[2]});
     constexpr double kRounding = 1e-12;  // of the search: a mass that was just thrown back from an edge is inside
@@ -90,4 +90,4 @@ struct QuadricSystem {
   void follow(const Vec3& r) const noexcept;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -2,7 +2,7 @@
 #include "sim/dynamics/hand_segment.h"
 #include "sim/dynamics/step_report.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// The paper's method: classic fourth-order Runge-Kutta, one step a tick.
 template <class System>
@@ -34,4 +34,4 @@ class Rk4 {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -3,28 +3,29 @@
 #include <cmath>
 
 #include "constraints/analysis.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 namespace {
 
 constexpr double kHardSpeedRatio = 0.2;  // smallest to largest |r_phi| below which a curve is hard somewhere
 
-bool isLinear(const Constraint& constraint, const ObjectModel& model) {
-  if (model.kind == ObjectKind::Body) return false;
-  return constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
+bool isLinear(const constraints::Constraint& constraint, const ObjectModel& model) {
+  if (model.kind == experiment::ObjectKind::Body) return false;
+  return constraint.kind == constraints::ConstraintKind::Free ||
+         (constraint.kind == constraints::ConstraintKind::Curve && constraint.straight);
 }
 
 struct SpeedRange {
   double least = 0, most = 0;  // [m] |r_phi|
 };
 /// On the domain, or over 2 pi about the start where it has no end; a dip between samples is followed to its bottom.
-SpeedRange findSpeedRange(const Constraint& constraint, double start) {
-  const Domain d = boundedDomain(constraint)[0];
+SpeedRange findSpeedRange(const constraints::Constraint& constraint, double start) {
+  const constraints::Domain d = constraints::boundedDomain(constraint)[0];
   constexpr int kSamples = 1440;
   SpeedRange range{1e300, 0};
   for (const double centre : {0.5 * (d.lo + d.hi), start}) {
@@ -33,7 +34,7 @@ SpeedRange findSpeedRange(const Constraint& constraint, double start) {
       const auto phiAt = [&](double k) {
         return std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
       };
-      const double speed = norm(evaluate(constraint.curve, phiAt(i)).rPhi);
+      const double speed = norm(constraints::evaluate(constraint.curve, phiAt(i)).rPhi);
       if (!std::isfinite(speed)) continue;
       range.least = std::min(range.least, speed);
       range.most = std::max(range.most, speed);
@@ -41,10 +42,11 @@ SpeedRange findSpeedRange(const Constraint& constraint, double start) {
         double lo = i - 2, hi = i;
         for (int round = 0; round < 60; ++round) {
           const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-          const double atA = norm(evaluate(constraint.curve, phiAt(a)).rPhi), atB = norm(evaluate(constraint.curve, phiAt(b)).rPhi);
+          const double atA = norm(constraints::evaluate(constraint.curve, phiAt(a)).rPhi),
+                       atB = norm(constraints::evaluate(constraint.curve, phiAt(b)).rPhi);
           (atA < atB ? hi : lo) = atA < atB ? b : a;
         }
-        range.least = std::min(range.least, norm(evaluate(constraint.curve, phiAt(lo)).rPhi));
+        range.least = std::min(range.least, norm(constraints::evaluate(constraint.curve, phiAt(lo)).rPhi));
       }
       before = last;
       last = speed;
@@ -54,15 +56,16 @@ SpeedRange findSpeedRange(const Constraint& constraint, double start) {
 }
 
 /// True if an end of the domain is an edge of the surface: not a period's seam, and not a line that is one point (a pole).
-bool hasEdges(const Constraint& c) {
+bool hasEdges(const constraints::Constraint& c) {
   for (int k = 0; k < 2; ++k) {
-    const Domain& d = c.domain[k];
+    const constraints::Domain& d = c.domain[k];
     if (d.periodic) continue;
     for (const double end : {d.lo, d.hi}) {
       if (!std::isfinite(end)) continue;
-      const Domain other = boundedDomain(c)[1 - k];
+      const constraints::Domain other = constraints::boundedDomain(c)[1 - k];
       const double along = other.lo + 0.37 * (other.hi - other.lo);
-      const SurfacePoint p = k == 0 ? evaluate(c.surface, end, along) : evaluate(c.surface, along, end);
+      const constraints::SurfacePoint p =
+          k == 0 ? constraints::evaluate(c.surface, end, along) : constraints::evaluate(c.surface, along, end);
       const double still = norm(k == 0 ? p.rV : p.rU), moving = norm(k == 0 ? p.rU : p.rV);
       if (still > 1e-9 * moving) return true;
     }
@@ -70,12 +73,12 @@ bool hasEdges(const Constraint& c) {
   return false;
 }
 
-void requireStart(const Constraint& c, const std::vector<double>& start) {
-  const std::size_t wanted = c.kind == ConstraintKind::Free ? 3 : static_cast<std::size_t>(c.parameterCount());
+void requireStart(const constraints::Constraint& c, const std::vector<double>& start) {
+  const std::size_t wanted = c.kind == constraints::ConstraintKind::Free ? 3 : static_cast<std::size_t>(c.parameterCount());
   if (start.size() != wanted) throw RefusedError(fmt::format("the start has {} numbers where the constraint has {}", start.size(), wanted));
   for (std::size_t k = 0; k < start.size(); ++k) {
     if (!std::isfinite(start[k])) throw RefusedError("the start is not finite");
-    if (c.kind != ConstraintKind::Free && !c.domain[k].periodic && (start[k] < c.domain[k].lo || start[k] > c.domain[k].hi))
+    if (c.kind != constraints::ConstraintKind::Free && !c.domain[k].periodic && (start[k] < c.domain[k].lo || start[k] > c.domain[k].hi))
       throw RefusedError(
           fmt::format("the start {} lies outside the constraint's domain, {} to {}", start[k], c.domain[k].lo, c.domain[k].hi));
   }
@@ -83,15 +86,15 @@ void requireStart(const Constraint& c, const std::vector<double>& start) {
 
 }  // namespace
 
-Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
+Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options) {
   Scene scene;
-  scene.constraint = makeConstraint(experiment.constraint);
-  const Constraint& constraint = scene.constraint;
+  scene.constraint = constraints::makeConstraint(experiment.constraint);
+  const constraints::Constraint& constraint = scene.constraint;
   const ObjectModel model = makeObjectModel(experiment);
   if (!(options.step > 0) || !std::isfinite(options.step))
     throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
   const std::vector<double> start =
-      experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == ConstraintKind::Free ? 3 : 2, 0.0);
+      experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == constraints::ConstraintKind::Free ? 3 : 2, 0.0);
   if (experiment.task) requireStart(constraint, start);
 
   const bool linear = isLinear(constraint, model);
@@ -103,14 +106,14 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
     const LinearSpace space = linearSpace(constraint);
     if (space.axes == 1 && !(norm(space.tangent) > 0))
       throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
-    facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == AtEnd::Bounce &&
+    facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == constraints::AtEnd::Bounce &&
                         (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
-  } else if (constraint.kind == ConstraintKind::Curve) {
+  } else if (constraint.kind == constraints::ConstraintKind::Curve) {
     const SpeedRange speeds = findSpeedRange(constraint, start[0]);
     speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
     form = {speedRatio < kHardSpeedRatio, speeds.most};
     facts.hardCurve = form.tangential;
-    if (experiment.task && !(norm(evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
+    if (experiment.task && !(norm(constraints::evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
       throw RefusedError(
           fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
   }
@@ -123,17 +126,18 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
     if (choice.method == "exact") scene.plant = makeExactPlant(model, space, options.step);
     else scene.plant = space.axes == 1 ? makeLinePlant(model, space, request) : makeFreePlant(model, request);
-  } else if (constraint.kind == ConstraintKind::Free) {
+  } else if (constraint.kind == constraints::ConstraintKind::Free) {
     choice.form = "rigid body, 13 states";
     scene.plant = makeBodyPlant(model, experiment.object, request);
-  } else if (constraint.kind == ConstraintKind::Curve) {
-    if (model.kind == ObjectKind::Body) throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
+  } else if (constraint.kind == constraints::ConstraintKind::Curve) {
+    if (model.kind == experiment::ObjectKind::Body)
+      throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
     choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", speedRatio,
                                                 2 * model.count())
                                   : fmt::format("curve in phi, {} states", 2 * model.count());
     scene.plant = makeCurvePlant(model, constraint, form, request);
   } else {
-    if (model.count() != 1 || model.kind == ObjectKind::Body)
+    if (model.count() != 1 || model.kind == experiment::ObjectKind::Body)
       throw RefusedError("on a surface only a point moves; use a curve, or one mass");
     const auto quadric = fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]});
     if (quadric) {
@@ -148,4 +152,4 @@ Scene compileScene(const Experiment& experiment, const SceneOptions& options) {
   return scene;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model) {
   const int n = model.count();
@@ -73,4 +73,4 @@ double predictRk4Error(const std::vector<std::complex<double>>& eigenvalues, dou
   return error;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

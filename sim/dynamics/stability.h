@@ -5,7 +5,7 @@
 
 #include "sim/dynamics/object_model.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Eigenvalues of the object's linear dynamics along one line [1/s], conjugates included; above 100 masses only the bound of
 /// boundFastestMode, as one undamped and one real mode. Allocates.
@@ -27,4 +27,4 @@ double findRk4Limit(const std::function<ObjectModel(double)>& model, double step
 /// under a minimum-jerk hand is at most 60 length / (w T)^3 (the jump of its jerk).
 double predictRk4Error(const std::vector<std::complex<double>>& eigenvalues, double step, double length, double duration);
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

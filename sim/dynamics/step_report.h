@@ -3,7 +3,7 @@
 
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// What a method tells of its step.
 struct StepReport {
@@ -14,4 +14,4 @@ struct StepReport {
 /// Right-hand sides that one tick may cost; beyond it the step is Capped and the force zero.
 inline constexpr int kMostRhsPerTick = 1000;
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -9,7 +9,7 @@
 #include "sim/dynamics/numbers.h"
 #include "sim/dynamics/step_report.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Radau IIA of order 5, L-stable (Hairer, Wanner: Solving Ordinary Differential Equations II, IV.8), for damped light masses on curves,
 /// whose modes are too fast for explicit methods. Simplified Newton on the three stages together; the error of a sub-step is taken from
@@ -161,4 +161,4 @@ class Stiff {
   std::vector<double> stages_, right_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

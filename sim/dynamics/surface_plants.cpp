@@ -2,17 +2,17 @@
 #include "sim/dynamics/quadric_system.h"
 #include "sim/dynamics/surface_system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
-std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const Constraint& constraint, const MethodRequest& request) {
+std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraints::Constraint& constraint, const MethodRequest& request) {
   return makePlant(model, SurfaceSystem(model, constraint), request);
 }
 
-std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const Constraint& constraint, const Quadric& quadric, bool edges,
-                                        const MethodRequest& request) {
+std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& quadric,
+                                        bool edges, const MethodRequest& request) {
   QuadricSystem system(model, constraint, quadric);
   system.edges = edges;
   return makePlant(model, system, request);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -3,10 +3,10 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// Least-squares (u', v') [1/s] of a velocity [m/s]. On a pole itself one parameter means nothing; the other carries the velocity.
-inline std::array<double, 2> solveRates(const SurfacePoint& p, const Vec3& v) noexcept {
+inline std::array<double, 2> solveRates(const constraints::SurfacePoint& p, const Vec3& v) noexcept {
   const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), a = dot(p.rU, v), b = dot(p.rV, v);
   const double determinant = e * g - f * f;
   if (determinant > 1e-24 * e * g) return {(g * a - f * b) / determinant, (e * b - f * a) / determinant};
@@ -16,4 +16,4 @@ inline std::array<double, 2> solveRates(const SurfacePoint& p, const Vec3& v) no
 /// What becomes of a state after a step, before the next.
 enum class Settled { Same, OtherChart, Lost };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

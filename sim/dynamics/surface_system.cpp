@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
@@ -14,16 +14,16 @@ constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
 Settled SurfaceSystem::chooseChart(State& y) noexcept {
   if (inPolar) {
     if (y[0] * y[0] + y[1] * y[1] < kLeave * kLeave) return Settled::Same;
-    const SurfacePoint local = evaluate(active, y[0], y[1]);
+    const constraints::SurfacePoint local = constraints::evaluate(active, y[0], y[1]);
     const Vec3 v = y[2] * local.rU + y[3] * local.rV;
     const std::array<double, 2> q = polar.toBase(y[0], y[1]);
-    const std::array<double, 2> rate = solveRates(evaluate(surface, q[0], q[1]), v);
+    const std::array<double, 2> rate = solveRates(constraints::evaluate(surface, q[0], q[1]), v);
     y.values = {q[0], q[1], rate[0], rate[1]};
     active = surface;
     inPolar = false;
     return Settled::OtherChart;
   }
-  const SurfacePoint p = evaluate(surface, y[0], y[1]);
+  const constraints::SurfacePoint p = constraints::evaluate(surface, y[0], y[1]);
   look(p);
   if (waiting > 0) --waiting;
   const int fixed = dot(p.rU, p.rU) < kNear * kNear * largestU ? 1 : dot(p.rV, p.rV) < kNear * kNear * largestV ? 0 : -1;
@@ -35,7 +35,7 @@ Settled SurfaceSystem::chooseChart(State& y) noexcept {
   const Vec3 v = y[2] * p.rU + y[3] * p.rV;
   const std::array<double, 2> q = polar.toLocal(y[0], y[1]);
   active = polar.surface();
-  const std::array<double, 2> rate = solveRates(evaluate(active, q[0], q[1]), v);
+  const std::array<double, 2> rate = solveRates(constraints::evaluate(active, q[0], q[1]), v);
   y.values = {q[0], q[1], rate[0], rate[1]};
   inPolar = true;
   return Settled::OtherChart;
@@ -43,12 +43,12 @@ Settled SurfaceSystem::chooseChart(State& y) noexcept {
 
 bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   const auto at = [&](double angle, double across) {
-    return fixed == 1 ? evaluate(surface, angle, across) : evaluate(surface, across, angle);
+    return fixed == 1 ? constraints::evaluate(surface, angle, across) : constraints::evaluate(surface, across, angle);
   };
   const double angle = fixed == 1 ? y[0] : y[1], from = fixed == 1 ? y[1] : y[0];
   double across = from;
   for (int round = 0; round < 12; ++round) {
-    const SurfacePoint p = at(angle, across);
+    const constraints::SurfacePoint p = at(angle, across);
     const Vec3 along = fixed == 1 ? p.rU : p.rV;
     const double change = dot(along, p.rUv) / dot(p.rUv, p.rUv);
     if (!std::isfinite(change)) break;
@@ -58,11 +58,12 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   if (!std::isfinite(across) || std::abs(across - from) > kEnter || across == from) return false;
   // A pole: the whole line is one point, 2 pi is a period, and opposite sides continue each other.
   const double largest = std::sqrt(std::max(largestU, largestV)), reach = 0.1 * (from - across);
-  const SurfacePoint pole = at(angle, across), beside = at(angle, across + reach), again = at(angle + 2 * std::numbers::pi, across + reach);
+  const constraints::SurfacePoint pole = at(angle, across), beside = at(angle, across + reach),
+                                  again = at(angle + 2 * std::numbers::pi, across + reach);
   if (norm(again.r - beside.r) > 1e-12 * largest) return false;
   for (int i = 0; i < 8; ++i) {
-    const SurfacePoint a = at(angle + 0.25 * std::numbers::pi * i, across),
-                       b = at(angle + 0.25 * std::numbers::pi * i + std::numbers::pi, across);
+    const constraints::SurfacePoint a = at(angle + 0.25 * std::numbers::pi * i, across),
+                                    b = at(angle + 0.25 * std::numbers::pi * i + std::numbers::pi, across);
     const Vec3 outA = fixed == 1 ? a.rV : a.rU, outB = fixed == 1 ? b.rV : b.rU;
     if (norm(a.r - pole.r) > 1e-12 * largest || norm(outA + outB) > 1e-9 * largest) return false;
   }
@@ -70,4 +71,4 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   return true;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -5,7 +5,7 @@
 #include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
 struct SurfaceSystem {
@@ -18,15 +18,15 @@ struct SurfaceSystem {
   using Hand = HandSample;
 
   Springs<1, true> springs;
-  Surface surface;  // as defined
-  Surface active;   // what the state's parameters are: `surface`, or `polar` while `inPolar`
-  std::array<Domain, 2> domain;
+  constraints::Surface surface;  // as defined
+  constraints::Surface active;   // what the state's parameters are: `surface`, or `polar` while `inPolar`
+  std::array<constraints::Domain, 2> domain;
   PolarChart polar;
   bool inPolar = false;
   int ticks = 0, waiting = 0;                          // between looks for a pole
   double largestU = 0, largestV = 0, largestArea = 0;  // [m^2], [m^2], [m^4] the largest |r_u|^2, |r_v|^2, |r_u x r_v|^2 seen so far
 
-  SurfaceSystem(const ObjectModel& model, const Constraint& constraint)
+  SurfaceSystem(const ObjectModel& model, const constraints::Constraint& constraint)
       : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
   static constexpr int states() noexcept { return 4; }
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
@@ -34,9 +34,9 @@ struct SurfaceSystem {
   Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
-    Unfilled<SurfacePoint> room;
+    constraints::Unfilled<constraints::SurfacePoint> room;
     active.function(active.program, active.shape.data(), y[0], y[1], room.value);
-    const SurfacePoint& p = room.value;
+    const constraints::SurfacePoint& p = room.value;
     const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
     const Vec3 velocity = du * p.rU + dv * p.rV;
     const Vec3 bend = (du * du) * p.rUu + (2 * du * dv) * p.rUv + (dv * dv) * p.rVv;
@@ -57,17 +57,17 @@ struct SurfaceSystem {
     active = surface;
     inPolar = false;
     ticks = waiting = 0;
-    for (int i = 0; i < 16; ++i) look(evaluate(surface, q[0] + 0.4 * (i % 4), q[1] + 0.4 * (i / 4)));
+    for (int i = 0; i < 16; ++i) look(constraints::evaluate(surface, q[0] + 0.4 * (i % 4), q[1] + 0.4 * (i / 4)));
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
-    const SurfacePoint p = evaluate(active, y[0], y[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
     masses[0].r = p.r;
     masses[0].v = y[2] * p.rU + y[3] * p.rV;
     masses[0].q = {y[0], y[1]};
     masses[0].qRate = {y[2], y[3]};
     if (!inPolar) return;
     masses[0].q = polar.toBase(y[0], y[1]);
-    masses[0].qRate = solveRates(evaluate(surface, masses[0].q[0], masses[0].q[1]), masses[0].v);
+    masses[0].qRate = solveRates(constraints::evaluate(surface, masses[0].q[0], masses[0].q[1]), masses[0].v);
   }
 
   /// Every few ticks: is a pole near, or has it been left?
@@ -78,11 +78,11 @@ struct SurfaceSystem {
   Settled chooseChart(State& y) noexcept;
   /// Beside a place where r_u and r_v do not span a plane.
   bool lost(const State& y) const noexcept {
-    const SurfacePoint p = evaluate(active, y[0], y[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
     const Vec3 area = cross(p.rU, p.rV);
     return dot(area, area) < 0.25 * 0.25 * largestArea;
   }
-  void look(const SurfacePoint& p) noexcept {
+  void look(const constraints::SurfacePoint& p) noexcept {
     const double uu = dot(p.rU, p.rU), uv = dot(p.rU, p.rV), vv = dot(p.rV, p.rV), area = uu * vv - uv * uv;
     if (!std::isfinite(area)) return;
     largestU = std::max(largestU, uu);
@@ -93,13 +93,13 @@ struct SurfaceSystem {
   /// round the whole line.
   bool findPole(const State& y, int fixed) noexcept;
   void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
-    const SurfacePoint p = evaluate(active, y[0], y[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
     masses[0].a = dy[2] * p.rU + dy[3] * p.rV + (y[2] * y[2]) * p.rUu + (2 * y[2] * y[3]) * p.rUv + (y[3] * y[3]) * p.rVv;
   }
 
-  static bool ends(const Domain& d) noexcept { return !d.periodic && (std::isfinite(d.lo) || std::isfinite(d.hi)); }
+  static bool ends(const constraints::Domain& d) noexcept { return !d.periodic && (std::isfinite(d.lo) || std::isfinite(d.hi)); }
   bool bounded() const noexcept { return ends(domain[0]) || ends(domain[1]); }
-  bool bounces() const noexcept { return (ends(domain[0]) ? domain[0] : domain[1]).atEnd == AtEnd::Bounce; }
+  bool bounces() const noexcept { return (ends(domain[0]) ? domain[0] : domain[1]).atEnd == constraints::AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {
     if (inPolar) return true;  // left long before another end comes near
     for (int k = 0; k < 2; ++k)
@@ -113,7 +113,7 @@ struct SurfaceSystem {
       if (domain[k].periodic || (!low && !(beyond[k] > domain[k].hi))) continue;
       y[k] = low ? domain[k].lo : domain[k].hi;
       if (!bounce) continue;
-      const SurfacePoint p = evaluate(surface, y[0], y[1]);
+      const constraints::SurfacePoint p = constraints::evaluate(surface, y[0], y[1]);
       const Vec3 along = k == 0 ? p.rV : p.rU, through = k == 0 ? p.rU : p.rV;
       const double oblique = dot(along, through) / dot(along, along), rate = y[2 + k];
       y[2 + k] = low ? std::abs(rate) : -std::abs(rate);
@@ -122,4 +122,4 @@ struct SurfaceSystem {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

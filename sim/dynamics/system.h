@@ -15,10 +15,10 @@
 //   inside(y), reflect(y)        ends of the constraint (kEnds)
 // Sizes are template parameters and forces plain members, so that a step has no virtual call and no branch on configuration.
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 template <int N>
-inline constexpr int kMostMasses = N > 0 ? N : kMaxMasses;
+inline constexpr int kMostMasses = N > 0 ? N : experiment::kMaxMasses;
 
 /// Springs and masses as the step wants them; N = 0: as many as the model has. `Parallel`: every mass has its own spring to the hand and
 /// no neighbours.
@@ -69,4 +69,4 @@ struct Springs {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

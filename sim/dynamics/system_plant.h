@@ -7,7 +7,7 @@
 #include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// A System stepped by a Method: the plant of every scene that has no exact propagator, or for which another method was asked.
 template <class System, template <class> class Method>
@@ -157,4 +157,4 @@ class SystemPlant : public PlantBase {
   StepStatus stopped_ = StepStatus::Ok;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -7,7 +7,7 @@
 
 #include "constraints/definition.h"
 
-namespace reachlab {
+namespace reachlab::experiment {
 namespace {
 
 std::string numbers(const std::vector<double>& values) { return fmt::format("{:.6g}", fmt::join(values, ", ")); }
@@ -50,15 +50,16 @@ std::string withShape(const std::map<std::string, double>& shape) {
   return text;
 }
 
-std::string constraintOf(const ConstraintSpec& spec) {
+std::string constraintOf(const constraints::ConstraintSpec& spec) {
   if (!spec.curve.empty()) return "on " + formula(spec.curve, true) + withShape(spec.shape);
   if (!spec.surface.empty()) return "on " + formula(spec.surface, false) + withShape(spec.shape);
   if (spec.name == "free") return "free in space";
-  const Definition d = spec.definition.empty() ? findDefinition(spec.name, "constraint") : parseDefinition(spec.definition, "constraint");
+  const constraints::Definition d = spec.definition.empty() ? constraints::findDefinition(spec.name, "constraint")
+                                                            : constraints::parseDefinition(spec.definition, "constraint");
   std::map<std::string, double> shape = spec.shape;
-  for (const ShapeParameter& p : d.shape) shape.try_emplace(p.name, p.defaultValue);
-  const auto& lines = formulaOf(d).coordinates;
-  return "on " + d.name + ", " + formula({lines.begin(), lines.end()}, d.kind == ConstraintKind::Curve) + withShape(shape);
+  for (const constraints::ShapeParameter& p : d.shape) shape.try_emplace(p.name, p.defaultValue);
+  const auto& lines = constraints::formulaOf(d).coordinates;
+  return "on " + d.name + ", " + formula({lines.begin(), lines.end()}, d.kind == constraints::ConstraintKind::Curve) + withShape(shape);
 }
 
 std::string placeOf(const std::vector<double>& q) {
@@ -84,4 +85,4 @@ std::string describe(const Experiment& e) {
   return text;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

@@ -3,10 +3,10 @@
 
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::experiment {
 
 /// What is moved, on what, and what is asked, in one sentence with units: for reports and datasets, which are read without the program.
 /// Throws UsageError where it names a constraint that is not known.
 std::string describe(const Experiment& experiment);
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

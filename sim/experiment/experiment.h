@@ -6,7 +6,7 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::experiment {
 
 inline constexpr int kMaxMasses = 512;
 
@@ -67,7 +67,7 @@ struct VelocityEstimatorSpec {
 struct Experiment {
   int schemaVersion = 1;
   std::string name;
-  ConstraintSpec constraint;
+  constraints::ConstraintSpec constraint;
   Object object;
   std::optional<Coupling> coupling;  // required, but none for parallel
   std::optional<Task> task;
@@ -99,4 +99,4 @@ std::vector<std::string> shippedExperiments();
 /// Folder of resources: $REACHLAB_RESOURCES, else beside the source or installed. Throws ResourceError when there is none.
 std::string resourceFolder();
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "constraints/error.h"
-#include "constraints/json_reader.h"
+#include "base/error.h"
+#include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::experiment {
 namespace {
 
 const std::vector<std::string> kMethods{"auto", "rk4", "exact", "abm", "adaptive", "stiff"};
@@ -18,14 +18,14 @@ const std::vector<std::string> kEstimators{"auto", "difference", "butterworth", 
 Vec3 vec3(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
 
 // Where the task moves a typed formula on: the hull of start and target, when both are there.
-std::optional<std::array<Domain, 2>> placesInUse(const JsonNode& tree) {
+std::optional<std::array<constraints::Domain, 2>> placesInUse(const JsonNode& tree) {
   const JsonNode* task = tree.find("task");
   const JsonNode* start = task == nullptr ? nullptr : task->find("start");
   const JsonNode* target = task == nullptr ? nullptr : task->find("target");
   if (start == nullptr || target == nullptr || start->items.empty() || start->items.size() > 2 ||
       start->items.size() != target->items.size())
     return {};
-  std::array<Domain, 2> range{Domain{0, 0}, Domain{0, 0}};
+  std::array<constraints::Domain, 2> range{constraints::Domain{0, 0}, constraints::Domain{0, 0}};
   for (std::size_t k = 0; k < start->items.size(); ++k) {
     const JsonNode &a = start->items[k], &b = target->items[k];
     if (a.kind != JsonNode::Kind::Number || b.kind != JsonNode::Kind::Number) return {};
@@ -34,12 +34,12 @@ std::optional<std::array<Domain, 2>> placesInUse(const JsonNode& tree) {
   return range;
 }
 
-void readConstraint(ObjectReader& root, Experiment& experiment, std::optional<Constraint>& constraint) {
+void readConstraint(ObjectReader& root, Experiment& experiment, std::optional<constraints::Constraint>& constraint) {
   const JsonNode* node = root.required("constraint", "a name of the catalogue, or a curve or surface formula");
   if (node == nullptr) return;
   ObjectReader reader(root.faults(), *node, root.keyPath("constraint"));
   const std::size_t faultsBefore = root.faults().faults().size();
-  ConstraintSpec& spec = experiment.constraint;
+  constraints::ConstraintSpec& spec = experiment.constraint;
   spec.name.clear();
   const JsonNode* curve = reader.optional("curve");
   const JsonNode* surface = reader.optional("surface");
@@ -57,7 +57,7 @@ void readConstraint(ObjectReader& root, Experiment& experiment, std::optional<Co
   if (root.faults().faults().size() > faultsBefore) return;
   try {
     spec.inUse = placesInUse(root.node());
-    constraint = makeConstraint(spec, root.faults().place(*node) + ": constraint");
+    constraint = constraints::makeConstraint(spec, root.faults().place(*node) + ": constraint");
   } catch (const UsageError& e) {
     root.faults().addLine(e.what());
   }
@@ -227,12 +227,12 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
   root.text("name", experiment.name);
   std::string description;
   root.text("description", description);
-  std::optional<Constraint> constraint;
+  std::optional<constraints::Constraint> constraint;
   experiment.constraint.definition = definition;
   readConstraint(root, experiment, constraint);
   readObject(root, experiment);
   readCoupling(root, experiment);
-  const int coordinates = !constraint ? -1 : constraint->kind == ConstraintKind::Free ? 3 : constraint->parameterCount();
+  const int coordinates = !constraint ? -1 : constraint->kind == constraints::ConstraintKind::Free ? 3 : constraint->parameterCount();
   readTask(root, experiment, coordinates);
   root.choice("method", kMethods, experiment.method, false);
   root.number("hand_mass_kg", atLeastZero("kg"), experiment.handMass);
@@ -247,16 +247,16 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
 
   if (constraint && faults.empty()) {
     const JsonNode& object = *tree.find("object");
-    if (experiment.object.kind == ObjectKind::Body && constraint->kind != ConstraintKind::Free)
+    if (experiment.object.kind == ObjectKind::Body && constraint->kind != constraints::ConstraintKind::Free)
       faults.add(object, "object.kind", "is body, which moves free", "constraint { \"name\": \"free\" }");
-    if (experiment.object.masses.size() > 1 && constraint->kind == ConstraintKind::Surface)
+    if (experiment.object.masses.size() > 1 && constraint->kind == constraints::ConstraintKind::Surface)
       faults.add(object, "object.masses_kg", fmt::format("has {} masses on a surface", experiment.object.masses.size()),
                  "one mass on a surface; chains and parallel objects on curves or free");
-    if (experiment.object.kind == ObjectKind::Parallel && constraint->kind == ConstraintKind::Surface)
+    if (experiment.object.kind == ObjectKind::Parallel && constraint->kind == constraints::ConstraintKind::Surface)
       faults.add(object, "object.kind", "is parallel on a surface", "parallel on curves or free");
   }
   faults.throwIfAny();
   return experiment;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

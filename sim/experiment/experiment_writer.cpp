@@ -2,10 +2,10 @@
 #include <sstream>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::experiment {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +22,7 @@ const char* nameOf(ObjectKind kind) {
 
 Json toArray(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-Json constraintJson(const ConstraintSpec& spec) {
+Json constraintJson(const constraints::ConstraintSpec& spec) {
   Json json;
   if (!spec.curve.empty()) {
     json["curve"] = spec.curve;
@@ -89,10 +89,10 @@ std::string toJson(const Experiment& experiment) {
 }
 
 std::string definitionTextOf(const Experiment& experiment) {
-  const ConstraintSpec& spec = experiment.constraint;
+  const constraints::ConstraintSpec& spec = experiment.constraint;
   if (!spec.definition.empty()) return spec.definition;
   if (!spec.curve.empty() || !spec.surface.empty() || spec.name == "free") return {};
-  return toJson(findDefinition(spec.name, "constraint"));
+  return constraints::toJson(constraints::findDefinition(spec.name, "constraint"));
 }
 
 std::vector<std::string> problems(const Experiment& experiment) {
@@ -107,4 +107,4 @@ std::vector<std::string> problems(const Experiment& experiment) {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

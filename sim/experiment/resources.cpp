@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "constraints/error.h"
-#include "constraints/json_reader.h"
+#include "base/error.h"
+#include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::experiment {
 namespace fs = std::filesystem;
 
 std::string resourceFolder() {
@@ -50,4 +50,4 @@ Experiment readExperiment(const std::string& fileOrName) {
                                nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), listOf(names)));
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace reachlab {
+namespace reachlab::experiment {
 
 NamedQuantity splitUnit(std::string_view key) {
   // An ending stands before those that it ends in.
@@ -28,4 +28,4 @@ NamedQuantity splitUnit(std::string_view key) {
   return {key, {}};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

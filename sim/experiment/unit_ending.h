@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-namespace reachlab {
+namespace reachlab::experiment {
 
 /// A key of a file or column of a table without the unit that it ends in: "duration_s" is "duration" in "s".
 struct NamedQuantity {
@@ -10,4 +10,4 @@ struct NamedQuantity {
 };
 NamedQuantity splitUnit(std::string_view key);
 
-}  // namespace reachlab
+}  // namespace reachlab::experiment

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::figure {
 
 Canvas::Canvas(cairo_t* context) : context_(context) {
   // Metrics without hinting are the same on every surface, so that SVG, PDF and PNG have one layout.
@@ -99,4 +99,4 @@ void Canvas::marker(Marker marker, double x, double y, double size, const Color&
   cairo_fill(context_);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

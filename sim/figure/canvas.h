@@ -5,7 +5,7 @@
 
 #include "sim/figure/figure.h"
 
-namespace reachlab {
+namespace reachlab::figure {
 
 enum class Align { Left, Centre, Right };
 
@@ -34,4 +34,4 @@ class Canvas {
   cairo_t* context_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

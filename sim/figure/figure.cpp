@@ -9,10 +9,10 @@
 #include <memory>
 #include <string_view>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/figure/panel_painter.h"
 
-namespace reachlab {
+namespace reachlab::figure {
 namespace {
 
 constexpr double kPointsPerMillimetre = 72 / 25.4;
@@ -181,4 +181,4 @@ void writeFigure(const Figure& figure, const std::string& path) {
   if (!written || !closed) throw ResourceError(path + ": cannot be written");
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

@@ -6,7 +6,7 @@
 
 /// The one painter of figures for print and report: the same description becomes SVG, PDF or PNG, byte for byte the same for the same
 /// values (no dates, no counters). Plain values in, bytes out; any thread. Nothing here knows what is plotted.
-namespace reachlab {
+namespace reachlab::figure {
 
 /// sRGB with opacity, each 0 … 1.
 struct Color {
@@ -105,4 +105,4 @@ std::vector<double> niceTicks(double from, double to, int wanted);
 /// A tick as text: as few digits as tell neighbours `step` apart; minus is U+2212.
 std::string tickText(double value, double step);
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

@@ -2,7 +2,7 @@
 
 #include "sim/figure/figure.h"
 
-namespace reachlab {
+namespace reachlab::figure {
 
 Color palette::series(int i) {
   // Yellow is left out: it vanishes on white paper.
@@ -15,4 +15,4 @@ Marker markerOf(int i) {
   return kOrder[static_cast<std::size_t>(i) % kOrder.size()];
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace reachlab {
+namespace reachlab::figure {
 namespace {
 
 constexpr double kTickFont = 7, kLabelFont = 8, kTitleFont = 8.5, kLegendFont = 7;  // [pt]
@@ -322,4 +322,4 @@ void PanelPainter::drawLegend() {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

@@ -2,7 +2,7 @@
 #include "sim/figure/canvas.h"
 #include "sim/figure/ticks.h"
 
-namespace reachlab {
+namespace reachlab::figure {
 
 /// What stands around the plotting area of a panel [pt].
 struct Margins {
@@ -50,4 +50,4 @@ class PanelPainter {
   int legendColumns_ = 1;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::figure {
 namespace {
 
 double niceStep(double span, int wanted) {
@@ -114,4 +114,4 @@ AxisTicks chooseTicks(const Axis& axis, double low, double high, double length) 
   return out;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

@@ -5,7 +5,7 @@
 
 #include "sim/figure/figure.h"
 
-namespace reachlab {
+namespace reachlab::figure {
 
 /// Where an axis begins and ends, and what is written along it.
 struct AxisTicks {
@@ -17,4 +17,4 @@ struct AxisTicks {
 /// `low` and `high` are the data's extent (not finite or reversed when there are no data), `length` the axis' length in points.
 AxisTicks chooseTicks(const Axis& axis, double low, double high, double length);
 
-}  // namespace reachlab
+}  // namespace reachlab::figure

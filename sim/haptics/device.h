@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <string>
 
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 /// What a device delivers at one tick. World frame, SI. A lost device repeats its last sample with valid = false.
 struct DeviceSample {
@@ -42,4 +42,4 @@ class HapticDevice {
   virtual void write(const Vec3& force) noexcept = 0;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -4,7 +4,7 @@
 
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 Vec3 ForceSafety::limit(const Vec3& force, bool engaged, bool held) noexcept {
   if (!isFinite(force)) latched_ = true;
@@ -12,8 +12,8 @@ Vec3 ForceSafety::limit(const Vec3& force, bool engaged, bool held) noexcept {
     rampTicks_ = 0;
     return last_ = {};
   }
-  rampTicks_ = std::min(rampTicks_ + 1, kRampSeconds / kTickSeconds);
-  const double bound = limit_ * rampTicks_ * kTickSeconds / kRampSeconds;
+  rampTicks_ = std::min(rampTicks_ + 1, kRampSeconds / trial::kTickSeconds);
+  const double bound = limit_ * rampTicks_ * trial::kTickSeconds / kRampSeconds;
   Vec3 bounded = force;
   if (const double size = norm(force); size > bound) bounded = (bound / size) * force;
   const Vec3 change = bounded - last_;
@@ -22,4 +22,4 @@ Vec3 ForceSafety::limit(const Vec3& force, bool engaged, bool held) noexcept {
   return last_;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

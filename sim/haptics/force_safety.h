@@ -1,7 +1,7 @@
 #pragma once
-#include "constraints/vec3.h"
+#include "base/vec3.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 /// The last thing before the device, independent of all that computes the force. In this order:
 ///   - a force that is not finite gives zero, and zero from then on (a latched fault) until `rearm`;
@@ -32,4 +32,4 @@ class ForceSafety {
   Vec3 last_;  // [N] what the device got at the tick before
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

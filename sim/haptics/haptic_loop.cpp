@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "sim/haptics/os.h"
+#include "base/os.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 // A counter with one writer.
@@ -117,4 +117,4 @@ LoopReport HapticLoop::report() const {
   return report;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -7,11 +7,11 @@
 
 #include "sim/haptics/lateness.h"
 #include "sim/haptics/run_sink.h"
-#include "sim/haptics/spsc_queue.h"
+#include "base/spsc_queue.h"
 #include "sim/haptics/tick_engine.h"
-#include "sim/haptics/triple_buffer.h"
+#include "base/triple_buffer.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 struct LoopOptions {
   bool virtualClock = false;     // no thread and no waiting: whoever calls `advance` is the haptic thread
@@ -47,7 +47,9 @@ class HapticLoop {
   void advance() noexcept { tick(0, static_cast<std::int64_t>(engine_->state().tick) * kPeriodNs); }
 
   /// Controlling thread: takes effect at the next tick, in order. False when 16 wait already.
-  bool tryCommand(Command command, const PlannedTrial& planned = {}) noexcept { return commands_.tryPush({command, planned}); }
+  bool tryCommand(trial::Command command, const trial::PlannedTrial& planned = {}) noexcept {
+    return commands_.tryPush({command, planned});
+  }
   /// Controlling thread: the newest state, or nullptr when none is newer than the last one taken. Valid until the next call.
   const TickState* takeLatest() noexcept { return snapshots_.takeLatest(); }
   /// Before `start`, after `stop`, or on the virtual clock; `report` also while running (approximate).
@@ -58,8 +60,8 @@ class HapticLoop {
 
  private:
   struct Order {
-    Command command = Command::None;
-    PlannedTrial planned;
+    trial::Command command = trial::Command::None;
+    trial::PlannedTrial planned;
   };
   void run(const std::stop_token& stop);
   void tick(std::uint32_t missed, std::int64_t measuredNs) noexcept;
@@ -78,4 +80,4 @@ class HapticLoop {
   std::jthread thread_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 /// Counts durations in buckets that are 1/16 of their octave wide, so that percentiles are right to 6 % from nanoseconds to hours; the
 /// maximum is exact. Fixed size. `add` from one thread, wait-free; reading from any, approximate while it is being filled.
@@ -51,4 +51,4 @@ class LatenessHistogram {
   std::atomic<std::uint64_t> max_{0};
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

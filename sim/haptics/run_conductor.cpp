@@ -2,15 +2,15 @@
 
 #include <chrono>
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
 }  // namespace
 
-RunConductor::RunConductor(const Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<PlannedTrial> trials,
-                           const LoopOptions& options)
+RunConductor::RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device,
+                           std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
     : device_(std::move(device)),
       engine_(std::make_unique<TickEngine>(experiment, EngineOptions{device_->info().maxForce, device_->info().virtualHand})),
       options_(options), trials_(std::move(trials)), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
@@ -27,10 +27,10 @@ void RunConductor::start(RunSink* sink) {
 
 bool RunConductor::putUpNext() {
   if (underWay_ || next_ == trials_.size()) return false;
-  const PlannedTrial& planned = trials_[next_];
+  const trial::PlannedTrial& planned = trials_[next_];
   device_->prepareTrial(planned.index);
   if (sink_ != nullptr) sink_->announce(trial_ + 1, planned);
-  if (!loop_->tryCommand(Command::NextTrial, planned)) return false;
+  if (!loop_->tryCommand(trial::Command::NextTrial, planned)) return false;
   ++trial_;
   ++next_;
   underWay_ = true;
@@ -46,13 +46,13 @@ void RunConductor::advanceUntilDone(const std::atomic<bool>* stop) {
       asked = true;
     }
     loop_->advance();
-  } while (state.trial != trial_ || state.phase != Phase::Done);
+  } while (state.trial != trial_ || state.phase != trial::Phase::Done);
 }
 
 std::optional<ConductedTrial> RunConductor::poll() {
   if (options_.virtualClock && underWay_) advanceUntilDone(nullptr);
   if (const TickState* newer = loop_->takeLatest()) latest_ = newer;
-  if (!underWay_ || latest_->trial != trial_ || latest_->phase != Phase::Done) return std::nullopt;
+  if (!underWay_ || latest_->trial != trial_ || latest_->phase != trial::Phase::Done) return std::nullopt;
   underWay_ = false;
   if (sink_ != nullptr) sink_->awaitTrial(trial_);
   return ConductedTrial{trial_, trials_[next_ - 1], latest_->result};
@@ -79,4 +79,4 @@ void RunConductor::finish() {
   if (sink_ != nullptr) sink_->close();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

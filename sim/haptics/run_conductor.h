@@ -6,12 +6,12 @@
 
 #include "sim/haptics/haptic_loop.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 struct ConductedTrial {
   std::int32_t trial = 0;  // from 1 within the run
-  PlannedTrial planned;
-  TrialResult result;
+  trial::PlannedTrial planned;
+  trial::TrialResult result;
 };
 
 /// Conducts one run: one experiment on one device, trial after trial. The command line calls `runTrial` and waits; the window calls
@@ -24,7 +24,7 @@ struct ConductedTrial {
 class RunConductor {
  public:
   /// Compiles the scene. Throws UsageError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
-  RunConductor(const Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<PlannedTrial> trials,
+  RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<trial::PlannedTrial> trials,
                const LoopOptions& options = {});
   ~RunConductor();
   RunConductor(const RunConductor&) = delete;
@@ -39,7 +39,7 @@ class RunConductor {
   /// Puts the next planned trial up. False when none is left, or one is under way. May throw ResourceError from the sink.
   bool putUpNext();
   /// One more trial at the end of the plan (a repetition keeps its index).
-  void append(const PlannedTrial& trial) { trials_.push_back(trial); }
+  void append(const trial::PlannedTrial& trial) { trials_.push_back(trial); }
   std::size_t trialsLeft() const { return trials_.size() - next_; }
   bool underWay() const { return underWay_; }
 
@@ -49,8 +49,8 @@ class RunConductor {
   /// After `poll`: the newest state seen.
   const TickState& latest() const { return *latest_; }
   /// Ends the trial under way: by the experimenter, or because the program is asked to stop.
-  void abort() { loop_->tryCommand(Command::Abort); }
-  void interrupt() { loop_->tryCommand(Command::Interrupt); }
+  void abort() { loop_->tryCommand(trial::Command::Abort); }
+  void interrupt() { loop_->tryCommand(trial::Command::Interrupt); }
 
   /// putUpNext and poll until the trial has ended; nullopt when none is left. When `stop` becomes true, the trial is interrupted.
   std::optional<ConductedTrial> runTrial(const std::atomic<bool>& stop);
@@ -65,7 +65,7 @@ class RunConductor {
   std::unique_ptr<HapticDevice> device_;
   std::unique_ptr<TickEngine> engine_;  // until `start`
   LoopOptions options_;
-  std::vector<PlannedTrial> trials_;
+  std::vector<trial::PlannedTrial> trials_;
   std::size_t next_ = 0;
   std::int32_t trial_ = 0;
   bool underWay_ = false, finished_ = false;
@@ -75,4 +75,4 @@ class RunConductor {
   const TickState* latest_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 constexpr double kJump = 0.02;  // [m] in one tick: 20 m/s, no hand does that; the device has jumped
 
 // The task's parameters, so that a scene is never compiled for an experiment without one.
-const Task& taskOf(const Experiment& experiment) {
+const experiment::Task& taskOf(const experiment::Experiment& experiment) {
   if (!experiment.task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
   return *experiment.task;
 }
@@ -23,21 +23,21 @@ Blend fadeOut(double x) noexcept { return {1 - x * x * x * (10 + x * (6 * x - 15
 
 }  // namespace
 
-TickEngine::TickEngine(const Experiment& experiment, const EngineOptions& options)
-    : TickEngine(experiment, (taskOf(experiment), compileScene(experiment)), options) {}
+TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOptions& options)
+    : TickEngine(experiment, (taskOf(experiment), dynamics::compileScene(experiment)), options) {}
 
-TickEngine::TickEngine(const Experiment& experiment, Scene scene, const EngineOptions& options)
-    : scene_(std::move(scene)), start_(taskOf(experiment).start), settings_(makeProtocolSettings(experiment, scene_.constraint)),
+TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
+    : scene_(std::move(scene)), start_(taskOf(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
       virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump),
       safety_(experiment.forceLimit.value_or(options.deviceMaxForce)),
-      fpInBody_(experiment.object.kind == ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
+      fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
   lastSeen_ = settings_.start;
   putUp();
 }
 
 void TickEngine::putUp() noexcept {
-  Plant& plant = *scene_.plant;
+  dynamics::Plant& plant = *scene_.plant;
   plant.placeAtRest(start_);
   plant.observe({settings_.start, {}, true}, state_.masses);
   for (int i = 0; i < state_.massCount; ++i) state_.masses[i].a = {};
@@ -45,11 +45,11 @@ void TickEngine::putUp() noexcept {
   fpOffset_ = anchor_ = {};
   anchorTicks_ = 0;
   handBroken_ = clamped_ = false;
-  forceStatus_ = StepStatus::Ok;
+  forceStatus_ = dynamics::StepStatus::Ok;
   safety_.rearm();
 }
 
-HandSample TickEngine::takeHand(const TickInput& input) noexcept {
+dynamics::HandSample TickEngine::takeHand(const TickInput& input) noexcept {
   const DeviceSample& device = input.device;
   const bool finite = isFinite(device.position) && (!device.hasVelocity || isFinite(device.velocity));
   if (!finite) handBroken_ = true;
@@ -60,8 +60,8 @@ HandSample TickEngine::takeHand(const TickInput& input) noexcept {
   const bool anew = handLost_ || (input.missedTicks > kGapTicks && !virtualHand_);
   if (anew || norm(device.position - lastRaw_) > kJump) estimator_.reset();
   lastRaw_ = device.position;
-  HandSample hand{device.position - fpOffset_, estimator_.estimate(device), true};
-  if (anew && isEngaged(protocol_.phase)) {
+  dynamics::HandSample hand{device.position - fpOffset_, estimator_.estimate(device), true};
+  if (anew && trial::isEngaged(protocol_.phase)) {
     anchor_ = lastSeen_ - hand.position;
     anchorTicks_ = kReanchorTicks;
   }
@@ -69,22 +69,22 @@ HandSample TickEngine::takeHand(const TickInput& input) noexcept {
   if (anchorTicks_ > 0) {
     const Blend blend = fadeOut(1 - static_cast<double>(anchorTicks_) / kReanchorTicks);
     hand.position += blend.value * anchor_;
-    hand.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * anchor_;
+    hand.velocity += (blend.rate / (kReanchorTicks * trial::kTickSeconds)) * anchor_;
     --anchorTicks_;
   }
   lastSeen_ = hand.position;
   return hand;
 }
 
-StepStatus TickEngine::stepObject(const HandSample& hand) noexcept {
+dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) noexcept {
   const bool continuous = path_.push(hand);
-  if (!hand.valid) return StepStatus::HandLost;
+  if (!hand.valid) return dynamics::StepStatus::HandLost;
   if (!continuous) scene_.plant->restart();
-  return scene_.plant->step(path_.segment(), kTickSeconds);
+  return scene_.plant->step(path_.segment(), trial::kTickSeconds);
 }
 
 // At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.
-void TickEngine::placeFixedPoint(HandSample& hand) noexcept {
+void TickEngine::placeFixedPoint(dynamics::HandSample& hand) noexcept {
   const Vec3 fixedPoint = state_.masses[0].r + fpInBody_;
   fpOffset_ = hand.position - fixedPoint;
   hand.position = lastSeen_ = fixedPoint;
@@ -94,61 +94,61 @@ void TickEngine::placeFixedPoint(HandSample& hand) noexcept {
 }
 
 void TickEngine::tick(const TickInput& input) noexcept {
-  Plant& plant = *scene_.plant;
+  dynamics::Plant& plant = *scene_.plant;
   ++state_.tick;
   state_.measuredNs = input.measuredNs;
   state_.device = input.device;
   state_.faults.missedTicks += input.missedTicks;
   cue_.reset();
 
-  const Phase before = protocol_.phase;
-  if (input.command == Command::NextTrial && (before == Phase::Idle || before == Phase::Done)) {
+  const trial::Phase before = protocol_.phase;
+  if (input.command == trial::Command::NextTrial && (before == trial::Phase::Idle || before == trial::Phase::Done)) {
     putUp();
     cue_ = Cue::Place;
   }
-  HandSample hand = takeHand(input);
-  StepStatus status = StepStatus::Ok;
-  if (isEngaged(before)) {
+  dynamics::HandSample hand = takeHand(input);
+  dynamics::StepStatus status = dynamics::StepStatus::Ok;
+  if (trial::isEngaged(before)) {
     status = stepObject(hand);
     plant.observe(hand, state_.masses);
-    if (status == StepStatus::Ok) status = forceStatus_;
+    if (status == dynamics::StepStatus::Ok) status = forceStatus_;
   }
 
   const bool wasGone = protocol_.gone;
-  advance(settings_,
-          {state_.tick,
-           input.command,
-           input.planned,
-           input.device.position,
-           hand.valid,
-           handBroken_,
-           clamped_,
-           status,
-           {state_.masses.data(), static_cast<std::size_t>(state_.massCount)}},
-          protocol_);
-  if (before == Phase::Waiting && protocol_.phase == Phase::Armed) {
+  trial::advance(settings_,
+                 {state_.tick,
+                  input.command,
+                  input.planned,
+                  input.device.position,
+                  hand.valid,
+                  handBroken_,
+                  clamped_,
+                  status,
+                  {state_.masses.data(), static_cast<std::size_t>(state_.massCount)}},
+                 protocol_);
+  if (before == trial::Phase::Waiting && protocol_.phase == trial::Phase::Armed) {
     placeFixedPoint(hand);
     plant.observe(hand, state_.masses);
   }
-  if (protocol_.gone && (!wasGone || before == Phase::Waiting)) cue_ = Cue::Go;
+  if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
 
   exertForce(hand, status, input.missedTicks);
   state_.hand = hand;
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
   state_.trial = protocol_.trial;
-  state_.trialTime = protocol_.phase == Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * kTickSeconds
-                                                      : protocol_.result.movementTime;
+  state_.trialTime = protocol_.phase == trial::Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * trial::kTickSeconds
+                                                             : protocol_.result.movementTime;
   state_.result = protocol_.result;
 }
 
-void TickEngine::exertForce(const HandSample& hand, StepStatus status, std::uint32_t missedTicks) noexcept {
-  const Plant& plant = *scene_.plant;
-  const bool engaged = isEngaged(protocol_.phase);
-  const bool held = hand.valid && status == StepStatus::Ok;
+void TickEngine::exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept {
+  const dynamics::Plant& plant = *scene_.plant;
+  const bool engaged = trial::isEngaged(protocol_.phase);
+  const bool held = hand.valid && status == dynamics::StepStatus::Ok;
   state_.couplingForce = engaged && held ? plant.couplingForce(hand) : Vec3{};
   state_.energy = engaged && held ? plant.energy(hand) : 0;
-  if (!isFinite(state_.couplingForce)) forceStatus_ = status = StepStatus::NotFinite;
+  if (!isFinite(state_.couplingForce)) forceStatus_ = status = dynamics::StepStatus::NotFinite;
   state_.feedbackForce = -state_.couplingForce;
   state_.deviceForce = safety_.limit(state_.feedbackForce, engaged, held && missedTicks <= kGapTicks);
   clamped_ = norm(state_.feedbackForce) > safety_.limit();
@@ -160,4 +160,4 @@ void TickEngine::exertForce(const HandSample& hand, StepStatus status, std::uint
   state_.status = status;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -11,13 +11,13 @@
 #include "sim/haptics/velocity_estimator.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 /// All that comes from outside in one tick. Logged, and with the configuration enough to compute the run again bit for bit.
 struct TickInput {
   DeviceSample device;
-  Command command = Command::None;
-  PlannedTrial planned;           // of the trial that NextTrial puts up
+  trial::Command command = trial::Command::None;
+  trial::PlannedTrial planned;    // of the trial that NextTrial puts up
   std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
   std::int64_t measuredNs = 0;    // for the record only
 };
@@ -39,8 +39,8 @@ class TickEngine {
   static constexpr int kReanchorTicks = 250;
 
   /// Throws UsageError without a task, RefusedError from compileScene.
-  TickEngine(const Experiment& experiment, const EngineOptions& options);
-  TickEngine(const Experiment& experiment, Scene scene, const EngineOptions& options);
+  TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
+  TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options);
 
   /// Haptic thread: neither allocates, locks, waits nor throws.
   void tick(const TickInput& input) noexcept;
@@ -51,27 +51,27 @@ class TickEngine {
   /// What only the loop around this knows: late ticks, longest gap, dropped records.
   LoopFaults& faults() noexcept { return state_.faults; }
 
-  const MethodChoice& choice() const { return scene_.choice; }
-  const Constraint& constraint() const { return scene_.constraint; }
-  const ProtocolSettings& protocol() const { return settings_; }
+  const dynamics::MethodChoice& choice() const { return scene_.choice; }
+  const constraints::Constraint& constraint() const { return scene_.constraint; }
+  const trial::ProtocolSettings& protocol() const { return settings_; }
   std::string stopReason() const { return scene_.plant->stopReason(); }
 
  private:
-  HandSample takeHand(const TickInput& input) noexcept;
+  dynamics::HandSample takeHand(const TickInput& input) noexcept;
   void putUp() noexcept;
-  StepStatus stepObject(const HandSample& hand) noexcept;
-  void placeFixedPoint(HandSample& hand) noexcept;
-  void exertForce(const HandSample& hand, StepStatus status, std::uint32_t missedTicks) noexcept;
+  dynamics::StepStatus stepObject(const dynamics::HandSample& hand) noexcept;
+  void placeFixedPoint(dynamics::HandSample& hand) noexcept;
+  void exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept;
 
-  Scene scene_;
+  dynamics::Scene scene_;
   std::vector<double> start_;  // constraint parameters
-  ProtocolSettings settings_;
+  trial::ProtocolSettings settings_;
   bool virtualHand_;
   VelocityEstimator estimator_;
-  HandPath path_;
+  dynamics::HandPath path_;
   ForceSafety safety_;
   Vec3 fpInBody_;  // [m] the FP from mass 1 as the object is put up
-  ProtocolState protocol_;
+  trial::ProtocolState protocol_;
   Vec3 fpOffset_;            // [m] HIP minus FP at arming, fixed in world axes
   Vec3 anchor_;              // [m] the hand after a gap: seen minus true, at the gap
   int anchorTicks_ = 0;      // left of the blend
@@ -79,9 +79,9 @@ class TickEngine {
   bool handBroken_ = false;  // the device gave something that is not finite; until the next trial
   bool handLost_ = true;     // at the tick before
   bool clamped_ = false;     // at the tick before, by the force limit
-  StepStatus forceStatus_ = StepStatus::Ok;
+  dynamics::StepStatus forceStatus_ = dynamics::StepStatus::Ok;
   std::optional<Cue> cue_;
   TickState state_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

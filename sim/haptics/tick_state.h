@@ -6,12 +6,10 @@
 
 #include "sim/dynamics/plant.h"
 #include "sim/haptics/device.h"
+#include "sim/trial/command.h"
 #include "sim/trial/outcome.h"
 
-namespace reachlab {
-
-/// From the controlling thread to the haptic thread; logged with the tick at which it took effect, so that a run can be re-simulated.
-enum class Command : std::uint8_t { None, NextTrial, Abort, Interrupt };
+namespace reachlab::haptics {
 
 /// Counted, shown, recorded.
 struct LoopFaults {
@@ -20,7 +18,7 @@ struct LoopFaults {
   std::uint64_t longestGapNs = 0;
   std::uint64_t droppedRecords = 0;  // the recorder's queue was full
   std::uint64_t clampedTicks = 0;    // the device got less force than the object gave
-  std::array<std::uint64_t, kStepStatusCount> steps{};
+  std::array<std::uint64_t, dynamics::kStepStatusCount> steps{};
 };
 
 /// Everything that is known after one tick; published to the window and turned into a row of the recording. Plain; copies are cheap
@@ -29,28 +27,28 @@ struct TickState {
   std::uint64_t tick = 0;       // since the run's start; simulated time is tick * 1 ms
   std::int64_t measuredNs = 0;  // monotonic clock at the tick, for the record only
   DeviceSample device;          // raw
-  HandSample hand;              // what the coupling saw
-  Phase phase = Phase::Idle;
-  Semaphore semaphore = Semaphore::Neutral;
-  StepStatus status = StepStatus::Ok;
-  std::int32_t trial = 0;  // from 1
-  double trialTime = 0;    // [s] since onset; 0 before
-  Vec3 couplingForce;      // [N] on the object, unclamped
-  Vec3 feedbackForce;      // [N] to the device, unclamped (the negative)
-  Vec3 deviceForce;        // [N] to the device, after the safety layer
-  double energy = 0;       // [J]
-  TrialResult result;      // valid in phase Done
+  dynamics::HandSample hand;    // what the coupling saw
+  trial::Phase phase = trial::Phase::Idle;
+  trial::Semaphore semaphore = trial::Semaphore::Neutral;
+  dynamics::StepStatus status = dynamics::StepStatus::Ok;
+  std::int32_t trial = 0;     // from 1
+  double trialTime = 0;       // [s] since onset; 0 before
+  Vec3 couplingForce;         // [N] on the object, unclamped
+  Vec3 feedbackForce;         // [N] to the device, unclamped (the negative)
+  Vec3 deviceForce;           // [N] to the device, after the safety layer
+  double energy = 0;          // [J]
+  trial::TrialResult result;  // valid in phase Done
   LoopFaults faults;
   std::int32_t massCount = 0;
-  BodyState body;
-  std::array<MassState, kMaxMasses> masses{};
+  dynamics::BodyState body;
+  std::array<dynamics::MassState, experiment::kMaxMasses> masses{};
 };
 static_assert(std::is_trivially_copyable_v<TickState>);
 
 /// Copies a state with only the masses that are there, so that the cost follows the scene.
 inline void copyState(const TickState& from, TickState& to) noexcept {
-  const std::size_t used = offsetof(TickState, masses) + static_cast<std::size_t>(from.massCount) * sizeof(MassState);
+  const std::size_t used = offsetof(TickState, masses) + static_cast<std::size_t>(from.massCount) * sizeof(dynamics::MassState);
   std::memcpy(static_cast<void*>(&to), &from, used);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

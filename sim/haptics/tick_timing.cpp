@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/haptics/os.h"
+#include "base/os.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 constexpr double kEndless = 1e6;  // [s]
 
-Experiment withoutEnd(Experiment experiment) {
+experiment::Experiment withoutEnd(experiment::Experiment experiment) {
   if (experiment.task) experiment.task->duration = kEndless;
   return experiment;
 }
@@ -23,7 +23,7 @@ double percentile(std::vector<std::int64_t>& sorted, double share) {
 
 }  // namespace
 
-TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks, std::uint64_t (*countAllocations)() noexcept) {
+TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t ticks, std::uint64_t (*countAllocations)() noexcept) {
   TickEngine engine(withoutEnd(experiment), {});
   const Vec3 start = engine.protocol().start, chord = engine.protocol().target - start;
   constexpr double kShare = 0.1, kLeast = 0.01, kOmega = 2 * std::numbers::pi;
@@ -38,11 +38,11 @@ TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks, std::
   std::uint64_t since = 0;  // ticks of this trial; a trial that ends all the same (an edge was met) is put up again
   const std::uint64_t allocatedBefore = countAllocations ? countAllocations() : 0;
   for (auto& cost : costs) {
-    const Phase phase = engine.state().phase;
-    const bool over = phase == Phase::Idle || phase == Phase::Done;
-    input.command = over ? Command::NextTrial : Command::None;
-    since = over || phase == Phase::Waiting ? 0 : since + 1;
-    input.device.position = start + std::sin(kOmega * kTickSeconds * static_cast<double>(since)) * swing;
+    const trial::Phase phase = engine.state().phase;
+    const bool over = phase == trial::Phase::Idle || phase == trial::Phase::Done;
+    input.command = over ? trial::Command::NextTrial : trial::Command::None;
+    since = over || phase == trial::Phase::Waiting ? 0 : since + 1;
+    input.device.position = start + std::sin(kOmega * trial::kTickSeconds * static_cast<double>(since)) * swing;
     const std::int64_t before = os::now();
     engine.tick(input);
     cost = os::now() - before;
@@ -59,4 +59,4 @@ TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks, std::
           allocated};
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

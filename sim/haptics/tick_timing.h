@@ -3,7 +3,7 @@
 
 #include "sim/haptics/tick_engine.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 /// What one tick costs, from the device's sample to the force for the device, without the device itself, as the monotonic clock sees it
 /// (one look at the clock, some 20 ns, is in each). Wall-clock numbers of this machine: to be reported, never judged.
@@ -17,7 +17,7 @@ struct TickTiming {
 /// Runs `ticks` ticks of a trial that does not end, with a hand that swings about the start along the way to the target, 10 % of the
 /// chord at 1 Hz (1 cm where start and target are one place). Throws what TickEngine's constructor throws. Not real time: ticks follow
 /// one another at once. `countAllocations` gives the thread's allocations so far; null: not counted.
-TickTiming measureTicks(const Experiment& experiment, std::uint64_t ticks = 1'000'000,
+TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t ticks = 1'000'000,
                         std::uint64_t (*countAllocations)() noexcept = nullptr);
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

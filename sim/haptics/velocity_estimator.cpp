@@ -5,13 +5,13 @@
 
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
-VelocityEstimator::VelocityEstimator(const VelocityEstimatorSpec& spec)
+VelocityEstimator::VelocityEstimator(const experiment::VelocityEstimatorSpec& spec)
     : fromDevice_(spec.kind == "auto" || spec.kind == "device"), filtered_(spec.kind != "difference") {
   if (!filtered_) return;
   // Bilinear transform of 1/(s^2 + sqrt(2) s + 1) with s = (1 - z^-1)/(1 + z^-1)/w, w = tan(pi fc dt).
-  const double w = std::tan(std::numbers::pi * spec.cutoff * kTickSeconds);
+  const double w = std::tan(std::numbers::pi * spec.cutoff * trial::kTickSeconds);
   const double norm = 1 + std::numbers::sqrt2 * w + w * w;
   b0_ = w * w / norm;
   a1_ = 2 * (w * w - 1) / norm;
@@ -24,7 +24,7 @@ Vec3 VelocityEstimator::estimate(const DeviceSample& sample) noexcept {
     last_ = sample.position;
     count_ = 1;
   }
-  const Vec3 difference = (sample.position - last_) / kTickSeconds;
+  const Vec3 difference = (sample.position - last_) / trial::kTickSeconds;
   last_ = sample.position;
   if (fromDevice_ && sample.hasVelocity) return sample.velocity;
   if (!filtered_) return difference;
@@ -36,4 +36,4 @@ Vec3 VelocityEstimator::estimate(const DeviceSample& sample) noexcept {
   return y;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -2,7 +2,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/device.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 
 /// v_HIP from device samples of 1 ms. Encoder quantisation alone makes a plain difference jump by 0.04-0.10 m/s.
 ///   difference    (r_n - r_n-1)/dt
@@ -14,7 +14,7 @@ namespace reachlab {
 class VelocityEstimator {
  public:
   /// Cutoff in (0, 500) Hz; problems(Experiment) reports other values.
-  explicit VelocityEstimator(const VelocityEstimatorSpec& spec);
+  explicit VelocityEstimator(const experiment::VelocityEstimatorSpec& spec);
   void reset() noexcept { count_ = 0; }
   /// Velocity at this sample [m/s], world frame.
   Vec3 estimate(const DeviceSample& sample) noexcept;
@@ -27,4 +27,4 @@ class VelocityEstimator {
   int count_ = 0;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::haptics

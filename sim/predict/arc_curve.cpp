@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/gauss_legendre.h"
 #include "sim/predict/legendre.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr int kFirstPieces = 6;      // of the way
@@ -39,11 +39,11 @@ double coordinate(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v
 
 }  // namespace
 
-ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along along) : along_(along) {
+ArcCurve::ArcCurve(const constraints::Constraint& curve, double start, double target, Along along) : along_(along) {
   const double way = target - start;
   double slowest = INFINITY, fastest = 0;
   for (int i = 0; i <= kProbes; ++i) {
-    const double speed = norm(evaluate(curve.curve, start + way * i / kProbes).rPhi);
+    const double speed = norm(constraints::evaluate(curve.curve, start + way * i / kProbes).rPhi);
     slowest = std::min(slowest, speed), fastest = std::max(fastest, speed);
   }
   unevenness_ = fastest / slowest;
@@ -52,7 +52,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
     if (!append(curve.curve, start + way * i / kFirstPieces, start + way * (i + 1) / kFirstPieces, 0)) throw RefusedError(kNoWay);
   length_ = pieces_.back().to;
   std::vector<Piece> forward = std::move(pieces_);
-  const Domain& domain = curve.domain[0];
+  const constraints::Domain& domain = curve.domain[0];
   const auto within = [&](double phi) { return domain.periodic ? phi : std::clamp(phi, domain.lo, domain.hi); };
   // Behind the start the curve is walked backwards, then turned: s to -s, the odd powers change sign.
   pieces_.clear();
@@ -73,7 +73,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
 }
 
 // Adds the part between two parameters, in halves where 16 terms do not resolve it; false where halving does not help.
-bool ArcCurve::append(const Curve& curve, double phi, double phiEnd, int depth) {
+bool ArcCurve::append(const constraints::Curve& curve, double phi, double phiEnd, int depth) {
   static const GaussRule<double> rule = makeGaussRule<double>(kNodes);
   static constexpr auto kPower = legendrePowers<kNodes>();
   const auto halves = [&] {
@@ -82,7 +82,7 @@ bool ArcCurve::append(const Curve& curve, double phi, double phiEnd, int depth) 
   };
   const double half = (phiEnd - phi) / 2;
   std::vector<double> speed;
-  for (const double x : rule.node) speed.push_back(norm(evaluate(curve, phi + half * (x + 1)).rPhi) * std::abs(half));
+  for (const double x : rule.node) speed.push_back(norm(constraints::evaluate(curve, phi + half * (x + 1)).rPhi) * std::abs(half));
   const double fastest = *std::max_element(speed.begin(), speed.end());
   const LegendreSeries rate = projectOnLegendre(speed, rule.node, rule.weight);
   if (!(fastest > 0) || !std::isfinite(fastest) || !isResolved(rate, kResolved * fastest)) return halves();
@@ -99,14 +99,14 @@ bool ArcCurve::append(const Curve& curve, double phi, double phiEnd, int depth) 
       x = std::clamp(x - step, -1.0, 1.0);
       if (std::abs(step) < 1e-15) break;
     }
-    const CurvePoint p = evaluate(curve, phi + half * (x + 1));
+    const constraints::CurvePoint p = constraints::evaluate(curve, phi + half * (x + 1));
     const double square = dot(p.rPhi, p.rPhi);
     const Vec3 c = along_ == Along::Parameter ? half * half * p.rPhiPhi
                                               : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
     for (int k = 0; k < 3; ++k) bend[static_cast<size_t>(k)].push_back(coordinate(c, k));
     sharpest = std::max(sharpest, norm(c));
   }
-  const CurvePoint begin = evaluate(curve, phi);
+  const constraints::CurvePoint begin = constraints::evaluate(curve, phi);
   const Vec3 tangent = along_ == Along::Parameter ? half * begin.rPhi : (half > 0 ? 1 : -1) * way / 2 / norm(begin.rPhi) * begin.rPhi;
   if (!isFinite(tangent) || !std::isfinite(sharpest)) return halves();
   Piece piece;
@@ -178,4 +178,4 @@ template std::array<Vec3, 3> ArcCurve::expand<2>(double) const;
 template std::array<Vec3, 4> ArcCurve::expand<3>(double) const;
 template std::array<Vec3, 6> ArcCurve::expand<5>(double) const;
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -4,7 +4,7 @@
 
 #include "constraints/constraint.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// What s is: metres of arc length, or the curve's own parameter from the start on, |phi - start|, which passes near a cusp more
 /// smoothly.
@@ -18,7 +18,7 @@ enum class Along { ArcLength, Parameter };
 class ArcCurve {
  public:
   /// Throws RefusedError where the curve has a cusp, stands still or breaks off between start and target (constraint parameters).
-  ArcCurve(const Constraint& curve, double start, double target, Along along = Along::ArcLength);
+  ArcCurve(const constraints::Constraint& curve, double start, double target, Along along = Along::ArcLength);
 
   /// The first `part` of the way, magnified to the whole length: r(part s)/part, from a straight line (part 0) to the curve
   /// itself (1). For continuation from a straight line to any curve.
@@ -40,7 +40,7 @@ class ArcCurve {
     double from = 0, to = 0;                               // [m]
     std::array<std::array<double, 3>, kTerms> position{};  // [m] powers of x = (2 s - from - to) / (to - from)
   };
-  bool append(const Curve& curve, double phi, double phiEnd, int depth);
+  bool append(const constraints::Curve& curve, double phi, double phiEnd, int depth);
   const Piece& pieceAt(double s) const;
   template <int Order>
   std::array<Vec3, Order + 1> expandWhole(double s) const;
@@ -51,4 +51,4 @@ class ArcCurve {
   double unevenness_ = 1, part_ = 1;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

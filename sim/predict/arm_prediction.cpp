@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/flat_output.h"
 #include "sim/predict/jet.h"
 #include "sim/predict/transcription.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using std::acos, std::atan2, std::cos, std::sin;
@@ -22,7 +22,7 @@ struct JointMotion {  // each joint's angle and its derivatives to the third
 
 // Rates of the joint torques; `force` [N] acts from the hand on the object along the line.
 template <class S>
-std::array<S, 2> computeTorqueRates(const Arm& arm, const JointMotion<S>& m, const S& force, const S& forceRate) {
+std::array<S, 2> computeTorqueRates(const experiment::Arm& arm, const JointMotion<S>& m, const S& force, const S& forceRate) {
   const double l1 = arm.length[0], l2 = arm.length[1], b1 = arm.damping[0], b2 = arm.damping[1], i2 = arm.inertia[1];
   const double alone = arm.inertia[0] + i2 + arm.mass[1] * l1 * l1, coupled = arm.mass[1] * l1 * arm.centre[1];
   const S s2 = sin(m.q2), c2 = cos(m.q2), q12 = m.q1 + m.q2, w12 = m.w1 + m.w2;
@@ -36,7 +36,7 @@ std::array<S, 2> computeTorqueRates(const Arm& arm, const JointMotion<S>& m, con
 }
 
 template <class S>
-std::array<S, 2> computeAngles(const Arm& arm, const S& x, const S& y) {
+std::array<S, 2> computeAngles(const experiment::Arm& arm, const S& x, const S& y) {
   const double l1 = arm.length[0], l2 = arm.length[1];
   const S bend = acos((x * x + y * y - (l1 * l1 + l2 * l2)) / S(2 * l1 * l2));
   const S q2 = arm.elbowLeft ? -bend : bend;
@@ -45,7 +45,7 @@ std::array<S, 2> computeAngles(const Arm& arm, const S& x, const S& y) {
 
 // Joint motion of a hand that moves along the line: position, velocity, acceleration, jerk along it.
 template <class S>
-JointMotion<S> computeJointMotion(const Arm& arm, const S& x, double y, const S& v, const S& a, const S& j) {
+JointMotion<S> computeJointMotion(const experiment::Arm& arm, const S& x, double y, const S& v, const S& a, const S& j) {
   const double l1 = arm.length[0], l2 = arm.length[1];
   JointMotion<S> m;
   const auto angles = computeAngles(arm, x, S(y));
@@ -69,7 +69,7 @@ void store(const std::array<Jet<Locals>, 2>& rates, double* r, double* ra, doubl
   for (int k = 0; k < 2; ++k) rates[k].store(r + k, ra + k * Locals, raa + k * Locals * Locals);
 }
 
-void requireReach(const Arm& arm, double x, double y) {
+void requireReach(const experiment::Arm& arm, double x, double y) {
   const double distance = std::hypot(x, y), shortest = std::abs(arm.length[0] - arm.length[1]), longest = arm.length[0] + arm.length[1];
   constexpr double kMargin = 1e-3;  // [m] at a stretched elbow the joint speeds have no bound
   if (distance < shortest + kMargin || distance > longest - kMargin)
@@ -79,7 +79,7 @@ void requireReach(const Arm& arm, double x, double y) {
 
 }  // namespace
 
-std::unique_ptr<Prediction> makeFreeArmPrediction(const Arm& arm, const ArmTask& task, int massCount, int unknowns) {
+std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, const ArmTask& task, int massCount, int unknowns) {
   constexpr int kLocals = 8;
   TranscribedProblem problem;
   problem.duration = task.duration;
@@ -127,7 +127,7 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const Arm& arm, const ArmTask&
   return prediction;
 }
 
-std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask& task, const LineObject& object, int unknowns) {
+std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns) {
   constexpr int kLocals = 6;  // h, h', h'', h''', F, F'
   const int n = object.count();
   const double along = task.target[0] > task.start[0] ? 1 : -1, across = task.start[1] - arm.shoulder[1];
@@ -192,4 +192,4 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask&
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -4,7 +4,7 @@
 #include "sim/predict/line_object.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Where the hand of the arm goes, in the task plane: along the line and across it [m].
 struct ArmTask {
@@ -16,8 +16,8 @@ struct ArmTask {
 /// J^T f of the object), from rest to rest; model and symbols of criteria.md 6, after Uno, Kawato and Suzuki 1989. The problem is
 /// not convex: the lowest of the minima found from several starts is given. `unknowns` 0: chosen for 1e-8 of the peak. Free arm:
 /// positions are those along the chord from start to target; the masses go with the hand and load nothing.
-std::unique_ptr<Prediction> makeFreeArmPrediction(const Arm& arm, const ArmTask& task, int massCount, int unknowns);
+std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, const ArmTask& task, int massCount, int unknowns);
 /// Along the straight line of the task with the object (and the hand's own mass and damping); no force across the line.
-std::unique_ptr<Prediction> makeLineArmPrediction(const Arm& arm, const ArmTask& task, const LineObject& object, int unknowns);
+std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

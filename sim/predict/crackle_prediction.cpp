@@ -5,7 +5,7 @@
 
 #include "sim/predict/flat_output.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using Real = long double;  // the sums of derivatives cancel by a few digits
@@ -116,4 +116,4 @@ std::unique_ptr<Prediction> makeCracklePrediction(const LineObject& object, doub
   return std::make_unique<CracklePrediction>(object, distance, duration);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

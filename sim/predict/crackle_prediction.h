@@ -4,7 +4,7 @@
 #include "sim/predict/line_object.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Criterion 3: least squared derivative of order 2N+3 of the flat output z (criteria.md 2), which is the last mass of an
 /// undamped chain. z = L I_{t/T}(2N+3, 2N+3) whatever masses and springs are; hand and masses are h = P(D) z, x_i = p_i(D) z with
@@ -13,4 +13,4 @@ namespace reachlab {
 /// peaks and travel time.
 std::unique_ptr<Prediction> makeCracklePrediction(const LineObject& object, double distance, double duration);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

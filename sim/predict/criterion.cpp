@@ -1,6 +1,6 @@
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 struct CriterionText {
@@ -28,4 +28,4 @@ std::optional<Criterion> criterionFromName(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -6,7 +6,7 @@
 #include "sim/predict/gauss_legendre.h"
 #include "sim/predict/legendre.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr int kStages = CurveMotion::kStages;
@@ -227,4 +227,4 @@ SeriesProfile CurveMotion::makeProfile() const {
   return profile;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 #include "sim/predict/curve_object.h"
 #include "sim/predict/series_profile.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// How the masses follow a hand along the curve: Gauss collocation with eight stages on equal panels of [0, T] (order 16 at their
 /// ends), with the exact derivatives of its own result, so that an optimisation may take it for the equations themselves. All
@@ -58,4 +58,4 @@ class CurveMotion {
   Matrix local_;  // 2(N+1) rows a node: changes of s and v of hand and masses, of each column
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

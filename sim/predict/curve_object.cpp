@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 double CurveObject::boundRate() const {
   std::vector<double> stiffness(masses.size(), 0.0), decay = viscosity;
@@ -74,4 +74,4 @@ void expandAccelerations(const ArcCurve& curve, const CurveObject& object, const
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 #include "sim/predict/arc_curve.h"
 #include "sim/predict/line_object.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Chain or parallel object on a curve: node 0 is the hand, nodes 1 … N the masses, all at arc lengths s [m] with speeds v [m/s].
 /// Springs and dampers act along the chords in space and are projected on the tangent (physics.md; Eq. (11) in arc length):
@@ -31,4 +31,4 @@ CurveObject makeCurveObject(const LineObject& object);
 void expandAccelerations(const ArcCurve& curve, const CurveObject& object, const double* s, const double* v, double* a,
                          Eigen::MatrixXd* slope = nullptr, const double* weight = nullptr, Eigen::MatrixXd* bend = nullptr);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/curve_motion.h"
 #include "sim/predict/curve_prediction.h"
 #include "sim/predict/modes.h"
 #include "sim/predict/transcription.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -282,4 +282,4 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, con
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 #include "sim/predict/line_object.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Least hand jerk (as makeCurveJerkProblem) that takes a chain or parallel object along a curve from rest to rest: masses and
 /// hand at s = 0 at the beginning and at s = length() at T. The hand's arc length is [s(1-s)]^3 times polynomials; the masses
@@ -16,4 +16,4 @@ namespace reachlab {
 /// curve.
 std::unique_ptr<Prediction> makeCurveObjectPrediction(const ArcCurve& curve, const LineObject& object, double duration, int unknowns);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

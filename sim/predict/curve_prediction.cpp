@@ -4,7 +4,7 @@
 
 #include "sim/predict/transcription.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 TranscribedProblem makeCurveJerkProblem(const ArcCurve& curve, double duration) {
   constexpr int kLocals = 4;
@@ -36,7 +36,7 @@ TranscribedProblem makeCurveJerkProblem(const ArcCurve& curve, double duration) 
   return problem;
 }
 
-std::unique_ptr<Prediction> makeCurveJerkPrediction(const Constraint& constraint, double start, double target, double duration,
+std::unique_ptr<Prediction> makeCurveJerkPrediction(const constraints::Constraint& constraint, double start, double target, double duration,
                                                     int unknowns) {
   const ArcCurve curve(constraint, start, target, Along::Parameter);
   const TranscribedProblem problem = makeCurveJerkProblem(curve, duration);
@@ -54,4 +54,4 @@ std::unique_ptr<Prediction> makeCurveJerkPrediction(const Constraint& constraint
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// An unevaluated sum hi + lo of two doubles, about 32 significant digits (Dekker 1971; the error-free sums and products are
 /// Knuth's and the fused multiply-add's). For the few predictions whose conditioning asks for more than a double. Any thread.
@@ -55,4 +55,4 @@ inline DoubleDouble sqrt(const DoubleDouble& a) {
   return DoubleDouble(root) + rest.hi / (2 * root);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

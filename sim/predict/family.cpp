@@ -10,9 +10,9 @@
 #include <numeric>
 #include <thread>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kRipple = 1e-9;  // of the peak
@@ -41,19 +41,19 @@ double parseNumber(std::string_view text, const std::string& whole) {
   return value;
 }
 
-void resizeObject(Experiment& experiment, double value, bool keepTotal) {
-  Object& object = experiment.object;
-  if (value != std::floor(value) || value < 1 || value > kMaxMasses)
-    throw UsageError(fmt::format("n = {}: the number of masses is a whole number from 1 to {}", value, kMaxMasses));
+void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {
+  experiment::Object& object = experiment.object;
+  if (value != std::floor(value) || value < 1 || value > experiment::kMaxMasses)
+    throw UsageError(fmt::format("n = {}: the number of masses is a whole number from 1 to {}", value, experiment::kMaxMasses));
   const auto n = static_cast<size_t>(value);
   const double total = std::accumulate(object.masses.begin(), object.masses.end(), 0.0);
-  const bool parallel = object.kind == ObjectKind::Parallel;
+  const bool parallel = object.kind == experiment::ObjectKind::Parallel;
   const double spring = !object.stiffness.empty() ? object.stiffness[0] : experiment.coupling ? experiment.coupling->stiffness : 0;
   const double damper = object.damping.empty() ? 0 : object.damping[0];
   object.masses.assign(n, keepTotal ? total / value : object.masses.at(0));
   object.stiffness.assign(parallel ? n : n - 1, spring);
   object.damping.assign(object.stiffness.size(), damper);
-  if (!parallel) object.kind = n == 1 ? ObjectKind::Point : ObjectKind::Chain;
+  if (!parallel) object.kind = n == 1 ? experiment::ObjectKind::Point : experiment::ObjectKind::Chain;
 }
 
 }  // namespace
@@ -108,9 +108,9 @@ Sweep parseSweep(const std::string& text) {
   return sweep;
 }
 
-void applySweepValue(const std::string& key, double value, Experiment& experiment, PredictOptions& options) {
-  Object& object = experiment.object;
-  const auto coupling = [&]() -> Coupling& {
+void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options) {
+  experiment::Object& object = experiment.object;
+  const auto coupling = [&]() -> experiment::Coupling& {
     if (!experiment.coupling) throw UsageError(fmt::format("{}: this object has no coupling", key));
     return *experiment.coupling;
   };
@@ -146,8 +146,8 @@ void applySweepValue(const std::string& key, double value, Experiment& experimen
   }
 }
 
-std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options, const Sweep& sweep,
-                                     const std::function<void(int, int)>& progress) {
+std::vector<FamilyRow> computeFamily(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options,
+                                     const Sweep& sweep, const std::function<void(int, int)>& progress) {
   const std::vector<double> values = sweep.values();
   const int total = static_cast<int>(values.size());
   std::vector<FamilyRow> rows(values.size());
@@ -160,7 +160,7 @@ std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion cri
       FamilyRow& row = rows[i];
       row.value = values[i];
       try {
-        Experiment changed = experiment;
+        experiment::Experiment changed = experiment;
         PredictOptions changedOptions = options;
         applySweepValue(sweep.key, row.value, changed, changedOptions);
         row.prediction = predict(changed, criterion, changedOptions);
@@ -187,4 +187,4 @@ std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion cri
   return rows;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// How a hand profile looks: interior maxima of the velocity, and whether the hand moves backwards somewhere. Ripples below 1e-9
 /// of the peak do not count.
@@ -28,7 +28,7 @@ struct SweepKey {
 };
 std::span<const SweepKey> sweepKeys();
 /// Sets one key of experiment or options. Throws UsageError for a value that makes no sense for this object.
-void applySweepValue(const std::string& key, double value, Experiment& experiment, PredictOptions& options);
+void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options);
 
 struct FamilyRow {
   double value = 0;
@@ -38,7 +38,7 @@ struct FamilyRow {
 };
 /// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the
 /// threads, one at a time, with how many are done.
-std::vector<FamilyRow> computeFamily(const Experiment& experiment, Criterion criterion, const PredictOptions& options, const Sweep& sweep,
-                                     const std::function<void(int done, int total)>& progress = {});
+std::vector<FamilyRow> computeFamily(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options,
+                                     const Sweep& sweep, const std::function<void(int done, int total)>& progress = {});
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

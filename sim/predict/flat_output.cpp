@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 FlatPolynomial operator*(const FlatPolynomial& a, const FlatPolynomial& b) {
@@ -60,4 +60,4 @@ std::vector<FlatPolynomial> computeFlatPolynomials(const LineObject& object) {
   return object.parallel ? computeParallel(object) : computeChain(object);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -3,7 +3,7 @@
 
 #include "sim/predict/line_object.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// A polynomial in D = d/dt, lowest power first.
 using FlatPolynomial = std::vector<long double>;
@@ -13,4 +13,4 @@ using FlatPolynomial = std::vector<long double>;
 /// D^2) z. All coefficients are positive and right to rounding. A massless hand: what drives it does not enter.
 std::vector<FlatPolynomial> computeFlatPolynomials(const LineObject& object);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

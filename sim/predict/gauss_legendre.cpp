@@ -6,7 +6,7 @@
 
 #include "sim/predict/double_double.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 // Newton on P_n from Tricomi's estimate of its roots (Abramowitz and Stegun 22.16.6), in extended precision so that nodes and
 // weights are right to the last bit of a double.
@@ -43,4 +43,4 @@ const GaussRule<double>& gaussRule16() {
   return rule;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

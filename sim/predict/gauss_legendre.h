@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Gauss-Legendre nodes (ascending) and weights on [-1, 1]; exact for polynomials of degree 2 count - 1.
 template <class Real>
@@ -14,4 +14,4 @@ GaussRule<Real> makeGaussRule(int count);
 /// The 16-point rule, computed once. Any thread.
 const GaussRule<double>& gaussRule16();
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

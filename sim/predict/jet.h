@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// A number with its first and second derivatives with respect to Count variables: exact Hessians of a formula written once.
 template <int Count>
@@ -76,4 +76,4 @@ struct Jet {
   }
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/gauss_legendre.h"
 #include "sim/predict/sparse_rows.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using std::sqrt;
@@ -226,4 +226,4 @@ LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration) {
 template LeastEffort solveLeastEffort(const LineSystem<double>&, double);
 template LeastEffort solveLeastEffort(const LineSystem<DoubleDouble>&, double);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

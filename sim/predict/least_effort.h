@@ -2,7 +2,7 @@
 #include "sim/predict/line_system.h"
 #include "sim/predict/series_profile.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 struct LeastEffort {
   SeriesProfile profile;
@@ -20,4 +20,4 @@ template <class Real>
 LeastEffort solveLeastEffort(const LineSystem<Real>& system, double duration);
 inline constexpr int kMaxPanels = 20000;
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 double evaluate(const LegendreSeries& series, double x) {
   double before = 0, p = 1, sum = 0;
@@ -81,4 +81,4 @@ LegendreSeries RestToRestBasis::combine(const std::vector<double>& coefficient, 
   return sum;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// sum_n c[n] P_n(x), x in [-1, 1].
 using LegendreSeries = std::vector<double>;
@@ -41,4 +41,4 @@ class RestToRestBasis {
   std::vector<std::vector<LegendreSeries>> series_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kEqualPhase = 1e-9;  // |w_i - w_j| T below which two frequencies are one
@@ -31,12 +31,12 @@ bool LineObject::damped(bool withHand) const {
 
 double LineObject::totalMass() const { return std::accumulate(masses.begin(), masses.end(), handMass); }
 
-LineObject makeLineObject(const Experiment& experiment, double handMass, double handDamping) {
-  const Object& object = experiment.object;
-  if (object.kind == ObjectKind::Body)
+LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping) {
+  const experiment::Object& object = experiment.object;
+  if (object.kind == experiment::ObjectKind::Body)
     throw UsageError("object: the criteria are defined for point, chain and parallel objects, not for a body that turns");
   LineObject line;
-  line.parallel = object.kind == ObjectKind::Parallel;
+  line.parallel = object.kind == experiment::ObjectKind::Parallel;
   line.masses = object.masses;
   line.viscosity.assign(object.masses.size(), object.viscosity);
   line.handMass = handMass;
@@ -97,4 +97,4 @@ double computeTravelTime(const LineObject& object) {
   return 2 * sum;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

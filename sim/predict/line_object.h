@@ -4,7 +4,7 @@
 
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// The object on a straight line as the criteria see it (criteria.md 1): a spring network whose node 0 is the hand.
 /// Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the hand.
@@ -25,7 +25,7 @@ struct LineObject {
 
 /// Takes the object out of the experiment. Throws UsageError for an object that has no form on a line, RefusedError for a spring
 /// of zero stiffness (what hangs on it cannot be brought to rest).
-LineObject makeLineObject(const Experiment& experiment, double handMass, double handDamping);
+LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping);
 
 /// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand: they become one
 /// mass. What was merged is said in `warnings`. Otherwise frequencies are never merged: the limit is not the merged solution
@@ -35,4 +35,4 @@ LineObject mergeEqualFrequencies(const LineObject& object, double duration, std:
 /// Two-way wave travel time along a chain, 2 sum sqrt(m_i / k_[i-1]) [s]; below it costs and peaks explode.
 double computeTravelTime(const LineObject& object);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

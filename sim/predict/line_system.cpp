@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using std::sqrt;
@@ -343,4 +343,4 @@ void rotateToModes(LineSystem<double>& system) {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

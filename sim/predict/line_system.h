@@ -5,7 +5,7 @@
 #include "sim/predict/line_object.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// x' = A x + b u from x(0) = 0 to x(T) = target with least integral of u^2 (criteria.md 5). The first `controlled` states are
 /// the problem; those after them only follow (a massless hand behind a damper) and are driven by the first. Springs and masses
@@ -29,4 +29,4 @@ LineSystem<Real> makeLineSystem(const LineObject& object, Criterion criterion, d
 /// of coordinates; each state is then about one mode and can be scaled by itself.
 void rotateToModes(LineSystem<double>& system);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 
 #include "sim/predict/gauss_legendre.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 // Sixteen Gauss nodes integrate the square of a wave to rounding while its phase W tau turns by no more than this within a panel.
@@ -65,4 +65,4 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   return motion;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

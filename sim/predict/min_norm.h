@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Dense>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Least-norm motion from rest at -L/2 to rest at L/2 within tau in [-H, H] whose r-th derivative
 ///   g = sum_k polynomial_k P_k(tau/H) + sum_j trig_j c(W_j tau),   c = cos and k even for odd r, sin and k odd for even r,
@@ -20,4 +20,4 @@ struct MinNormMotion {
 /// half interval. Not refused here: `condition` says how far the result may be trusted.
 MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Eigen::VectorXd& frequency);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

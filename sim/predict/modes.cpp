@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 // One spring of the network: elongation = x[to] - x[from]; `from` -1 is a clamped hand.
@@ -92,4 +92,4 @@ Modes computeFreeModes(const LineObject& object) {
   return modes;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

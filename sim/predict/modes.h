@@ -3,7 +3,7 @@
 
 #include "sim/predict/line_object.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Undamped modes of an object on a line, M-orthonormal: node = Z + sum_j shape(node, j) q_j with
 /// q_j'' + frequency_j^2 q_j = -drive_j Z''.
@@ -18,4 +18,4 @@ struct Modes {
 Modes computeClampedModes(const LineObject& object);
 Modes computeFreeModes(const LineObject& object);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

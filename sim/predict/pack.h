@@ -3,7 +3,7 @@
 
 #include "sim/predict/double_double.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Eight numbers that are computed side by side: the same step of eight panels, or of eight columns. In place and by reference, so
 /// that the vector type crosses no function's interface by value.
@@ -70,4 +70,4 @@ inline void addProduct(WidePack& sum, const DoubleDouble& a, const Pack& x) {
   addWide(sum, p, rounding + a.lo * x);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

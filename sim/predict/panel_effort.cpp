@@ -7,7 +7,7 @@
 #include "sim/predict/condition.h"
 #include "sim/predict/panel_profile.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kRounding = 1e-17;  // what is left out of Taylor series in double, of the state
@@ -82,4 +82,4 @@ LeastEffort PanelEffort::follow(const std::vector<Pack>& control, double cost) c
   return effort;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -7,7 +7,7 @@
 #include "sim/predict/least_effort.h"
 #include "sim/predict/panel_factor.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// The problem of solveLeastEffort() for objects that need no more than kMaxGridPanels panels, much faster: W is factorised once,
 /// in double, and l = W^-1 x_T then corrected by what the movement misses the target by, computed in DoubleDouble. This is
@@ -39,4 +39,4 @@ class PanelEffort {
 };
 inline constexpr int kMaxGridPanels = 512;
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -8,7 +8,7 @@
 
 #include "sim/predict/gauss_legendre.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr int kNodes = 16, kPairs = kNodes / 2;
@@ -156,4 +156,4 @@ PanelFactor::Solution PanelFactor::solve(const Eigen::VectorXd& x) const {
   return solution;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -3,7 +3,7 @@
 
 #include "sim/predict/panel_series.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// W = int y y^T ds over the movement as Q^-T R^T R Q^-1, never formed: y is sampled on the Gauss nodes of all panels, its columns
 /// turned about the object's modes, so that each can be scaled by itself, and reduced to a triangle by Householder reflections.
@@ -27,4 +27,4 @@ class PanelFactor {
 /// Panels may be as wide as |A| times this [half a width] for the sixteen nodes to integrate y y^T to rounding.
 inline constexpr double kPanelRate = 4;
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using Vector = std::vector<double>;
@@ -133,4 +133,4 @@ LeastEffort followControl(const LineSystem<double>& system, const PanelGrid& gri
   return Follower(system, grid, step, terms, control).run();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

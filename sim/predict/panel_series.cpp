@@ -4,7 +4,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 void scale(Pack& x, double factor) { x *= factor; }
@@ -213,4 +213,4 @@ template class PanelStep<DoubleDouble>;
 template class PanelSeries<double>;
 template class PanelSeries<DoubleDouble>;
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 #include "sim/predict/pack.h"
 #include "sim/predict/sparse_rows.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// A movement in equal panels, whose number is a multiple of kPack; s in [-1, 1] runs over each.
 struct PanelGrid {
@@ -77,4 +77,4 @@ class PanelSeries {
   Pack* narrow_;  // the terms after those
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

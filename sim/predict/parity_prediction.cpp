@@ -5,7 +5,7 @@
 #include "sim/predict/min_norm.h"
 #include "sim/predict/modes.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr int kOddPowers = 5;  // sigma, sigma^3 … sigma^9: the hand-crackle variant reaches the last
@@ -221,4 +221,4 @@ std::unique_ptr<Prediction> makeParityPrediction(const LineObject& object, Crite
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

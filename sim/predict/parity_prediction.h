@@ -4,10 +4,10 @@
 #include "sim/predict/line_object.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Criteria 1, 4, 5, 6 and the hand-crackle variant for an undamped object, in the closed form of criteria.md 3.1 and 3.2: N+2
 /// (N+3) unknowns, profiles symmetric about T/2. Fills everything but the peaks and the travel time.
 std::unique_ptr<Prediction> makeParityPrediction(const LineObject& object, Criterion criterion, double distance, double duration);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kEqual = 1e-12;        // relative difference below which two maxima are one and the same height
@@ -103,4 +103,4 @@ void findPeaks(Prediction& prediction) {
   prediction.objectPeak = largest(mass, T, [&](double lo, double hi) { return refine(massVelocity, lo, hi); }).value;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -1,10 +1,10 @@
 #pragma once
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Fills handPeak, handPeakTime and objectPeak: the largest |v| on [0+, T-] with its sign, refined between samples, the earliest
 /// of equal ones (within 1e-12 of each other).
 void findPeaks(Prediction& prediction);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

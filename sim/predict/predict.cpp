@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/arm_prediction.h"
 #include "sim/predict/condition.h"
 #include "sim/predict/crackle_prediction.h"
@@ -16,7 +16,7 @@
 #include "sim/predict/series_prediction.h"
 #include "sim/predict/surface_prediction.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 // Where the task goes when it goes straight: along a line of the catalogue, any curve with constant r_phi, or freely in space.
@@ -25,24 +25,24 @@ struct StraightTask {
   double distance = 0;
 };
 
-StraightTask computeStraightTask(const Constraint& constraint, const Task& task) {
+StraightTask computeStraightTask(const constraints::Constraint& constraint, const experiment::Task& task) {
   StraightTask straight;
   const auto place = [&](const std::vector<double>& q) {
-    if (constraint.kind == ConstraintKind::Free) return Vec3{q.at(0), q.at(1), q.at(2)};
-    return evaluate(constraint.curve, q.at(0)).r;
+    if (constraint.kind == constraints::ConstraintKind::Free) return Vec3{q.at(0), q.at(1), q.at(2)};
+    return constraints::evaluate(constraint.curve, q.at(0)).r;
   };
   straight.start = place(task.start);
   straight.target = place(task.target);
-  if (constraint.kind == ConstraintKind::Free) straight.distance = norm(straight.target - straight.start);
-  else straight.distance = norm(evaluate(constraint.curve, task.start[0]).rPhi) * std::abs(task.target[0] - task.start[0]);
+  if (constraint.kind == constraints::ConstraintKind::Free) straight.distance = norm(straight.target - straight.start);
+  else straight.distance = norm(constraints::evaluate(constraint.curve, task.start[0]).rPhi) * std::abs(task.target[0] - task.start[0]);
   return straight;
 }
 
 // The arm moves in the plane of x, along, and -z, away from the chest.
-std::unique_ptr<Prediction> makeArmPrediction(const Experiment& experiment, const Constraint& constraint, const StraightTask& straight,
-                                              const LineObject& object, double duration, int unknowns) {
+std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                              const StraightTask& straight, const LineObject& object, double duration, int unknowns) {
   const ArmTask task{{straight.start.x, -straight.start.z}, {straight.target.x, -straight.target.z}, duration};
-  if (constraint.kind == ConstraintKind::Free)
+  if (constraint.kind == constraints::ConstraintKind::Free)
     return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), unknowns);
   const Vec3 way = straight.target - straight.start;
   if (std::hypot(way.y, way.z) > 1e-9 * norm(way))
@@ -94,13 +94,14 @@ void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
 }
 
 // A point on a curve or surface moves with the hand; chain and parallel objects follow it by their springs.
-std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, const Constraint& constraint, Criterion criterion,
-                                               double duration, const std::optional<LineObject>& object, int unknowns) {
+std::unique_ptr<Prediction> makeBentPrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                               Criterion criterion, double duration, const std::optional<LineObject>& object,
+                                               int unknowns) {
   if (criterion != Criterion::MinHandJerk)
     throw RefusedError(
         fmt::format("{}: defined on a straight line; min-hand-jerk is the criterion for other curves and surfaces", nameOf(criterion)));
-  const Task& task = *experiment.task;
-  if (constraint.kind == ConstraintKind::Curve) {
+  const experiment::Task& task = *experiment.task;
+  if (constraint.kind == constraints::ConstraintKind::Curve) {
     if (!object) return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, unknowns);
     const ArcCurve curve(constraint, task.start.at(0), task.target.at(0));
     requireNoGravityAlong(curve, experiment.object.gravity);
@@ -113,11 +114,11 @@ std::unique_ptr<Prediction> makeBentPrediction(const Experiment& experiment, con
 
 }  // namespace
 
-std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion criterion, const PredictOptions& options) {
+std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options) {
   if (!experiment.task) throw UsageError("task: missing; a prediction needs a start and a target");
-  const Task& task = *experiment.task;
-  const Constraint constraint = makeConstraint(experiment.constraint);
-  const auto parameters = static_cast<size_t>(constraint.kind == ConstraintKind::Free ? 3 : constraint.parameterCount());
+  const experiment::Task& task = *experiment.task;
+  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
+  const auto parameters = static_cast<size_t>(constraint.kind == constraints::ConstraintKind::Free ? 3 : constraint.parameterCount());
   if (task.start.size() != parameters || task.target.size() != parameters)
     throw UsageError(fmt::format("task: start and target need {} numbers each", parameters));
   if (task.start == task.target) throw UsageError("task: start and target are the same place");
@@ -127,12 +128,14 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
   std::unique_ptr<Prediction> prediction;
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
-  if (experiment.object.kind == ObjectKind::Body) throw UsageError("object: the criteria are not defined for a body that turns");
+  if (experiment.object.kind == experiment::ObjectKind::Body)
+    throw UsageError("object: the criteria are not defined for a body that turns");
   const auto makeObject = [&] {
     return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
                                  warnings);
   };
-  const bool straight = constraint.kind == ConstraintKind::Free || (constraint.kind == ConstraintKind::Curve && constraint.straight);
+  const bool straight = constraint.kind == constraints::ConstraintKind::Free ||
+                        (constraint.kind == constraints::ConstraintKind::Curve && constraint.straight);
   if (straight) {
     const StraightTask way = computeStraightTask(constraint, task);
     if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");
@@ -146,7 +149,7 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
                      : makeLinearPrediction(*object, criterion, way.distance, duration);
     prediction->distance = way.distance;
   } else {
-    if (experiment.object.kind != ObjectKind::Point) object = makeObject();
+    if (experiment.object.kind != experiment::ObjectKind::Point) object = makeObject();
     prediction = makeBentPrediction(experiment, constraint, criterion, duration, object, options.unknowns);
   }
   prediction->criterion = criterion;
@@ -157,4 +160,4 @@ std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion crit
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -8,7 +8,7 @@
 
 #include "sim/experiment/experiment.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// The optimality criteria of the paper's Table 1, in its order, and the literal hand-crackle variant.
 enum class Criterion { MinHandJerk, MinTorqueChange, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle };
@@ -64,6 +64,6 @@ class Prediction {
 };
 
 /// Throws RefusedError (uncontrollable, condition > 1e12 …) and UsageError (no task, criterion not defined here).
-std::unique_ptr<Prediction> predict(const Experiment& experiment, Criterion criterion, const PredictOptions& options = {});
+std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options = {});
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

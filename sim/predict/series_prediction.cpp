@@ -4,7 +4,7 @@
 #include "sim/predict/least_effort.h"
 #include "sim/predict/panel_effort.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 class SeriesPrediction final : public Prediction {
@@ -76,4 +76,4 @@ std::unique_ptr<Prediction> makeSeriesPrediction(const LineObject& object, Crite
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -4,7 +4,7 @@
 #include "sim/predict/line_object.h"
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 enum class Precise { AsNeeded, Always };
 
@@ -14,4 +14,4 @@ enum class Precise { AsNeeded, Always };
 std::unique_ptr<Prediction> makeSeriesPrediction(const LineObject& object, Criterion criterion, double distance, double duration,
                                                  Precise precise = Precise::AsNeeded);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

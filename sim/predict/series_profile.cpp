@@ -4,7 +4,7 @@
 
 #include "sim/predict/pack.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 PredictedHand SeriesProfile::evaluate(int output, double t) const {
   const double x = t / width;
@@ -42,4 +42,4 @@ void SeriesProfile::sampleVelocity(int output, double end, std::span<double> vel
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 
 #include "sim/predict/predict.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Positions as power series, panel by panel: on panel p, s = t/width - p - centre, output i is sum_k c_k s^k [m].
 struct SeriesProfile {
@@ -21,4 +21,4 @@ struct SeriesProfile {
   void sampleVelocity(int output, double end, std::span<double> velocity) const;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 
 #include "sim/predict/line_system.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// A of the first `rows` states (or its transpose) without its zeros, row by row. Real is double or DoubleDouble.
 template <class Real>
@@ -58,4 +58,4 @@ struct SparseRows {
   std::vector<Real> value;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

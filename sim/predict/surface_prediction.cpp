@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/jet.h"
 #include "sim/predict/transcription.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 // Central differences on nine points, eighth order for the first and second derivative, sixth for the third (which only shapes
@@ -22,12 +22,12 @@ double component(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.
 
 // All partial derivatives d[a][b] = r_(u^a v^b), a + b <= `order`, which is 3 or 5.
 using SurfaceExpansion = std::array<std::array<Vec3, 6>, 6>;
-SurfaceExpansion expandSurface(const Surface& surface, double u, double v, const std::array<double, 2>& step, int order) {
+SurfaceExpansion expandSurface(const constraints::Surface& surface, double u, double v, const std::array<double, 2>& step, int order) {
   SurfaceExpansion d{};
   for (int i = 0; i < 9; ++i)
     for (int j = 0; j < 9; ++j) {
       if (order == 3 && i != 4 && j != 4) continue;  // first derivatives need no corners
-      const SurfacePoint p = evaluate(surface, u + (i - 4) * step[0], v + (j - 4) * step[1]);
+      const constraints::SurfacePoint p = constraints::evaluate(surface, u + (i - 4) * step[0], v + (j - 4) * step[1]);
       if (i == 4 && j == 4) d[0][0] = p.r, d[1][0] = p.rU, d[0][1] = p.rV, d[1][1] = p.rUv;
       double scaleU = 1;
       for (int a = 0; a <= order - 2; ++a, scaleU /= step[0]) {
@@ -48,14 +48,14 @@ void store(const std::array<Jet<Locals>, 3>& jerk, double* r, double* ra, double
   for (int k = 0; k < 3; ++k) jerk[k].store(r + k, ra + k * Locals, raa + k * Locals * Locals);
 }
 
-double stepFor(const Domain& domain) {
+double stepFor(const constraints::Domain& domain) {
   const double width = domain.hi - domain.lo;
   return std::isfinite(width) ? kStep * std::min(1.0, width) : kStep;
 }
 
 }  // namespace
 
-std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface, const std::vector<double>& start,
+std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const constraints::Constraint& surface, const std::vector<double>& start,
                                                       const std::vector<double>& target, double duration, int massCount, int unknowns) {
   constexpr int kLocals = 8;
   TranscribedProblem problem;
@@ -107,7 +107,7 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface,
   const GaussRule<double> rule = makeGaussRule<double>(3 * motion.basis.columns() + 40);
   std::vector<double> speed;
   for (const double x : rule.node) {
-    const SurfacePoint p = evaluate(surface.surface, evaluate(u, x), evaluate(v, x));
+    const constraints::SurfacePoint p = constraints::evaluate(surface.surface, evaluate(u, x), evaluate(v, x));
     speed.push_back(norm(evaluate(du, x) * p.rU + evaluate(dv, x) * p.rV));
   }
   const SeriesOfOne hand = makeSeriesOfVelocity(projectOnLegendre(speed, rule.node, rule.weight), duration);
@@ -118,4 +118,4 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const Constraint& surface,
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::predict {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -65,4 +65,4 @@ double TranscribedCost::expand(const Vector& unknowns, Vector& gradient, Matrix&
   return sum;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -6,7 +6,7 @@
 #include "sim/predict/gauss_legendre.h"
 #include "sim/predict/legendre.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 /// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions: the problem of
 /// criterion 2 and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
@@ -38,4 +38,4 @@ class TranscribedCost {
   Eigen::VectorXd fixed_;  // what the ends alone make of them
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr int kMostIterations = 60;
@@ -199,4 +199,4 @@ std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector
   return prediction;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,7 +5,7 @@
 #include "sim/predict/predict.h"
 #include "sim/predict/transcribed_cost.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 
 struct TranscribedMotion {
   RestToRestBasis basis;
@@ -50,4 +50,4 @@ inline constexpr const char* kMovesAsOne = "on a curve or surface hand and mass 
 void describeMotion(const TranscribedMotion& motion, Prediction& prediction);
 std::unique_ptr<Prediction> makeLegendrePrediction(SeriesOfOne hand, std::vector<SeriesOfOne> masses, double duration);
 
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -11,10 +11,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "constraints/error.h"
-#include "sim/haptics/os.h"
+#include "base/error.h"
+#include "base/os.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 // One sentence a person can act on: what failed, where, why, what to do.
@@ -153,4 +153,4 @@ bool isBeingWritten(const std::string& path) {
   return locked;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// A file that only grows, held under an exclusive lock so that no second program writes or mends it. Move-only; one thread at a
 /// time. Members throw ResourceError naming the file, the fault and the remedy.
@@ -43,4 +43,4 @@ void makeFolders(const std::string& path);
 /// True while another program holds the file's lock (a run is being recorded into it).
 bool isBeingWritten(const std::string& path);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -4,7 +4,7 @@
 
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, its experiment, and
 /// its line in the session's scans table. One run is one block, recorded continuously; trials are rows of events.tsv. Returns the
@@ -24,7 +24,7 @@ std::string experimentPath(const RunConfiguration& configuration);
 /// The experiment as it was recorded, as an experiment file under `experiment`, with its constraint's definition, and the run's settings.
 std::string experimentJson(const RunConfiguration& configuration);
 /// Reads it back. Throws UsageError naming `origin`.
-Experiment experimentFromJson(const std::string& text, const std::string& origin);
+experiment::Experiment experimentFromJson(const std::string& text, const std::string& origin);
 /// TaskDescription of motion.json: the experiment's name, and in words what was moved and asked.
 std::string describeTask(const RunConfiguration& configuration);
 /// The experiment's name in such a description; empty where there is none.
@@ -38,4 +38,4 @@ std::string channelsJson();
 std::string eventsTsv(const RunLog& run);
 std::string eventsJson(const RunConfiguration& configuration);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/experiment/describe.h"
 #include "sim/record/bids.h"
 #include "sim/record/tidy_csv.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -19,7 +19,7 @@ const std::string kObjectFollows = ". Object: ";
 Json orNull(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 /// Empty where this program no longer understands what an earlier one recorded.
-std::optional<Experiment> understood(const RunConfiguration& c) {
+std::optional<experiment::Experiment> understood(const RunConfiguration& c) {
   try {
     return recordedExperiment(c);
   } catch (const UsageError&) {
@@ -27,8 +27,8 @@ std::optional<Experiment> understood(const RunConfiguration& c) {
   }
 }
 
-std::string taskDescription(const RunConfiguration& c, const std::optional<Experiment>& experiment) {
-  return fmt::format("{} {}{}", kTaskDescription, c.experimentName, experiment ? kObjectFollows + describe(*experiment) : "");
+std::string taskDescription(const RunConfiguration& c, const std::optional<experiment::Experiment>& experiment) {
+  return fmt::format("{} {}{}", kTaskDescription, c.experimentName, experiment ? kObjectFollows + experiment::describe(*experiment) : "");
 }
 
 }  // namespace
@@ -45,10 +45,10 @@ std::string experimentNameIn(const std::string& description) {
 }
 
 std::string experimentJson(const RunConfiguration& c) {
-  const std::optional<Experiment> experiment = understood(c);
+  const std::optional<experiment::Experiment> experiment = understood(c);
   Json j;
   j["description"] = taskDescription(c, experiment);
-  const Json known = Json::parse(experiment ? toJson(*experiment) : c.experimentText, nullptr, false, true);
+  const Json known = Json::parse(experiment ? experiment::toJson(*experiment) : c.experimentText, nullptr, false, true);
   j["experiment"] = known.is_discarded() ? Json() : known;
   j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);
   Json& run = j["run"];
@@ -64,13 +64,13 @@ std::string experimentJson(const RunConfiguration& c) {
   return j.dump(2) + "\n";
 }
 
-Experiment experimentFromJson(const std::string& text, const std::string& origin) {
+experiment::Experiment experimentFromJson(const std::string& text, const std::string& origin) {
   try {
     const Json j = Json::parse(text);
-    return parseExperiment(j.at("experiment").dump(2), origin, j.at("definition").is_null() ? "" : j.at("definition").dump(2));
+    return experiment::parseExperiment(j.at("experiment").dump(2), origin, j.at("definition").is_null() ? "" : j.at("definition").dump(2));
   } catch (const nlohmann::json::exception& e) {
     throw UsageError(origin + ": no experiment of a dataset: " + e.what());
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

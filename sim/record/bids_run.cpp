@@ -6,11 +6,11 @@
 
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 #include "sim/record/tidy_csv.h"
 #include "sim/record/trial_measures.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -109,7 +109,10 @@ std::string eventsTsv(const RunLog& run) {
     const double onset = std::isfinite(times.onset) ? times.onset : times.start;
     table.number(onset).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
     table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(c.condition);
-    table.cell(nameOf(trial.result.outcome)).cell(nameOf(trial.result.reason)).whole(trial.result.mass).number(trial.result.by);
+    table.cell(trial::nameOf(trial.result.outcome))
+        .cell(trial::nameOf(trial.result.reason))
+        .whole(trial.result.mass)
+        .number(trial.result.by);
     table.number(movementTimeOf(trial)).number(times.reaction).number(times.go).number(trial.planned.foreperiodTicks / 1000.0);
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
     table.whole(static_cast<long long>(trial.missedTicks));
@@ -168,4 +171,4 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
   return written;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -7,10 +7,10 @@
 
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 #include "sim/record/tidy_csv.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -149,4 +149,4 @@ std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::s
   return written;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -64,11 +64,11 @@ std::size_t ChannelTable::indexOf(const std::string& name) const {
   return static_cast<std::size_t>(found - channels.begin());
 }
 
-ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount) {
+ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount) {
   ChannelTable table;
   table.massCount = static_cast<int>(experiment.object.masses.size());
   table.parameterCount = parameterCount;
-  table.body = experiment.object.kind == ObjectKind::Body;
+  table.body = experiment.object.kind == experiment::ObjectKind::Body;
   auto& out = table.channels;
   addScalar(out,
             {"latency", "time_s", "LATENCY", "n/a", "s", "time since the run began: ticks of 1 ms, the clock of protocol and physics"});
@@ -88,7 +88,7 @@ ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount) 
   return table;
 }
 
-void fillRow(const ChannelTable& table, const TickState& state, double* row) noexcept {
+void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept {
   double* at = row;
   *at++ = static_cast<double>(state.tick) / 1000.0;
   *at++ = static_cast<double>(state.measuredNs) * 1e-9;
@@ -103,7 +103,7 @@ void fillRow(const ChannelTable& table, const TickState& state, double* row) noe
   *at++ = static_cast<double>(state.phase);
   *at++ = state.device.valid ? 1 : 0;
   for (int i = 0; i < table.massCount; ++i) {
-    const MassState& mass = state.masses[static_cast<std::size_t>(i)];
+    const dynamics::MassState& mass = state.masses[static_cast<std::size_t>(i)];
     at = putVector(at, mass.r);
     at = putVector(at, mass.v);
     at = putVector(at, mass.a);
@@ -120,4 +120,4 @@ void numberTrial(const ChannelTable&, int firstTrial, double* row) noexcept {
   if (row[kTrialColumn] > 0) row[kTrialColumn] += firstTrial - 1;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

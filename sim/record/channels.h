@@ -5,7 +5,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_state.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// One column of the recording, in the words of BIDS channels.tsv.
 struct Channel {
@@ -32,13 +32,13 @@ struct ChannelTable {
 };
 
 /// `parameterCount` is Constraint::parameterCount() of the scene's constraint.
-ChannelTable makeChannelTable(const Experiment& experiment, int parameterCount);
+ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount);
 
 /// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic
 /// thread; never allocates.
-void fillRow(const ChannelTable& table, const TickState& state, double* row) noexcept;
+void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept;
 
 /// Turns the engine's count of trials in a row (from 1; 0 before the first) into trial numbers that begin with `firstTrial`.
 void numberTrial(const ChannelTable& table, int firstTrial, double* row) noexcept;
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -5,11 +5,11 @@
 
 #include "sim/experiment/unit_ending.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 std::string unitOfColumn(std::string_view column) {
   if (column == "percent") return "%";
-  return std::string(splitUnit(column).unit);
+  return std::string(experiment::splitUnit(column).unit);
 }
 
 std::string columnDictionary(std::string_view csv, std::span<const ColumnMeaning> meanings) {
@@ -31,4 +31,4 @@ std::string columnDictionary(std::string_view csv, std::span<const ColumnMeaning
 
 std::string dictionaryPathOf(const std::string& csvPath) { return csvPath.substr(0, csvPath.rfind('.')) + ".json"; }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// What a column of a CSV file holds, in words. A name that ends in `*` stands for all columns that begin with it.
 struct ColumnMeaning {
@@ -19,4 +19,4 @@ std::string unitOfColumn(std::string_view column);
 /// "folder/trials.csv" has its dictionary in "folder/trials.json".
 std::string dictionaryPathOf(const std::string& csvPath);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -12,9 +12,9 @@
 #include <cerrno>
 #include <utility>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 static_assert(std::endian::native == std::endian::little, "the log is written as it lies in memory");
 
@@ -167,4 +167,4 @@ void LogReader::seek(std::uint64_t offset, std::uint32_t sequence) {
   sequence_ = sequence;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -16,7 +16,7 @@
 ///
 /// A record counts only if its CRC, its sequence number and its type are right, and reading ends at the first that is not: a
 /// flipped bit, a cut, a zero-filled or a duplicated stretch can end a log early, never change a number in it.
-namespace reachlab {
+namespace reachlab::record {
 
 inline constexpr std::uint32_t kLogSchemaVersion = 1;
 inline constexpr std::size_t kLogHeaderBytes = 16;
@@ -148,4 +148,4 @@ class LogReader {
   std::uint32_t sequence_ = 0, version_ = 0;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -1,6 +1,6 @@
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 std::string_view nameOf(EventKind kind) {
   switch (kind) {
@@ -20,4 +20,4 @@ std::string_view nameOf(EventKind kind) {
   return "unknown";
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -5,11 +5,11 @@
 #include <mutex>
 #include <thread>
 
-#include "constraints/error.h"
-#include "sim/haptics/os.h"
+#include "base/error.h"
+#include "base/os.h"
 #include "sim/record/run_writer.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at its queue this often
@@ -91,7 +91,7 @@ Recorder::~Recorder() {
   }
 }
 
-bool Recorder::onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept {
+bool Recorder::onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept {
   Impl& impl = *impl_;
   if (!impl.anyTick) impl.startNs = state.measuredNs;
   impl.anyTick = true;
@@ -116,7 +116,7 @@ bool Recorder::onTick(const TickState& state, Command command, std::uint32_t mis
   return !due || slot->hasRow;
 }
 
-void Recorder::announce(std::int32_t trial, const PlannedTrial& planned) {
+void Recorder::announce(std::int32_t trial, const trial::PlannedTrial& planned) {
   const TrialSetup setup{trial + impl_->firstTrial - 1, planned};
   const std::scoped_lock lock(impl_->mutex);
   impl_->throwIfFaulty();
@@ -166,4 +166,4 @@ std::string Recorder::fault() const {
 
 double Recorder::processorSeconds() const { return impl_->processorSeconds; }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

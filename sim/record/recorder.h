@@ -7,7 +7,7 @@
 #include "sim/record/run_configuration.h"
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 struct RecorderOptions {
   bool threaded = true;           // false: written by the caller (virtual clock), so that nothing can be dropped
@@ -16,7 +16,7 @@ struct RecorderOptions {
 
 /// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a
 /// thread of the recorder writes; blocks reach the kernel at least every 100 ms.
-class Recorder : public RunSink {
+class Recorder : public haptics::RunSink {
  public:
   /// Creates the log at `path` and writes the configuration. Throws ResourceError.
   Recorder(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& options = {});
@@ -26,10 +26,10 @@ class Recorder : public RunSink {
 
   /// Haptic thread, every tick; never waits, allocates or throws. False when the queue was full: the tick is lost and must be
   /// counted (LoopFaults::droppedRecords).
-  bool onTick(const TickState& state, Command command, std::uint32_t missedTicks) noexcept override;
+  bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
 
   /// Controlling thread, before a trial is put up: what the engine's `trial`-th (from 1) stands for. Throws ResourceError.
-  void announce(std::int32_t trial, const PlannedTrial& planned) override;
+  void announce(std::int32_t trial, const trial::PlannedTrial& planned) override;
   /// Controlling thread, after the engine's `trial`-th has ended: returns once its record is on the disk (fdatasync). Throws
   /// ResourceError when the disk is full or gone; what was synced before stays good.
   void awaitTrial(std::int32_t trial) override;
@@ -50,4 +50,4 @@ class Recorder : public RunSink {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::record

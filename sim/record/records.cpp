@@ -3,9 +3,9 @@
 #include <cstring>
 #include <limits>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr std::uint8_t kValid = 1, kHasVelocity = 2, kButtons = 4, kSamePosition = 8, kCommand = 16, kMissed = 32, kTickJump = 64,
@@ -41,7 +41,7 @@ void TickBlock::add(const RecordedTick& tick) {
   if (tick.device.hasVelocity) flags |= kHasVelocity;
   if (tick.device.buttons != 0) flags |= kButtons;
   if (!first && sameBits(tick.device.position, last_.device.position)) flags |= kSamePosition;
-  if (tick.command != Command::None) flags |= kCommand;
+  if (tick.command != trial::Command::None) flags |= kCommand;
   if (tick.missedTicks != 0) flags |= kMissed;
   if (first || tick.tick != last_.tick + 1) flags |= kTickJump;
   if (first || passed < 0 || passed > std::numeric_limits<std::uint32_t>::max()) flags |= kTimeJump;
@@ -82,7 +82,7 @@ void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick
     tick.device.velocity = flags & kHasVelocity ? getVec3(in) : Vec3{};
     tick.device.buttons = flags & kButtons ? in.get<std::uint32_t>() : 0;
     tick.device.valid = flags & kValid;
-    tick.command = flags & kCommand ? static_cast<Command>(in.get<std::uint8_t>()) : Command::None;
+    tick.command = flags & kCommand ? static_cast<trial::Command>(in.get<std::uint8_t>()) : trial::Command::None;
     tick.missedTicks = flags & kMissed ? in.get<std::uint32_t>() : 0;
     if (in.ok()) out.push_back(tick);
   }
@@ -196,8 +196,8 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   t.planned.index = in.get<std::int32_t>();
   t.planned.foreperiodTicks = in.get<std::int32_t>();
   t.planned.catchTrial = in.get<std::uint8_t>() != 0;
-  t.result.outcome = static_cast<Outcome>(in.get<std::uint8_t>());
-  t.result.reason = static_cast<Reason>(in.get<std::uint8_t>());
+  t.result.outcome = static_cast<trial::Outcome>(in.get<std::uint8_t>());
+  t.result.reason = static_cast<trial::Reason>(in.get<std::uint8_t>());
   t.result.mass = in.get<std::int32_t>();
   for (double* value : {&t.result.by, &t.result.movementTime}) *value = in.get<double>();
   for (std::uint64_t* tick : {&t.startTick, &t.armedTick, &t.goTick, &t.result.onsetTick, &t.result.endTick, &t.lastTick})
@@ -227,4 +227,4 @@ TrialLink decodeEnd(std::span<const std::uint8_t> payload) {
   return last;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -8,7 +8,7 @@
 
 /// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws UsageError on bytes that no writer of
 /// ours made.
-namespace reachlab {
+namespace reachlab::record {
 
 /// Collects the ticks of one block.
 class TickBlock {
@@ -64,4 +64,4 @@ void encodeEnd(const TrialLink& last, ByteWriter& out);
 TrialLink decodeEnd(std::span<const std::uint8_t> payload);
 inline constexpr std::size_t kEndPayloadBytes = 12;
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/record/records.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ Recovery recoverLog(const std::string& path) {
   return recovery;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

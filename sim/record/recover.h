@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-namespace reachlab {
+namespace reachlab::record {
 
 struct Recovery {
   bool mended = false;          // false: the log was healthy and is as it was
@@ -17,4 +17,4 @@ struct Recovery {
 /// Throws UsageError (no log, configuration damaged) or ResourceError (disk, or the log is being written).
 Recovery recoverLog(const std::string& path);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -5,18 +5,18 @@
 #include <cstring>
 #include <memory>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/record/trial_tracker.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr std::size_t kMeasuredTime = 1;  // the one column that is the computer's and not the simulation's
 
 bool sameBits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-bool sameResult(const TrialResult& a, const TrialResult& b) {
+bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
   return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) &&
          sameBits(a.movementTime, b.movementTime) && a.onsetTick == b.onsetTick && a.endTick == b.endTick;
 }
@@ -27,7 +27,7 @@ class RowCheck {
   explicit RowCheck(const RunLog& log)
       : table_(log.configuration().table), firstTrial_(log.configuration().firstTrial), recorded_(log.allRows()), row_(table_.size()) {}
 
-  void look(const TickState& state, Replay& replay) {
+  void look(const haptics::TickState& state, Replay& replay) {
     if (next_ >= recorded_.size() || recorded_.ticks[next_] != state.tick) return;
     fillRow(table_, state, row_.data());
     numberTrial(table_, firstTrial_, row_.data());
@@ -55,7 +55,7 @@ class RowCheck {
 void compareTrials(const RunLog& log, Replay& replay) {
   std::size_t simulated = 0;
   for (const RecordedTrial& recorded : log.trials()) {
-    if (!recorded.complete || recorded.result.reason == Reason::Program) continue;  // broken off: there is no result to compare
+    if (!recorded.complete || recorded.result.reason == trial::Reason::Program) continue;  // broken off: there is no result to compare
     if (simulated < replay.trials.size() && sameResult(recorded.result, replay.trials[simulated].result)) {
       ++simulated;
       continue;
@@ -70,8 +70,8 @@ void compareTrials(const RunLog& log, Replay& replay) {
 
 Replay replayRun(const RunLog& log) {
   const RunConfiguration& c = log.configuration();
-  const Experiment experiment = recordedExperiment(c);
-  TickEngine engine(experiment, EngineOptions{c.deviceMaxForce, c.virtualHand});
+  const experiment::Experiment experiment = recordedExperiment(c);
+  haptics::TickEngine engine(experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand});
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);
   TrialTracker tracker(c.firstTrial);
@@ -80,13 +80,13 @@ Replay replayRun(const RunLog& log) {
   std::size_t setup = 0;
   std::uint64_t expected = 0;
   for (const RecordedTick& tick : log.ticks()) {
-    TickInput input{tick.device, tick.command, {}, tick.missedTicks, tick.measuredNs};
-    if (tick.command == Command::NextTrial && setup < setups.size()) {
+    haptics::TickInput input{tick.device, tick.command, {}, tick.missedTicks, tick.measuredNs};
+    if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
       tracker.announce(setups[setup]);
       input.planned = setups[setup++].planned;
     }
     engine.tick(input);
-    const TickState& state = engine.state();
+    const haptics::TickState& state = engine.state();
     if (replay.ticks == 0) expected = tick.tick;
     if (tick.tick != expected || state.tick != tick.tick)
       throw UsageError(
@@ -100,4 +100,4 @@ Replay replayRun(const RunLog& log) {
   return replay;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

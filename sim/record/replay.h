@@ -5,7 +5,7 @@
 
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// A recorded run simulated again from its inputs, held against what was recorded.
 struct Replay {
@@ -22,4 +22,4 @@ struct Replay {
 /// and what the engine's construction throws.
 Replay replayRun(const RunLog& log);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -6,9 +6,9 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 using nlohmann::json;
@@ -36,14 +36,15 @@ Participant participantFrom(const json& j) {
   return p;
 }
 
-json toJson(const std::vector<PlannedTrial>& trials) {
+json toJson(const std::vector<trial::PlannedTrial>& trials) {
   json list = json::array();
-  for (const PlannedTrial& t : trials) list.push_back({{"index", t.index}, {"foreperiod_ms", t.foreperiodTicks}, {"catch", t.catchTrial}});
+  for (const trial::PlannedTrial& t : trials)
+    list.push_back({{"index", t.index}, {"foreperiod_ms", t.foreperiodTicks}, {"catch", t.catchTrial}});
   return list;
 }
 
-std::vector<PlannedTrial> trialsFrom(const json& list) {
-  std::vector<PlannedTrial> trials;
+std::vector<trial::PlannedTrial> trialsFrom(const json& list) {
+  std::vector<trial::PlannedTrial> trials;
   for (const json& j : list) trials.push_back({j.at("index"), j.at("foreperiod_ms"), j.at("catch")});
   return trials;
 }
@@ -158,7 +159,9 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   }
 }
 
-Experiment recordedExperiment(const RunConfiguration& c) { return parseExperiment(c.experimentText, c.experimentName, c.definitionText); }
+experiment::Experiment recordedExperiment(const RunConfiguration& c) {
+  return experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
+}
 
 void checkLabel(const std::string& label, const std::string& what) {
   const bool good = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
@@ -170,4 +173,4 @@ void checkParticipant(const Participant& participant) {
     throw UsageError(fmt::format("--age {}: allowed: 0 to 130 years", *participant.age));
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

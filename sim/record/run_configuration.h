@@ -8,7 +8,7 @@
 #include "sim/record/channels.h"
 #include "sim/trial/planned_trial.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// What is known of a person, under the pseudonym that is the subject label. Empty or nullopt: not told.
 struct Participant {
@@ -35,7 +35,7 @@ struct RunConfiguration {
   std::uint64_t seed = 0;                      // of this block: trial i depends on (seed, i) alone
   std::uint64_t sessionSeed = 0;               // that the blocks' seeds come from
   std::uint64_t orderSeed = 0;                 // of the plan
-  std::vector<PlannedTrial> trials;
+  std::vector<trial::PlannedTrial> trials;
   std::string device;  // as asked for: "simulated:noise=0"
   std::string deviceName, deviceVersion;
   double deviceMaxForce = 0;         // [N]
@@ -57,11 +57,11 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws UsageError when its text cannot be understood.
-Experiment recordedExperiment(const RunConfiguration& configuration);
+experiment::Experiment recordedExperiment(const RunConfiguration& configuration);
 
 /// Labels are letters and digits only (BIDS). Throws UsageError otherwise.
 void checkLabel(const std::string& label, const std::string& what);
 /// An age is 0 to 130 years, so that the record can be written and read. Throws UsageError otherwise.
 void checkParticipant(const Participant& participant);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <limits>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/record/records.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr std::uint64_t kNoTick = std::numeric_limits<std::uint64_t>::max();
@@ -38,8 +38,8 @@ struct OpenTrial {
       if (setup.trial == event.trial) trial.planned = setup.planned;
     trial.startTick = trial.lastTick = event.tick;
     trial.peakHandSpeed = trial.handPathLength = trial.peakForce = trial.meanForce = unknown;
-    trial.result.outcome = Outcome::Interrupted;
-    trial.result.reason = Reason::Program;
+    trial.result.outcome = trial::Outcome::Interrupted;
+    trial.result.reason = trial::Reason::Program;
     trial.complete = false;
     underWay = true;
   }
@@ -244,4 +244,4 @@ std::vector<std::string> findLogs(const std::string& path) {
   return logs;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

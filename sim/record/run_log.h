@@ -8,20 +8,20 @@
 #include "sim/record/run_configuration.h"
 #include "sim/trial/outcome.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// A trial as it was put up, before it began: what its number stands for in the planned order.
 struct TrialSetup {
   std::int32_t trial = 0;  // as the recording numbers it, never used twice in a run
-  PlannedTrial planned;
+  trial::PlannedTrial planned;
 };
 
 /// A raw tick as logged: with the configuration all that is needed to simulate the run again.
 struct RecordedTick {
   std::uint64_t tick = 0;
   std::int64_t measuredNs = 0;  // monotonic clock of the computer
-  DeviceSample device;
-  Command command = Command::None;
+  haptics::DeviceSample device;
+  trial::Command command = trial::Command::None;
   std::uint32_t missedTicks = 0;  // whole periods skipped before this tick
 };
 
@@ -52,9 +52,9 @@ struct RecordedEvent {
 /// One trial of a run with its result and simple measures. An unfinished trial of a log that broke off is `Interrupted` by
 /// `Program`.
 struct RecordedTrial {
-  int trial = 0;         // from 1; a resumed block goes on counting
-  PlannedTrial planned;  // a repeated trial has the index of its predecessor
-  TrialResult result;
+  int trial = 0;                // from 1; a resumed block goes on counting
+  trial::PlannedTrial planned;  // a repeated trial has the index of its predecessor
+  trial::TrialResult result;
   std::uint64_t startTick = 0, armedTick = 0, goTick = 0;  // 0: never came
   std::uint64_t lastTick = 0;                              // last tick that belongs to the trial
   double peakHandSpeed = 0;                                // [m/s] largest over every tick of the movement
@@ -121,4 +121,4 @@ class RunLog {
 /// The logs of a dataset, a session's folder or a single file, sorted by name. Throws UsageError when there are none.
 std::vector<std::string> findLogs(const std::string& path);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

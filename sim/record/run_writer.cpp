@@ -1,6 +1,6 @@
 #include "sim/record/run_writer.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr auto kFlushEvery = std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
@@ -97,4 +97,4 @@ void RunWriter::close() {
   log_.sync();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

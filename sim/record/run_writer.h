@@ -6,7 +6,7 @@
 #include "sim/record/records.h"
 #include "sim/record/tick_ring.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
 class RunWriter {
@@ -39,4 +39,4 @@ class RunWriter {
   std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::record

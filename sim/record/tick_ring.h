@@ -6,7 +6,7 @@
 
 #include "sim/record/trial_tracker.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// One tick on its way to the recorder; its row, when it has one, lies in the ring's row store.
 struct QueuedTick {
@@ -60,4 +60,4 @@ class TickRing {
   alignas(kCacheLine) std::atomic<std::size_t> rowTail_{0};
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -1,7 +1,7 @@
 #include "sim/record/column_dictionary.h"
 #include "sim/record/tidy_csv.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 constexpr ColumnMeaning kTrialMeanings[] = {
@@ -61,4 +61,4 @@ std::string samplesDictionary(const ChannelTable& table, std::string_view csv) {
   return columnDictionary(csv, meanings);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -4,10 +4,10 @@
 
 #include "sim/record/append_file.h"
 #include "sim/record/column_dictionary.h"
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 #include "sim/record/trial_measures.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 const std::vector<std::string> kTrialColumns{"subject",
@@ -53,9 +53,9 @@ const std::vector<std::string> kTrialColumns{"subject",
                                              "notes"};
 
 // What the experiment asked for; an experiment that this version cannot read any more leaves these cells empty.
-Task taskOf(const RunConfiguration& configuration) {
+experiment::Task taskOf(const RunConfiguration& configuration) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  Task unknown;
+  experiment::Task unknown;
   unknown.duration = kUnknown;
   unknown.tolerance = {kUnknown, kUnknown, kUnknown};
   try {
@@ -65,11 +65,11 @@ Task taskOf(const RunConfiguration& configuration) {
   }
 }
 
-void addTrial(TableText& table, const RunConfiguration& c, const Task& task, const RecordedTrial& t) {
+void addTrial(TableText& table, const RunConfiguration& c, const experiment::Task& task, const RecordedTrial& t) {
   const TrialTimes times = timesOf(t);
   table.cell(c.subject).cell(c.session).whole(c.run).whole(c.block).whole(t.trial);
   table.cell(c.practice ? "practice" : "recorded").cell(c.condition);
-  table.cell(nameOf(t.result.outcome)).cell(nameOf(t.result.reason)).whole(t.result.mass);
+  table.cell(trial::nameOf(t.result.outcome)).cell(trial::nameOf(t.result.reason)).whole(t.result.mass);
   table.number(movementTimeOf(t)).number(t.result.by).cell(unitOf(t.result.reason));
   table.cell(c.experimentName).whole(c.day).whole(t.planned.index).whole(t.planned.catchTrial ? 1 : 0);
   table.number(t.planned.foreperiodTicks / 1000.0).number(task.duration);
@@ -85,12 +85,12 @@ void addTrial(TableText& table, const RunConfiguration& c, const Task& task, con
 
 }  // namespace
 
-std::string unitOf(Reason reason) {
+std::string unitOf(trial::Reason reason) {
   switch (reason) {
-    case Reason::Position: return "m";
-    case Reason::Velocity: return "m/s";
-    case Reason::TimeShort:
-    case Reason::TimeLong: return "s";
+    case trial::Reason::Position: return "m";
+    case trial::Reason::Velocity: return "m/s";
+    case trial::Reason::TimeShort:
+    case trial::Reason::TimeLong: return "s";
     default: return "";
   }
 }
@@ -103,7 +103,7 @@ std::string trialsCsv(const std::vector<RunLog>& runs) {
   TableText table(',', "");
   table.row(kTrialColumns);
   for (const RunLog& run : runs) {
-    const Task task = taskOf(run.configuration());
+    const experiment::Task task = taskOf(run.configuration());
     for (const RecordedTrial& trial : run.trials()) addTrial(table, run.configuration(), task, trial);
   }
   return table.text();
@@ -138,4 +138,4 @@ std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std
   return written;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

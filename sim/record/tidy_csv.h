@@ -5,7 +5,7 @@
 
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// Writes `trials.csv` (one row a trial of all the runs) and one `sub-…_ses-…_task-…_run-…_samples.csv` a run into `folder`, for
 /// R, JASP, SPSS, pandas; beside each a dictionary of its columns (`trials.json` …). Returns the files written. Throws ResourceError.
@@ -22,6 +22,6 @@ std::string samplesDictionary(const ChannelTable& table, std::string_view csv);
 std::string runName(const RunConfiguration& configuration, const std::string& between = "");
 
 /// What an outcome's `by` is measured in: m, m/s, s or nothing.
-std::string unitOf(Reason reason);
+std::string unitOf(trial::Reason reason);
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -3,7 +3,7 @@
 
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// A trial's moments in seconds since the run began; NaN: never came.
 struct TrialTimes {
@@ -32,4 +32,4 @@ inline double movementTimeOf(const RecordedTrial& trial) {
   return trial.result.onsetTick > 0 ? trial.result.movementTime : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::record {
 
-TickFacts factsOf(const TickState& state) noexcept {
+TickFacts factsOf(const haptics::TickState& state) noexcept {
   return {state.phase, state.status,        state.trial, !(state.deviceForce == state.feedbackForce) && state.device.valid,
           state.hand,  state.couplingForce, state.result};
 }
@@ -18,7 +18,7 @@ void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {
   setups_.clear();
   trial_.startTick = tick.tick;
   underWay_ = true;
-  phase_ = Phase::Idle;
+  phase_ = trial::Phase::Idle;
   forceSum_ = 0;
   moving_ = 0;
 }
@@ -38,7 +38,7 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   Step step;
   if (facts.trial > 0) facts.trial += firstTrial_ - 1;
   const auto tell = [&](EventKind kind, double value = 0) { events.push_back({tick.tick, kind, facts.trial, value, {}}); };
-  const bool inTrial = facts.phase != Phase::Idle && facts.trial > 0;
+  const bool inTrial = facts.phase != trial::Phase::Idle && facts.trial > 0;
   if (inTrial && facts.trial != trial_.trial) {
     begin(tick, facts);
     step.started = true;
@@ -49,7 +49,7 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   valid_ = tick.device.valid;
   if (facts.clamped != clamped_) tell(facts.clamped ? EventKind::ClampBegin : EventKind::ClampEnd);
   clamped_ = facts.clamped;
-  if (facts.status != status_ && facts.status != StepStatus::Ok) tell(EventKind::StepFault, static_cast<double>(facts.status));
+  if (facts.status != status_ && facts.status != dynamics::StepStatus::Ok) tell(EventKind::StepFault, static_cast<double>(facts.status));
   status_ = facts.status;
   if (!underWay_) return step;
 
@@ -57,24 +57,24 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   trial_.missedTicks += tick.missedTicks;
   if (facts.clamped) ++trial_.clampedTicks;
   if (facts.phase != phase_) {
-    if (facts.phase == Phase::Armed) {
+    if (facts.phase == trial::Phase::Armed) {
       trial_.armedTick = tick.tick;
       tell(EventKind::Armed);
     }
-    if (facts.phase == Phase::Moving) tell(EventKind::Onset);
+    if (facts.phase == trial::Phase::Moving) tell(EventKind::Onset);
   }
-  const bool armed = facts.phase == Phase::Armed || facts.phase == Phase::Moving;
+  const bool armed = facts.phase == trial::Phase::Armed || facts.phase == trial::Phase::Moving;
   const std::uint64_t wait = static_cast<std::uint64_t>(std::max(0, trial_.planned.foreperiodTicks));
   if (armed && trial_.armedTick > 0 && trial_.goTick == 0 && !trial_.planned.catchTrial && tick.tick >= trial_.armedTick + wait) {
     trial_.goTick = tick.tick;
     tell(EventKind::Go);
   }
-  if (facts.phase == Phase::Moving) {
+  if (facts.phase == trial::Phase::Moving) {
     trial_.result.onsetTick = moving_ == 0 ? tick.tick : trial_.result.onsetTick;
     measure(facts);
   }
   phase_ = facts.phase;
-  if (facts.phase == Phase::Done) {
+  if (facts.phase == trial::Phase::Done) {
     if (trial_.result.onsetTick > 0 && facts.result.onsetTick > 0) measure(facts);
     trial_.result = facts.result;
     tell(EventKind::TrialEnd, static_cast<double>(facts.result.outcome));
@@ -88,8 +88,8 @@ RecordedTrial TrialTracker::brokenOff() const {
   RecordedTrial trial = trial_;
   const std::uint64_t onset = trial.result.onsetTick;
   trial.result = {};
-  trial.result.outcome = Outcome::Interrupted;
-  trial.result.reason = Reason::Program;
+  trial.result.outcome = trial::Outcome::Interrupted;
+  trial.result.reason = trial::Reason::Program;
   trial.result.onsetTick = onset;
   trial.result.endTick = trial.lastTick;
   trial.result.movementTime = onset > 0 ? static_cast<double>(trial.lastTick - onset) / 1000.0 : 0;
@@ -97,4 +97,4 @@ RecordedTrial TrialTracker::brokenOff() const {
   return trial;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -3,19 +3,19 @@
 
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// What the recording needs of a tick besides its raw input and its row.
 struct TickFacts {
-  Phase phase = Phase::Idle;
-  StepStatus status = StepStatus::Ok;
+  trial::Phase phase = trial::Phase::Idle;
+  dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::int32_t trial = 0;
   bool clamped = false;  // the device gets less force than the object gives
-  HandSample hand;
-  Vec3 couplingForce;  // [N]
-  TrialResult result;  // in phase Done
+  dynamics::HandSample hand;
+  Vec3 couplingForce;         // [N]
+  trial::TrialResult result;  // in phase Done
 };
-TickFacts factsOf(const TickState& state) noexcept;
+TickFacts factsOf(const haptics::TickState& state) noexcept;
 
 /// Follows a run tick by tick and tells what happened and how each trial went. A function of the ticks alone, so that the
 /// recorder and a reader of the log come to the same trial. One thread.
@@ -48,12 +48,12 @@ class TrialTracker {
   std::vector<TrialSetup> setups_;
   RecordedTrial trial_;
   bool underWay_ = false;
-  Phase phase_ = Phase::Idle;
+  trial::Phase phase_ = trial::Phase::Idle;
   bool clamped_ = false, valid_ = true;
-  StepStatus status_ = StepStatus::Ok;
+  dynamics::StepStatus status_ = dynamics::StepStatus::Ok;
   Vec3 lastPosition_;
   double forceSum_ = 0;
   std::uint64_t moving_ = 0;  // ticks of the movement so far
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -3,9 +3,9 @@
 #include <numeric>
 
 #include "sim/session/plan.h"
-#include "sim/session/seeded.h"
+#include "base/seeded.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 constexpr std::size_t kMaxAllOrders = 4;  // 4! = 24 orders; beyond, nobody has that many subjects
@@ -59,4 +59,4 @@ std::vector<int> blockOrder(const Plan& plan, const std::string& subject, int da
   return order;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::session

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "constraints/error.h"
-#include "constraints/json_reader.h"
+#include "base/error.h"
+#include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/task_check.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,7 +69,7 @@ std::optional<std::string> findPlan(const std::string& fileOrName) {
   std::error_code error;
   if (fs::exists(fileOrName, error)) return fileOrName;
   const bool plainName = fileOrName.find('/') == std::string::npos;
-  const std::string shipped = fmt::format("{}/plans/{}.json", resourceFolder(), fileOrName);
+  const std::string shipped = fmt::format("{}/plans/{}.json", experiment::resourceFolder(), fileOrName);
   if (plainName && fs::is_regular_file(shipped, error)) return shipped;
   return std::nullopt;
 }
@@ -116,7 +116,7 @@ std::vector<std::string> planProblems(const std::string& file) {
     if (std::find(seen.begin(), seen.end(), block.experiment) != seen.end()) continue;
     seen.push_back(block.experiment);
     try {
-      checkTask(readExperiment(block.experiment), file + ": blocks: " + block.experiment);
+      trial::checkTask(experiment::readExperiment(block.experiment), file + ": blocks: " + block.experiment);
     } catch (const UsageError& error) {
       found.emplace_back(error.what());
     }
@@ -124,4 +124,4 @@ std::vector<std::string> planProblems(const std::string& file) {
   return found;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::session

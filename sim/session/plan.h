@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::session {
 
 /// A series of trials with the same settings; recorded as one run.
 struct PlanBlock {
@@ -45,4 +45,4 @@ std::vector<std::string> planProblems(const std::string& file);
 /// plan and the subject's label alone.
 std::vector<int> blockOrder(const Plan& plan, const std::string& subject, int day);
 
-}  // namespace reachlab
+}  // namespace reachlab::session

@@ -2,24 +2,24 @@
 
 #include <algorithm>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::session {
 
 std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults) {
   std::vector<BlockProgress> blocks;
   for (const RecordedRun& run : recordedRuns(place)) {
     try {
-      const RunLog log = RunLog::open(run.path, LogCheck::Trials);
-      const RunConfiguration& configuration = log.configuration();
+      const record::RunLog log = record::RunLog::open(run.path, record::LogCheck::Trials);
+      const record::RunConfiguration& configuration = log.configuration();
       auto block =
           std::find_if(blocks.begin(), blocks.end(), [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
       if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{configuration, {}, 0, 0});
       block->lastRun = configuration.run;
-      for (const RecordedTrial& trial : log.trials()) {
+      for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
-        const bool again =
-            trial.result.outcome == Outcome::Interrupted || (trial.result.outcome == Outcome::Aborted && configuration.repeatAborted);
+        const bool again = trial.result.outcome == trial::Outcome::Interrupted ||
+                           (trial.result.outcome == trial::Outcome::Aborted && configuration.repeatAborted);
         if (!again) block->done.insert(trial.planned.index);
       }
     } catch (const Error& error) {
@@ -29,4 +29,4 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
   return blocks;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::session

@@ -5,12 +5,12 @@
 #include "sim/record/run_log.h"
 #include "sim/session/session_folder.h"
 
-namespace reachlab {
+namespace reachlab::session {
 
 /// One block as far as it is recorded: its first run and those that resumed it.
 struct BlockProgress {
-  RunConfiguration configuration;  // of the first run
-  std::set<int> done;              // planned indices that were finished, and are not to be repeated
+  record::RunConfiguration configuration;  // of the first run
+  std::set<int> done;                      // planned indices that were finished, and are not to be repeated
   bool complete() const { return done.size() >= configuration.trials.size(); }
   int lastRun = 0;
   int lastTrial = 0;  // largest trial number used so far
@@ -19,4 +19,4 @@ struct BlockProgress {
 /// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`.
 std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults);
 
-}  // namespace reachlab
+}  // namespace reachlab::session

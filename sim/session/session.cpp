@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <random>
 
-#include "constraints/error.h"
-#include "constraints/json_tree.h"
+#include "base/error.h"
+#include "base/json_tree.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 // A single experiment is a plan of one block.
@@ -46,15 +46,16 @@ int dayOf(const SessionRequest& request, const Plan& plan) {
   return day;
 }
 
-bool isRunOf(const RunConfiguration& c, const Experiment& experiment) {
+bool isRunOf(const record::RunConfiguration& c, const experiment::Experiment& experiment) {
   return c.planText.empty() && c.experimentText == experiment.text &&
-         (c.definitionText.empty() || c.definitionText == definitionTextOf(experiment));
+         (c.definitionText.empty() || c.definitionText == experiment::definitionTextOf(experiment));
 }
 
-const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number, const Experiment& experiment) {
+const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number,
+                                  const experiment::Experiment& experiment) {
   const BlockProgress* found = nullptr;
   for (const BlockProgress& block : progress) {
-    const RunConfiguration& c = block.configuration;
+    const record::RunConfiguration& c = block.configuration;
     const bool same = plan.text.empty() ? isRunOf(c, experiment) : c.planText == plan.text && c.block == number;
     if (same) found = &block;
   }
@@ -62,9 +63,9 @@ const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, co
 }
 
 // A changed file under the name of a recorded one is no longer the same block.
-void refuseChanged(const std::vector<BlockProgress>& progress, const Plan& plan, const Experiment& experiment) {
+void refuseChanged(const std::vector<BlockProgress>& progress, const Plan& plan, const experiment::Experiment& experiment) {
   for (const BlockProgress& block : progress) {
-    const RunConfiguration& c = block.configuration;
+    const record::RunConfiguration& c = block.configuration;
     const bool sameName = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name : c.planName == plan.name;
     if (sameName && !block.complete())
       throw UsageError(
@@ -84,8 +85,9 @@ void checkSameWishes(const SessionRequest& request, const BlockProgress& block) 
                                  block.configuration.run, block.configuration.sessionSeed, block.configuration.sessionSeed));
 }
 
-RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block, const Experiment& experiment) {
-  RunConfiguration c;
+record::RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block,
+                                            const experiment::Experiment& experiment) {
+  record::RunConfiguration c;
   c.subject = request.place.subject;
   c.session = request.place.session;
   c.task = labelOf(experiment.name);
@@ -96,23 +98,23 @@ RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& p
   c.repeatAborted = block.repeatAborted;
   c.experimentName = experiment.name;
   c.experimentText = experiment.text;
-  c.definitionText = definitionTextOf(experiment);
+  c.definitionText = experiment::definitionTextOf(experiment);
   c.planName = plan.text.empty() ? "" : plan.name;
   c.planText = plan.text;
   c.orderSeed = plan.orderSeed;
   return c;
 }
 
-std::vector<PlannedTrial> remainingTrials(const RunConfiguration& configuration, const std::set<int>& done) {
-  std::vector<PlannedTrial> trials;
-  for (const PlannedTrial& planned : configuration.trials)
+std::vector<trial::PlannedTrial> remainingTrials(const record::RunConfiguration& configuration, const std::set<int>& done) {
+  std::vector<trial::PlannedTrial> trials;
+  for (const trial::PlannedTrial& planned : configuration.trials)
     if (!done.contains(planned.index)) trials.push_back(planned);
   return trials;
 }
 
 // A block that broke off goes on with the number of the trial it broke off in. Where single trials are left (repeats of aborted
 // ones), they get numbers that were not used yet.
-int firstTrialOf(const std::vector<PlannedTrial>& remaining, const BlockProgress* before) {
+int firstTrialOf(const std::vector<trial::PlannedTrial>& remaining, const BlockProgress* before) {
   if (before == nullptr) return 1;
   const bool oneStretch = remaining.back().index - remaining.front().index + 1 == static_cast<int>(remaining.size());
   return oneStretch && before->lastTrial <= remaining.front().index + 1 ? remaining.front().index + 1 : before->lastTrial + 1;
@@ -136,9 +138,9 @@ std::uint64_t drawSeed() {
 }
 
 SessionToRun planSession(const SessionRequest& request) {
-  checkLabel(request.place.subject, "--subject");
-  checkLabel(request.place.session, "--session");
-  checkParticipant(request.participant);
+  record::checkLabel(request.place.subject, "--subject");
+  record::checkLabel(request.place.session, "--session");
+  record::checkParticipant(request.participant);
   const Plan plan = planOf(request);
   if (!plan.text.empty() && request.trials) throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
   const int day = dayOf(request, plan);
@@ -149,12 +151,12 @@ SessionToRun planSession(const SessionRequest& request) {
   SessionToRun session;
   std::vector<std::string> faults;
   const std::vector<BlockProgress> progress = readProgress(request.place, faults);
-  std::vector<Experiment> experiments;
+  std::vector<experiment::Experiment> experiments;
   std::vector<const BlockProgress*> recorded;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const PlanBlock& block = plan.blocks[static_cast<std::size_t>(order[k])];
-    experiments.push_back(readExperiment(block.experiment));
-    checkTask(experiments.back(), block.experiment);
+    experiments.push_back(experiment::readExperiment(block.experiment));
+    trial::checkTask(experiments.back(), block.experiment);
     recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiments.back()));
   }
   const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
@@ -202,7 +204,7 @@ SessionToRun planSession(const SessionRequest& request) {
 }
 
 void takeFreeRun(BlockToRun& block, const SessionRequest& request) {
-  RunConfiguration& c = block.configuration;
+  record::RunConfiguration& c = block.configuration;
   const std::vector<RecordedRun> runs = recordedRuns(request.place);
   if (std::none_of(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == c.run; })) return;
   const bool askedFor = request.run == c.run;
@@ -212,4 +214,4 @@ void takeFreeRun(BlockToRun& block, const SessionRequest& request) {
   block.logPath = logPath(request.place, c.task, run);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::session

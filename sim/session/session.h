@@ -9,7 +9,7 @@
 #include "sim/session/plan.h"
 #include "sim/session/session_folder.h"
 
-namespace reachlab {
+namespace reachlab::session {
 
 /// What was asked for on the command line or in the window.
 struct SessionRequest {
@@ -21,17 +21,17 @@ struct SessionRequest {
   bool resume = false;
   bool fast = false, everyTick = false;
   std::string device;  // as asked for
-  Participant participant;
+  record::Participant participant;
   std::string notes;
 };
 
 /// One run to be done: the configuration lacks only what the scene, the device and the clock add.
 struct BlockToRun {
-  Experiment experiment;
-  RunConfiguration configuration;
+  experiment::Experiment experiment;
+  record::RunConfiguration configuration;
   std::string logPath;
-  std::vector<PlannedTrial> trials;  // still to be done, in order; numbered from configuration.firstTrial
-  int blocksAfter = 0;               // of the same session
+  std::vector<trial::PlannedTrial> trials;  // still to be done, in order; numbered from configuration.firstTrial
+  int blocksAfter = 0;                      // of the same session
 };
 
 struct SessionToRun {
@@ -52,4 +52,4 @@ void takeFreeRun(BlockToRun& block, const SessionRequest& request);
 /// A seed for a session that was given none, from the system's entropy.
 std::uint64_t drawSeed();
 
-}  // namespace reachlab
+}  // namespace reachlab::session

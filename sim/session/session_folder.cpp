@@ -10,10 +10,10 @@
 #include <charconv>
 #include <filesystem>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/record/append_file.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,7 +71,7 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
 
 FolderHold::FolderHold(const std::string& data) {
   const std::string folder = data + "/sourcedata";
-  makeFolders(folder);
+  record::makeFolders(folder);
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {}
 }
@@ -80,4 +80,4 @@ FolderHold::~FolderHold() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::session

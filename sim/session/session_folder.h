@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::session {
 
 /// A dataset's folder and the labels of one session in it.
 struct SessionPlace {
@@ -39,4 +39,4 @@ class FolderHold {
   int descriptor_ = -1;
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::session

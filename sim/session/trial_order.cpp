@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/session/seeded.h"
+#include "base/seeded.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 constexpr std::uint64_t kForeperiodStream = 0x666f7265,
@@ -14,9 +14,9 @@ constexpr std::uint64_t kForeperiodStream = 0x666f7265,
 
 }  // namespace
 
-std::vector<PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed) {
+std::vector<trial::PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed) {
   const auto count = static_cast<std::size_t>(block.trials);
-  std::vector<PlannedTrial> trials(count);
+  std::vector<trial::PlannedTrial> trials(count);
   const double lo = block.foreperiodMin, hi = block.foreperiodMax;
   for (std::size_t i = 0; i < count; ++i) {
     trials[i].index = static_cast<int>(i);
@@ -35,4 +35,4 @@ std::vector<PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed)
 
 std::uint64_t blockSeed(std::uint64_t seed, int block) { return block == 1 ? seed : seededBits(seed, static_cast<std::uint64_t>(block)); }
 
-}  // namespace reachlab
+}  // namespace reachlab::session

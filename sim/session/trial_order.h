@@ -5,13 +5,13 @@
 #include "sim/record/run_configuration.h"
 #include "sim/session/plan.h"
 
-namespace reachlab {
+namespace reachlab::session {
 
 /// The trials of a block, in order. Foreperiods and the places of the catch trials are drawn from the seed: trial i's foreperiod
 /// depends on (seed, i) alone, so that a resumed block goes on with the same ones.
-std::vector<PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed);
+std::vector<trial::PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed);
 
 /// The seed of a block, from the run's seed and the block's number from 1. Block 1 has the run's seed itself.
 std::uint64_t blockSeed(std::uint64_t seed, int block);
 
-}  // namespace reachlab
+}  // namespace reachlab::session

@@ -1,6 +1,6 @@
 #include "sim/trial/outcome.h"
 
-namespace reachlab {
+namespace reachlab::trial {
 
 std::string_view nameOf(Outcome outcome) {
   switch (outcome) {
@@ -32,4 +32,4 @@ std::string_view nameOf(Reason reason) {
   return "none";
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::trial

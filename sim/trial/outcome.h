@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace reachlab {
+namespace reachlab::trial {
 
 enum class Outcome : std::uint8_t { None, Success, Failure, Aborted, Interrupted };
 enum class Reason : std::uint8_t {
@@ -39,4 +39,4 @@ enum class Phase : std::uint8_t { Idle, Waiting, Armed, Moving, Done };
 /// The square near the top left: neutral before T - dT, green inside T +- dT, red after.
 enum class Semaphore : std::uint8_t { Neutral, Green, Red };
 
-}  // namespace reachlab
+}  // namespace reachlab::trial

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace reachlab {
+namespace reachlab::trial {
 
 /// One trial as it was planned before the run; its order is part of the configuration.
 struct PlannedTrial {
@@ -9,4 +9,4 @@ struct PlannedTrial {
   bool catchTrial = false;  // no go signal is given: moving is the failure
 };
 
-}  // namespace reachlab
+}  // namespace reachlab::trial

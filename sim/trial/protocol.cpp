@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace reachlab {
+namespace reachlab::trial {
 namespace {
 
 struct Worst {
@@ -12,7 +12,7 @@ struct Worst {
 
 // The mass farthest beyond dx (or dv); mass 0 when all are within.
 template <typename Measure>
-Worst findWorst(std::span<const MassState> masses, double tolerance, Measure&& measure) noexcept {
+Worst findWorst(std::span<const dynamics::MassState> masses, double tolerance, Measure&& measure) noexcept {
   Worst worst;
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const double excess = measure(masses[i]) - tolerance;
@@ -26,9 +26,9 @@ struct Arrival {
   bool complete() const noexcept { return position.mass == 0 && velocity.mass == 0; }
 };
 
-Arrival judge(const ProtocolSettings& s, std::span<const MassState> masses) noexcept {
-  return {findWorst(masses, s.positionTolerance, [&](const MassState& m) { return norm(m.r - s.target); }),
-          findWorst(masses, s.velocityTolerance, [](const MassState& m) { return norm(m.v); })};
+Arrival judge(const ProtocolSettings& s, std::span<const dynamics::MassState> masses) noexcept {
+  return {findWorst(masses, s.positionTolerance, [&](const dynamics::MassState& m) { return norm(m.r - s.target); }),
+          findWorst(masses, s.velocityTolerance, [](const dynamics::MassState& m) { return norm(m.v); })};
 }
 
 void end(ProtocolState& state, std::uint64_t tick, Outcome outcome, Reason reason, Worst worst = {}) noexcept {
@@ -100,12 +100,12 @@ bool endByForce(const ProtocolSettings& s, const ProtocolInput& in, ProtocolStat
   if (in.handBroken || state.lostTicks > kLostTicks) return end(state, in.tick, Outcome::Aborted, Reason::DeviceLost), true;
   if (!isEngaged(state.phase)) return false;
   switch (in.status) {
-    case StepStatus::Ok:
-    case StepStatus::HandLost: break;
-    case StepStatus::AtEnd: return end(state, in.tick, Outcome::Failure, Reason::EndOfConstraint), true;
-    case StepStatus::NotFinite:
-    case StepStatus::Capped:
-    case StepStatus::NoContinuation: return end(state, in.tick, Outcome::Aborted, Reason::Computation), true;
+    case dynamics::StepStatus::Ok:
+    case dynamics::StepStatus::HandLost: break;
+    case dynamics::StepStatus::AtEnd: return end(state, in.tick, Outcome::Failure, Reason::EndOfConstraint), true;
+    case dynamics::StepStatus::NotFinite:
+    case dynamics::StepStatus::Capped:
+    case dynamics::StepStatus::NoContinuation: return end(state, in.tick, Outcome::Aborted, Reason::Computation), true;
   }
   if (in.clamped && s.forceLimitEndsTrial) return end(state, in.tick, Outcome::Failure, Reason::ForceLimit), true;
   return false;
@@ -130,4 +130,4 @@ void advance(const ProtocolSettings& settings, const ProtocolInput& input, Proto
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::trial

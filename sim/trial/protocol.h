@@ -3,7 +3,8 @@
 #include <span>
 
 #include "sim/dynamics/plant.h"
-#include "sim/haptics/tick_state.h"
+#include "sim/trial/command.h"
+#include "sim/trial/outcome.h"
 #include "sim/trial/planned_trial.h"
 
 /// The trial as a state machine over ticks of 1 ms. A pure function of what it is given: no clock, no device, no plant.
@@ -30,7 +31,7 @@
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
 /// At T + dT the reason is `position` while any mass is farther than dx from the target, else `velocity`; the mass to blame is the one
 /// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
-namespace reachlab {
+namespace reachlab::trial {
 
 inline constexpr double kTickSeconds = 0.001;
 inline constexpr int kLostTicks = 20;  // a driver may skip a packet or two; longer than this the movement is not known any more
@@ -50,9 +51,9 @@ struct ProtocolSettings {
 };
 
 /// Throws UsageError when the experiment has no task, or its start or target is no place on the constraint.
-ProtocolSettings makeProtocolSettings(const Experiment& experiment, const Constraint& constraint);
+ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint);
 /// A place on the constraint given by its parameters (three metres when free) [m]; not finite outside the domain.
-Vec3 placeOn(const Constraint& constraint, std::span<const double> q);
+Vec3 placeOn(const constraints::Constraint& constraint, std::span<const double> q);
 
 /// What the protocol sees of one tick.
 struct ProtocolInput {
@@ -63,8 +64,8 @@ struct ProtocolInput {
   bool handValid = true;
   bool handBroken = false;  // the device gave something that is not finite
   bool clamped = false;     // at the tick before
-  StepStatus status = StepStatus::Ok;
-  std::span<const MassState> masses;
+  dynamics::StepStatus status = dynamics::StepStatus::Ok;
+  std::span<const dynamics::MassState> masses;
 };
 
 struct ProtocolState {
@@ -85,4 +86,4 @@ void advance(const ProtocolSettings& settings, const ProtocolInput& input, Proto
 /// Forces act and the object moves.
 constexpr bool isEngaged(Phase phase) noexcept { return phase == Phase::Armed || phase == Phase::Moving; }
 
-}  // namespace reachlab
+}  // namespace reachlab::trial

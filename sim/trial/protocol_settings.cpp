@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab {
+namespace reachlab::trial {
 namespace {
 
 constexpr double kTicksPerSecond = 1000;
@@ -11,18 +11,18 @@ constexpr double kWholeTick = 1e-6;  // [ticks] a decimal time such as 1.35 s is
 
 }  // namespace
 
-Vec3 placeOn(const Constraint& constraint, std::span<const double> q) {
+Vec3 placeOn(const constraints::Constraint& constraint, std::span<const double> q) {
   switch (constraint.kind) {
-    case ConstraintKind::Curve: return evaluate(constraint.curve, q[0]).r;
-    case ConstraintKind::Surface: return evaluate(constraint.surface, q[0], q[1]).r;
-    case ConstraintKind::Free: break;
+    case constraints::ConstraintKind::Curve: return constraints::evaluate(constraint.curve, q[0]).r;
+    case constraints::ConstraintKind::Surface: return constraints::evaluate(constraint.surface, q[0], q[1]).r;
+    case constraints::ConstraintKind::Free: break;
   }
   return {q[0], q[1], q[2]};
 }
 
-ProtocolSettings makeProtocolSettings(const Experiment& experiment, const Constraint& constraint) {
+ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
   if (!experiment.task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
-  const Task& task = *experiment.task;
+  const experiment::Task& task = *experiment.task;
   ProtocolSettings s;
   s.start = placeOn(constraint, task.start);
   s.target = placeOn(constraint, task.target);
@@ -40,4 +40,4 @@ ProtocolSettings makeProtocolSettings(const Experiment& experiment, const Constr
   return s;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::trial

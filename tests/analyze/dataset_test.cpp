@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/experiment_difference.h"
 #include "sim/analyze/write_analysis.h"
 #include "sim/analyze/wording.h"
@@ -19,7 +19,7 @@
 #include "tests/analyze/recorded.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 constexpr const char* kQuiet = "simulated:noise=0";
@@ -27,7 +27,7 @@ constexpr const char* kQuiet = "simulated:noise=0";
 StudyOptions quick() {
   StudyOptions options;
   options.ranking.resamples = 200;
-  options.criteria = {Criterion::MinHandJerk, Criterion::MinCrackle};
+  options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle};
   return options;
 }
 
@@ -46,8 +46,8 @@ TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
   std::size_t i = 0;
   for (const char* file :
        {"sub-01_ses-01_task-chainmoderate_run-01", "sub-01_ses-02_task-chainmoderate_run-01", "sub-02_ses-01_task-chainfast_run-01"}) {
-    const RunLog log = RunLog::open(folder.path() + "/sourcedata/" + file + "_log.reach");
-    for (const RecordedTrial& trial : log.trials()) {
+    const record::RunLog log = record::RunLog::open(folder.path() + "/sourcedata/" + file + "_log.reach");
+    for (const record::RecordedTrial& trial : log.trials()) {
       EXPECT_EQ(dataset.input.trials[i].result.outcome, trial.result.outcome);
       EXPECT_EQ(dataset.input.trials[i].key.trial, trial.trial);
       EXPECT_NEAR(dataset.input.trials[i].taskEnd - dataset.input.trials[i].taskOnset, trial.result.movementTime, 1.5e-3);
@@ -61,11 +61,11 @@ TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
 
 TEST(Dataset, ExperimentsOfOneNameAreToldApartByWhatDiffers) {
   const TemporaryFolder folder;
-  Experiment e = readExperiment("dingwell");
+  experiment::Experiment e = experiment::readExperiment("dingwell");
   e.name = "mine";
   const auto record = [&](const char* session) {
     const std::string file = folder.path() + "/mine.json";
-    std::ofstream(file) << toJson(e);
+    std::ofstream(file) << experiment::toJson(e);
     recordRun(folder.path() + "/data", {.experiment = file, .device = kQuiet, .session = session, .trials = 1});
   };
   record("01");
@@ -86,10 +86,11 @@ TEST(Dataset, ExperimentsOfOneNameAreToldApartByWhatDiffers) {
 }
 
 TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
-  const Experiment e = readExperiment("chain-moderate");
-  const Experiment written = parseExperiment(toJson(e), "chain-moderate", definitionTextOf(e));
+  const experiment::Experiment e = experiment::readExperiment("chain-moderate");
+  const experiment::Experiment written =
+      experiment::parseExperiment(experiment::toJson(e), "chain-moderate", experiment::definitionTextOf(e));
   EXPECT_EQ(differences(e, written), std::vector<std::string>{});
-  Experiment other = e;
+  experiment::Experiment other = e;
   other.coupling.reset();
   other.object.masses.assign(5, 0.5);
   other.task->tolerance.velocity = 0.02;
@@ -109,9 +110,9 @@ TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
 TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
   const TemporaryFolder folder;
   const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 4});
-  std::vector<RunLog> runs;
-  runs.push_back(RunLog::open(log));
-  writeBids(runs, folder.path());
+  std::vector<record::RunLog> runs;
+  runs.push_back(record::RunLog::open(log));
+  record::writeBids(runs, folder.path());
   const StudyResult fromLog = analyzeStudy(openDataset(folder.path()).input, quick());
   std::filesystem::remove_all(folder.path() + "/sourcedata");
   const Dataset dataset = openDataset(folder.path());
@@ -165,10 +166,12 @@ TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
   const AnalysisFiles first = writeAnalysis(study, dataset, header, folder.path() + "/one");
   const AnalysisFiles second = writeAnalysis(study, dataset, header, folder.path() + "/two");
   ASSERT_EQ(first.tables.size(), second.tables.size());
-  for (std::size_t i = 0; i < first.tables.size(); ++i) EXPECT_EQ(readWholeFile(first.tables[i]), readWholeFile(second.tables[i]));
-  for (std::size_t i = 0; i < first.figures.size(); ++i) EXPECT_EQ(readWholeFile(first.figures[i]), readWholeFile(second.figures[i]));
-  const std::string report = readWholeFile(first.report);
-  EXPECT_EQ(report, readWholeFile(second.report));
+  for (std::size_t i = 0; i < first.tables.size(); ++i)
+    EXPECT_EQ(record::readWholeFile(first.tables[i]), record::readWholeFile(second.tables[i]));
+  for (std::size_t i = 0; i < first.figures.size(); ++i)
+    EXPECT_EQ(record::readWholeFile(first.figures[i]), record::readWholeFile(second.figures[i]));
+  const std::string report = record::readWholeFile(first.report);
+  EXPECT_EQ(report, record::readWholeFile(second.report));
 
   // Self-contained, ids unique, numbers finite, text escaped.
   EXPECT_EQ(report.find("<script"), std::string::npos);
@@ -179,7 +182,7 @@ TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
   for (auto it = std::sregex_iterator(report.begin(), report.end(), id); it != std::sregex_iterator(); ++it)
     EXPECT_TRUE(ids.insert((*it)[1]).second) << (*it)[1];
 
-  const std::string profiles = readWholeFile(folder.path() + "/one/profiles.csv");
+  const std::string profiles = record::readWholeFile(folder.path() + "/one/profiles.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(profiles.begin(), profiles.end(), '\n')), 1 + 101 * study.results[0].used);
 }
 
@@ -189,8 +192,8 @@ TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
   const Dataset dataset = openDataset(folder.path());
   const StudyResult study = analyzeStudy(dataset.input, quick());
   for (const std::string& table : writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out").tables) {
-    const std::string csv = readWholeFile(table);
-    const auto dictionary = nlohmann::json::parse(readWholeFile(dictionaryPathOf(table)));
+    const std::string csv = record::readWholeFile(table);
+    const auto dictionary = nlohmann::json::parse(record::readWholeFile(record::dictionaryPathOf(table)));
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',')) + 1,
               dictionary.size())
         << table;
@@ -200,12 +203,12 @@ TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
 
 TEST(Analysis, OfNoSuccessIsStillAReport) {
   const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .device = "replay:" + resourceFolder() + "/reaches", .trials = 2});
+  recordRun(folder.path(), {.experiment = "chain-moderate", .device = "replay:" + experiment::resourceFolder() + "/reaches", .trials = 2});
   Dataset dataset = openDataset(folder.path());
-  for (TrialData& trial : dataset.input.trials) trial.result.outcome = Outcome::Failure;
+  for (TrialData& trial : dataset.input.trials) trial.result.outcome = trial::Outcome::Failure;
   const StudyResult study = analyzeStudy(dataset.input, quick());
   const AnalysisFiles files = writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out");
-  EXPECT_NE(readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
+  EXPECT_NE(record::readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
 }
 
 TEST(Wording, SaysWhatCannotBeToldApart) {
@@ -213,11 +216,11 @@ TEST(Wording, SaysWhatCannotBeToldApart) {
   ranking.trials = 12;
   ranking.subjects = 2;
   ranking.places = {{1, 0.01, {0.009, 0.011}, 0, {0, 0}, 0.7, false}, {0, 0.0101, {0.009, 0.0112}, 0.0001, {-0.0002, 0.0004}, 0.3, false}};
-  const std::string text = describeRanking(ranking, {Criterion::MinHandJerk, Criterion::MinCrackle});
+  const std::string text = describeRanking(ranking, {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle});
   EXPECT_NE(text.find("(3) min-crackle is nearest"), std::string::npos);
   EXPECT_NE(text.find("cannot be told apart from (1) min-hand-jerk"), std::string::npos);
   EXPECT_NE(describeRanking({}, {}).find("Nothing to rank"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 std::vector<double> tone(double frequency, double rate, std::size_t n) {
@@ -73,4 +73,4 @@ TEST(Differentiate, IsExactForPolynomialsOfItsOrder) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

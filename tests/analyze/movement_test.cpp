@@ -8,7 +8,7 @@
 #include "sim/analyze/measures.h"
 #include "tests/analyze/synthetic.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 constexpr double kRate = 100;
@@ -99,7 +99,7 @@ TEST(SmoothValue, FollowsACurveBetterThanTheChord) {
 TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
   // Known onsets: where the planned, time-stretched velocity itself crosses 5 % of its peak. What is left is the measurement's noise,
   // the filter and 100 Hz sampling.
-  const auto plan = predict(chainExperiment(1.35), Criterion::MinHandJerk);
+  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
   OnsetOptions onset;
   const double planned = [&] {
     double peak = std::abs(plan->handPeak), t = 0;
@@ -124,4 +124,4 @@ TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

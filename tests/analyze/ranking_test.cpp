@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 /// Trials of `subjects` whose mean squared errors scatter about `base` of each criterion, the scatter common to all (as noise of a
@@ -88,4 +88,4 @@ TEST(Ranking, OfOneOrNoTrialTellsNothingApart) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

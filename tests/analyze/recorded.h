@@ -12,7 +12,7 @@
 #include "sim/session/session_folder.h"
 
 /// Datasets made the way a session makes them: experiment, device, engine, recorder, on the virtual clock.
-namespace reachlab {
+namespace reachlab::analyze {
 
 struct RunToRecord {
   std::string experiment, device = "simulated", subject = "01", session = "01";
@@ -46,11 +46,11 @@ class TemporaryFolder {
 };
 
 inline std::string recordRun(const std::string& folder, const RunToRecord& what) {
-  const Experiment experiment = readExperiment(what.experiment);
-  RunConfiguration c;
+  const experiment::Experiment experiment = experiment::readExperiment(what.experiment);
+  record::RunConfiguration c;
   c.subject = what.subject;
   c.session = what.session;
-  c.task = labelOf(experiment.name);
+  c.task = session::labelOf(experiment.name);
   c.run = c.firstRun = what.run;
   c.condition = experiment.name;
   c.practice = what.practice;
@@ -60,16 +60,16 @@ inline std::string recordRun(const std::string& folder, const RunToRecord& what)
   c.device = what.device;
   c.clock = "virtual";
   for (int i = 0; i < what.trials; ++i) c.trials.push_back({i, 0, false});
-  c.table = makeChannelTable(experiment, makeConstraint(experiment.constraint).parameterCount());
+  c.table = record::makeChannelTable(experiment, constraints::makeConstraint(experiment.constraint).parameterCount());
 
-  const std::string path = logPath({folder, what.subject, what.session}, c.task, what.run);
+  const std::string path = session::logPath({folder, what.subject, what.session}, c.task, what.run);
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  LoopOptions options;
+  haptics::LoopOptions options;
   options.virtualClock = true;
-  RunConductor run(experiment, makeDevice(what.device, experiment, what.seed), c.trials, options);
-  RecorderOptions recording;
+  haptics::RunConductor run(experiment, devices::makeDevice(what.device, experiment, what.seed), c.trials, options);
+  record::RecorderOptions recording;
   recording.threaded = false;
-  Recorder recorder(path, c, recording);
+  record::Recorder recorder(path, c, recording);
   run.start(&recorder);
   const std::atomic<bool> stop{false};
   while (run.runTrial(stop)) continue;
@@ -77,4 +77,4 @@ inline std::string recordRun(const std::string& folder, const RunToRecord& what)
   return path;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 constexpr double kPublishedDigits = 5e-6;  // the known values are given to five decimals
@@ -81,4 +81,4 @@ TEST(CountPeaks, IgnoresRipplesBelowTheProminence) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 TEST(WilsonInterval, HasItsTextbookValues) {
@@ -64,4 +64,4 @@ TEST(DrawIndex, ReachesEveryPlaceAboutEquallyOften) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

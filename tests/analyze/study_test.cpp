@@ -2,18 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/analyze/wording.h"
 #include "tests/analyze/synthetic.h"
 
-namespace reachlab {
+namespace reachlab::analyze {
 namespace {
 
 StudyOptions quickOptions() {
   StudyOptions options;
   options.ranking.resamples = 500;
-  options.criteria = {Criterion::MinHandJerk, Criterion::MinHandForce, Criterion::MinHandForceChange, Criterion::MinComAcceleration,
-                      Criterion::MinHandCrackle};
+  options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinHandForce, predict::Criterion::MinHandForceChange,
+                      predict::Criterion::MinComAcceleration, predict::Criterion::MinHandCrackle};
   return options;
 }
 
@@ -26,13 +26,13 @@ std::size_t firstOf(const Ranking& ranking, const ConditionResult& result) {
 }
 
 TEST(Study, PlannedByMinimumHandJerkRanksItFirstAloneInEveryPace) {
-  const StudyResult study = analyzeStudy(simulatedStudy(threePaces(), Criterion::MinHandJerk, 0, 3, 2, 10, 1), quickOptions());
+  const StudyResult study = analyzeStudy(simulatedStudy(threePaces(), predict::Criterion::MinHandJerk, 0, 3, 2, 10, 1), quickOptions());
   for (const ConditionResult& result : study.results) {
-    EXPECT_EQ(firstOf(result.handRanking, result), static_cast<std::size_t>(Criterion::MinHandJerk));
+    EXPECT_EQ(firstOf(result.handRanking, result), static_cast<std::size_t>(predict::Criterion::MinHandJerk));
     EXPECT_TRUE(result.handRanking.decided());
   }
   ASSERT_FALSE(study.overall.places.empty());
-  EXPECT_EQ(study.common[study.overall.places.front().criterion], Criterion::MinHandJerk);
+  EXPECT_EQ(study.common[study.overall.places.front().criterion], predict::Criterion::MinHandJerk);
   EXPECT_TRUE(study.overall.decided());
   ASSERT_TRUE(study.overallOverSubjects);
   EXPECT_TRUE(study.overallOverSubjects->decided());
@@ -41,34 +41,34 @@ TEST(Study, PlannedByMinimumHandJerkRanksItFirstAloneInEveryPace) {
 TEST(Study, PlannedByForceChangeWithAHandMassRanksThatFirst) {
   StudyOptions options = quickOptions();
   options.handMass = 1.0;
-  const StudyResult study = analyzeStudy(simulatedStudy(threePaces(), Criterion::MinHandForceChange, 1.0, 3, 2, 10, 2), options);
+  const StudyResult study = analyzeStudy(simulatedStudy(threePaces(), predict::Criterion::MinHandForceChange, 1.0, 3, 2, 10, 2), options);
   ASSERT_FALSE(study.overall.places.empty());
-  EXPECT_EQ(study.common[study.overall.places.front().criterion], Criterion::MinHandForceChange);
+  EXPECT_EQ(study.common[study.overall.places.front().criterion], predict::Criterion::MinHandForceChange);
   EXPECT_TRUE(study.overall.decided());
 }
 
 TEST(Study, OfTheParallelObjectSaysWhichCriteriaCannotBeToldApart) {
   // Without a hand mass criteria (4) and (6) are one prediction: their costs differ by the factor M^2 alone.
   const std::vector<StudyCondition> parallel{{"parallel", parallelExperiment(2.5)}};
-  const StudyResult study = analyzeStudy(simulatedStudy(parallel, Criterion::MinComAcceleration, 0, 2, 1, 10, 3), quickOptions());
+  const StudyResult study = analyzeStudy(simulatedStudy(parallel, predict::Criterion::MinComAcceleration, 0, 2, 1, 10, 3), quickOptions());
   const Ranking& ranking = study.results[0].handRanking;
   EXPECT_FALSE(ranking.decided());
   EXPECT_FALSE(ranking.places[1].apartFromFirst);
   EXPECT_NE(describeRanking(ranking, criteriaOf(study.results[0])).find("cannot be told apart from"), std::string::npos);
 
-  const StudyResult jerk = analyzeStudy(simulatedStudy(parallel, Criterion::MinHandJerk, 0, 2, 1, 10, 3), quickOptions());
+  const StudyResult jerk = analyzeStudy(simulatedStudy(parallel, predict::Criterion::MinHandJerk, 0, 2, 1, 10, 3), quickOptions());
   const Ranking& behind = jerk.results[0].handRanking;
-  EXPECT_EQ(firstOf(behind, jerk.results[0]), static_cast<std::size_t>(Criterion::MinHandJerk));
+  EXPECT_EQ(firstOf(behind, jerk.results[0]), static_cast<std::size_t>(predict::Criterion::MinHandJerk));
   EXPECT_NE(describeRanking(behind, criteriaOf(jerk.results[0])).find("these cannot be told apart"), std::string::npos);
 }
 
 TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
-  StudyInput input = simulatedStudy({{"moderate", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 2, 2, 10, 4);
+  StudyInput input = simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 4);
   for (TrialData& trial : input.trials)
     if (trial.key.trial == 1) trial.practice = true;
   input.trials[3].result = {};
-  input.trials[3].result.outcome = Outcome::Aborted;
-  input.trials[3].result.reason = Reason::NoOnset;
+  input.trials[3].result.outcome = trial::Outcome::Aborted;
+  input.trials[3].result.reason = trial::Reason::NoOnset;
   const StudyInput copy = input;
   const StudyResult study = analyzeStudy(std::move(input), quickOptions());
   ASSERT_EQ(study.success.size(), 4u);
@@ -87,7 +87,7 @@ TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
 
 TEST(Study, LearningPointsNeverSpanTwoSessions) {
   const StudyResult study =
-      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
+      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
   ASSERT_EQ(study.learning.size(), 4u);  // 10 + 5 trials on each of two days
   EXPECT_EQ(study.learning[1].firstTrial, 11);
   EXPECT_EQ(study.learning[1].lastTrial, 15);
@@ -97,7 +97,7 @@ TEST(Study, LearningPointsNeverSpanTwoSessions) {
 
 TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
   const StudyResult study =
-      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
+      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
   ASSERT_EQ(study.series.size(), 4u);
   double sum = 0;
   int n = 0;
@@ -108,9 +108,9 @@ TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
 
 TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
   const std::vector<StudyCondition> conditions{{"m", chainExperiment(1.35)}};
-  StudyInput one = simulatedStudy(conditions, Criterion::MinHandJerk, 0, 1, 1, 1, 7);
+  StudyInput one = simulatedStudy(conditions, predict::Criterion::MinHandJerk, 0, 1, 1, 1, 7);
   StudyInput failed = one;
-  failed.trials[0].result.outcome = Outcome::Failure;
+  failed.trials[0].result.outcome = trial::Outcome::Failure;
   StudyInput empty;
   empty.conditions = conditions;
   StudyInput still = one;
@@ -141,7 +141,7 @@ TEST(Study, RefusesOptionsOutOfRange) {
 }
 
 TEST(Measures, OfAKnownMovementAreWhatTheyShouldBe) {
-  const auto plan = predict(chainExperiment(1.35), Criterion::MinHandJerk);
+  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
   std::mt19937_64 random(1);
   const TrialData trial = followPlan(*plan, {0, 0, 0}, random);
   const TrialSignals signals = computeSignals(trial, {});
@@ -159,4 +159,4 @@ TEST(Measures, OfAKnownMovementAreWhatTheyShouldBe) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::analyze

@@ -6,7 +6,7 @@
 #include "sim/analyze/study.h"
 
 /// Trials made of a prediction with the usual human scatter, so that the truth is known.
-namespace reachlab {
+namespace reachlab::analyze {
 
 struct Scatter {
   double duration = 0.06;   // relative SD of the movement's duration
@@ -14,17 +14,17 @@ struct Scatter {
   double position = 20e-6;  // [m] white noise of the measured position
 };
 
-inline Experiment lineExperiment(ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness, double coupling,
-                                 double duration) {
-  Experiment e;
+inline experiment::Experiment lineExperiment(experiment::ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness,
+                                             double coupling, double duration) {
+  experiment::Experiment e;
   e.constraint.name = "line";
   e.constraint.shape = {{"length_m", 0.2}};
   e.object.kind = kind;
   e.object.masses = std::move(masses);
   e.object.damping.assign(stiffness.size(), 0.0);
   e.object.stiffness = std::move(stiffness);
-  if (kind != ObjectKind::Parallel) e.coupling = Coupling{coupling, 0};
-  Task task;
+  if (kind != experiment::ObjectKind::Parallel) e.coupling = experiment::Coupling{coupling, 0};
+  experiment::Task task;
   task.start = {0};
   task.target = {6.283185307179586};
   task.duration = duration;
@@ -32,13 +32,15 @@ inline Experiment lineExperiment(ObjectKind kind, std::vector<double> masses, st
   e.name = "synthetic";
   return e;
 }
-inline Experiment chainExperiment(double duration) {
-  return lineExperiment(ObjectKind::Chain, std::vector<double>(5, 0.6), std::vector<double>(4, 600.0), 600, duration);
+inline experiment::Experiment chainExperiment(double duration) {
+  return lineExperiment(experiment::ObjectKind::Chain, std::vector<double>(5, 0.6), std::vector<double>(4, 600.0), 600, duration);
 }
-inline Experiment parallelExperiment(double duration) { return lineExperiment(ObjectKind::Parallel, {3, 3}, {50, 250}, 0, duration); }
+inline experiment::Experiment parallelExperiment(double duration) {
+  return lineExperiment(experiment::ObjectKind::Parallel, {3, 3}, {50, 250}, 0, duration);
+}
 
 /// A movement that follows `plan`, slower or faster and with a slow wave on it, with `rest` seconds of stillness before and after.
-inline TrialData followPlan(const Prediction& plan, const Scatter& scatter, std::mt19937_64& random, double rest = 0.4) {
+inline TrialData followPlan(const predict::Prediction& plan, const Scatter& scatter, std::mt19937_64& random, double rest = 0.4) {
   std::normal_distribution<double> normal;
   const double stretch = std::max(0.5, 1 + scatter.duration * normal(random));
   const double wave = scatter.shape * normal(random), phase = 6.283185307179586 * std::generate_canonical<double, 53>(random);
@@ -47,7 +49,7 @@ inline TrialData followPlan(const Prediction& plan, const Scatter& scatter, std:
   trial.start = {-0.1, 0, 0};
   trial.target = {0.1, 0, 0};
   trial.along = {{1, 0, 0}};
-  trial.result.outcome = Outcome::Success;
+  trial.result.outcome = trial::Outcome::Success;
   const double T = plan.duration * stretch;
   trial.goTime = 0.1;
   trial.taskOnset = rest;
@@ -56,7 +58,7 @@ inline TrialData followPlan(const Prediction& plan, const Scatter& scatter, std:
   double shift = 0;
   for (int i = 0; i <= static_cast<int>((T + 2 * rest) * trial.rate); ++i) {
     const double t = i / trial.rate - rest, s = std::clamp(t / T, 0.0, 1.0);
-    const PredictedHand hand = plan.handAt(s * plan.duration);
+    const predict::PredictedHand hand = plan.handAt(s * plan.duration);
     plan.massesAt(s * plan.duration, position, velocity);
     const bool moving = t >= 0 && t <= T;
     // A bell that comes to rest with the movement, so that the wave neither moves the ends nor the end point much.
@@ -70,23 +72,23 @@ inline TrialData followPlan(const Prediction& plan, const Scatter& scatter, std:
 }
 
 /// `subjects` x `days` x conditions, `trials` each, every movement planned by `criterion`.
-inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, Criterion criterion, double handMass, int subjects,
+inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, predict::Criterion criterion, double handMass, int subjects,
                                  int days, int trials, std::uint64_t seed, const Scatter& scatter = {}) {
   StudyInput input;
   input.conditions = conditions;
   std::mt19937_64 random(seed);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
-    PredictOptions how;
+    predict::PredictOptions how;
     how.handMass = handMass;
-    const auto plan = predict(conditions[c].experiment, criterion, how);
+    const auto plan = predict::predict(conditions[c].experiment, criterion, how);
     for (int s = 1; s <= subjects; ++s)
       for (int d = 1; d <= days; ++d)
         for (int t = 1; t <= trials; ++t) {
           TrialData trial = followPlan(*plan, scatter, random);
           trial.key = {"S" + std::to_string(s), "0" + std::to_string(d), conditions[c].name, d, 1, 1, t};
           if (t % 5 == 0) {
-            trial.result.outcome = Outcome::Failure;
-            trial.result.reason = Reason::Velocity;
+            trial.result.outcome = trial::Outcome::Failure;
+            trial.result.reason = trial::Reason::Velocity;
           }
           input.trials.push_back(std::move(trial));
           input.conditionOf.push_back(c);
@@ -95,4 +97,4 @@ inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, 
   return input;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::analyze

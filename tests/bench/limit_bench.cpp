@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/peers.h"
 #include "sim/bench/suite.h"
 #include "tests/bench/limit_forms.h"

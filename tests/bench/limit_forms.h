@@ -31,7 +31,7 @@ Contender makeLimitContender(const BenchScene& scene, const Form& form) {
       trajectory->positions.insert(trajectory->positions.end(), r.begin(), r.end());
     };
     if (!trajectory) {
-      for (const HandSegment& segment : *segments) f.step(segment);
+      for (const dynamics::HandSegment& segment : *segments) f.step(segment);
       consume(f.probe());
       return;
     }

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/linear_reference.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
@@ -16,7 +16,7 @@ struct ExactForm {
   alignas(64) double y[16] = {};
   double x0 = 0;
 
-  void step(const HandSegment& hand) {
+  void step(const dynamics::HandSegment& hand) {
     const auto& p = hand.position;
     V8 a0 = column[10][0] * (p[0].x - x0), a1 = column[10][1] * (p[0].x - x0);
     V8 b0 = column[11][0] * p[1].x, b1 = column[11][1] * p[1].x;
@@ -54,7 +54,7 @@ struct ModalForm {
   std::vector<double> shape, frequency;  // shape[mass * N + mode], normalised
   double x0 = 0;
 
-  void step(const HandSegment& hand) {
+  void step(const dynamics::HandSegment& hand) {
     double c[kHand];
     for (int k = 0; k < kHand; ++k) c[k] = hand.position[k].x;
     c[0] -= x0;

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
@@ -18,7 +18,7 @@ struct AdamsForm {
   T oldV[kOrder][K]{}, oldA[kOrder][K]{};  // newest first
   int started = 0;
 
-  void step(const HandSegment& hand) {
+  void step(const dynamics::HandSegment& hand) {
     if (started < kOrder - 1) {
       startUp(hand);
       return;
@@ -57,12 +57,12 @@ struct AdamsForm {
   }
 
  private:
-  Vec3 driving(const HandSegment& hand, double s) const {
+  Vec3 driving(const dynamics::HandSegment& hand, double s) const {
     Vec3 r, w;
-    for (int k = HandSegment::kMaxDegree; k >= 0; --k) r = hand.position[k] + s * r, w = hand.velocity[k] + s * w;
+    for (int k = dynamics::HandSegment::kMaxDegree; k >= 0; --k) r = hand.position[k] + s * r, w = hand.velocity[k] + s * w;
     return model.kHand * r + model.bHand * w;
   }
-  Vec3 driving(const HandSegment& hand) const {
+  Vec3 driving(const dynamics::HandSegment& hand) const {
     Vec3 r = hand.position[0], w = hand.velocity[0];
     for (int k = 1; k <= Model::kHandDegree; ++k) r += hand.position[k], w += hand.velocity[k];
     return model.kHand * r + model.bHand * w;
@@ -72,7 +72,7 @@ struct AdamsForm {
       for (int i = 0; i < K; ++i) oldV[j][i] = oldV[j - 1][i], oldA[j][i] = oldA[j - 1][i];
     for (int i = 0; i < K; ++i) oldV[0][i] = v[i], oldA[0][i] = a[i];
   }
-  void startUp(const HandSegment& hand) {
+  void startUp(const dynamics::HandSegment& hand) {
     constexpr int kParts = 4;
     constexpr double h = kTick / kParts;
     T a[K];

@@ -12,7 +12,7 @@ struct ParallelForm {
   double w1, w2, x0;  // k/m
   double y[4]{};
 
-  void step(const HandSegment& hand) {
+  void step(const dynamics::HandSegment& hand) {
     constexpr double h = kTick;
     const auto& p = hand.position;
     const double begin = p[0].x - x0;
@@ -44,7 +44,7 @@ struct SphereForm {
   double inverse;  // 1/R^2
   Vec3 r, v;
 
-  void step(const HandSegment&) {
+  void step(const dynamics::HandSegment&) {
     constexpr double h = kTick;
     const double w2 = -dot(v, v) * inverse;
     const Vec3 a1 = w2 * r, r2 = r + h / 2 * v, v2 = v + h / 2 * a1;
@@ -66,7 +66,7 @@ struct SphereForm {
 }  // namespace
 
 Contender makeSmallLimit(const BenchScene& scene) {
-  const Object& o = scene.experiment.object;
+  const experiment::Object& o = scene.experiment.object;
   if (scene.name == "S6")
     return makeLimitContender(scene, ParallelForm{o.stiffness[0] / o.masses[0], o.stiffness[1] / o.masses[1], scene.hand.from.x});
   const double radius = scene.experiment.constraint.shape.at("R");

@@ -76,11 +76,11 @@ TEST(HandLaw, SegmentsFollowTheLawToRounding) {
     SCOPED_TRACE(scene.name);
     for (int tick = 0; tick < 1350; tick += 7) {
       const double t0 = tick * 1e-3;
-      const HandSegment segment = makeSegment(scene.hand, t0, 1e-3);
+      const dynamics::HandSegment segment = makeSegment(scene.hand, t0, 1e-3);
       for (double s : {0.0, 0.5, 1.0}) {
         Vec3 r, v;
         for (int k = segment.degree; k >= 0; --k) r = s * r + segment.position[k], v = s * v + segment.velocity[k];
-        const HandSample exact = makeSample(scene.hand, t0 + s * 1e-3);
+        const dynamics::HandSample exact = makeSample(scene.hand, t0 + s * 1e-3);
         EXPECT_LT(norm(r - exact.position), 1e-15);  // a few roundings of 0.1 m
         EXPECT_LT(norm(v - exact.velocity), 3e-14);  // of 0.6 m/s, the rate of change of phase rounded at 1e-16 s and 4 phi
       }

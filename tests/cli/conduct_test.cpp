@@ -7,7 +7,7 @@
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 using test::Ended;
@@ -15,9 +15,9 @@ using test::Folder;
 using test::reach;
 using test::trialLines;
 
-std::vector<RunLog> logsOf(const Folder& folder) {
-  std::vector<RunLog> logs;
-  for (const RecordedRun& run : recordedRuns({.data = folder.string()})) logs.push_back(RunLog::open(run.path));
+std::vector<record::RunLog> logsOf(const Folder& folder) {
+  std::vector<record::RunLog> logs;
+  for (const session::RecordedRun& run : session::recordedRuns({.data = folder.string()})) logs.push_back(record::RunLog::open(run.path));
   return logs;
 }
 
@@ -37,12 +37,12 @@ TEST(Conduct, AnAbortedTrialIsPutUpOnceMoreAtTheEndIfThePlanSaysSo) {
     const Ended ended = reach("run " + hurriedPlan(folder, repeat) + " --device simulated --seed 1 --fast --data " + folder.string());
     ASSERT_EQ(ended.exitCode, 0) << ended.err;
     EXPECT_EQ(trialLines(ended.out).size(), repeat ? 6u : 3u) << ended.out;
-    const std::vector<RunLog> logs = logsOf(folder);
+    const std::vector<record::RunLog> logs = logsOf(folder);
     ASSERT_EQ(logs.size(), 1u);
     std::vector<int> indices;
-    for (const RecordedTrial& trial : logs[0].trials()) {
+    for (const record::RecordedTrial& trial : logs[0].trials()) {
       indices.push_back(trial.planned.index);
-      EXPECT_EQ(trial.result.outcome, Outcome::Aborted);
+      EXPECT_EQ(trial.result.outcome, trial::Outcome::Aborted);
       EXPECT_EQ(trial.trial, static_cast<int>(indices.size()));
     }
     EXPECT_EQ(indices, (repeat ? std::vector<int>{0, 1, 2, 0, 1, 2} : std::vector<int>{0, 1, 2})) << "a repeat is not repeated";
@@ -57,13 +57,13 @@ TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheData
   const Ended ended = reach("run " + plan + " --device simulated:noise=0 --seed 4 --fast --data " + folder.string());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_EQ(ended.err.find("seed="), std::string::npos);
-  const std::vector<RunLog> logs = logsOf(folder);
+  const std::vector<record::RunLog> logs = logsOf(folder);
   ASSERT_EQ(logs.size(), 3u);
   const char *tasks[] = {"chainslow", "dingwell", "chainslow"}, *conditions[] = {"slow", "dingwell", "slow"};
   const std::string scans = test::contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
   for (int k = 0; k < 3; ++k) {
-    const RunLog& log = logs[static_cast<std::size_t>(k)];
-    const RunConfiguration& c = log.configuration();
+    const record::RunLog& log = logs[static_cast<std::size_t>(k)];
+    const record::RunConfiguration& c = log.configuration();
     EXPECT_EQ(c.run, k + 1);
     EXPECT_EQ(c.block, k + 1);
     EXPECT_EQ(c.task, tasks[k]);
@@ -87,9 +87,9 @@ TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
   const Folder folder;
   const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 1 --seed 2 --fast --data " + folder.string());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const std::vector<RunLog> logs = logsOf(folder);
+  const std::vector<record::RunLog> logs = logsOf(folder);
   ASSERT_EQ(logs.size(), 1u);
-  const RunConfiguration& c = logs[0].configuration();
+  const record::RunConfiguration& c = logs[0].configuration();
   EXPECT_EQ(c.device, "simulated:noise=0");
   EXPECT_NE(c.deviceName, "");
   EXPECT_NE(c.deviceVersion, "");
@@ -104,7 +104,7 @@ TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
   EXPECT_TRUE(std::regex_match(c.startedUtc, std::regex(R"(20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d\.\d\d\dZ)"))) << c.startedUtc;
   EXPECT_EQ(c.table.massCount, 5);
   EXPECT_EQ(c.table.parameterCount, 1);
-  for (const RecordedEvent& event : logs[0].events())
+  for (const record::RecordedEvent& event : logs[0].events())
     EXPECT_EQ(event.text.find("ticks/s"), std::string::npos) << "virtual time has no timing";
 }
 
@@ -112,15 +112,15 @@ TEST(Conduct, InRealTimeTheRecordKeepsHowWellTheLoopKeptTime) {
   const Folder folder;
   const Ended ended = reach("run " + hurriedPlan(folder, false) + " --device simulated --seed 2 --data " + folder.string());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const std::vector<RunLog> logs = logsOf(folder);
+  const std::vector<record::RunLog> logs = logsOf(folder);
   ASSERT_EQ(logs.size(), 1u);
   EXPECT_EQ(logs[0].configuration().clock, "monotonic");
   std::string note;
-  for (const RecordedEvent& event : logs[0].events())
-    if (event.kind == EventKind::Note) note += event.text;
+  for (const record::RecordedEvent& event : logs[0].events())
+    if (event.kind == record::EventKind::Note) note += event.text;
   EXPECT_TRUE(note.starts_with("loop: ")) << note;
   EXPECT_NE(ended.err.find(note), std::string::npos) << ended.err;
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -15,7 +15,7 @@
 #include "tests/record/made_run.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 struct Ending {
@@ -38,7 +38,7 @@ Ending runWithFileLimit(const std::string& data, const std::string& folder, rlim
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readWholeFile(out), readWholeFile(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, record::readWholeFile(out), record::readWholeFile(err)};
 }
 
 std::size_t linesThatBegin(const std::string& text, const std::string& with) {
@@ -48,7 +48,7 @@ std::size_t linesThatBegin(const std::string& text, const std::string& with) {
 }
 
 TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial) {
-  const TemporaryFolder folder("full");
+  const record::TemporaryFolder folder("full");
   for (const rlim_t limit : {400'000u, 1'000'000u, 2'222'222u}) {
     const std::string data = folder / std::to_string(limit);
     const Ending ending = runWithFileLimit(data, data, limit);
@@ -57,13 +57,13 @@ TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial
     const std::size_t announced = linesThatBegin(ending.out, "trial=");
     EXPECT_GE(announced, 1u);
     EXPECT_LT(announced, 50u);
-    const RunLog log = RunLog::open(recordedRuns({data}).at(0).path);
+    const record::RunLog log = record::RunLog::open(session::recordedRuns({data}).at(0).path);
     const auto finished =
-        std::count_if(log.trials().begin(), log.trials().end(), [](const RecordedTrial& trial) { return trial.complete; });
+        std::count_if(log.trials().begin(), log.trials().end(), [](const record::RecordedTrial& trial) { return trial.complete; });
     EXPECT_GE(static_cast<std::size_t>(finished), announced);
     EXPECT_EQ(log.goodBytes(), log.fileBytes()) << "what was written in part is cut off again";
   }
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::cli

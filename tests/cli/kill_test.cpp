@@ -23,7 +23,7 @@
 #include "tests/record/made_run.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 using Clock = std::chrono::system_clock;  // what a file's time of writing is told in
@@ -90,7 +90,7 @@ std::map<int, std::string> announced(const std::string& out) {
   return trials;
 }
 
-bool sameResult(const TrialResult& a, const TrialResult& b) {
+bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
   return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && a.by == b.by && a.movementTime == b.movementTime;
 }
 
@@ -102,10 +102,10 @@ std::vector<std::string> runArguments(const std::string& data, bool resume) {
 }
 
 TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
-  const TemporaryFolder folder("kill");
+  const record::TemporaryFolder folder("kill");
   const std::string whole = folder / "whole";
   ASSERT_EQ(runAndKill(runArguments(whole, false), -1).status, 0);
-  const RunLog good = RunLog::open(recordedRuns({whole}).at(0).path);
+  const record::RunLog good = record::RunLog::open(session::recordedRuns({whole}).at(0).path);
   ASSERT_EQ(good.trials().size(), 30u);
 
   std::mt19937_64 random(6);
@@ -117,7 +117,7 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     const double moment = static_cast<double>(random() % 8000) * 1e-6;  // a trial takes a few milliseconds on the virtual clock
     const Ending killed = runAndKill(runArguments(data, false), moment, after);
     const auto lines = announced(killed.out);
-    const std::vector<RecordedRun> runs = recordedRuns({data});
+    const std::vector<session::RecordedRun> runs = session::recordedRuns({data});
     if (runs.empty()) {
       EXPECT_TRUE(lines.empty());
       continue;
@@ -127,15 +127,15 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
       std::filesystem::remove(runs[0].path);
       continue;
     }
-    const RunLog log = RunLog::open(runs[0].path);
+    const record::RunLog log = record::RunLog::open(runs[0].path);
     std::size_t finished = 0;
-    for (const RecordedTrial& trial : log.trials()) {
+    for (const record::RecordedTrial& trial : log.trials()) {
       if (trial.complete) {
         EXPECT_TRUE(sameResult(trial.result, good.trials()[finished].result)) << "kill " << k << ", trial " << trial.trial;
         ++finished;
       } else {
         ++midTrial;
-        EXPECT_EQ(trial.result.outcome, Outcome::Interrupted);
+        EXPECT_EQ(trial.result.outcome, trial::Outcome::Interrupted);
       }
     }
     EXPECT_GE(finished, lines.size()) << "kill " << k;
@@ -145,24 +145,25 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
       const auto written = std::chrono::seconds(status.st_mtim.tv_sec) + std::chrono::nanoseconds(status.st_mtim.tv_nsec);
       silences.push_back(std::chrono::duration<double, std::milli>(killed.killed.time_since_epoch() - written).count());
     }
-    EXPECT_TRUE(replayRun(log).identical()) << "kill " << k << ": " << replayRun(log).firstDifference;
+    EXPECT_TRUE(record::replayRun(log).identical()) << "kill " << k << ": " << record::replayRun(log).firstDifference;
 
     // What is left of the order is done by --resume, with the results that the unbroken run has.
     ASSERT_EQ(runAndKill(runArguments(data, true), -1).status, 0);
-    std::map<int, TrialResult> done;
-    for (const RecordedRun& run : recordedRuns({data})) {
-      const RunLog part = RunLog::open(run.path);
-      for (const RecordedTrial& trial : part.trials())
-        if (trial.result.outcome != Outcome::Interrupted) {
+    std::map<int, trial::TrialResult> done;
+    for (const session::RecordedRun& run : session::recordedRuns({data})) {
+      const record::RunLog part = record::RunLog::open(run.path);
+      for (const record::RecordedTrial& trial : part.trials())
+        if (trial.result.outcome != trial::Outcome::Interrupted) {
           EXPECT_FALSE(done.contains(trial.trial)) << "trial " << trial.trial << " was done twice";
           done[trial.trial] = trial.result;
         }
     }
     ASSERT_EQ(done.size(), 30u) << "kill " << k;
-    for (const RecordedTrial& trial : good.trials()) EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
+    for (const record::RecordedTrial& trial : good.trials())
+      EXPECT_TRUE(sameResult(done.at(trial.trial), trial.result)) << "trial " << trial.trial;
 
-    EXPECT_NO_THROW(recoverLog(runs[0].path));
-    const RunLog mended = RunLog::open(runs[0].path);
+    EXPECT_NO_THROW(record::recoverLog(runs[0].path));
+    const record::RunLog mended = record::RunLog::open(runs[0].path);
     EXPECT_TRUE(mended.healthy());
     EXPECT_EQ(mended.trials().size(), log.trials().size());
     std::filesystem::remove_all(data);
@@ -175,32 +176,32 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
 }
 
 TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
-  const TemporaryFolder folder("killexport");
+  const record::TemporaryFolder folder("killexport");
   const std::string data = folder / "data", out = folder / "out";
   ASSERT_EQ(runAndKill(runArguments(data, false), -1).status, 0);
-  const std::string log = recordedRuns({data}).at(0).path;
-  const std::string bytes = readWholeFile(log);
+  const std::string log = session::recordedRuns({data}).at(0).path;
+  const std::string bytes = record::readWholeFile(log);
   const std::vector<std::string> arguments{"export", log, "--format", "csv", "--out", out};
   const auto start = Clock::now();
   ASSERT_EQ(runAndKill(arguments, -1).status, 0);
   const double length = std::chrono::duration<double>(Clock::now() - start).count();
   std::map<std::string, std::string> whole;
   for (const auto& entry : std::filesystem::directory_iterator(out))
-    whole[entry.path().filename().string()] = readWholeFile(entry.path().string());
+    whole[entry.path().filename().string()] = record::readWholeFile(entry.path().string());
   ASSERT_EQ(whole.size(), 4u) << "trials and samples, each with its dictionary";
   std::mt19937_64 random(7);
   for (int k = 0; k < killCount(); ++k) {
     std::filesystem::remove_all(out);
     runAndKill(arguments, length * static_cast<double>(random() % 1000) / 1000);
-    EXPECT_EQ(readWholeFile(log), bytes);
+    EXPECT_EQ(record::readWholeFile(log), bytes);
     if (!std::filesystem::exists(out)) continue;
     for (const auto& entry : std::filesystem::directory_iterator(out)) {
       const std::string name = entry.path().filename().string();
       if (name.ends_with(".tmp")) continue;  // under its own name a file is whole or not there
-      EXPECT_EQ(readWholeFile(entry.path().string()), whole[name]) << name;
+      EXPECT_EQ(record::readWholeFile(entry.path().string()), whole[name]) << name;
     }
   }
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -10,7 +10,7 @@
 
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 struct Answer {
@@ -80,4 +80,4 @@ TEST(PredictCommand, RefusesWithTheAgreedNumbers) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::cli

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log.h"
 #include "sim/session/session_folder.h"
 #include "tests/record/made_run.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::cli {
 namespace {
 
 int reach(const std::string& arguments) {
@@ -22,31 +22,31 @@ int reach(const std::string& arguments) {
 }
 
 TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
-  const TemporaryFolder folder("replay");
-  for (const std::string& name : shippedExperiments()) {
-    if (!readExperiment(name).task) continue;
+  const record::TemporaryFolder folder("replay");
+  for (const std::string& name : experiment::shippedExperiments()) {
+    if (!experiment::readExperiment(name).task) continue;
     const std::string data = folder / name;
     ASSERT_EQ(reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0)
         << name;
-    const std::string log = recordedRuns({data}).at(0).path;
+    const std::string log = session::recordedRuns({data}).at(0).path;
     EXPECT_EQ(reach("replay " + log + " --check"), 0) << name;
-    const Replay replay = replayRun(RunLog::open(log));
+    const record::Replay replay = record::replayRun(record::RunLog::open(log));
     EXPECT_EQ(replay.trials.size(), 3u) << name;
     EXPECT_GT(replay.rows, 100u) << name;
   }
 }
 
 TEST(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
-  const TemporaryFolder folder("replay2");
+  const record::TemporaryFolder folder("replay2");
   const std::string data = folder / "data";
   ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data), 0);
   ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data), 0);
-  for (const RecordedRun& run : recordedRuns({data})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
+  for (const session::RecordedRun& run : session::recordedRuns({data})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
 }
 
 // Years later, on another computer: the definition's file is gone, or says something else under the same name.
 TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
-  const TemporaryFolder folder("replay4");
+  const record::TemporaryFolder folder("replay4");
   const std::string data = folder / "data", definition = folder / "own-eight.json", experiment = folder / "eight.json";
   const auto write = [](const std::string& file, const std::string& text) { std::ofstream(file) << text; };
   const auto eight = [](const char* x) {
@@ -60,7 +60,7 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
       "task": {"start": [0], "target": [1.5], "duration_s": 1.5, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 1}}})");
   ::setenv("REACHLAB_CONSTRAINTS", std::filesystem::path(definition).parent_path().c_str(), 1);
   ASSERT_EQ(reach("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
-  const std::string log = recordedRuns({data}).at(0).path;
+  const std::string log = session::recordedRuns({data}).at(0).path;
   EXPECT_EQ(reach("replay " + log + " --check"), 0);
   write(definition, eight("0.9*w_m*cos(phi)"));
   EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file has changed";
@@ -69,30 +69,31 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
   EXPECT_EQ(reach("export " + data + " --format csv --out " + (folder / "tables")), 0);
   EXPECT_EQ(reach("analyze " + data + " --out " + (folder / "analysis")), 0);
   ::unsetenv("REACHLAB_CONSTRAINTS");
-  const RunConfiguration recorded = RunLog::open(log).configuration();
+  const record::RunConfiguration recorded = record::RunLog::open(log).configuration();
   EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);
-  EXPECT_THROW((void)parseExperiment(recorded.experimentText, "eight"), UsageError) << "without the definition it cannot be known";
-  EXPECT_EQ(recordedExperiment(recorded).constraint.shape.at("w_m"), 0.12);
+  EXPECT_THROW((void)experiment::parseExperiment(recorded.experimentText, "eight"), UsageError)
+      << "without the definition it cannot be known";
+  EXPECT_EQ(record::recordedExperiment(recorded).constraint.shape.at("w_m"), 0.12);
 }
 
 // The same log with one number of one row changed, every record good in itself.
 TEST(Replay, NamesTheFirstStateThatDiffersAndExits1) {
-  const TemporaryFolder folder("replay3");
+  const record::TemporaryFolder folder("replay3");
   const std::string data = folder / "data", changed = folder / "changed_log.reach";
   ASSERT_EQ(reach("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
   {
-    LogReader reader(recordedRuns({data}).at(0).path);
-    LogWriter writer = LogWriter::create(changed);
-    RecordView record;
+    record::LogReader reader(session::recordedRuns({data}).at(0).path);
+    record::LogWriter writer = record::LogWriter::create(changed);
+    record::RecordView record;
     int samples = 0;
     while (reader.next(record)) {
       std::vector<std::uint8_t> payload(record.payload.begin(), record.payload.end());
-      if (record.type == RecordType::Samples && ++samples == 2) payload[payload.size() - 9] ^= 1;
+      if (record.type == record::RecordType::Samples && ++samples == 2) payload[payload.size() - 9] ^= 1;
       writer.append(record.type, payload);
     }
     ASSERT_GE(samples, 2);
   }
-  const Replay replay = replayRun(RunLog::open(changed));
+  const record::Replay replay = record::replayRun(record::RunLog::open(changed));
   EXPECT_EQ(replay.rowsThatDiffer, 1u);
   EXPECT_NE(replay.firstDifference.find("mass1"), std::string::npos) << replay.firstDifference;
   EXPECT_EQ(reach("replay " + changed + " --check"), 1);
@@ -100,4 +101,4 @@ TEST(Replay, NamesTheFirstStateThatDiffersAndExits1) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::cli

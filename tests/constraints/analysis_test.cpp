@@ -8,9 +8,9 @@
 #include <random>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -173,4 +173,4 @@ TEST(TypedFormula, UnusedShapeIsNamed) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -6,9 +6,9 @@
 
 #include "constraints/analysis.h"
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 TEST(Catalogue, HoldsTheNamedCurvesAndSurfacesAndMore) {
@@ -140,4 +140,4 @@ TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

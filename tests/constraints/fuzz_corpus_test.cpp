@@ -8,7 +8,7 @@
 #include "tests/fuzz/formula_case.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 TEST(FormulaCorpus, EveryTextBecomesAConstraintOrARefusal) {
@@ -44,4 +44,4 @@ TEST(FormulaCorpus, WhatTheFuzzerFoundEndsAsItShould) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

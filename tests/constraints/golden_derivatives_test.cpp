@@ -15,7 +15,7 @@
 #include "constraints/program.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr double kRelative = 1e-13;  // of the sum of the absolute terms
@@ -118,4 +118,4 @@ TEST(Derivatives, MatchFiniteDifferencesOfTheRandomFormulas) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

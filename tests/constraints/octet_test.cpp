@@ -7,7 +7,7 @@
 #include "constraints/constraint.h"
 #include "constraints/definition.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 /// Bits are compared: lanes do the operations of one point in their order.
@@ -68,4 +68,4 @@ TEST(Octet, OfTypedFormulasHasTheBitsOfSinglePoints) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

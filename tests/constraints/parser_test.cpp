@@ -7,7 +7,7 @@
 
 #include "constraints/formula.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 double value(const std::string& text, double phi = 0.7) {
@@ -101,4 +101,4 @@ TEST(Formula, ParameterNamesMayNotClash) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

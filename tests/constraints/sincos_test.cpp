@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 TEST(SinCos, StaysWithinItsErrorOfLongDouble) {
@@ -52,4 +52,4 @@ TEST(SinCos, IsExactAtZeroAndOddAndEven) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "constraints/constraint.h"
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 namespace {
 
 constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
@@ -44,4 +44,4 @@ TEST(Line, RunsFromMinusToPlusHalfItsLength) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::constraints

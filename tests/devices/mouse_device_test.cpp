@@ -6,7 +6,7 @@
 #include <limits>
 #include <thread>
 
-namespace reachlab {
+namespace reachlab::devices {
 namespace {
 
 TEST(MouseDevice, StaysWhereItIsUntilThePointerMoves) {
@@ -19,7 +19,7 @@ TEST(MouseDevice, FollowsAStepAsACriticallyDampedSystem) {
   MouseDevice mouse({});
   mouse.setTarget({1, 0, 0});
   for (int i = 1; i <= 200; ++i) {
-    const DeviceSample sample = mouse.read();
+    const haptics::DeviceSample sample = mouse.read();
     const double x = i * 1e-3 / MouseDevice::kSmoothing;
     EXPECT_NEAR(sample.position.x, 1 - (1 + x) * std::exp(-x), 1e-13);
     EXPECT_NEAR(sample.velocity.x, x * std::exp(-x) / MouseDevice::kSmoothing, 1e-11);
@@ -38,11 +38,11 @@ TEST(MouseDevice, TakesPlacesFromAnotherThreadWhole) {
     for (int i = 1; i <= 20'000; ++i) mouse.setTarget({1.0 * i, 1.0 * i, 1.0 * i});
   });
   for (int i = 0; i < 20'000; ++i) {
-    const DeviceSample sample = mouse.read();
+    const haptics::DeviceSample sample = mouse.read();
     ASSERT_EQ(sample.position.x, sample.position.y);
     ASSERT_EQ(sample.position.x, sample.position.z);
   }
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/natural_spline.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 namespace {
 
 const std::string kReaches = REACHLAB_SOURCE_DIR "/resources/reaches";
@@ -108,8 +108,8 @@ TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
   const auto device = makeReplayHand(folder.string(), {0, 0, 0}, {1, 0, 0});
   const auto ticksOf = [&](int trial) {
     device->prepareTrial(trial);
-    device->cue(Cue::Place);
-    device->cue(Cue::Go);
+    device->cue(haptics::Cue::Place);
+    device->cue(haptics::Cue::Go);
     int ticks = 0;
     while (device->read().position.x < 1 - 1e-9) ++ticks;
     return ticks;
@@ -172,4 +172,4 @@ TEST(NaturalSpline, GoesThroughItsPointsAndIsStraightThroughTwo) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -4,65 +4,66 @@
 
 #include <set>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "devices/make_device.h"
 #include "sim/haptics/run_conductor.h"
 
-namespace reachlab {
+namespace reachlab::devices {
 namespace {
 
-std::vector<ConductedTrial> conduct(const Experiment& experiment, const std::string& device, std::uint64_t seed, int trials,
-                                    int first = 0) {
-  LoopOptions options;
+std::vector<haptics::ConductedTrial> conduct(const experiment::Experiment& experiment, const std::string& device, std::uint64_t seed,
+                                             int trials, int first = 0) {
+  haptics::LoopOptions options;
   options.virtualClock = true;
-  std::vector<PlannedTrial> planned;
+  std::vector<trial::PlannedTrial> planned;
   for (int i = 0; i < trials; ++i) planned.push_back({first + i});
-  RunConductor run(experiment, makeDevice(device, experiment, seed), planned, options);
+  haptics::RunConductor run(experiment, makeDevice(device, experiment, seed), planned, options);
   run.start(nullptr);
   const std::atomic<bool> stop{false};
-  std::vector<ConductedTrial> results;
+  std::vector<haptics::ConductedTrial> results;
   while (const auto trial = run.runTrial(stop)) results.push_back(*trial);
   return results;
 }
 
-int successes(const std::vector<ConductedTrial>& trials) {
-  return static_cast<int>(std::count_if(trials.begin(), trials.end(), [](const auto& t) { return t.result.outcome == Outcome::Success; }));
+int successes(const std::vector<haptics::ConductedTrial>& trials) {
+  return static_cast<int>(
+      std::count_if(trials.begin(), trials.end(), [](const auto& t) { return t.result.outcome == trial::Outcome::Success; }));
 }
 
 // What a hand does after the go signal.
-std::vector<Vec3> motionOf(HapticDevice& device, int trial) {
+std::vector<Vec3> motionOf(haptics::HapticDevice& device, int trial) {
   device.prepareTrial(trial);
-  device.cue(Cue::Place);
+  device.cue(haptics::Cue::Place);
   std::vector<Vec3> motion{device.read().position};
-  device.cue(Cue::Go);
+  device.cue(haptics::Cue::Go);
   for (int i = 0; i < 3000; ++i) motion.push_back(device.read().position);
   return motion;
 }
 
 TEST(SimulatedHand, WithoutNoiseItBringsEveryShippedObjectToRestEveryTime) {
-  for (const std::string& name : shippedExperiments()) {
-    const Experiment experiment = readExperiment(name);
+  for (const std::string& name : experiment::shippedExperiments()) {
+    const experiment::Experiment experiment = experiment::readExperiment(name);
     if (!experiment.task) continue;
-    for (const ConductedTrial& t : conduct(experiment, "simulated:noise=0", 1, 2))
-      EXPECT_EQ(t.result.outcome, Outcome::Success)
-          << name << " " << nameOf(t.result.reason) << " mass " << t.result.mass << " by " << t.result.by;
+    for (const haptics::ConductedTrial& t : conduct(experiment, "simulated:noise=0", 1, 2))
+      EXPECT_EQ(t.result.outcome, trial::Outcome::Success)
+          << name << " " << trial::nameOf(t.result.reason) << " mass " << t.result.mass << " by " << t.result.by;
   }
 }
 
 TEST(SimulatedHand, WithItsDefaultNoiseItFailsAsOftenAsAPersonLearning) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const auto trials = conduct(readExperiment("chain-moderate"), "simulated", seed, 20);
+    const auto trials = conduct(experiment::readExperiment("chain-moderate"), "simulated", seed, 20);
     EXPECT_GE(successes(trials), 6) << seed;
     EXPECT_LE(successes(trials), 18) << seed;
-    std::set<Reason> reasons;
-    for (const ConductedTrial& t : trials)
-      if (t.result.outcome == Outcome::Failure) reasons.insert(t.result.reason);
+    std::set<trial::Reason> reasons;
+    for (const haptics::ConductedTrial& t : trials)
+      if (t.result.outcome == trial::Outcome::Failure) reasons.insert(t.result.reason);
     EXPECT_GE(reasons.size(), 2u) << seed;
   }
 }
 
 TEST(SimulatedHand, ATrialDependsOnSeedAndIndexAlone) {
-  const Experiment experiment = readExperiment("chain-moderate");
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   const auto all = conduct(experiment, "simulated", 7, 4), last = conduct(experiment, "simulated", 7, 1, 3);
   EXPECT_EQ(all[3].result.by, last[0].result.by);
   EXPECT_EQ(all[3].result.movementTime, last[0].result.movementTime);
@@ -74,11 +75,11 @@ TEST(SimulatedHand, ATrialDependsOnSeedAndIndexAlone) {
 }
 
 TEST(SimulatedHand, WithoutNoiseItMovesAsTheCriterionPredicts) {
-  const Experiment experiment = readExperiment("chain-moderate");
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   for (const char* criterion : {"min-hand-jerk", "min-hand-force-change"}) {
-    PredictOptions options;
+    predict::PredictOptions options;
     options.handMass = 1;
-    const auto prediction = predict(experiment, *criterionFromName(criterion), options);
+    const auto prediction = predict::predict(experiment, *predict::criterionFromName(criterion), options);
     const auto device = makeDevice(std::string("simulated:noise=0,reaction=0,hand-mass=1,criterion=") + criterion, experiment, 1);
     const auto motion = motionOf(*device, 0);
     for (const int tick : {100, 400, 675, 1000, 1349})
@@ -87,7 +88,7 @@ TEST(SimulatedHand, WithoutNoiseItMovesAsTheCriterionPredicts) {
 }
 
 TEST(SimulatedHand, MovementTimeVariesBySevenPercent) {
-  const Experiment experiment = readExperiment("chain-moderate");
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   const auto device = makeDevice("simulated:speed-sd=0,reaction=0", experiment, 5);
   constexpr int kTrials = 200;
   double sum = 0, squares = 0;
@@ -105,14 +106,14 @@ TEST(SimulatedHand, MovementTimeVariesBySevenPercent) {
 }
 
 TEST(SimulatedHand, ItsVelocityIsTheDerivativeOfItsPosition) {
-  const auto device = makeDevice("simulated", readExperiment("chain-moderate"), 1);
+  const auto device = makeDevice("simulated", experiment::readExperiment("chain-moderate"), 1);
   device->prepareTrial(0);
-  device->cue(Cue::Place);
+  device->cue(haptics::Cue::Place);
   device->read();
-  device->cue(Cue::Go);
-  DeviceSample before = device->read(), now = device->read();
+  device->cue(haptics::Cue::Go);
+  haptics::DeviceSample before = device->read(), now = device->read();
   for (int i = 0; i < 1200; ++i) {
-    const DeviceSample after = device->read();
+    const haptics::DeviceSample after = device->read();
     ASSERT_TRUE(now.hasVelocity);
     EXPECT_NEAR(norm(now.velocity - (after.position - before.position) / 0.002), 0, 1e-12) << "the same difference, rounded";
     before = now;
@@ -121,7 +122,7 @@ TEST(SimulatedHand, ItsVelocityIsTheDerivativeOfItsPosition) {
 }
 
 TEST(SimulatedHand, SaysWhatItDoesNotUnderstand) {
-  const Experiment experiment = readExperiment("chain-moderate");
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   for (const char* bad : {"simulated:nois=0", "simulated:noise=-1", "simulated:noise=nan", "simulated:noise=", "simulated:criterion=best",
                           "simulated:noise=1,,", "robot", "", "replay", "replay:"})
     EXPECT_THROW(makeDevice(bad, experiment, 1), UsageError) << bad;
@@ -129,4 +130,4 @@ TEST(SimulatedHand, SaysWhatItDoesNotUnderstand) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::devices

@@ -4,7 +4,7 @@
 
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 /// Largest error of one step's dense output for x'' = -x from (1, 0), the solution being the cosine.
@@ -34,7 +34,7 @@ TEST(DenseOutput, FollowsTheMotionWithinAStepToOrderSeven) {
 
 TEST(Ends, AreMetAtTheirMomentForAFewRightHandSides) {
   // Thrown up a cylinder whose ends are elastic, v goes up and down at constant speed: a triangle between -1 and 1.
-  Experiment e = makeExperiment(ObjectKind::Point, {0.5}, {});
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {0.5}, {});
   e.constraint.name = "cylinder";
   const double rate = 7.3;
   const Scene scene = freeScene(e, {0.2, 0.4}, {3, rate});
@@ -50,4 +50,4 @@ TEST(Ends, AreMetAtTheirMomentForAFewRightHandSides) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -2,13 +2,13 @@
 
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 /// One mass at the end of a spring whose hand moves with constant velocity from rest at the mass: x - h = -(v/w) sin w t.
 TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
   const double k = 600, m = 2, speed = 0.1, w = std::sqrt(k / m);
-  const Scene scene = compileScene(makeExperiment(ObjectKind::Point, {m}, {}, {k, 0}));
+  const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Point, {m}, {}, {k, 0}));
   scene.plant->placeAtRest(std::array{0.0});
   for (int i = 0; i < 1000; ++i) {
     const HandSegment hand = makeSegment(
@@ -25,7 +25,7 @@ TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
 }
 
 TEST(ExactPlant, TwoHalfStepsEqualOneWholeStepForAStiffDampedChain) {
-  Experiment e = makeChain(5, 0.01, 1e8, {600, 5});
+  experiment::Experiment e = makeChain(5, 0.01, 1e8, {600, 5});
   e.object.damping.assign(4, 50);
   const Scene whole = compileScene(e), half = compileScene(e, {"", 5e-4, 0});
   for (const Scene* scene : {&whole, &half}) scene->plant->placeAtRest(std::array{0.0});
@@ -41,7 +41,7 @@ TEST(ExactPlant, TwoHalfStepsEqualOneWholeStepForAStiffDampedChain) {
 
 // The same object twice: twenty equal masses go by modes; a mass that differs by its last bit in damping goes by the matrix.
 TEST(ExactPlant, ModesAndMatrixAgree) {
-  Experiment modal = makeChain(20, 0.15, 600), matrix = modal;
+  experiment::Experiment modal = makeChain(20, 0.15, 600), matrix = modal;
   matrix.object.damping.assign(19, 0.0);
   matrix.object.damping[3] = 1e-9;  // too little to see, enough to couple the modes
   const Scene a = compileScene(modal), b = compileScene(matrix);
@@ -65,7 +65,7 @@ TEST(ExactPlant, AnHourOfTheUndampedChainKeepsItsEnergy) {
 }
 
 TEST(ExactPlant, AChainThatNobodyHoldsKeepsItsMomentum) {
-  Experiment e = makeChain(3, 0.5, 400);
+  experiment::Experiment e = makeChain(3, 0.5, 400);
   e.object.masses = {0.5, 2, 0.1};
   const Scene scene = freeScene(e, {1.0}, {2.0});
   const auto momentum = [&] {
@@ -81,7 +81,7 @@ TEST(ExactPlant, AChainThatNobodyHoldsKeepsItsMomentum) {
 }
 
 TEST(ExactPlant, ObjectForceIsTheMassesAccelerations) {
-  const Scene scene = compileScene(makeExperiment(ObjectKind::Parallel, {3, 3}, {50, 250}));
+  const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Parallel, {3, 3}, {50, 250}));
   scene.plant->placeAtRest(std::array{0.0});
   ASSERT_EQ(run(*scene.plant, reachAt, 0.7), StepStatus::Ok);
   const auto masses = observed(*scene.plant, reachAt(0.7));
@@ -89,4 +89,4 @@ TEST(ExactPlant, ObjectForceIsTheMassesAccelerations) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -9,7 +9,7 @@
 #include "constraints/definition.h"
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
 /// One mass of 1 kg, let go on a definition at a seeded place inside its domain, in a seeded direction with 0.3 m/s: no hand, no gravity, no
 /// viscosity, so that it follows a geodesic and keeps its energy.
@@ -25,30 +25,30 @@ struct FreeRun {
 inline constexpr double kFreeRunSeconds = 10, kFreeRunSpeed = 0.3;  // [s], [m/s]
 
 /// `elastic`: every end that is none of a period throws the mass back, whatever the definition says.
-inline FreeRun runFree(Definition definition, std::uint64_t seed, bool elastic) {
+inline FreeRun runFree(constraints::Definition definition, std::uint64_t seed, bool elastic) {
   if (elastic)
-    for (DomainText& d : definition.domain) d.atEnd = AtEnd::Bounce;
+    for (constraints::DomainText& d : definition.domain) d.atEnd = constraints::AtEnd::Bounce;
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const Constraint constraint = makeConstraint(definition);
-  const std::array<Domain, 2> domain = boundedDomain(constraint);
+  const constraints::Constraint constraint = constraints::makeConstraint(definition);
+  const std::array<constraints::Domain, 2> domain = constraints::boundedDomain(constraint);
   FreeRun result;
   for (int k = 0; k < constraint.parameterCount(); ++k)
     result.start.push_back(domain[k].lo + (0.2 + 0.6 * uniform()) * (domain[k].hi - domain[k].lo));
   const double angle = 2 * std::numbers::pi * uniform();
-  if (constraint.kind == ConstraintKind::Curve) {
-    const CurvePoint p = evaluate(constraint.curve, result.start[0]);
+  if (constraint.kind == constraints::ConstraintKind::Curve) {
+    const constraints::CurvePoint p = constraints::evaluate(constraint.curve, result.start[0]);
     result.rate = {std::copysign(kFreeRunSpeed, std::cos(angle)) / norm(p.rPhi)};
   } else {
-    const SurfacePoint p = evaluate(constraint.surface, result.start[0], result.start[1]);
+    const constraints::SurfacePoint p = constraints::evaluate(constraint.surface, result.start[0], result.start[1]);
     const double a = std::cos(angle) / norm(p.rU), b = std::sin(angle) / norm(p.rV), speed = norm(a * p.rU + b * p.rV);
     result.rate = {kFreeRunSpeed * a / speed, kFreeRunSpeed * b / speed};
   }
 
-  Experiment experiment = makeExperiment(ObjectKind::Point, {1}, {});
+  experiment::Experiment experiment = makeExperiment(experiment::ObjectKind::Point, {1}, {});
   experiment.constraint.name = definition.name;
-  experiment.constraint.definition = toJson(definition);
-  Task task;
+  experiment.constraint.definition = constraints::toJson(definition);
+  experiment::Task task;
   task.start = result.start;
   task.target = definition.target;
   experiment.task = task;
@@ -69,4 +69,4 @@ inline FreeRun runFree(Definition definition, std::uint64_t seed, bool elastic) 
   return result;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

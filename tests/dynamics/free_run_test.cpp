@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 // Relative, over 10 s; the worst of 20 seeds was 4e-11.
 constexpr double kDrift = 1e-10;
 
 TEST(FreeRun, OfEveryDefinitionKeepsItsEnergyForTenSecondsOrUpToItsEnd) {
-  for (const Definition& definition : catalogue()) {
+  for (const constraints::Definition& definition : constraints::catalogue()) {
     const FreeRun run = runFree(definition, 1, false);
     EXPECT_LE(run.drift, kDrift) << definition.name;
     EXPECT_TRUE(run.status == StepStatus::Ok || run.status == StepStatus::AtEnd || run.status == StepStatus::NoContinuation)
@@ -23,7 +23,7 @@ TEST(FreeRun, OfEveryDefinitionKeepsItsEnergyForTenSecondsOrUpToItsEnd) {
 }
 
 TEST(FreeRun, BetweenElasticEndsKeepsItsEnergyForTenSecondsWhereNoEndIsDegenerate) {
-  for (const Definition& definition : catalogue()) {
+  for (const constraints::Definition& definition : constraints::catalogue()) {
     const FreeRun run = runFree(definition, 1, true);
     EXPECT_LE(run.drift, kDrift) << definition.name;
     if (definition.name == "roman-surface") continue;  // passes a pinch so closely that rounding decides whether it is met
@@ -38,11 +38,11 @@ TEST(FreeRun, BetweenElasticEndsKeepsItsEnergyForTenSecondsWhereNoEndIsDegenerat
 TEST(FreeRun, StopsWithItsSpeedAtDegenerateEndsAndIsThrownBackOnceElsewhere) {
   for (const char* name : {"cycloid", "involute", "cross-cap", "cylinder", "pseudosphere"})
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      const FreeRun run = runFree(*findInCatalogue(name), seed, true);
+      const FreeRun run = runFree(*constraints::findInCatalogue(name), seed, true);
       EXPECT_LE(run.drift, kDrift) << name << ", seed " << seed;
       EXPECT_TRUE(run.status == StepStatus::Ok || !run.reason.empty()) << name << ", seed " << seed << ": " << describe(run.status);
     }
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -8,7 +8,7 @@
 
 #include "tests/dynamics/free_run.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 std::string outcome(const FreeRun& run) {
@@ -21,7 +21,7 @@ std::string outcome(const FreeRun& run) {
 
 void printTable(std::uint64_t seed) {
   fmt::print("| definition | from | rate [1/s] | as shipped [s] | drift | elastic ends [s] | drift |\n|---|---|---|---|---|---|---|\n");
-  for (const Definition& definition : catalogue()) {
+  for (const constraints::Definition& definition : constraints::catalogue()) {
     const FreeRun shipped = runFree(definition, seed, false);
     const std::string elastic = shipped.status == StepStatus::AtEnd ? outcome(runFree(definition, seed, true)) : "|";
     fmt::print("| {} | {:.4g} | {:.4g} | {} | {} |\n", definition.name, fmt::join(shipped.start, ", "), fmt::join(shipped.rate, ", "),
@@ -30,7 +30,8 @@ void printTable(std::uint64_t seed) {
 }
 
 /// Largest |E/E(0) - 1| at the seconds of an hour; the hand is still.
-std::string driftOfAnHour(const Experiment& e, const std::vector<double>& q, const std::vector<double>& rate, const std::string& method) {
+std::string driftOfAnHour(const experiment::Experiment& e, const std::vector<double>& q, const std::vector<double>& rate,
+                          const std::string& method) {
   const Scene scene = compileScene(e, {method, 1e-3, 0});
   scene.plant->place(q, rate);
   const HandSample hand{observed(*scene.plant)[0].r, {}, true};
@@ -47,14 +48,15 @@ std::string driftOfAnHour(const Experiment& e, const std::vector<double>& q, con
 }
 
 void printHour() {
-  Experiment torus = makeExperiment(ObjectKind::Point, {1}, {}), sphere = torus;
-  torus.coupling = sphere.coupling = Coupling{600, 0};
+  experiment::Experiment torus = makeExperiment(experiment::ObjectKind::Point, {1}, {}), sphere = torus;
+  torus.coupling = sphere.coupling = experiment::Coupling{600, 0};
   torus.constraint.name = "torus";
   sphere.constraint.name = "sphere";
-  const Experiment chain = makeChain(5, 0.6, 600), bead = onCurve(makeChain(1, 1, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
-  const Experiment bent = onCurve(chain, "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const experiment::Experiment chain = makeChain(5, 0.6, 600), bead = onCurve(makeChain(1, 1, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const experiment::Experiment bent = onCurve(chain, "0.1*cos(phi)", "0.06*sin(phi)", "0");
   fmt::print("| undamped scene | exact | abm | adaptive | rk4 |\n|---|---|---|---|---|\n");
-  const auto row = [](const char* name, const Experiment& e, const std::vector<double>& q, const std::vector<double>& rate, bool linear) {
+  const auto row = [](const char* name, const experiment::Experiment& e, const std::vector<double>& q, const std::vector<double>& rate,
+                      bool linear) {
     fmt::print("| {} | {}", name, linear ? driftOfAnHour(e, q, rate, "exact") : "");
     for (const char* method : {"abm", "adaptive", "rk4"}) fmt::print(" | {}", driftOfAnHour(e, q, rate, method));
     fmt::print(" |\n");
@@ -68,9 +70,9 @@ void printHour() {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "hour") reachlab::printHour();
-  else reachlab::printTable(argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1);
+  if (argc > 1 && std::string(argv[1]) == "hour") reachlab::dynamics::printHour();
+  else reachlab::dynamics::printTable(argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1);
 }

@@ -6,7 +6,7 @@
 
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 /// Largest error of the five-mass chain over a reach when the hand comes as samples, interpolated through the last `samples`.
@@ -71,4 +71,4 @@ TEST(HandSegment, PartIsTheSamePolynomial) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

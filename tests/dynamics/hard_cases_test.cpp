@@ -2,16 +2,16 @@
 
 #include <limits>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/hand_path.h"
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 TEST(HardCases, AHandThatJumpsTenCentimetresLeavesAFiniteState) {
   for (const bool curved : {false, true}) {
-    Experiment e = makeChain(5, 0.6, 600);
+    experiment::Experiment e = makeChain(5, 0.6, 600);
     if (curved) e = onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
     const Scene scene = compileScene(e);
     scene.plant->placeAtRest(std::array{0.5});
@@ -27,7 +27,7 @@ TEST(HardCases, AHandThatJumpsTenCentimetresLeavesAFiniteState) {
 TEST(HardCases, ANumberThatIsNoneEndsTheStepAndNotTheState) {
   for (const char* method : {"auto", "rk4", "abm", "adaptive", "stiff"})
     for (const bool curved : {false, true}) {
-      Experiment e = makeChain(2, 0.6, 600);
+      experiment::Experiment e = makeChain(2, 0.6, 600);
       if (curved) e = onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
       const Scene scene = compileScene(e, {method, 1e-3, 0});
       scene.plant->placeAtRest(std::array{0.5});
@@ -55,7 +55,7 @@ TEST(HardCases, AGapOf125MillisecondsIsCrossedInOneSegment) {
 }
 
 TEST(HardCases, AMassRatioOfAMillionKeepsItsEnergy) {
-  const Scene scene = compileScene(makeExperiment(ObjectKind::Chain, {1e-3, 1e3}, {600}));
+  const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Chain, {1e-3, 1e3}, {600}));
   scene.plant->place(std::array{0.0}, std::array{5.0});
   const HandSample hand{{-0.1, 0, 0}, {}, true};
   const double before = scene.plant->energy(hand);
@@ -66,7 +66,7 @@ TEST(HardCases, AMassRatioOfAMillionKeepsItsEnergy) {
 }
 
 TEST(HardCases, FiveHundredMassesMoveOnACurve) {
-  const Experiment e = onCurve(makeChain(500, 0.006, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const experiment::Experiment e = onCurve(makeChain(500, 0.006, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
   const Scene scene = compileScene(e);
   scene.plant->place(std::array{0.5}, std::array{1.0});
   const HandSample hand{{0.1 * std::cos(0.5), 0.06 * std::sin(0.5), 0}, {}, true};
@@ -80,17 +80,17 @@ TEST(HardCases, FiveHundredMassesMoveOnACurve) {
 TEST(HardCases, WhatHasNoMotionIsRefusedInWords) {
   EXPECT_THROW((void)compileScene(makeChain(2, 0, 600)), RefusedError);
   EXPECT_THROW((void)compileScene(makeChain(2, std::numeric_limits<double>::quiet_NaN(), 600)), RefusedError);
-  Experiment e = onCurve(makeExperiment(ObjectKind::Point, {1}, {}), "0", "0", "0.1*phi");
+  experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0", "0", "0.1*phi");
   EXPECT_THROW((void)compileScene(e, {"exact", 0, 0}), RefusedError) << "a step of nothing";
   e = makeChain(2, 0.6, 600);
   e.constraint.shape["length_m"] = 0;
   EXPECT_THROW((void)compileScene(e), Error) << "a line without length";
-  Experiment wrong = makeExperiment(ObjectKind::Chain, {1, 1}, {});
+  experiment::Experiment wrong = makeExperiment(experiment::ObjectKind::Chain, {1, 1}, {});
   EXPECT_THROW((void)compileScene(wrong), RefusedError) << "a spring is missing";
 }
 
 TEST(HardCases, SpringsOfNoStiffnessLeaveMassesAlone) {
-  const Scene scene = compileScene(makeExperiment(ObjectKind::Chain, {1, 1}, {0}));
+  const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Chain, {1, 1}, {0}));
   scene.plant->place(std::array{0.0}, std::array{1.0});
   const double speed = observed(*scene.plant)[1].v.x;
   ASSERT_EQ(run(*scene.plant, reachAt, 1), StepStatus::Ok);
@@ -99,7 +99,7 @@ TEST(HardCases, SpringsOfNoStiffnessLeaveMassesAlone) {
 
 // 4b/m = 20000/s: RK4's limit at 1 ms is 2785. On a curve the stiff method takes it.
 TEST(HardCases, DampersThatBreakRk4AreTakenByAuto) {
-  Experiment e = makeChain(3, 0.01, 2e4, {600, 5});
+  experiment::Experiment e = makeChain(3, 0.01, 2e4, {600, 5});
   e.object.damping.assign(2, 5000);
   e = onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
   EXPECT_THROW((void)compileScene(e, {"rk4", 1e-3, 0}), RefusedError);
@@ -119,7 +119,7 @@ TEST(HardCases, DampersThatBreakRk4AreTakenByAuto) {
 // The L-stable method's systems are dense: a longer chain is taken by the explicit pair as far as its cap reaches, then refused.
 TEST(HardCases, LongStiffChainsOnACurveAreTakenOrRefusedInWords) {
   const auto damped = [](double b) {
-    Experiment e = makeChain(40, 0.01, 600);
+    experiment::Experiment e = makeChain(40, 0.01, 600);
     e.object.damping.assign(39, b);
     return onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
   };
@@ -141,7 +141,7 @@ TEST(HardCases, NearCuspsAreFollowedWithinTheCap) {
   for (const Case& c : {Case{"0.08*cos(phi)-0.0198*cos(4*phi)", "0.08*sin(phi)-0.0198*sin(4*phi)", 1.047, 9},
                         Case{"0.08*cos(phi)-0.01998*cos(4*phi)", "0.08*sin(phi)-0.01998*sin(4*phi)", 1.047, 9},
                         Case{"0.1*cos(phi)", "0.0001*sin(phi)", 0.8, 8}}) {
-    const Scene scene = freeScene(onCurve(makeExperiment(ObjectKind::Point, {1}, {}), c.x, c.y, "0"), {c.phi}, {c.rate});
+    const Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), c.x, c.y, "0"), {c.phi}, {c.rate});
     const double before = scene.plant->energy({});
     std::uint64_t worst = 0, seen = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -155,4 +155,4 @@ TEST(HardCases, NearCuspsAreFollowedWithinTheCap) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

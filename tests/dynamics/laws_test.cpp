@@ -1,19 +1,20 @@
 #include <gtest/gtest.h>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kEnergyDrift = 1e-10;  // relative, over 10 s without friction
 
-Experiment bead() { return makeExperiment(ObjectKind::Point, {1}, {}); }
+experiment::Experiment bead() { return makeExperiment(experiment::ObjectKind::Point, {1}, {}); }
 
 // RK4's global error is O(dt^4): half the step leaves a sixteenth. Bead on a circle pulled by a spring.
 TEST(Rk4, ErrorFallsSixteenfoldWhenTheStepIsHalved) {
-  const Experiment e = onCurve(makeExperiment(ObjectKind::Point, {0.2}, {}, {600, 0}), "0.1*cos(phi)", "0.1*sin(phi)", "0");
+  const experiment::Experiment e =
+      onCurve(makeExperiment(experiment::ObjectKind::Point, {0.2}, {}, {600, 0}), "0.1*cos(phi)", "0.1*sin(phi)", "0");
   const auto at = [&](const char* method, double dt) {
     const Scene scene = compileScene(e, {method, dt, 0});
     scene.plant->place(std::array{0.3}, std::array{1.0});
@@ -126,8 +127,8 @@ TEST(Cusps, AnAstroidIsPassedWithoutGainingEnergy) {
 }
 
 TEST(Cusps, AStartAtRestOnOneIsRefused) {
-  Experiment e = onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0");
-  e.task = Task{};
+  experiment::Experiment e = onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0");
+  e.task = experiment::Task{};
   e.task->start = {0};
   e.task->target = {1};
   EXPECT_THROW((void)compileScene(e), RefusedError);
@@ -150,7 +151,7 @@ TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
 TEST(Laws, TheCycloidIsATautochrone) {
   const double a = 0.05, g = 9.81, quarter = kPi * std::sqrt(a / g);
   for (const double amplitude : {0.1, 1.0, 2.0}) {
-    Experiment e = onCurve(bead(), "0.05*(phi+sin(phi))", "-0.05*cos(phi)", "0");
+    experiment::Experiment e = onCurve(bead(), "0.05*(phi+sin(phi))", "-0.05*cos(phi)", "0");
     e.object.gravity = {0, -g, 0};
     const int steps = 1000;
     const Scene scene = freeScene(e, {amplitude}, {0});
@@ -163,7 +164,7 @@ TEST(Laws, TheCycloidIsATautochrone) {
 // A pendulum's quarter period is sqrt(l/g) K(sin(amplitude/2)).
 TEST(Laws, ThePendulumsPeriodIsTheEllipticIntegral) {
   const double l = 0.1, g = 9.81, amplitude = 2.5;
-  Experiment e = onCurve(bead(), "0.1*sin(phi)", "-0.1*cos(phi)", "0");
+  experiment::Experiment e = onCurve(bead(), "0.1*sin(phi)", "-0.1*cos(phi)", "0");
   e.object.gravity = {0, -g, 0};
   const double quarter = std::sqrt(l / g) * std::comp_ellint_1(std::sin(amplitude / 2));
   const Scene scene = freeScene(e, {amplitude}, {0});
@@ -175,8 +176,8 @@ TEST(Laws, ThePendulumsPeriodIsTheEllipticIntegral) {
 // On a circle of radius R = 1 km a reach of L = 0.2 m differs from the line's by the order of (L/R)^2 of it, and of rounding on 1 km.
 TEST(Laws, AChainOnAHugeCircleAgreesWithTheLine) {
   const double radius = 1000;
-  Experiment line = makeChain(5, 0.6, 600);
-  Experiment circle = onCurve(line, "1000*sin(phi/1000)", "1000*(cos(phi/1000)-1)", "0");
+  experiment::Experiment line = makeChain(5, 0.6, 600);
+  experiment::Experiment circle = onCurve(line, "1000*sin(phi/1000)", "1000*(cos(phi/1000)-1)", "0");
   const Scene straight = compileScene(line), bent = compileScene(circle);
   straight.plant->placeAtRest(std::array{0.0});
   bent.plant->placeAtRest(std::array{-0.1});
@@ -198,14 +199,14 @@ TEST(Laws, AChainOnAHugeCircleAgreesWithTheLine) {
 }
 
 TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
-  Experiment e = makeExperiment(ObjectKind::Point, {1}, {});
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
   e.constraint.name = "catenary";
   Scene scene = freeScene(e, {0.2}, {3});
-  const Domain domain = scene.constraint.domain[0];
+  const constraints::Domain domain = scene.constraint.domain[0];
   ASSERT_TRUE(std::isfinite(domain.hi));
   const double before = scene.plant->energy({});
   const StepStatus status = run(*scene.plant, noHand, 5);
-  if (domain.atEnd == AtEnd::Stop) {
+  if (domain.atEnd == constraints::AtEnd::Stop) {
     EXPECT_EQ(status, StepStatus::AtEnd);
     EXPECT_EQ(observed(*scene.plant)[0].q[0], domain.hi);
   } else {
@@ -215,7 +216,7 @@ TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
 }
 
 TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
-  Experiment e = makeExperiment(ObjectKind::Body, {2}, {}, {600, 0});
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Body, {2}, {}, {600, 0});
   e.constraint.name = "free";
   e.object.inertia = {{{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.025}}};
   e.object.fpOffset = {0.05, 0.02, 0};
@@ -231,4 +232,4 @@ TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

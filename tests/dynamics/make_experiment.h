@@ -7,25 +7,26 @@
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 
-inline Experiment makeExperiment(ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness, Coupling coupling = {600, 0}) {
-  Experiment e;
+inline experiment::Experiment makeExperiment(experiment::ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness,
+                                             experiment::Coupling coupling = {600, 0}) {
+  experiment::Experiment e;
   e.object.kind = kind;
   e.object.masses = std::move(masses);
   e.object.stiffness = std::move(stiffness);
-  if (kind != ObjectKind::Parallel) e.coupling = coupling;
+  if (kind != experiment::ObjectKind::Parallel) e.coupling = coupling;
   return e;
 }
-inline Experiment makeChain(int n, double mass, double stiffness, Coupling coupling = {600, 0}) {
-  return makeExperiment(ObjectKind::Chain, std::vector<double>(n, mass), std::vector<double>(n - 1, stiffness), coupling);
+inline experiment::Experiment makeChain(int n, double mass, double stiffness, experiment::Coupling coupling = {600, 0}) {
+  return makeExperiment(experiment::ObjectKind::Chain, std::vector<double>(n, mass), std::vector<double>(n - 1, stiffness), coupling);
 }
-inline Experiment onCurve(Experiment e, const std::string& x, const std::string& y, const std::string& z) {
+inline experiment::Experiment onCurve(experiment::Experiment e, const std::string& x, const std::string& y, const std::string& z) {
   e.constraint.curve = {x, y, z};
   return e;
 }
-inline Experiment onSurface(const std::string& x, const std::string& y, const std::string& z) {
-  Experiment e = makeExperiment(ObjectKind::Point, {1}, {});
+inline experiment::Experiment onSurface(const std::string& x, const std::string& y, const std::string& z) {
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
   e.constraint.surface = {x, y, z};
   return e;
 }
@@ -52,11 +53,12 @@ inline std::vector<MassState> observed(const Plant& plant, const HandSample& han
 }
 
 /// A scene that nobody holds, set going.
-inline Scene freeScene(const Experiment& e, const std::vector<double>& q, const std::vector<double>& rate, const std::string& method = {}) {
+inline Scene freeScene(const experiment::Experiment& e, const std::vector<double>& q, const std::vector<double>& rate,
+                       const std::string& method = {}) {
   Scene scene = compileScene(e, {method, 1e-3, 0});
   scene.plant->setCoupled(false);
   scene.plant->place(q, rate);
   return scene;
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

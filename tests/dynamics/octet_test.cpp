@@ -6,7 +6,7 @@
 #include "sim/dynamics/octet_system.h"
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr double kRounding = 1e-12;  // of the largest rate: another order of the same sums
@@ -22,7 +22,7 @@ void expectSameRates(int n, unsigned seed) {
     return list;
   };
   ObjectModel model;
-  model.kind = Parallel ? ObjectKind::Parallel : ObjectKind::Chain;
+  model.kind = Parallel ? experiment::ObjectKind::Parallel : experiment::ObjectKind::Chain;
   model.mass = numbers(n, 1);
   if (!Parallel) model.stiffness = numbers(n - 1, 600), model.damping = numbers(n - 1, 2);
   model.handStiffness = Parallel ? numbers(n, 600) : std::vector<double>(static_cast<std::size_t>(n), 0.0);
@@ -30,7 +30,8 @@ void expectSameRates(int n, unsigned seed) {
   model.handStiffness[0] = 600, model.handDamping[0] = 5;
   model.viscosity = 0.7;
   model.gravity = {0.1, -9.81, 0.3};
-  const Constraint c = makeConstraint({.name = "", .curve = {"0.1*cos(phi)", "0.06*sin(2*phi)", "0.02*phi"}, .surface = {}, .shape = {}});
+  const constraints::Constraint c =
+      constraints::makeConstraint({.name = "", .curve = {"0.1*cos(phi)", "0.06*sin(2*phi)", "0.02*phi"}, .surface = {}, .shape = {}});
 
   CurveSystem<0, Parallel, Tangential> plain(model, c, 0.1);
   OctetSystem<Octets, Parallel, Tangential> octets(model, c, 0.1);
@@ -80,7 +81,7 @@ TEST(OctetSystem, PullsParallelMassesAsMassByMass) {
 
 TEST(Abm, SparesTheSecondRightHandSideWhereAChainsFastestModeIsAFourteenthOfARadianATick) {
   // sqrt(4 k / m) dt = 0.063 and 0.073 with the coupling: beyond what PEC without the corrected rates bears.
-  const Experiment e = onCurve(makeChain(5, 0.6, 800), "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const experiment::Experiment e = onCurve(makeChain(5, 0.6, 800), "0.1*cos(phi)", "0.06*sin(phi)", "0");
   const auto hand = [](double t) {
     const double s = minJerk(t / 1.35).s;
     return HandSample{{0.1 * std::cos(s), 0.06 * std::sin(s), 0}, {}, true};
@@ -96,4 +97,4 @@ TEST(Abm, SparesTheSecondRightHandSideWhereAChainsFastestModeIsAFourteenthOfARad
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -4,58 +4,58 @@
 
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 // Ten coefficients found to 1e-15 of a surface of 0.1 m.
 constexpr double kOffSurface = 1e-15;  // [m]
 
-Surface sphere() {
-  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
+constraints::Surface sphere() {
+  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
             p.r = {0.1 * std::sin(v) * std::cos(u), 0.1 * std::sin(v) * std::sin(u), 0.1 * std::cos(v)};
           },
           nullptr,
           {}};
 }
-Surface ellipsoid() {
-  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
+constraints::Surface ellipsoid() {
+  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
             p.r = {0.2 + 0.1 * std::sin(v) * std::cos(u), 0.07 * std::sin(v) * std::sin(u) - 0.1, 0.04 * std::cos(v)};
           },
           nullptr,
           {}};
 }
-Surface torus() {
-  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
+constraints::Surface torus() {
+  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
             p.r = {(0.1 + 0.04 * std::cos(v)) * std::cos(u), (0.1 + 0.04 * std::cos(v)) * std::sin(u), 0.04 * std::sin(v)};
           },
           nullptr,
           {}};
 }
-Surface plane() {
-  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
+constraints::Surface plane() {
+  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
             p.r = {0.1 * u, 0.1 * v, 0.02 * u};
           },
           nullptr,
           {}};
 }
-Surface monkeySaddle() {
-  return {[](const void*, const double*, double u, double v, SurfacePoint& p) noexcept {
+constraints::Surface monkeySaddle() {
+  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
             p.r = {0.1 * u, 0.1 * v, 0.05 * (u * u * u - 3 * u * v * v)};
           },
           nullptr,
           {}};
 }
 
-const std::array<Domain, 2> kAnywhere{};
-const std::array<Domain, 2> kRound{Domain{0, 2 * kPi, true}, Domain{0, kPi, false}};
+const std::array<constraints::Domain, 2> kAnywhere{};
+const std::array<constraints::Domain, 2> kRound{constraints::Domain{0, 2 * kPi, true}, constraints::Domain{0, kPi, false}};
 
 TEST(Quadric, HoldsTheSphereAndPointsOutward) {
   const std::optional<Quadric> q = fitQuadric(sphere(), kRound, {0, 1});
   ASSERT_TRUE(q);
   for (double u = 0.05; u < 6; u += 0.31)
     for (double v = 0.0; v <= kPi; v += 0.17) {
-      const Vec3 r = evaluate(sphere(), u, v).r;
+      const Vec3 r = constraints::evaluate(sphere(), u, v).r;
       EXPECT_LT(std::abs(q->value(r)), kOffSurface);
       const Vec3 gradient = q->gradient(r);
       EXPECT_LT(norm(cross(gradient, r)), 1e-14 * norm(gradient));
@@ -66,7 +66,7 @@ TEST(Quadric, HoldsAnEllipsoidAwayFromTheOriginEvenWithoutADomain) {
   const std::optional<Quadric> q = fitQuadric(ellipsoid(), kAnywhere, {0.4, 1.2});
   ASSERT_TRUE(q);
   for (double u = 0; u < 6; u += 0.31)
-    for (double v = 0; v < 3; v += 0.17) EXPECT_LT(std::abs(q->value(evaluate(ellipsoid(), u, v).r)), kOffSurface);
+    for (double v = 0; v < 3; v += 0.17) EXPECT_LT(std::abs(q->value(constraints::evaluate(ellipsoid(), u, v).r)), kOffSurface);
 }
 
 TEST(Quadric, RefusesWhatIsNotOfSecondDegreeOrNotUnique) {
@@ -76,4 +76,4 @@ TEST(Quadric, RefusesWhatIsNotOfSecondDegreeOrNotUnique) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/compile.h"
 #include "tests/dynamics/make_experiment.h"
 
-namespace reachlab {
+namespace reachlab::dynamics {
 namespace {
 
 constexpr double kStep = 1e-3;
@@ -14,13 +14,13 @@ constexpr double kWithin = 0.01;  // the analysis is asked to be this near to wh
 
 struct Limit {
   const char* name;
-  std::function<Experiment(double)> experiment;
+  std::function<experiment::Experiment(double)> experiment;
   double stable, unstable, expected;
 };
 
 std::vector<Limit> limits() {
   const auto damped = [](double b, double bh) {
-    Experiment e = makeChain(5, 0.6, 600, {600, bh});
+    experiment::Experiment e = makeChain(5, 0.6, 600, {600, bh});
     e.object.damping.assign(4, b);
     return e;
   };
@@ -40,7 +40,7 @@ std::vector<Limit> limits() {
 }
 
 /// RK4 itself, on both sides of what the analysis says: the energy of a pushed chain grows on one and not on the other.
-double energyGrowth(const Experiment& e) {
+double energyGrowth(const experiment::Experiment& e) {
   const ObjectModel model = makeObjectModel(e);
   const LinearSpace space{1, {-0.1, 0, 0}, {0.2 / (2 * std::numbers::pi), 0, 0}, {}};
   const auto plant = makeLinePlant(model, space, {"rk4", 0});
@@ -79,7 +79,7 @@ TEST(Stability, AmplificationIsOneAtTheLimits) {
 }
 
 TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
-  Experiment e = makeChain(5, 0.6, 1.34e6);
+  experiment::Experiment e = makeChain(5, 0.6, 1.34e6);
   try {
     (void)compileScene(e, {"rk4", kStep, 0});
     FAIL() << "RK4 grows here";
@@ -95,4 +95,4 @@ TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
 TEST(Stability, AutoTakesTheExactPropagatorForAnyLinearScene) { EXPECT_EQ(compileScene(makeChain(5, 0.01, 1e8)).choice.method, "exact"); }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::dynamics

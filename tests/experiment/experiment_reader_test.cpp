@@ -2,10 +2,11 @@
 
 #include <string>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/experiment/experiment.h"
 
 using namespace reachlab;
+using namespace reachlab::experiment;
 
 namespace {
 

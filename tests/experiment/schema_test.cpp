@@ -7,11 +7,12 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "constraints/error.h"
-#include "constraints/json_reader.h"
+#include "base/error.h"
+#include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 
 using namespace reachlab;
+using namespace reachlab::experiment;
 using Json = nlohmann::json;
 
 namespace {

@@ -10,10 +10,10 @@
 #include <random>
 #include <sstream>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/figure/ticks.h"
 
-namespace reachlab {
+namespace reachlab::figure {
 namespace {
 
 Figure exampleFigure() {
@@ -164,4 +164,4 @@ TEST(Figure, BearsHolesEmptySeriesAndHugeValues) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::figure

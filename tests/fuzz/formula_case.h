@@ -8,10 +8,10 @@
 
 #include "constraints/constraint.h"
 #include "constraints/cpp_writer.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "constraints/formula.h"
 
-namespace reachlab {
+namespace reachlab::constraints {
 
 /// Throws where eight points together differ from single ones, not-a-numbers being all alike.
 inline void requireOctetOfSinglePoints(const Curve& curve, const std::array<double, kOctet>& phi) {
@@ -67,4 +67,4 @@ inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
   }
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::constraints

@@ -5,6 +5,6 @@
 #include "tests/fuzz/formula_case.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reachlab::runFormulaCase(data, size);
+  reachlab::constraints::runFormulaCase(data, size);
   return 0;
 }

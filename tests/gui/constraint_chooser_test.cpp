@@ -17,7 +17,7 @@
 #include "gui/formula_editor.h"
 #include "gui/scene_view.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 class Chooser : public ::testing::Test {
@@ -47,7 +47,7 @@ class Chooser : public ::testing::Test {
 
 TEST_F(Chooser, ListsTheCatalogueWithThumbnailsAndFindsByName) {
   auto* list = find<QListWidget>("definitions");
-  ASSERT_GE(list->count(), static_cast<int>(catalogue().size()));
+  ASSERT_GE(list->count(), static_cast<int>(constraints::catalogue().size()));
   for (int i = 0; i < list->count(); ++i) EXPECT_FALSE(list->item(i)->icon().isNull()) << list->item(i)->text().toStdString();
   type("search", "line");
   EXPECT_GE(chooser_.shownCount(), 1);
@@ -99,11 +99,11 @@ TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
   type("formula_z", "0.05*sin(2*phi)");
   type("definitionName", "my-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
-  const auto own = readDefinitionFolder(userDefinitionFolder());
+  const auto own = constraints::readDefinitionFolder(constraints::userDefinitionFolder());
   ASSERT_EQ(own.size(), 1u) << find<QLabel>("saved")->text().toStdString();
   EXPECT_EQ(own[0].name, "my-eight");
   EXPECT_EQ(own[0].coordinates[2], "0.05*sin(2*phi)");
-  EXPECT_EQ(find<QListWidget>("definitions")->count(), static_cast<int>(catalogue().size()) + 1);
+  EXPECT_EQ(find<QListWidget>("definitions")->count(), static_cast<int>(constraints::catalogue().size()) + 1);
 }
 
 TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
@@ -112,12 +112,12 @@ TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
   type("formula_z", "depth*sin(2*phi)");
   type("definitionName", "my-deep-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
-  ConstraintSpec spec;
+  constraints::ConstraintSpec spec;
   spec.name = "my-deep-eight";
   ConstraintDock dock;
-  dock.setConstraint(spec, makeConstraint(spec));
+  dock.setConstraint(spec, constraints::makeConstraint(spec));
   EXPECT_NE(dock.findChild<QSlider*>(QStringLiteral("slider_depth")), nullptr);
-  std::filesystem::remove(userDefinitionFolder() + "/my-deep-eight.json");
+  std::filesystem::remove(constraints::userDefinitionFolder() + "/my-deep-eight.json");
 }
 
 TEST_F(Chooser, ASliderGoesWithItsName) {
@@ -130,7 +130,7 @@ TEST_F(Chooser, ASliderGoesWithItsName) {
   line->clear();
   for (const char letter : std::string("0.1*sin(phi)")) {
     QTest::keyClick(line, letter);
-    const auto names = parameterNames(ConstraintKind::Curve, {line->text().toStdString(), "R", ""});
+    const auto names = parameterNames(constraints::ConstraintKind::Curve, {line->text().toStdString(), "R", ""});
     for (const auto* slider : chooser_.findChildren<QSlider*>()) {
       const std::string name = slider->objectName().mid(7).toStdString();
       EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name << " in " << line->text().toStdString();
@@ -150,17 +150,19 @@ TEST_F(Chooser, ANameBesideAVariableIsASliderButAskedAbout) {
 }
 
 TEST(FormulaNames, BesideAVariableAreOneLetterOrTheCaseApart) {
-  for (const char* name : {"phj", "Phi", "ph", "phii", "pih"}) EXPECT_EQ(variableMeant(ConstraintKind::Curve, name), "phi") << name;
-  for (const char* name : {"r", "p", "theta", "u"}) EXPECT_EQ(variableMeant(ConstraintKind::Curve, name), "") << name;
-  EXPECT_EQ(variableMeant(ConstraintKind::Surface, "U"), "u");
-  EXPECT_EQ(variableMeant(ConstraintKind::Surface, "vv"), "v");
-  for (const char* name : {"a", "uv", "u0", "phj"}) EXPECT_EQ(variableMeant(ConstraintKind::Surface, name), "") << name;
+  for (const char* name : {"phj", "Phi", "ph", "phii", "pih"})
+    EXPECT_EQ(variableMeant(constraints::ConstraintKind::Curve, name), "phi") << name;
+  for (const char* name : {"r", "p", "theta", "u"}) EXPECT_EQ(variableMeant(constraints::ConstraintKind::Curve, name), "") << name;
+  EXPECT_EQ(variableMeant(constraints::ConstraintKind::Surface, "U"), "u");
+  EXPECT_EQ(variableMeant(constraints::ConstraintKind::Surface, "vv"), "v");
+  for (const char* name : {"a", "uv", "u0", "phj"}) EXPECT_EQ(variableMeant(constraints::ConstraintKind::Surface, name), "") << name;
 }
 
 TEST(FormulaNames, AreWhatIsNeitherVariableConstantNorFunction) {
-  EXPECT_EQ(parameterNames(ConstraintKind::Curve, {"r*cos(phi)+pi", "2e-3*k_1", "exp(-u)"}), (std::vector<std::string>{"r", "k_1", "u"}));
-  EXPECT_EQ(parameterNames(ConstraintKind::Surface, {"u", "v", "phi"}), (std::vector<std::string>{"phi"}));
+  EXPECT_EQ(parameterNames(constraints::ConstraintKind::Curve, {"r*cos(phi)+pi", "2e-3*k_1", "exp(-u)"}),
+            (std::vector<std::string>{"r", "k_1", "u"}));
+  EXPECT_EQ(parameterNames(constraints::ConstraintKind::Surface, {"u", "v", "phi"}), (std::vector<std::string>{"phi"}));
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::gui

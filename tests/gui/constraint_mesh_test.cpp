@@ -5,26 +5,26 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
 // Only the positions are asked for here.
-Curve curveOf(CurveFunction function) { return {function, nullptr, {}}; }
+constraints::Curve curveOf(constraints::CurveFunction function) { return {function, nullptr, {}}; }
 
-void ellipse(const void*, const double*, double phi, CurvePoint& out) noexcept {
+void ellipse(const void*, const double*, double phi, constraints::CurvePoint& out) noexcept {
   out = {{0.1 * std::cos(phi), 0.02 * std::sin(phi), 0}, {}, {}};
 }
-void bump(const void*, const double*, double phi, CurvePoint& out) noexcept {
+void bump(const void*, const double*, double phi, constraints::CurvePoint& out) noexcept {
   out = {{phi, 1 / (1 + 2000 * (phi - 3) * (phi - 3)), 0}, {}, {}};
 }
-void buzz(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{phi, std::sin(5000 * phi), 0}, {}, {}}; }
-void pole(const void*, const double*, double phi, CurvePoint& out) noexcept {
+void buzz(const void*, const double*, double phi, constraints::CurvePoint& out) noexcept { out = {{phi, std::sin(5000 * phi), 0}, {}, {}}; }
+void pole(const void*, const double*, double phi, constraints::CurvePoint& out) noexcept {
   out = {{phi, phi == std::numbers::pi ? NAN : 1 / (phi - std::numbers::pi), 0}, {}, {}};
 }
-void half(const void*, const double*, double phi, CurvePoint& out) noexcept { out = {{phi, std::sqrt(phi - 1), 0}, {}, {}}; }
-void ball(const void*, const double*, double u, double v, SurfacePoint& out) noexcept {
+void half(const void*, const double*, double phi, constraints::CurvePoint& out) noexcept { out = {{phi, std::sqrt(phi - 1), 0}, {}, {}}; }
+void ball(const void*, const double*, double u, double v, constraints::SurfacePoint& out) noexcept {
   out.r = {std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), std::cos(u)};
   out.rU = {std::cos(u) * std::cos(v), std::cos(u) * std::sin(v), -std::sin(u)};
   out.rV = {-std::sin(u) * std::sin(v), std::sin(u) * std::cos(v), 0};
@@ -66,7 +66,7 @@ TEST(CurveMesh, ANewPieceBeginsWhereTheFormulaIsNotFinite) {
 }
 
 TEST(SurfaceMesh, NormalsAreUnitAndPointOutwardAlsoAtThePoles) {
-  const std::array<Domain, 2> domain{Domain{0, std::numbers::pi}, Domain{0, kTurn, true}};
+  const std::array<constraints::Domain, 2> domain{constraints::Domain{0, std::numbers::pi}, constraints::Domain{0, kTurn, true}};
   const SurfaceMesh mesh = sampleSurface({ball, nullptr, {}}, domain);
   ASSERT_FALSE(mesh.quads.empty());
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -77,13 +77,13 @@ TEST(SurfaceMesh, NormalsAreUnitAndPointOutwardAlsoAtThePoles) {
 }
 
 TEST(DrawnDomain, AnEndlessLineIsDrawnBeyondStartAndTarget) {
-  Constraint line;
-  line.kind = ConstraintKind::Curve;
+  constraints::Constraint line;
+  line.kind = constraints::ConstraintKind::Curve;
   const std::vector<double> start{0}, target{kTurn};
-  const Domain drawn = drawnDomain(line, start, target)[0];
+  const constraints::Domain drawn = drawnDomain(line, start, target)[0];
   EXPECT_LT(drawn.lo, 0);
   EXPECT_GT(drawn.hi, kTurn);
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
   qputenv("LANG", "de_DE.UTF-8");
   const QTemporaryDir own;
   qputenv("REACHLAB_CONSTRAINTS", own.path().toUtf8());  // nothing of the user's, and nothing left behind
-  reachlab::applySurfaceFormat();
+  reachlab::gui::applySurfaceFormat();
   QApplication application(argc, argv);
-  reachlab::applyTheme(application);
+  reachlab::gui::applyTheme(application);
   return RUN_ALL_TESTS();
 }

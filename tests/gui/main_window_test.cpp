@@ -28,7 +28,7 @@
 #include "gui/velocity_plot.h"
 #include "sim/record/run_log.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 // An object that a steady pointer brings to rest: well damped, and a wide window in time, so that a stall of the machine spoils nothing.
@@ -66,12 +66,12 @@ class Window : public ::testing::Test {
     EXPECT_NE(found, nullptr) << name;
     return found;
   }
-  bool waitForPhase(Phase phase) const {
+  bool waitForPhase(trial::Phase phase) const {
     return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
   }
 
   QTemporaryDir folder_;
-  SessionRequest request_;
+  session::SessionRequest request_;
   std::unique_ptr<MainWindow> window_;
 };
 
@@ -96,10 +96,10 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   MainWindow& window = open();
   QTest::keyClick(&window, Qt::Key_Space);
   ASSERT_EQ(window.message().toStdString(), "");
-  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   SceneView& view = window.view();
   const QPoint from = view.pixelOf(view.plan().start).toPoint(), to = view.pixelOf(view.plan().target).toPoint();
-  std::set<Semaphore> seen{window.overlay().semaphore};
+  std::set<trial::Semaphore> seen{window.overlay().semaphore};
   press(Qt::LeftButton, from);
   constexpr int kMoves = 60;
   for (int i = 1; i <= kMoves; ++i) {
@@ -108,13 +108,13 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
     QTest::qWait(12);
     seen.insert(window.overlay().semaphore);
   }
-  ASSERT_TRUE(waitForPhase(Phase::Done));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Done));
   release(Qt::LeftButton, to);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
-  const TrialResult result = window.session().lastTrial()->result;
-  EXPECT_EQ(result.outcome, Outcome::Success) << nameOf(result.reason) << " by " << result.by;
-  EXPECT_TRUE(seen.contains(Semaphore::Neutral));
-  EXPECT_TRUE(seen.contains(Semaphore::Green));
+  const trial::TrialResult result = window.session().lastTrial()->result;
+  EXPECT_EQ(result.outcome, trial::Outcome::Success) << trial::nameOf(result.reason) << " by " << result.by;
+  EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
+  EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
   EXPECT_GT(window.plot().pointCount(), 20u);
   EXPECT_TRUE(window.sessionDock().tallyText().contains(QStringLiteral("1 of 1")));
 
@@ -123,14 +123,14 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   window.session().note(QStringLiteral("ärgerlich laut"));
   window.session().endRun();
   EXPECT_EQ(window.message().toStdString(), "");
-  const RunLog read = RunLog::open(log);
+  const record::RunLog read = record::RunLog::open(log);
   EXPECT_TRUE(read.healthy());
   ASSERT_EQ(read.trials().size(), 1u);
   EXPECT_EQ(read.trials()[0].result.outcome, result.outcome);
   EXPECT_EQ(read.trials()[0].result.movementTime, result.movementTime);
   EXPECT_EQ(read.configuration().experimentText, kEasy);
   bool noted = false;
-  for (const RecordedEvent& event : read.events()) noted = noted || event.text == "ärgerlich laut";
+  for (const record::RecordedEvent& event : read.events()) noted = noted || event.text == "ärgerlich laut";
   EXPECT_TRUE(noted);
 }
 
@@ -143,15 +143,15 @@ TEST_F(Window, TheTaskIsToldBeforeTheFirstTrialAndGoesWhenItRuns) {
   QTest::keyClick(&window, Qt::Key_F);
   EXPECT_FALSE(window.overlay().task.contains(QStringLiteral("hide")));
   window.nextTrial();
-  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().task.isEmpty(); }, 5000));
 }
 
 TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
-  Experiment e;
+  experiment::Experiment e;
   e.object.masses = {1};
   EXPECT_EQ(taskText(e, false), QString());
-  e.task = Task{};
+  e.task = experiment::Task{};
   e.task->duration = 1.5;
   e.task->tolerance = {0.005, 0.02, 8.5};
   EXPECT_EQ(
@@ -172,9 +172,9 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   labels.clear();
   for (const auto* label : free.findChildren<QLabel*>()) labels << label->text();
   EXPECT_TRUE(labels.contains(QStringLiteral("start x y z [m]")));
-  TrialResult result;
-  result.outcome = Outcome::Failure;
-  result.reason = Reason::TimeShort;
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::TimeShort;
   free.sessionDock().count(result);
   EXPECT_TRUE(free.sessionDock().tallyText().contains(QStringLiteral("1 × too fast")));
 }
@@ -218,10 +218,10 @@ TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
 TEST_F(Window, AbortAndRepeatPutTheSameTrialUpAgain) {
   MainWindow& window = open();
   window.nextTrial();
-  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
-  EXPECT_EQ(window.session().lastTrial()->result.outcome, Outcome::Aborted);
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Aborted);
   QTest::keyClick(&window, Qt::Key_R);
   EXPECT_EQ(window.session().run()->trialCount(), 4u);
 }
@@ -351,9 +351,9 @@ TEST_F(Window, AGermanUsersExperimentHasTheSameBytes) {
   auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
   stiffness->setValue(612.5);
   EXPECT_TRUE(stiffness->text().startsWith(QStringLiteral("612.5")));
-  const std::string text = toJson(window.session().experiment());
+  const std::string text = experiment::toJson(window.session().experiment());
   EXPECT_NE(text.find("612.5"), std::string::npos);
-  EXPECT_EQ(parseExperiment(text, "edited").coupling->stiffness, 612.5);
+  EXPECT_EQ(experiment::parseExperiment(text, "edited").coupling->stiffness, 612.5);
 }
 
 TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
@@ -361,10 +361,10 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   request_.device = "simulated:noise=0";
   MainWindow& window = open();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 20000));
-  window.predictions().setChosen({Criterion::MinHandJerk, Criterion::MinHandForceChange});
+  window.predictions().setChosen({predict::Criterion::MinHandJerk, predict::Criterion::MinHandForceChange});
   window.nextTrial();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
-  EXPECT_EQ(window.session().lastTrial()->result.outcome, Outcome::Success);
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Success);
   QTest::qWait(100);
   auto* table = window.predictions().findChild<QTableWidget*>();
   ASSERT_NE(table, nullptr);
@@ -422,12 +422,12 @@ TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWord
 TEST_F(Window, ClosedInATrialItKeepsTheTrialAsInterrupted) {
   MainWindow& window = open();
   window.nextTrial();
-  ASSERT_TRUE(waitForPhase(Phase::Armed));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   const std::string log = window.session().run()->logPath();
   window.close();
-  const RunLog read = RunLog::open(log);
+  const record::RunLog read = record::RunLog::open(log);
   ASSERT_EQ(read.trials().size(), 1u);
-  EXPECT_EQ(read.trials()[0].result.outcome, Outcome::Interrupted);
+  EXPECT_EQ(read.trials()[0].result.outcome, trial::Outcome::Interrupted);
   EXPECT_TRUE(read.closed());
 }
 
@@ -445,4 +445,4 @@ TEST_F(Window, TheSubjectsScreenShowsTheSceneAlone) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -9,12 +9,12 @@
 #include "gui/scene_overlay.h"
 #include "gui/trial_texts.h"
 
-namespace reachlab {
+namespace reachlab::gui {
 namespace {
 
 ScenePlan planOf(const char* experiment, ViewOptions::SideBySide wish = ViewOptions::SideBySide::Auto) {
-  const Experiment e = readExperiment(experiment);
-  return planScene(e, makeConstraint(e.constraint), {wish});
+  const experiment::Experiment e = experiment::readExperiment(experiment);
+  return planScene(e, constraints::makeConstraint(e.constraint), {wish});
 }
 
 TEST(ScenePlan, ParallelMassesAreShiftedForTheEyeAndAChainsAreNot) {
@@ -56,24 +56,24 @@ TEST(ScenePlan, MarksAreSmallerThanMasses) {
 }
 
 TEST(TrialTexts, SayWhatTheSubjectCanUse) {
-  TrialResult result;
-  result.outcome = Outcome::Failure;
-  result.reason = Reason::TimeShort;
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::TimeShort;
   result.by = 0.12;
   EXPECT_EQ(outcomeText(result), QStringLiteral("Too fast by 0.12 s"));
-  result.reason = Reason::Velocity;
+  result.reason = trial::Reason::Velocity;
   result.mass = 5;
   result.by = 0.004;
   EXPECT_EQ(outcomeText(result), QStringLiteral("Time is up: mass 5 still moves 4.0 mm/s too fast"));
 }
 
 TEST(TrialTexts, TheSemaphoreIsTheStates) {
-  TickState state;
-  state.phase = Phase::Moving;
-  state.semaphore = Semaphore::Green;
-  EXPECT_EQ(overlayOf(state, Task{}, 20, true).semaphore, Semaphore::Green);
-  EXPECT_NE(SceneOverlay::colourOf(Semaphore::Green), SceneOverlay::colourOf(Semaphore::Red));
-  EXPECT_NE(SceneOverlay::colourOf(Semaphore::Green), SceneOverlay::colourOf(Semaphore::Neutral));
+  haptics::TickState state;
+  state.phase = trial::Phase::Moving;
+  state.semaphore = trial::Semaphore::Green;
+  EXPECT_EQ(overlayOf(state, experiment::Task{}, 20, true).semaphore, trial::Semaphore::Green);
+  EXPECT_NE(SceneOverlay::colourOf(trial::Semaphore::Green), SceneOverlay::colourOf(trial::Semaphore::Red));
+  EXPECT_NE(SceneOverlay::colourOf(trial::Semaphore::Green), SceneOverlay::colourOf(trial::Semaphore::Neutral));
 }
 
 TEST(NumberList, ReadsBackWhatItShows) {
@@ -88,9 +88,9 @@ TEST(NumberList, RefusesWhatIsNoNumber) {
 }
 
 TEST(Overlay, TheLongestSentenceFitsIntoTheSmallestScene) {
-  TrialResult result;
-  result.outcome = Outcome::Failure;
-  result.reason = Reason::Position;
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::Position;
   result.mass = 12;
   result.by = 0.1279;
   QFont font = QApplication::font();
@@ -111,4 +111,4 @@ TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::gui

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 constexpr double kRounding = 1e-12;  // [N] a few operations on numbers of about 10
@@ -78,4 +78,4 @@ TEST(ForceSafety, AHugeForceIsStillTheLimit) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -4,11 +4,11 @@
 #include "sim/haptics/haptic_loop.h"
 #include "tests/haptics/scripted_device.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 // A whole trial: put up, armed, moved, judged, put up again, with every tick handed to window and recorder.
-std::uint64_t allocationsOfThreeTrials(const Experiment& experiment) {
+std::uint64_t allocationsOfThreeTrials(const experiment::Experiment& experiment) {
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   const Vec3 start = engine->protocol().start;
   test::ScriptedDevice device(start.x, start.x + 0.02, 400);
@@ -17,20 +17,21 @@ std::uint64_t allocationsOfThreeTrials(const Experiment& experiment) {
   LoopOptions options;
   options.virtualClock = true;
   HapticLoop loop(std::move(engine), device, &sink, options);
-  const std::uint64_t before = countAllocations();
+  const std::uint64_t before = cli::countAllocations();
   for (int i = 0; i < 3000; ++i) {
-    if (i % 1000 == 0) loop.tryCommand(i == 0 ? Command::NextTrial : Command::Abort);
-    if (i % 1000 == 1) loop.tryCommand(Command::NextTrial);
+    if (i % 1000 == 0) loop.tryCommand(i == 0 ? trial::Command::NextTrial : trial::Command::Abort);
+    if (i % 1000 == 1) loop.tryCommand(trial::Command::NextTrial);
     loop.advance();
     loop.takeLatest();
   }
   EXPECT_GE(loop.engine().state().trial, 1);
   EXPECT_GT(loop.engine().state().faults.steps[0], 400u) << "steps were taken";
-  return countAllocations() - before;
+  return cli::countAllocations() - before;
 }
 
 TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {
-  for (const std::string& name : shippedExperiments()) EXPECT_EQ(allocationsOfThreeTrials(readExperiment(name)), 0u) << name;
+  for (const std::string& name : experiment::shippedExperiments())
+    EXPECT_EQ(allocationsOfThreeTrials(experiment::readExperiment(name)), 0u) << name;
 }
 
 TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
@@ -60,9 +61,9 @@ TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
       const std::string text = R"j({"schema_version": 1, )j" + c.constraint + ", " + c.object +
                                R"(, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 1}, )" + c.task + R"(, "method": ")" +
                                method + "\"}";
-      EXPECT_EQ(allocationsOfThreeTrials(parseExperiment(text, "case")), 0u) << text;
+      EXPECT_EQ(allocationsOfThreeTrials(experiment::parseExperiment(text, "case")), 0u) << text;
     }
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -5,7 +5,7 @@
 #include "sim/haptics/device.h"
 #include "sim/haptics/run_sink.h"
 
-namespace reachlab::test {
+namespace reachlab::haptics::test {
 
 /// A hand along x from `from` to `to` by a minimum-jerk law of `ticks` ticks after the go signal; keeps what was written to it.
 class ScriptedDevice final : public HapticDevice {
@@ -45,7 +45,7 @@ class ScriptedDevice final : public HapticDevice {
 /// What a recorder would need of a tick.
 struct SeenTick {
   TickState state;
-  Command command;
+  trial::Command command;
   std::uint32_t missed;
 };
 
@@ -53,12 +53,12 @@ struct SeenTick {
 class MemorySink final : public RunSink {
  public:
   explicit MemorySink(std::size_t most) { ticks.reserve(most); }
-  bool onTick(const TickState& state, Command command, std::uint32_t missed) noexcept override {
+  bool onTick(const TickState& state, trial::Command command, std::uint32_t missed) noexcept override {
     if (ticks.size() == ticks.capacity()) return false;
     ticks.push_back({state, command, missed});
     return true;
   }
-  void announce(std::int32_t trial, const PlannedTrial&) override { announced.push_back(trial); }
+  void announce(std::int32_t trial, const trial::PlannedTrial&) override { announced.push_back(trial); }
   void awaitTrial(std::int32_t trial) override { awaited.push_back(trial); }
   void close() override { closed = true; }
 
@@ -67,4 +67,4 @@ class MemorySink final : public RunSink {
   bool closed = false;
 };
 
-}  // namespace reachlab::test
+}  // namespace reachlab::haptics::test

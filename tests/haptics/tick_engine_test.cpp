@@ -6,9 +6,9 @@
 #include <cstring>
 #include <limits>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 constexpr double kLimit = 12;  // [N]
@@ -23,9 +23,10 @@ DeviceSample handAt(const Vec3& position) {
 class Engine : public ::testing::Test {
  protected:
   explicit Engine(bool virtualHand = false)
-      : experiment(readExperiment("chain-moderate")), engine(experiment, {kLimit, virtualHand}), hand(engine.protocol().start) {}
+      : experiment(experiment::readExperiment("chain-moderate")), engine(experiment, {kLimit, virtualHand}), hand(engine.protocol().start) {
+  }
 
-  const TickState& tick(Command command = Command::None, std::uint32_t missed = 0) {
+  const TickState& tick(trial::Command command = trial::Command::None, std::uint32_t missed = 0) {
     TickInput input;
     input.device = handAt(hand);
     input.command = command;
@@ -34,9 +35,9 @@ class Engine : public ::testing::Test {
     return engine.state();
   }
   void arm() {
-    tick(Command::NextTrial);
+    tick(trial::Command::NextTrial);
     tick();
-    ASSERT_EQ(engine.state().phase, Phase::Armed);
+    ASSERT_EQ(engine.state().phase, trial::Phase::Armed);
   }
   // A hand on its way at 0.2 m/s.
   void move(int ticks) {
@@ -47,7 +48,7 @@ class Engine : public ::testing::Test {
   }
   Vec3 massOne() const { return engine.state().masses[0].r; }
 
-  Experiment experiment;
+  experiment::Experiment experiment;
   TickEngine engine;
   Vec3 hand;
 };
@@ -58,10 +59,10 @@ class VirtualHandEngine : public Engine {
 
 TEST_F(Engine, RestsAtTheStartWithoutForceUntilArmed) {
   hand.y += 0.05;
-  tick(Command::NextTrial);
+  tick(trial::Command::NextTrial);
   for (int i = 0; i < 50; ++i) {
     const TickState& state = tick();
-    ASSERT_EQ(state.phase, Phase::Waiting);
+    ASSERT_EQ(state.phase, trial::Phase::Waiting);
     EXPECT_EQ(state.deviceForce, Vec3{});
     EXPECT_EQ(state.couplingForce, Vec3{});
     for (int m = 0; m < state.massCount; ++m) EXPECT_EQ(norm(state.masses[m].v), 0);
@@ -91,7 +92,7 @@ TEST_F(Engine, TheDeviceFeelsTheOppositeOfTheObject) {
 }
 
 TEST_F(Engine, TellsAVirtualHandWhenToBeWhere) {
-  tick(Command::NextTrial);
+  tick(trial::Command::NextTrial);
   EXPECT_EQ(engine.cue(), Cue::Place);
   tick();
   EXPECT_EQ(engine.cue(), Cue::Go);
@@ -102,7 +103,7 @@ TEST_F(Engine, TellsAVirtualHandWhenToBeWhere) {
 TEST_F(Engine, GivesTheGoSignalAfterTheForeperiod) {
   TickInput input;
   input.device = handAt(hand);
-  input.command = Command::NextTrial;
+  input.command = trial::Command::NextTrial;
   input.planned.foreperiodTicks = 3;
   engine.tick(input);
   tick();
@@ -117,8 +118,8 @@ TEST_F(Engine, ForcesAreZeroAsSoonAsTheTrialHasEnded) {
   arm();
   move(300);
   ASSERT_GT(norm(engine.state().deviceForce), 0);
-  const TickState& state = tick(Command::Abort);
-  EXPECT_EQ(state.phase, Phase::Done);
+  const TickState& state = tick(trial::Command::Abort);
+  EXPECT_EQ(state.phase, trial::Phase::Done);
   EXPECT_EQ(state.deviceForce, Vec3{});
   EXPECT_EQ(state.couplingForce, Vec3{});
   const Vec3 where = massOne();
@@ -129,14 +130,14 @@ TEST_F(Engine, ForcesAreZeroAsSoonAsTheTrialHasEnded) {
 TEST_F(Engine, TheNextTrialBeginsLikeTheFirst) {
   const auto run = [this] {
     hand = engine.protocol().start;
-    tick(Command::NextTrial);
+    tick(trial::Command::NextTrial);
     tick();
     move(500);
     const TickState& state = engine.state();
     std::vector<double> numbers{state.couplingForce.x, state.energy};
     for (int m = 0; m < state.massCount; ++m)
       numbers.insert(numbers.end(), {state.masses[m].r.x, state.masses[m].v.x, state.masses[m].a.x});
-    tick(Command::Abort);
+    tick(trial::Command::Abort);
     return numbers;
   };
   const auto first = run();
@@ -152,8 +153,8 @@ TEST_F(Engine, AHandThatIsNotANumberGivesZeroForceAndEndsTheTrial) {
     hand.z = bad;
     tick();
     EXPECT_EQ(engine.state().deviceForce, Vec3{});
-    EXPECT_EQ(engine.state().phase, Phase::Done);
-    EXPECT_EQ(engine.state().result.reason, Reason::DeviceLost);
+    EXPECT_EQ(engine.state().phase, trial::Phase::Done);
+    EXPECT_EQ(engine.state().result.reason, trial::Reason::DeviceLost);
     EXPECT_EQ(massOne(), mass);
     hand = good;
     for (int i = 0; i < 500; ++i) EXPECT_EQ(tick().deviceForce, Vec3{});
@@ -171,11 +172,11 @@ TEST_F(Engine, ALostHandGivesZeroForceAndComesBackWithoutAJump) {
   for (int i = 0; i < 10; ++i) {
     engine.tick(lost);
     EXPECT_EQ(engine.state().deviceForce, Vec3{});
-    EXPECT_EQ(engine.state().status, StepStatus::HandLost);
+    EXPECT_EQ(engine.state().status, dynamics::StepStatus::HandLost);
   }
   hand.x += 0.003;
   const TickState& back = tick();
-  EXPECT_EQ(back.phase, Phase::Moving);
+  EXPECT_EQ(back.phase, trial::Phase::Moving);
   EXPECT_NEAR(back.couplingForce.x, before, 0.2) << "3 mm at 600 N/m at once would be 1.8 N; mass 1 moves on by 0.2 mm";
 }
 
@@ -185,7 +186,7 @@ TEST_F(Engine, ALongGapGivesNeitherABurstNorAJump) {
   move(300);
   Vec3 mass = massOne(), force = engine.state().couplingForce;
   hand.x += 0.025;
-  tick(Command::None, 124);
+  tick(trial::Command::None, 124);
   EXPECT_EQ(engine.state().deviceForce, Vec3{}) << "the tick after a gap renders nothing";
   Vec3 deviceForce;
   double mostForce = 0, mostMass = 0, mostDevice = 0;
@@ -208,7 +209,7 @@ TEST_F(Engine, ALongGapGivesNeitherABurstNorAJump) {
 
 TEST_F(VirtualHandEngine, AGapChangesNothingForAHandThatMovesByTickCount) {
   TickEngine other(experiment, {kLimit, true});
-  const auto both = [&](Command command, std::uint32_t missed) {
+  const auto both = [&](trial::Command command, std::uint32_t missed) {
     TickInput input;
     input.device = handAt(hand);
     input.command = command;
@@ -218,11 +219,11 @@ TEST_F(VirtualHandEngine, AGapChangesNothingForAHandThatMovesByTickCount) {
     for (int m = 0; m < 5; ++m) ASSERT_EQ(engine.state().masses[m].r, other.state().masses[m].r);
     ASSERT_EQ(engine.state().couplingForce, other.state().couplingForce);
   };
-  both(Command::NextTrial, 0);
-  both(Command::None, 0);
+  both(trial::Command::NextTrial, 0);
+  both(trial::Command::None, 0);
   for (int i = 0; i < 800; ++i) {
     hand.x += 2e-4;
-    both(Command::None, i % 100 == 50 ? 130 : 0);
+    both(trial::Command::None, i % 100 == 50 ? 130 : 0);
   }
   EXPECT_EQ(engine.state().tick, 802u) << "one tick a tick, whatever the clock did";
 }
@@ -261,56 +262,56 @@ TEST_F(Engine, TheEnergyOfTheObjectIsTheWorkOfTheHand) {
 }
 
 TEST(TickEngine, TheSameInputsGiveTheSameBits) {
-  const Experiment experiment = readExperiment("parallel");
+  const experiment::Experiment experiment = experiment::readExperiment("parallel");
   TickEngine one(experiment, {}), two(experiment, {});
   TickInput input;
   for (int i = 0; i < 1500; ++i) {
     input.device = handAt({-0.1 + (i > 10 ? 5e-5 * (i - 10) : 0), 1e-4 * std::sin(0.1 * i), 0});
-    input.command = i == 1 ? Command::NextTrial : Command::None;
+    input.command = i == 1 ? trial::Command::NextTrial : trial::Command::None;
     one.tick(input);
     two.tick(input);
-    ASSERT_EQ(std::memcmp(&one.state().masses, &two.state().masses, sizeof(MassState) * 2), 0);
+    ASSERT_EQ(std::memcmp(&one.state().masses, &two.state().masses, sizeof(dynamics::MassState) * 2), 0);
     ASSERT_EQ(one.state().couplingForce, two.state().couplingForce);
   }
 }
 
 TEST(TickEngine, ABodyHeldOffItsCentreIsArmedWithoutForce) {
-  const Experiment experiment = readExperiment("free-body");
+  const experiment::Experiment experiment = experiment::readExperiment("free-body");
   ASSERT_GT(norm(experiment.object.fpOffset), 0.01);
   TickEngine engine(experiment, {});
   TickInput input;
   input.device = handAt(engine.protocol().start);
-  input.command = Command::NextTrial;
+  input.command = trial::Command::NextTrial;
   for (int i = 0; i < 20; ++i) {
     engine.tick(input);
-    input.command = Command::None;
+    input.command = trial::Command::None;
     EXPECT_LT(norm(engine.state().couplingForce), 1e-12) << "rounding of the place, times 600 N/m";
   }
-  EXPECT_EQ(engine.state().phase, Phase::Armed);
+  EXPECT_EQ(engine.state().phase, trial::Phase::Armed);
 }
 
 TEST(TickEngine, RefusesAnExperimentWithoutATask) {
-  Experiment experiment = readExperiment("chain-moderate");
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   experiment.task.reset();
   EXPECT_THROW(TickEngine(experiment, {}), UsageError);
 }
 
 TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {
-  Experiment experiment = readExperiment("chain-moderate");
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   experiment.forceLimit = 1;
   experiment.forceLimitEndsTrial = true;
   TickEngine engine(experiment, {kLimit, false});
   TickInput input;
   input.device = handAt(engine.protocol().start);
-  input.command = Command::NextTrial;
-  for (int i = 0; i < 2000 && engine.state().phase != Phase::Done; ++i) {
+  input.command = trial::Command::NextTrial;
+  for (int i = 0; i < 2000 && engine.state().phase != trial::Phase::Done; ++i) {
     engine.tick(input);
     EXPECT_LE(norm(engine.state().deviceForce), 1 + 1e-12);
-    input.command = Command::None;
+    input.command = trial::Command::None;
     input.device.position.x += 2e-4;
   }
-  EXPECT_EQ(engine.state().result.reason, Reason::ForceLimit);
+  EXPECT_EQ(engine.state().result.reason, trial::Reason::ForceLimit);
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::haptics

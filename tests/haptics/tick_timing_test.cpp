@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 TEST(TickTiming, MeasuresEveryShippedExperiment) {
-  for (const std::string& name : shippedExperiments()) {
-    const TickTiming timing = measureTicks(readExperiment(name), 2000);
+  for (const std::string& name : experiment::shippedExperiments()) {
+    const TickTiming timing = measureTicks(experiment::readExperiment(name), 2000);
     EXPECT_EQ(timing.ticks, 2000u) << name;
     EXPECT_GT(timing.p50, 0) << name;
     EXPECT_LE(timing.p50, timing.p99) << name;
@@ -19,10 +19,10 @@ TEST(TickTiming, MeasuresEveryShippedExperiment) {
 }
 
 TEST(TickTiming, RefusesAnExperimentWithoutATask) {
-  Experiment experiment = readExperiment("dingwell");
+  experiment::Experiment experiment = experiment::readExperiment("dingwell");
   experiment.task.reset();
   EXPECT_THROW(measureTicks(experiment, 10), UsageError);
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab {
+namespace reachlab::haptics {
 namespace {
 
 DeviceSample at(double x) {
@@ -72,4 +72,4 @@ TEST(VelocityEstimator, TakesTheDevicesOwnVelocityWhereItIsWanted) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::haptics

@@ -5,11 +5,11 @@
 #include <functional>
 #include <random>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 // A hand on the line and the force it exerts on the object, as functions of time.
@@ -17,7 +17,7 @@ struct LineMotion {
   std::function<double(double)> position, force;
 };
 
-std::array<double, 2> anglesOf(const Arm& arm, double x, double y) {
+std::array<double, 2> anglesOf(const experiment::Arm& arm, double x, double y) {
   const double reach = x * x + y * y, l1 = arm.length[0], l2 = arm.length[1];
   const double q2 = std::acos((reach - l1 * l1 - l2 * l2) / (2 * l1 * l2));
   return {std::atan2(y, x) - std::atan2(l2 * std::sin(q2), l1 + l2 * std::cos(q2)), q2};
@@ -26,7 +26,7 @@ std::array<double, 2> anglesOf(const Arm& arm, double x, double y) {
 // Everything by differences. Those that straddle the ends, where the hand's jerk begins at once, cost an error of the order of the step.
 constexpr double kUsualStep = 1e-3;
 
-double computeCost(const Arm& arm, double duration, const LineMotion& motion, double step = kUsualStep) {
+double computeCost(const experiment::Arm& arm, double duration, const LineMotion& motion, double step = kUsualStep) {
   const auto torque = [&](double t) {
     const auto at = [&](double s) { return anglesOf(arm, -0.1 + motion.position(s) - arm.shoulder[0], -arm.shoulder[1]); };
     const auto q = at(t), before = at(t - step), after = at(t + step);
@@ -52,7 +52,7 @@ double computeCost(const Arm& arm, double duration, const LineMotion& motion, do
   return sum;
 }
 
-LineMotion motionOf(const Prediction& p, const Experiment& e) {
+LineMotion motionOf(const Prediction& p, const experiment::Experiment& e) {
   const auto held = [T = p.duration](double t) { return std::clamp(t, 0.0, T); };
   return {[&p, held](double t) { return p.handAt(held(t)).position; },
           [&p, &e, held](double t) {
@@ -63,7 +63,7 @@ LineMotion motionOf(const Prediction& p, const Experiment& e) {
 }
 
 TEST(Arm, CostIsTheSquaredTorqueChangeOfThePrintedEquations) {
-  const Experiment e = dingwell();
+  const experiment::Experiment e = dingwell();
   const auto p = predict(e, Criterion::MinTorqueChange);
   const LineMotion motion = motionOf(*p, e);
   const double coarse = computeCost(e.arm, p->duration, motion, 1e-3), fine = computeCost(e.arm, p->duration, motion, 5e-4);
@@ -71,7 +71,7 @@ TEST(Arm, CostIsTheSquaredTorqueChangeOfThePrintedEquations) {
 }
 
 TEST(Arm, NoSeededPerturbationLowersTheCost) {
-  const Experiment e = dingwell();
+  const experiment::Experiment e = dingwell();
   const auto p = predict(e, Criterion::MinTorqueChange);
   const LineMotion best = motionOf(*p, e);
   const double least = computeCost(e.arm, p->duration, best), T = p->duration;
@@ -92,12 +92,12 @@ TEST(Arm, NoSeededPerturbationLowersTheCost) {
 }
 
 TEST(Arm, ProfilesAreKnownTo1e8) {
-  Experiment free = dingwell();
+  experiment::Experiment free = dingwell();
   free.constraint = {};
   free.constraint.name = "free";
   free.task->start = {-0.1, 0, 0};
   free.task->target = {0.15, 0, -0.08};
-  for (const Experiment& e : {free, dingwell(), parallelPair()}) {
+  for (const experiment::Experiment& e : {free, dingwell(), parallelPair()}) {
     PredictOptions many;
     many.unknowns = 90;
     const auto chosen = predict(e, Criterion::MinTorqueChange), fine = predict(e, Criterion::MinTorqueChange, many);
@@ -120,7 +120,7 @@ TEST(Arm, BringsTheObjectToRestAtTheTarget) {
 }
 
 TEST(Arm, MirroredPosturesOfAMirroredTaskCostTheSame) {
-  Experiment right = dingwell(), left = dingwell();
+  experiment::Experiment right = dingwell(), left = dingwell();
   left.arm.elbowLeft = true;
   std::swap(left.task->start, left.task->target);
   const auto a = predict(right, Criterion::MinTorqueChange), b = predict(left, Criterion::MinTorqueChange);
@@ -129,10 +129,10 @@ TEST(Arm, MirroredPosturesOfAMirroredTaskCostTheSame) {
 }
 
 TEST(Arm, OutOfReachIsRefused) {
-  Experiment far = dingwell();
+  experiment::Experiment far = dingwell();
   far.arm.shoulder[1] = -0.7;
   EXPECT_THROW(predict(far, Criterion::MinTorqueChange), RefusedError);
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -5,14 +5,14 @@
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 // The table of known values prints 12 significant digits of a cost, 10 of a hand peak, 7 of an object peak and 6 of a time.
 constexpr double kCostDigits = 1e-11, kPeakDigits = 1e-9, kObjectDigits = 1e-6, kTimeDigits = 1e-5;
 
 struct KnownCase {
-  Experiment (*experiment)();
+  experiment::Experiment (*experiment)();
   Criterion criterion;
   double cost, handPeak, handPeakTime, objectPeak;
 };
@@ -36,4 +36,4 @@ INSTANTIATE_TEST_SUITE_P(Table, KnownValues,
                                                    0.1419976}));
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

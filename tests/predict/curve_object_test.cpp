@@ -4,26 +4,26 @@
 #include <cmath>
 #include <iostream>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
 #include "sim/predict/arc_curve.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
 
-Experiment onCircle(Experiment e, double radius) {
+experiment::Experiment onCircle(experiment::Experiment e, double radius) {
   const std::string r = std::to_string(radius);
   return onCurve(std::move(e), {r + "*sin(phi)", r + "*(1 - cos(phi))", "0"}, 0, 0.2 / radius);
 }
 
-Experiment onEllipse(Experiment e) { return onCurve(std::move(e), {"0", "0.1*cos(phi)", "0.06*sin(phi)"}, 0.2, 3); }
+experiment::Experiment onEllipse(experiment::Experiment e) { return onCurve(std::move(e), {"0", "0.1*cos(phi)", "0.06*sin(phi)"}, 0.2, 3); }
 
-Experiment damped(Experiment e) {
+experiment::Experiment damped(experiment::Experiment e) {
   for (double& b : e.object.damping) b = 1;
   if (e.coupling) e.coupling->damping = 5;
   return e;
@@ -44,7 +44,7 @@ double compare(const Prediction& a, const Prediction& b) {
 }
 
 TEST(CurveObject, OnAStraightLineUnevenlyRunItIsTheLinearPrediction) {
-  for (const Experiment& e : {chainModerate(), parallelPair(), damped(chainModerate()), makeChain(10, 0.3, 600, 1.35)}) {
+  for (const experiment::Experiment& e : {chainModerate(), parallelPair(), damped(chainModerate()), makeChain(10, 0.3, 600, 1.35)}) {
     const auto line = predict(e, Criterion::MinHandJerk);
     const auto curve = predict(onCurve(e, {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1), Criterion::MinHandJerk);
     EXPECT_LT(compare(*curve, *line), kProfile);
@@ -56,7 +56,7 @@ TEST(CurveObject, OnAStraightLineUnevenlyRunItIsTheLinearPrediction) {
 // The way turns by L/R; what that changes is even in it.
 TEST(CurveObject, OnWiderAndWiderCirclesItComesToTheLineWithTheSquareOfTheCurvature) {
   constexpr double kRatio = 0.05;  // what the fourth power leaves at 1 m
-  for (const Experiment& e : {chainModerate(), parallelPair()}) {
+  for (const experiment::Experiment& e : {chainModerate(), parallelPair()}) {
     const auto line = predict(e, Criterion::MinHandJerk);
     const auto from = [&](double radius) { return compare(*predict(onCircle(e, radius), Criterion::MinHandJerk), *line); };
     EXPECT_LT(from(1000), 4e-8);  // (0.2 m / 1 km)^2
@@ -69,30 +69,31 @@ struct Arrival {
   double along = 0;                   // largest distance of any mass from where it is predicted on the way [m]
 };
 
-Arrival simulate(const Experiment& e, const Prediction& p) {
-  const Scene scene = compileScene(e, {"adaptive", 0.001, 1e-13});
+Arrival simulate(const experiment::Experiment& e, const Prediction& p) {
+  const dynamics::Scene scene = dynamics::compileScene(e, {"adaptive", 0.001, 1e-13});
   const ArcCurve curve(scene.constraint, e.task->start[0], e.task->target[0]);
   scene.plant->placeAtRest(e.task->start);
   const double T = p.duration;
-  const HandFunction hand = [&](double t) {
+  const dynamics::HandFunction hand = [&](double t) {
     const PredictedHand h = p.handAt(std::min(t, T));
     const auto at = curve.expand<2>(h.position);
-    return HandSample{at[0], h.velocity * at[1]};
+    return dynamics::HandSample{at[0], h.velocity * at[1]};
   };
   constexpr int kSteps = 1500;
   const auto n = static_cast<size_t>(p.massCount());
-  std::vector<MassState> masses(n);
+  std::vector<dynamics::MassState> masses(n);
   std::vector<double> x(n), v(n);
   Arrival arrival;
   for (int i = 0; i < kSteps; ++i) {
-    if (scene.plant->step(makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != StepStatus::Ok) return {1, 1, 1};
+    if (scene.plant->step(dynamics::makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != dynamics::StepStatus::Ok)
+      return {1, 1, 1};
     const double t = T * (i + 1) / kSteps;
     scene.plant->observe(hand(t), masses);
     p.massesAt(t, x, v);
     for (size_t m = 0; m < n; ++m) arrival.along = std::max(arrival.along, norm(masses[m].r - curve.expand<2>(x[m])[0]));
   }
   const Vec3 target = curve.expand<2>(curve.length())[0];
-  for (const MassState& m : masses) {
+  for (const dynamics::MassState& m : masses) {
     arrival.position = std::max(arrival.position, norm(m.r - target));
     arrival.velocity = std::max(arrival.velocity, norm(m.v));
   }
@@ -102,7 +103,7 @@ Arrival simulate(const Experiment& e, const Prediction& p) {
 TEST(CurveObject, ArrivesAtRestInTheSimulator) {
   constexpr double kAtRest = 1e-10;   // [m], [m/s]
   constexpr double kOnTheWay = 1e-9;  // [m] between the masses' collocation points
-  for (const Experiment& e :
+  for (const experiment::Experiment& e :
        {onEllipse(chainModerate()), onEllipse(damped(chainModerate())), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
         onCurve(damped(parallelPair()), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
     const auto p = predict(e, Criterion::MinHandJerk);
@@ -120,7 +121,7 @@ TEST(CurveObject, ArrivesAtRestInTheSimulator) {
 // Motions of fewer unknowns are among those of more, and all of them arrive: none may cost less.
 TEST(CurveObject, AMotionOfFewerUnknownsCostsMore) {
   constexpr double kRounding = 1e-9;
-  for (const Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(parallelPair()))}) {
+  for (const experiment::Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(parallelPair()))}) {
     const auto best = predict(e, Criterion::MinHandJerk);
     double before = INFINITY;
     for (const int unknowns : {20, 30, 40, 50}) {
@@ -135,13 +136,13 @@ TEST(CurveObject, AMotionOfFewerUnknownsCostsMore) {
 }
 
 TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
-  const auto with = [](const Experiment& e, int unknowns) {
+  const auto with = [](const experiment::Experiment& e, int unknowns) {
     PredictOptions options;
     options.unknowns = unknowns;
     return predict(e, Criterion::MinHandJerk, options);
   };
-  const Experiment bent = onEllipse(chainModerate()),
-                   straight = onCurve(chainModerate(), {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1);
+  const experiment::Experiment bent = onEllipse(chainModerate()),
+                               straight = onCurve(chainModerate(), {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1);
   const auto settled = with(bent, 130), linear = predict(chainModerate(), Criterion::MinHandJerk);
   double before = INFINITY;
   for (const int unknowns : {24, 36, 54, 81}) {
@@ -156,17 +157,17 @@ TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
 }
 
 TEST(CurveObject, MayArriveAtTheVeryEndOfACurve) {
-  Experiment e = chainModerate();
+  experiment::Experiment e = chainModerate();
   e.constraint = {};
   e.constraint.name = "logarithmic-spiral";
-  const Constraint curve = makeConstraint(e.constraint);
+  const constraints::Constraint curve = constraints::makeConstraint(e.constraint);
   e.task->target = {curve.domain[0].hi};
   e.task->start = {curve.domain[0].hi - 2};
   EXPECT_GT(predict(e, Criterion::MinHandJerk)->cost, 0);
 }
 
 TEST(CurveObject, IsRefusedWhereItHasNoMeaning) {
-  Experiment heavy = onEllipse(chainModerate());
+  experiment::Experiment heavy = onEllipse(chainModerate());
   heavy.object.gravity = {0, -9.81, 0};
   EXPECT_THROW(predict(heavy, Criterion::MinHandJerk), RefusedError);
   heavy.object.gravity = {-9.81, 0, 0};  // across the ellipse's plane
@@ -176,4 +177,4 @@ TEST(CurveObject, IsRefusedWhereItHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

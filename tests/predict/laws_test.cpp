@@ -4,12 +4,12 @@
 #include <cmath>
 #include <functional>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/modes.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using enum Criterion;
@@ -19,7 +19,7 @@ constexpr double kSame = 1e-11;
 // Values that criteria.md prints with five digits, and end jumps with two or three.
 constexpr double kFiveDigits = 2e-5, kTwoDigits = 0.03;
 
-std::unique_ptr<Prediction> predictWith(const Experiment& e, Criterion criterion, double handMass, double handDamping = 0) {
+std::unique_ptr<Prediction> predictWith(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping = 0) {
   PredictOptions options;
   options.handMass = handMass;
   options.handDamping = handDamping;
@@ -47,7 +47,7 @@ double massVelocity(const Prediction& p, int mass, double t) {
   return v[mass];
 }
 
-double centreVelocity(const Prediction& p, const Experiment& e, double t) {
+double centreVelocity(const Prediction& p, const experiment::Experiment& e, double t) {
   std::vector<double> x(p.massCount()), v(p.massCount());
   p.massesAt(t, x, v);
   double sum = e.handMass * p.handAt(t).velocity, mass = e.handMass;
@@ -56,7 +56,7 @@ double centreVelocity(const Prediction& p, const Experiment& e, double t) {
 }
 
 // A parallel object with given clamped frequencies.
-Experiment makeParallelWith(const Eigen::VectorXd& frequency, double duration) {
+experiment::Experiment makeParallelWith(const Eigen::VectorXd& frequency, double duration) {
   std::vector<double> masses, springs;
   for (const double w : frequency) masses.push_back(1.5), springs.push_back(1.5 * w * w);
   return makeParallel(masses, springs, duration);
@@ -65,8 +65,8 @@ Experiment makeParallelWith(const Eigen::VectorXd& frequency, double duration) {
 double minimumJerk(double distance, double T, double t) { return 30 * distance / T * std::pow(t / T, 2) * std::pow(1 - t / T, 2); }
 
 TEST(Laws, HandJerkDependsOnClampedFrequenciesAlone) {
-  const Experiment chain = makeChain(3, 0.7, 400, 1.1);
-  const Experiment parallel = makeParallelWith(computeClampedModes(makeLineObject(chain, 0, 0)).frequency, 1.1);
+  const experiment::Experiment chain = makeChain(3, 0.7, 400, 1.1);
+  const experiment::Experiment parallel = makeParallelWith(computeClampedModes(makeLineObject(chain, 0, 0)).frequency, 1.1);
   const auto a = predict(chain, MinHandJerk), b = predict(parallel, MinHandJerk);
   EXPECT_LT(difference(1.1, handOf(*a), handOf(*b)), kSame);
   EXPECT_NEAR(a->cost / b->cost, 1, kSame);
@@ -74,7 +74,7 @@ TEST(Laws, HandJerkDependsOnClampedFrequenciesAlone) {
 
 TEST(Laws, ForceChangeIsHandJerkWithFreeFrequenciesAndTheCentreOfMass) {
   for (const double handMass : {0.0, 1.0}) {
-    Experiment chain = chainModerate();
+    experiment::Experiment chain = chainModerate();
     chain.handMass = handMass;
     const auto force = predict(chain, MinHandForceChange);
     const LineObject object = makeLineObject(chain, handMass, 0);
@@ -85,7 +85,7 @@ TEST(Laws, ForceChangeIsHandJerkWithFreeFrequenciesAndTheCentreOfMass) {
 }
 
 TEST(Laws, UndampedProfilesAreSymmetricAboutTheMiddle) {
-  for (const Experiment& e : {chainModerate(), parallelPair(), dingwell()})
+  for (const experiment::Experiment& e : {chainModerate(), parallelPair(), dingwell()})
     for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
       const auto p = predictWith(e, c, 0.5);
       const double T = p->duration;
@@ -102,7 +102,7 @@ TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
   const auto handDamped = predictWith(chainModerate(), MinHandForceChange, 1, 5);
   EXPECT_LT(difference(1.35, handOf(*handDamped), [&](double t) { return handDamped->handAt(1.35 - t).velocity; }), kSame);
 
-  Experiment damped = chainModerate();
+  experiment::Experiment damped = chainModerate();
   for (double& b : damped.object.damping) b = 2;
   damped.coupling->damping = 5;
   const auto skewed = predict(damped, MinHandJerk);
@@ -111,7 +111,7 @@ TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
 
 TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
   // The lag behind a spring is a (w T)^-2 part of the profile: 1e9 N/m leaves 1e-8.
-  const Experiment stiff = makeChain(2, 0.5, 1e9, 1);
+  const experiment::Experiment stiff = makeChain(2, 0.5, 1e9, 1);
   const auto jerk = predict(stiff, MinHandJerk);
   EXPECT_LT(difference(
                 1, [](double t) { return minimumJerk(0.2, 1, t); }, handOf(*jerk)),
@@ -145,7 +145,7 @@ TEST(Laws, HeavyHandTurnsForceChangeIntoHandJerk) {
 }
 
 TEST(Laws, DistanceScalesProfilesAndCosts) {
-  Experiment twice = chainModerate();
+  experiment::Experiment twice = chainModerate();
   twice.constraint.shape["length_m"] = 0.4;
   const auto one = predict(chainModerate(), MinHandJerk), two = predict(twice, MinHandJerk);
   EXPECT_NEAR(two->cost / one->cost, 4, 4 * kSame);
@@ -157,7 +157,7 @@ TEST(EndJumps, AreThePublishedNumbers) {
   EXPECT_NEAR(*predict(dingwell(), MinHandForce)->handJump, 16.5e-3, kTwoDigits * 16.5e-3);
   EXPECT_NEAR(*predict(parallelPair(), MinHandForce)->handJump, 4.7e-3, kTwoDigits * 4.7e-3);
   EXPECT_FALSE(predict(dingwell(), MinHandForce)->handVelocityJump.has_value());
-  Experiment pair = parallelPair();
+  experiment::Experiment pair = parallelPair();
   EXPECT_NEAR(*predict(chainModerate(), MinHandForceChange)->handVelocityJump, 0.0228, kTwoDigits * 0.0228);
   EXPECT_NEAR(*predict(dingwell(), MinHandForceChange)->handVelocityJump, 0.122, kTwoDigits * 0.122);
   EXPECT_NEAR(*predict(pair, MinHandForceChange)->handVelocityJump, 0.0140, kTwoDigits * 0.0140);
@@ -186,13 +186,13 @@ TEST(Refusals, SayWhyNothingCanBeComputed) {
   EXPECT_THROW(predict(makeChain(400, 0.6, 600, 1.35), MinCrackle), RefusedError);
   EXPECT_THROW(predict(makeChain(5, 0.6, 0, 1.35), MinHandForce), RefusedError);
   EXPECT_THROW(predict(makeParallel({3, 3}, {50, 0}, 2.5), MinHandJerk), RefusedError);
-  Experiment stiff = chainModerate();
+  experiment::Experiment stiff = chainModerate();
   for (double& b : stiff.object.damping) b = 1e9;
   EXPECT_THROW(predict(stiff, MinHandJerk), RefusedError);
-  Experiment body = dingwell();
-  body.object.kind = ObjectKind::Body;
+  experiment::Experiment body = dingwell();
+  body.object.kind = experiment::ObjectKind::Body;
   EXPECT_THROW(predict(body, MinHandJerk), UsageError);
-  Experiment nowhere = dingwell();
+  experiment::Experiment nowhere = dingwell();
   nowhere.task->target = nowhere.task->start;
   EXPECT_THROW(predict(nowhere, MinHandJerk), UsageError);
 }
@@ -213,4 +213,4 @@ TEST(Names, AreReadBack) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

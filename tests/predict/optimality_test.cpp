@@ -13,12 +13,12 @@
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using enum Criterion;
 
-Experiment damped(Experiment e) {
+experiment::Experiment damped(experiment::Experiment e) {
   for (double& b : e.object.damping) b = 1.5;
   if (e.coupling) e.coupling->damping = 3;
   return e;
@@ -30,7 +30,7 @@ struct Control {
   int conditions = 0;
 };
 
-Control controlOf(const Experiment& e, Criterion criterion, double handMass) {
+Control controlOf(const experiment::Experiment& e, Criterion criterion, double handMass) {
   const LineObject object = makeLineObject(e, handMass, 0);
   const std::vector<FlatPolynomial> node = computeFlatPolynomials(object);
   const int n = object.count();
@@ -60,7 +60,7 @@ Control controlOf(const Experiment& e, Criterion criterion, double handMass) {
 
 struct OptimalityCase {
   std::string name;
-  Experiment experiment;
+  experiment::Experiment experiment;
   Criterion criterion;
   double handMass = 0;
 };
@@ -126,21 +126,21 @@ struct Arrival {
   double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
 };
 
-Arrival simulate(const Experiment& e, const Prediction& prediction) {
-  const Scene scene = compileScene(e);
+Arrival simulate(const experiment::Experiment& e, const Prediction& prediction) {
+  const dynamics::Scene scene = dynamics::compileScene(e);
   const double start = -0.1, T = prediction.duration;  // [m] of the line's beginning
   scene.plant->placeAtRest(e.task->start);
-  const HandFunction hand = [&](double t) {
+  const dynamics::HandFunction hand = [&](double t) {
     const PredictedHand h = prediction.handAt(std::min(t, T));
-    return HandSample{{start + h.position, 0, 0}, {h.velocity, 0, 0}};
+    return dynamics::HandSample{{start + h.position, 0, 0}, {h.velocity, 0, 0}};
   };
   constexpr int kSteps = 1500;
   for (int i = 0; i < kSteps; ++i)
-    if (scene.plant->step(makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != StepStatus::Ok) return {1, 1};
-  std::vector<MassState> masses(prediction.massCount());
+    if (scene.plant->step(dynamics::makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != dynamics::StepStatus::Ok) return {1, 1};
+  std::vector<dynamics::MassState> masses(prediction.massCount());
   scene.plant->observe(hand(T), masses);
   Arrival arrival;
-  for (const MassState& m : masses) {
+  for (const dynamics::MassState& m : masses) {
     arrival.position = std::max(arrival.position, std::abs(m.r.x - 0.1));
     arrival.velocity = std::max(arrival.velocity, std::abs(m.v.x));
   }
@@ -149,11 +149,12 @@ Arrival simulate(const Experiment& e, const Prediction& prediction) {
 
 TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
   constexpr double kAtRest = 1e-10;  // [m], [m/s]
-  Experiment hardCoupling = damped(chainModerate()), viscous = chainModerate(), viscousTwins = makeParallel({2, 2, 1}, {80, 80, 250}, 2);
+  experiment::Experiment hardCoupling = damped(chainModerate()), viscous = chainModerate(),
+                         viscousTwins = makeParallel({2, 2, 1}, {80, 80, 250}, 2);
   hardCoupling.coupling->damping = 0;
   viscous.object.viscosity = viscousTwins.object.viscosity = 0.7;
-  for (const Experiment& e : {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2),
-                              damped(chainModerate()), damped(parallelPair()), hardCoupling, viscous, viscousTwins})
+  for (const experiment::Experiment& e : {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2),
+                                          damped(chainModerate()), damped(parallelPair()), hardCoupling, viscous, viscousTwins})
     for (const double handMass : {0.0, 1.0})
       for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
         PredictOptions options;
@@ -172,4 +173,4 @@ TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

@@ -6,14 +6,14 @@
 #include "sim/predict/panel_effort.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kDistance = 0.2;     // [m]
 constexpr double kOfThePeak = 1e-11;  // of the largest speed of hand or masses
 
 LineObject dampedChain(int n, double mass, double stiffness, double damping) {
-  Experiment e = makeChain(n, mass, stiffness, 1);
+  experiment::Experiment e = makeChain(n, mass, stiffness, 1);
   for (double& b : e.object.damping) b = damping;
   e.coupling->damping = damping;
   return makeLineObject(e, 0, 0);
@@ -84,4 +84,4 @@ TEST(SeriesProfile, SamplesAreItsVelocities) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

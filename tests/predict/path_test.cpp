@@ -6,22 +6,23 @@
 #include <random>
 
 #include "constraints/definition.h"
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/predict/gauss_legendre.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
 
-Experiment makeCurveExperiment(std::vector<std::string> formula, double from, double to, double duration) {
+experiment::Experiment makeCurveExperiment(std::vector<std::string> formula, double from, double to, double duration) {
   return onCurve(makeChain(1, 1, 600, duration), std::move(formula), from, to);
 }
 
-Experiment makeSurfaceExperiment(std::vector<std::string> formula, std::vector<double> from, std::vector<double> to, double duration) {
-  Experiment e = makeCurveExperiment({}, 0, 1, duration);
+experiment::Experiment makeSurfaceExperiment(std::vector<std::string> formula, std::vector<double> from, std::vector<double> to,
+                                             double duration) {
+  experiment::Experiment e = makeCurveExperiment({}, 0, 1, duration);
   e.constraint.surface = std::move(formula);
   e.task->start = std::move(from);
   e.task->target = std::move(to);
@@ -75,7 +76,7 @@ class Helix : public testing::TestWithParam<double> {};
 TEST_P(Helix, CostIsTheFormulaInCurvatureAndTorsionAndNoneIsLower) {
   constexpr double kRadius = 0.1, kTurn = 3;
   const double pitch = GetParam(), square = kRadius * kRadius + pitch * pitch, curvature = kRadius / square, torsion = pitch / square;
-  const Experiment e = makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", std::to_string(pitch) + "*phi"}, 0, kTurn, 1);
+  const experiment::Experiment e = makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", std::to_string(pitch) + "*phi"}, 0, kTurn, 1);
   const auto p = predict(e, Criterion::MinHandJerk);
   EXPECT_NEAR(p->distance, kTurn * std::sqrt(square), 1e-12);
   const auto predicted = [&](double t, double bend, int waves) {
@@ -113,7 +114,8 @@ TEST_P(Helix, CostIsTheFormulaInCurvatureAndTorsionAndNoneIsLower) {
 INSTANTIATE_TEST_SUITE_P(Pitches, Helix, testing::Values(0.0, 0.05));
 
 TEST(CurveJerk, ProfileIsKnownTo1e8) {
-  const Experiment e = makeCurveExperiment({"0.08*cos(phi) - 0.01*cos(4*phi)", "0.08*sin(phi) - 0.01*sin(4*phi)", "0"}, 1, 3, 1.5);
+  const experiment::Experiment e =
+      makeCurveExperiment({"0.08*cos(phi) - 0.01*cos(4*phi)", "0.08*sin(phi) - 0.01*sin(4*phi)", "0"}, 1, 3, 1.5);
   PredictOptions many;
   many.unknowns = 220;
   const auto chosen = predict(e, Criterion::MinHandJerk), fine = predict(e, Criterion::MinHandJerk, many);
@@ -130,8 +132,8 @@ TEST(SurfaceJerk, OnACylinderCostsNoMoreThanAlongTheHelixBetweenTheSamePoints) {
 
 TEST(PathJerk, IsFoundOnTheWholeCatalogueExceptAcrossCusps) {
   int refused = 0;
-  for (const Definition& definition : catalogue()) {
-    Experiment e = makeChain(1, 1, 600, 1);
+  for (const constraints::Definition& definition : constraints::catalogue()) {
+    experiment::Experiment e = makeChain(1, 1, 600, 1);
     e.constraint = {};
     e.constraint.name = definition.name;
     e.task->start = definition.start;
@@ -139,10 +141,12 @@ TEST(PathJerk, IsFoundOnTheWholeCatalogueExceptAcrossCusps) {
     try {
       const auto p = predict(e, Criterion::MinHandJerk);
       // Bending only adds to the jerk along the way; the chord bounds it from below.
-      const Constraint c = makeConstraint(e.constraint);
-      const bool curve = c.kind == ConstraintKind::Curve;
-      const Vec3 from = curve ? evaluate(c.curve, definition.start[0]).r : evaluate(c.surface, definition.start[0], definition.start[1]).r;
-      const Vec3 to = curve ? evaluate(c.curve, definition.target[0]).r : evaluate(c.surface, definition.target[0], definition.target[1]).r;
+      const constraints::Constraint c = constraints::makeConstraint(e.constraint);
+      const bool curve = c.kind == constraints::ConstraintKind::Curve;
+      const Vec3 from = curve ? constraints::evaluate(c.curve, definition.start[0]).r
+                              : constraints::evaluate(c.surface, definition.start[0], definition.start[1]).r;
+      const Vec3 to = curve ? constraints::evaluate(c.curve, definition.target[0]).r
+                            : constraints::evaluate(c.surface, definition.target[0], definition.target[1]).r;
       EXPECT_GE(p->cost, 720 * dot(to - from, to - from) * (1 - kProfile)) << definition.name;
       EXPECT_NEAR(p->handAt(1).position, p->distance, 1e-9) << definition.name;
     } catch (const RefusedError& reason) {
@@ -159,4 +163,4 @@ TEST(CurveJerk, IsRefusedWhereItHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

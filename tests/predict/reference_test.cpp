@@ -9,7 +9,7 @@
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
-namespace reachlab {
+namespace reachlab::predict {
 namespace {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<160>, boost::multiprecision::et_off>;
@@ -44,10 +44,10 @@ Row operator*(const Real& f, Row a) {
 Row operator-(const Row& a, const Row& b) { return a + Real(-1) * b; }
 
 // States x_i, v_i, then the hand as far as it has states of its own, then the force under criterion 5.
-Reference makeReference(const Experiment& e, Criterion criterion, double handMass, double handDamping) {
-  const Object& o = e.object;
+Reference makeReference(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping) {
+  const experiment::Object& o = e.object;
   const int N = static_cast<int>(o.masses.size());
-  const bool parallel = o.kind == ObjectKind::Parallel;
+  const bool parallel = o.kind == experiment::ObjectKind::Parallel;
   std::vector<Real> k(o.stiffness.begin(), o.stiffness.end()), b(o.damping.begin(), o.damping.end()), m(o.masses.begin(), o.masses.end());
   if (!parallel) k.insert(k.begin(), e.coupling->stiffness), b.insert(b.begin(), e.coupling->damping);
   const Real viscosity = o.viscosity;
@@ -205,7 +205,7 @@ struct ReferenceProfile {
   }
 };
 
-ReferenceProfile computeReference(const Experiment& e, Criterion criterion, double handMass, double handDamping) {
+ReferenceProfile computeReference(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping) {
   ReferenceProfile profile;
   Reference& r = profile.problem = makeReference(e, criterion, handMass, handDamping);
   std::vector<Row> reach(r.n, Row(r.n));
@@ -225,12 +225,12 @@ ReferenceProfile computeReference(const Experiment& e, Criterion criterion, doub
 
 struct Case {
   std::string name;
-  Experiment experiment;
+  experiment::Experiment experiment;
   Criterion criterion;
   double handMass = 0, handDamping = 0;
 };
 
-Experiment damped(Experiment e, double springs, double coupling, double viscosity = 0) {
+experiment::Experiment damped(experiment::Experiment e, double springs, double coupling, double viscosity = 0) {
   for (double& b : e.object.damping) b = springs;
   if (e.coupling) e.coupling->damping = coupling;
   e.object.viscosity = viscosity;
@@ -238,21 +238,21 @@ Experiment damped(Experiment e, double springs, double coupling, double viscosit
 }
 
 // Four parallel masses whose modes are all double.
-Experiment manyCriticallyDamped() {
+experiment::Experiment manyCriticallyDamped() {
   std::vector<double> masses, springs, dampers;
   for (int i = 0; i < 4; ++i) {
     masses.push_back(0.5);
     springs.push_back(20 + 30 * i);
     dampers.push_back(2 * std::sqrt(masses[i] * springs[i]));
   }
-  Experiment e = makeParallel(masses, springs, 1.35);
+  experiment::Experiment e = makeParallel(masses, springs, 1.35);
   e.object.damping = dampers;
   return e;
 }
 
 std::vector<Case> cases() {
   using enum Criterion;
-  const Experiment near = makeParallel({3, 3}, {50, 50.5}, 2.5), three = makeParallel({3, 2, 1}, {50, 250, 100}, 2);
+  const experiment::Experiment near = makeParallel({3, 3}, {50, 50.5}, 2.5), three = makeParallel({3, 2, 1}, {50, 250, 100}, 2);
   return {
       {"chain1Jerk", dingwell(), MinHandJerk},
       {"chain5Jerk", chainModerate(), MinHandJerk},
@@ -371,7 +371,7 @@ Polynomial solveBoundarySystem(int conditions, const Real& distance) {
 }
 
 TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
-  for (const Experiment& e :
+  for (const experiment::Experiment& e :
        {dingwell(), chainModerate(), makeChain(10, 0.3, 600, 1.35), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2)}) {
     const auto prediction = predict(e, Criterion::MinCrackle);
     const int n = prediction->massCount();
@@ -379,7 +379,7 @@ TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
     const auto second = [&](const Polynomial& p) { return derivative(derivative(p, T), T); };
     const Polynomial z = solveBoundarySystem(2 * n + 3, Real(0.2));
     std::vector<Polynomial> node(n + 1, z);  // hand, masses
-    if (e.object.kind == ObjectKind::Parallel) {
+    if (e.object.kind == experiment::ObjectKind::Parallel) {
       for (int j = 0; j < n; ++j)
         for (int i = 0; i <= n; ++i)
           if (i != j + 1) node[i] = node[i] + Real(e.object.masses[j]) / Real(e.object.stiffness[j]) * second(node[i]);
@@ -415,4 +415,4 @@ TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::predict

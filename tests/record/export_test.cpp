@@ -10,11 +10,11 @@
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 #include "sim/record/column_dictionary.h"
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 #include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 using nlohmann::json;
@@ -174,37 +174,39 @@ TEST_F(Exported, WritingTheDatasetAgainKeepsWhatAPersonHasAddedToIt) {
 TEST(ExportedExperiment, SaysWhatWasMovedAndAsked) {
   const TemporaryFolder folder("experiment");
   RunConfiguration c = madeConfiguration();
-  const Experiment recorded = readExperiment("chain-on-ellipse");
+  const experiment::Experiment recorded = experiment::readExperiment("chain-on-ellipse");
   c.experimentName = recorded.name;
   c.experimentText = recorded.text;
-  c.definitionText = definitionTextOf(recorded);
+  c.definitionText = experiment::definitionTextOf(recorded);
   const std::string log = folder / "sourcedata/sub-01_ses-01_task-made_run-01_log.reach";
   writeMadeRun(log, 2, c);
   const RunLog run = RunLog::open(log);
   writeBidsRun(run, folder / ".");
   const std::string file = folder / experimentPath(c);
-  const Experiment back = experimentFromJson(readWholeFile(file), file);
-  EXPECT_EQ(toJson(back), toJson(recorded));
+  const experiment::Experiment back = experimentFromJson(readWholeFile(file), file);
+  EXPECT_EQ(experiment::toJson(back), experiment::toJson(recorded));
   EXPECT_FALSE(back.constraint.definition.empty()) << "the formula as it was then";
   const json j = json::parse(readWholeFile(file));
   EXPECT_EQ(j.at("run").at("device"), c.device);
   EXPECT_EQ(j.at("run").at("seed"), c.seed);
   const std::string words = json::parse(motionJson(run)).at("TaskDescription");
   EXPECT_EQ(experimentNameIn(words), c.experimentName);
-  EXPECT_NE(words.find(describe(recorded)), std::string::npos) << words;
+  EXPECT_NE(words.find(experiment::describe(recorded)), std::string::npos) << words;
 }
 
 TEST(ExportedExperiment, IsToldInWordsWithItsUnits) {
   EXPECT_EQ(
-      describe(readExperiment("chain-moderate")),
+      experiment::describe(experiment::readExperiment("chain-moderate")),
       "a chain of 5 masses (0.6 kg each) joined by springs of 600 N/m each, the first coupled to the hand by 600 N/m, on line, r(phi) = "
       "(length_m*(phi/(2*pi) - 1/2), 0, 0) m with length_m = 0.2; from rest at phi = 0 to rest at phi = 6.28319 in 1.35 ± 0.5 s, every "
       "mass within 0.012 m and 0.012 m/s");
-  EXPECT_TRUE(
-      describe(readExperiment("parallel")).starts_with("2 parallel masses (3 kg each), tied to the hand by springs of 50, 250 N/m, on"));
-  EXPECT_NE(describe(readExperiment("torus")).find("minor_m*sin(u)) m with major_m = 0.1, minor_m = 0.04; from rest at (u, v) = (0, 0.5)"),
+  EXPECT_TRUE(experiment::describe(experiment::readExperiment("parallel"))
+                  .starts_with("2 parallel masses (3 kg each), tied to the hand by springs of 50, 250 N/m, on"));
+  EXPECT_NE(experiment::describe(experiment::readExperiment("torus"))
+                .find("minor_m*sin(u)) m with major_m = 0.1, minor_m = 0.04; from rest at (u, v) = (0, 0.5)"),
             std::string::npos);
-  EXPECT_NE(describe(readExperiment("free-body")).find("free in space; from rest at (-0.1, 0, 0) m to rest at (0.1, 0, 0) m"),
+  EXPECT_NE(experiment::describe(experiment::readExperiment("free-body"))
+                .find("free in space; from rest at (-0.1, 0, 0) m to rest at (0.1, 0, 0) m"),
             std::string::npos);
 }
 
@@ -227,4 +229,4 @@ TEST(TableText, QuotesForCsvAndKeepsTsvOnOneLine) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -5,7 +5,7 @@
 #include "tests/record/made_run.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 // Logs of every released version stay readable, number for number. They were written by `record_bench log FILE 3 01 01 1`, whose
@@ -20,7 +20,7 @@ TEST(GoldenLogs, OfEveryVersionReadBackAsTheyWereWritten) {
     EXPECT_EQ(log.configuration().seed, 18446744073709551615ull);
     EXPECT_EQ(log.configuration().experimentName, "made");
     ASSERT_EQ(log.trials().size(), 3u);
-    EXPECT_EQ(log.trials()[1].result.reason, Reason::Velocity);
+    EXPECT_EQ(log.trials()[1].result.reason, trial::Reason::Velocity);
     EXPECT_EQ(log.trials()[1].result.by, 0.002);
     const std::size_t x = log.configuration().table.indexOf("hand_pos_x");
     const SampleRows rows = log.allRows();
@@ -33,4 +33,4 @@ TEST(GoldenLogs, OfEveryVersionReadBackAsTheyWereWritten) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -10,7 +10,7 @@
 #include "sim/record/run_log.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::record {
 
 /// A folder of its own under the build folder, gone at the end of the test.
 class TemporaryFolder {
@@ -33,8 +33,8 @@ class TemporaryFolder {
 };
 
 inline RunConfiguration madeConfiguration(int masses = 2) {
-  Experiment experiment;
-  experiment.object.kind = ObjectKind::Chain;
+  experiment::Experiment experiment;
+  experiment.object.kind = experiment::ObjectKind::Chain;
   experiment.object.masses.assign(static_cast<std::size_t>(masses), 0.6);
   RunConfiguration configuration;
   configuration.task = "made";
@@ -52,22 +52,22 @@ class MadeRun {
   static constexpr std::uint64_t kWaiting = 20, kArmed = 30, kMoving = 200, kDone = 25;
   static constexpr std::uint64_t kTicksPerTrial = kWaiting + kArmed + kMoving + kDone;
 
-  explicit MadeRun(int masses = 2) : state_(std::make_unique<TickState>()) { state_->massCount = masses; }
+  explicit MadeRun(int masses = 2) : state_(std::make_unique<haptics::TickState>()) { state_->massCount = masses; }
 
   static double valueAt(std::uint64_t tick) { return std::sin(0.01 * static_cast<double>(tick)) / 3; }
 
   /// The state at the next tick.
-  const TickState& next() {
-    TickState& s = *state_;
+  const haptics::TickState& next() {
+    haptics::TickState& s = *state_;
     const std::uint64_t tick = tick_++;
     const std::uint64_t within = tick % kTicksPerTrial;
     s.tick = tick;
     s.measuredNs = static_cast<std::int64_t>(tick) * 1000003;
     s.trial = static_cast<std::int32_t>(tick / kTicksPerTrial) + 1;
-    s.phase = within < kWaiting                      ? Phase::Waiting
-              : within < kWaiting + kArmed           ? Phase::Armed
-              : within < kWaiting + kArmed + kMoving ? Phase::Moving
-                                                     : Phase::Done;
+    s.phase = within < kWaiting                      ? trial::Phase::Waiting
+              : within < kWaiting + kArmed           ? trial::Phase::Armed
+              : within < kWaiting + kArmed + kMoving ? trial::Phase::Moving
+                                                     : trial::Phase::Done;
     const double x = valueAt(tick);
     s.device.position = {x, -x, 2 * x};
     s.hand.position = {x, -x, 2 * x};
@@ -76,9 +76,9 @@ class MadeRun {
     s.feedbackForce = s.deviceForce = {-10 * x, 0, 0};
     s.energy = x * x;
     for (int i = 0; i < s.massCount; ++i) s.masses[static_cast<std::size_t>(i)].r = {x + i, 0, 0};
-    if (s.phase == Phase::Done) {
-      s.result.outcome = s.trial % 2 == 0 ? Outcome::Failure : Outcome::Success;
-      s.result.reason = s.trial % 2 == 0 ? Reason::Velocity : Reason::None;
+    if (s.phase == trial::Phase::Done) {
+      s.result.outcome = s.trial % 2 == 0 ? trial::Outcome::Failure : trial::Outcome::Success;
+      s.result.reason = s.trial % 2 == 0 ? trial::Reason::Velocity : trial::Reason::None;
       s.result.mass = s.trial % 2 == 0 ? 2 : 0;
       s.result.by = s.trial % 2 == 0 ? 0.001 * s.trial : 0;
       s.result.movementTime = 0.001 * kMoving;
@@ -89,7 +89,7 @@ class MadeRun {
   }
 
  private:
-  std::unique_ptr<TickState> state_;  // large
+  std::unique_ptr<haptics::TickState> state_;  // large
   std::uint64_t tick_ = 0;
 };
 
@@ -103,9 +103,9 @@ inline void writeMadeRun(const std::string& path, int trials, const RunConfigura
       const int trial = static_cast<int>(tick / MadeRun::kTicksPerTrial) + 1;
       recorder.announce(trial, {trial - 1, 5 * trial, trial % 5 == 0});
     }
-    recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? Command::NextTrial : Command::None, 0);
+    recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? trial::Command::NextTrial : trial::Command::None, 0);
   }
   if (close) recorder.close();
 }
 
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -11,7 +11,7 @@
 
 #include "tests/record/made_run.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -28,7 +28,7 @@ void measureRate(double seconds) {
   const auto start = Clock::now();
   const auto ticks = static_cast<int>(seconds * 1000);
   for (int tick = 0; tick < ticks; ++tick) {
-    if (!recorder.onTick(run.next(), Command::None, 0)) ++dropped;
+    if (!recorder.onTick(run.next(), trial::Command::None, 0)) ++dropped;
     std::this_thread::sleep_until(start + std::chrono::milliseconds(tick + 1));
   }
   const double passed = secondsSince(start);
@@ -51,7 +51,7 @@ void measureOpening(int trials) {
     std::vector<RunLog> runs;
     for (const std::string& path : findLogs(folder / "")) runs.push_back(RunLog::open(path, LogCheck::Trials));
     for (const RunLog& run : runs)
-      for (const RecordedTrial& trial : run.trials()) ++listed, successes += trial.result.outcome == Outcome::Success;
+      for (const RecordedTrial& trial : run.trials()) ++listed, successes += trial.result.outcome == trial::Outcome::Success;
     const double listing = secondsSince(start);
     start = Clock::now();
     double sum = 0;
@@ -64,10 +64,11 @@ void measureOpening(int trials) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::record
 
 int main(int argc, char** argv) {
   using namespace reachlab;
+  using namespace reachlab::record;
   const std::string mode = argc > 1 ? argv[1] : "";
   if (mode == "rate") {
     measureRate(argc > 2 ? std::atof(argv[2]) : 10);

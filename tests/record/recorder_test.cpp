@@ -4,10 +4,10 @@
 
 #include <thread>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "tests/record/made_run.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 // One thread pushes as the haptic thread does, the recorder's writes: nothing is lost, torn or out of order. Run under TSan as
@@ -23,8 +23,8 @@ TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
     std::jthread haptic([&] {
       MadeRun run;
       for (std::uint64_t tick = 0; tick < kTicks; ++tick) {
-        const TickState& state = run.next();
-        while (!recorder.onTick(state, Command::None, 0)) std::this_thread::yield();
+        const haptics::TickState& state = run.next();
+        while (!recorder.onTick(state, trial::Command::None, 0)) std::this_thread::yield();
       }
     });
     recorder.awaitTrial(20);
@@ -50,7 +50,7 @@ TEST(Recorder, SaysWhenItsQueueIsFullInsteadOfWaiting) {
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = true, .queueTicks = 8});
   MadeRun run;
   std::uint64_t lost = 0;
-  for (int tick = 0; tick < 20000; ++tick) lost += !recorder.onTick(run.next(), Command::None, 0);
+  for (int tick = 0; tick < 20000; ++tick) lost += !recorder.onTick(run.next(), trial::Command::None, 0);
   recorder.close();
   EXPECT_GT(lost, 0u);
   EXPECT_EQ(RunLog::open(folder / "a_log.reach").ticks().size() + lost, 20000u);
@@ -75,10 +75,10 @@ TEST(Recorder, NoticesThatItsFileWasTakenAway) {
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
   std::filesystem::remove(folder / "a_log.reach");
   MadeRun run;
-  for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), Command::None, 0);
+  for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
   EXPECT_THROW(recorder.awaitTrial(1), ResourceError);
   EXPECT_NE(recorder.fault(), "");
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <random>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/record/recover.h"
 #include "tests/record/made_run.h"
 
-namespace reachlab {
+namespace reachlab::record {
 namespace {
 
 std::string bytesOf(const std::string& path) { return readWholeFile(path); }
@@ -43,7 +43,7 @@ TEST(RunLog, GivesBackWhatWasRecorded) {
   const RecordedTrial& second = log.trials()[1];
   EXPECT_EQ(second.trial, 2);
   EXPECT_EQ(second.planned.foreperiodTicks, 10);
-  EXPECT_EQ(second.result.reason, Reason::Velocity);
+  EXPECT_EQ(second.result.reason, trial::Reason::Velocity);
   EXPECT_EQ(second.result.by, 0.002);
   EXPECT_EQ(second.startTick, MadeRun::kTicksPerTrial);
   EXPECT_EQ(second.armedTick, MadeRun::kTicksPerTrial + MadeRun::kWaiting);
@@ -64,7 +64,7 @@ TEST(RunLog, GivesBackWhatWasRecorded) {
     EXPECT_EQ(ticks[i].tick, i);
     EXPECT_EQ(ticks[i].device.position.x, MadeRun::valueAt(i));
     EXPECT_EQ(ticks[i].measuredNs, static_cast<std::int64_t>(i) * 1000003);
-    EXPECT_EQ(ticks[i].command == Command::NextTrial, i % MadeRun::kTicksPerTrial == 0);
+    EXPECT_EQ(ticks[i].command == trial::Command::NextTrial, i % MadeRun::kTicksPerTrial == 0);
   }
 }
 
@@ -91,15 +91,15 @@ TEST(RunLog, MarksTheUnfinishedTrialOfABrokenOffLogAsInterrupted) {
   {
     Recorder recorder(path, madeConfiguration(), {.threaded = false});
     MadeRun run;
-    for (std::uint64_t i = 0; i < MadeRun::kTicksPerTrial + 150; ++i) recorder.onTick(run.next(), Command::None, 0);
+    for (std::uint64_t i = 0; i < MadeRun::kTicksPerTrial + 150; ++i) recorder.onTick(run.next(), trial::Command::None, 0);
     recorder.note("coffee spilt");  // hands everything to the kernel
     std::filesystem::copy_file(path, folder / "cut_log.reach");
   }
   const RunLog log = RunLog::open(folder / "cut_log.reach");
   EXPECT_FALSE(log.healthy());
   ASSERT_EQ(log.trials().size(), 2u);
-  EXPECT_EQ(log.trials()[1].result.outcome, Outcome::Interrupted);
-  EXPECT_EQ(log.trials()[1].result.reason, Reason::Program);
+  EXPECT_EQ(log.trials()[1].result.outcome, trial::Outcome::Interrupted);
+  EXPECT_EQ(log.trials()[1].result.reason, trial::Reason::Program);
   EXPECT_EQ(log.trials()[1].lastTick, MadeRun::kTicksPerTrial + 149);
   EXPECT_TRUE(std::isnan(log.trials()[1].peakForce)) << "what was not measured to the end is not given as a number";
   EXPECT_EQ(log.events().back().text, "coffee spilt");
@@ -245,4 +245,4 @@ TEST(LogReader, RefusesANewerSchemaAndSaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::record

@@ -6,11 +6,11 @@
 #include <map>
 #include <set>
 
-#include "constraints/error.h"
+#include "base/error.h"
 #include "sim/session/trial_order.h"
 #include "test_paths.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 std::string faultsOf(const std::string& text) {
@@ -99,11 +99,11 @@ TEST(PlanTrials, DrawsForeperiodsInTheirRangeFromSeedAndIndexAlone) {
   block.trials = 200;
   block.foreperiodMin = 0.8;
   block.foreperiodMax = 1.6;
-  const std::vector<PlannedTrial> many = planTrials(block, 7);
+  const std::vector<trial::PlannedTrial> many = planTrials(block, 7);
   block.trials = 50;
-  const std::vector<PlannedTrial> few = planTrials(block, 7);
+  const std::vector<trial::PlannedTrial> few = planTrials(block, 7);
   double sum = 0;
-  for (const PlannedTrial& trial : many) {
+  for (const trial::PlannedTrial& trial : many) {
     EXPECT_GE(trial.foreperiodTicks, 800);
     EXPECT_LE(trial.foreperiodTicks, 1600);
     sum += trial.foreperiodTicks;
@@ -121,7 +121,7 @@ TEST(PlanTrials, PutsTheAskedShareOfCatchTrialsAtSeededPlacesAndNeverFirst) {
   std::set<std::vector<int>> placings;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     std::vector<int> places;
-    for (const PlannedTrial& trial : planTrials(block, seed))
+    for (const trial::PlannedTrial& trial : planTrials(block, seed))
       if (trial.catchTrial) places.push_back(trial.index);
     EXPECT_EQ(places.size(), 10u);
     EXPECT_EQ(std::count(places.begin(), places.end(), 0), 0);
@@ -136,4 +136,4 @@ TEST(BlockSeed, OfTheFirstBlockIsTheRunsOwn) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::session

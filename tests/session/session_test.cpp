@@ -5,56 +5,56 @@
 #include <array>
 #include <limits>
 
-#include "constraints/error.h"
-#include "constraints/json_tree.h"
+#include "base/error.h"
+#include "base/json_tree.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
 
-namespace reachlab {
+namespace reachlab::session {
 namespace {
 
 std::string contentOf(const std::string& file) { return readTextFile(file); }
 
 std::vector<int> indicesOf(const BlockToRun& block) {
   std::vector<int> indices;
-  for (const PlannedTrial& planned : block.trials) indices.push_back(planned.index);
+  for (const trial::PlannedTrial& planned : block.trials) indices.push_back(planned.index);
   return indices;
 }
 
 // Records the block's trials with these outcomes, and closes the log.
-void recordOutcomes(const BlockToRun& block, const std::vector<Outcome>& outcomes) {
-  RunConfiguration configuration = block.configuration;
-  configuration.table = makeChannelTable(block.experiment, 1);
-  Recorder recorder(block.logPath, configuration, {.threaded = false});
-  MadeRun run(configuration.table.massCount);
-  for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial * outcomes.size(); ++tick) {
-    const std::size_t trial = tick / MadeRun::kTicksPerTrial;
-    if (tick % MadeRun::kTicksPerTrial == 0)
+void recordOutcomes(const BlockToRun& block, const std::vector<trial::Outcome>& outcomes) {
+  record::RunConfiguration configuration = block.configuration;
+  configuration.table = record::makeChannelTable(block.experiment, 1);
+  record::Recorder recorder(block.logPath, configuration, {.threaded = false});
+  record::MadeRun run(configuration.table.massCount);
+  for (std::uint64_t tick = 0; tick < record::MadeRun::kTicksPerTrial * outcomes.size(); ++tick) {
+    const std::size_t trial = tick / record::MadeRun::kTicksPerTrial;
+    if (tick % record::MadeRun::kTicksPerTrial == 0)
       recorder.announce(static_cast<std::int32_t>(trial) + 1, block.trials[trial % block.trials.size()]);
-    TickState state = run.next();
-    if (state.phase == Phase::Done) {
+    haptics::TickState state = run.next();
+    if (state.phase == trial::Phase::Done) {
       state.result = {};
       state.result.outcome = outcomes[trial];
-      state.result.reason = outcomes[trial] == Outcome::Success ? Reason::None : Reason::Experimenter;
+      state.result.reason = outcomes[trial] == trial::Outcome::Success ? trial::Reason::None : trial::Reason::Experimenter;
     }
-    recorder.onTick(state, Command::None, 0);
+    recorder.onTick(state, trial::Command::None, 0);
   }
   recorder.close();
 }
 
 // Does the first `count` trials of the block and half of one more, and breaks off without closing, as a killed program does.
 void recordAndBreakOff(const BlockToRun& block, int count) {
-  RunConfiguration configuration = block.configuration;
-  configuration.table = makeChannelTable(block.experiment, 1);
+  record::RunConfiguration configuration = block.configuration;
+  configuration.table = record::makeChannelTable(block.experiment, 1);
   const std::string whole = block.logPath + ".whole";
   {
-    Recorder recorder(whole, configuration, {.threaded = false});
-    MadeRun run(configuration.table.massCount);
-    for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial * count + MadeRun::kTicksPerTrial / 2; ++tick) {
-      const std::size_t trial = tick / MadeRun::kTicksPerTrial;
-      if (tick % MadeRun::kTicksPerTrial == 0 && trial < block.trials.size())
+    record::Recorder recorder(whole, configuration, {.threaded = false});
+    record::MadeRun run(configuration.table.massCount);
+    for (std::uint64_t tick = 0; tick < record::MadeRun::kTicksPerTrial * count + record::MadeRun::kTicksPerTrial / 2; ++tick) {
+      const std::size_t trial = tick / record::MadeRun::kTicksPerTrial;
+      if (tick % record::MadeRun::kTicksPerTrial == 0 && trial < block.trials.size())
         recorder.announce(static_cast<std::int32_t>(trial) + 1, block.trials[trial]);
-      recorder.onTick(run.next(), Command::None, 0);
+      recorder.onTick(run.next(), trial::Command::None, 0);
     }
     recorder.note("");
     std::filesystem::copy_file(whole, block.logPath);
@@ -72,10 +72,10 @@ class PlannedSession : public testing::Test {
     return r;
   }
   std::string write(const std::string& name, const std::string& text) const {
-    writeFileAtomically(folder_ / name, text);
+    record::writeFileAtomically(folder_ / name, text);
     return folder_ / name;
   }
-  TemporaryFolder folder_{"session"};
+  record::TemporaryFolder folder_{"session"};
 };
 
 TEST_F(PlannedSession, RefusesAnAgeThatTheRecordCouldNotHold) {
@@ -93,14 +93,14 @@ TEST_F(PlannedSession, TakesTheNextNumberWhenAnotherProgramHasTakenItsOwn) {
   BlockToRun first = planSession(r).blocks.at(0), second = first;
   takeFreeRun(first, r);
   EXPECT_EQ(first.configuration.run, 1);
-  writeMadeRun(first.logPath, 1, madeConfiguration());
+  record::writeMadeRun(first.logPath, 1, record::madeConfiguration());
   takeFreeRun(second, r);
   EXPECT_EQ(second.configuration.run, 2);
   EXPECT_EQ(second.configuration.firstRun, 2);
   EXPECT_NE(second.logPath, first.logPath);
   r.run = 2;
   BlockToRun asked = planSession(r).blocks.at(0);
-  writeMadeRun(second.logPath, 1, madeConfiguration());
+  record::writeMadeRun(second.logPath, 1, record::madeConfiguration());
   EXPECT_THROW(takeFreeRun(asked, r), UsageError) << "a number that was asked for is not exchanged";
 }
 
@@ -252,7 +252,7 @@ TEST_F(PlannedSession, GivesItsBlocksRunNumbersInTurn) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(first.blocks[k].blocksAfter, 2 - static_cast<int>(k));
   for (const BlockToRun& block : first.blocks) EXPECT_EQ(block.configuration.seed, blockSeed(first.seed, block.configuration.block));
 
-  recordOutcomes(first.blocks[0], {Outcome::Success, Outcome::Failure});
+  recordOutcomes(first.blocks[0], {trial::Outcome::Success, trial::Outcome::Failure});
   recordAndBreakOff(first.blocks[1], 1);
   r.resume = true;
   const SessionToRun second = planSession(r);
@@ -292,7 +292,7 @@ TEST_F(PlannedSession, ResumesTheRunOfItsOwnExperimentAlone) {
 }
 
 TEST_F(PlannedSession, RefusesToResumeAnExperimentThatWasChangedUnderItsName) {
-  const std::string text = contentOf(resourceFolder() + "/experiments/chain-slow.json");
+  const std::string text = contentOf(experiment::resourceFolder() + "/experiments/chain-slow.json");
   SessionRequest r = request(write("mine.json", text));
   r.trials = 3;
   recordAndBreakOff(planSession(r).blocks[0], 1);
@@ -302,7 +302,8 @@ TEST_F(PlannedSession, RefusesToResumeAnExperimentThatWasChangedUnderItsName) {
 }
 
 TEST_F(PlannedSession, RepeatsWhatWasInterruptedAndWhatWasAbortedOnlyIfThePlanSaysSo) {
-  const std::vector<Outcome> outcomes{Outcome::Success, Outcome::Aborted, Outcome::Failure, Outcome::Interrupted};
+  const std::vector<trial::Outcome> outcomes{trial::Outcome::Success, trial::Outcome::Aborted, trial::Outcome::Failure,
+                                             trial::Outcome::Interrupted};
   for (const bool repeat : {false, true}) {
     const std::string plan =
         write(repeat ? "again.json" : "once.json", std::string(R"({ "schema_version": 1, "trials": 5, "repeat_aborted": )") +
@@ -333,7 +334,7 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
   r.device = "simulated:noise=0";
   const SessionToRun session = planSession(r);
   ASSERT_EQ(session.blocks.size(), 2u);
-  const RunConfiguration &a = session.blocks[0].configuration, &b = session.blocks[1].configuration;
+  const record::RunConfiguration &a = session.blocks[0].configuration, &b = session.blocks[1].configuration;
   EXPECT_TRUE(a.practice);
   EXPECT_FALSE(b.practice);
   EXPECT_EQ(a.condition, "warm up");
@@ -346,7 +347,7 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
   EXPECT_EQ(b.task, "epitrochoid");
   EXPECT_EQ(session.blocks[1].logPath, r.place.data + "/sourcedata/sub-s7_ses-b_task-epitrochoid_run-02_log.reach");
   for (const BlockToRun& block : session.blocks) {
-    const RunConfiguration& c = block.configuration;
+    const record::RunConfiguration& c = block.configuration;
     EXPECT_EQ(c.subject, "s7");
     EXPECT_EQ(c.session, "b");
     EXPECT_EQ(c.planText, text);
@@ -354,8 +355,8 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
     EXPECT_EQ(c.orderSeed, 12u);
     EXPECT_EQ(c.sessionSeed, session.seed);
     EXPECT_EQ(c.experimentName, block.experiment.name);
-    EXPECT_EQ(c.experimentText, contentOf(resourceFolder() + "/experiments/" + c.experimentName + ".json"));
-    EXPECT_EQ(c.definitionText, definitionTextOf(block.experiment));
+    EXPECT_EQ(c.experimentText, contentOf(experiment::resourceFolder() + "/experiments/" + c.experimentName + ".json"));
+    EXPECT_EQ(c.definitionText, experiment::definitionTextOf(block.experiment));
     EXPECT_NE(c.definitionText, "");
     EXPECT_EQ(c.sampleEveryTicks, 1u);
     EXPECT_EQ(c.samplingHz, 1000);
@@ -410,14 +411,14 @@ TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
 }
 
 TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
-  const TemporaryFolder folder("runs");
+  const record::TemporaryFolder folder("runs");
   const SessionPlace place{folder / "data", "1", "2"};
   EXPECT_TRUE(recordedRuns(place).empty());
   EXPECT_EQ(chooseRun(place, {}), 1);
   for (const char* name :
        {"sub-1_ses-2_task-a_run-10_log.reach", "sub-1_ses-2_task-b_run-9_log.reach", "sub-1_ses-21_task-a_run-50_log.reach",
         "sub-11_ses-2_task-a_run-60_log.reach", "sub-1_ses-2_task-a_run-70_log.reach.damaged", "sub-1_ses-2_task-a_run-8x_log.reach"})
-    writeFileAtomically(folder / (std::string("data/sourcedata/") + name), "");
+    record::writeFileAtomically(folder / (std::string("data/sourcedata/") + name), "");
   const std::vector<RecordedRun> runs = recordedRuns(place);
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].run, 9);
@@ -430,4 +431,4 @@ TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
 }
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::session

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
-namespace reachlab {
+namespace reachlab::trial {
 namespace {
 
 // A task of 1 s +- 0.2 s from x = -0.1 m to x = 0.1 m, driven tick by tick with the hand and two masses as told.
@@ -22,7 +22,7 @@ class Protocol : public ::testing::Test {
     settings.earliestTick = 800;
     settings.latestTick = 1200;
     settings.timeoutTicks = 5000;
-    for (MassState& m : masses) m.r = settings.start;
+    for (dynamics::MassState& m : masses) m.r = settings.start;
     hip = settings.start;
   }
 
@@ -53,7 +53,7 @@ class Protocol : public ::testing::Test {
     tick();
   }
   void arrive(double away = 0, double speed = 0) {
-    for (MassState& m : masses) m.r = {settings.target.x - away, 0, 0}, m.v = {speed, 0, 0};
+    for (dynamics::MassState& m : masses) m.r = {settings.target.x - away, 0, 0}, m.v = {speed, 0, 0};
   }
   void expectEnd(Outcome outcome, Reason reason) const {
     EXPECT_EQ(state.phase, Phase::Done);
@@ -65,10 +65,10 @@ class Protocol : public ::testing::Test {
   ProtocolSettings settings;
   ProtocolState state;
   PlannedTrial planned;
-  std::vector<MassState> masses{2};
+  std::vector<dynamics::MassState> masses{2};
   Vec3 hip;
   bool handValid = true, handBroken = false, clamped = false;
-  StepStatus status = StepStatus::Ok;
+  dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::uint64_t now = 0;
 };
 
@@ -138,7 +138,7 @@ TEST_F(Protocol, AbortsWithoutOnsetWithinTheTimeout) {
 TEST_F(Protocol, SucceedsAtTheFirstAndTheLastTickOfTheWindow) {
   for (const int when : {800, 1000, 1200}) {
     state = {};
-    for (MassState& m : masses) m.r = settings.start;
+    for (dynamics::MassState& m : masses) m.r = settings.start;
     hip = settings.start;
     leave();
     ticks(when - 1);
@@ -256,13 +256,14 @@ TEST_F(Protocol, AHandThatIsNotANumberEndsTheTrialAtOnce) {
 }
 
 TEST_F(Protocol, AFailedStepEndsTheTrial) {
-  const std::pair<StepStatus, std::pair<Outcome, Reason>> cases[] = {{StepStatus::NotFinite, {Outcome::Aborted, Reason::Computation}},
-                                                                     {StepStatus::Capped, {Outcome::Aborted, Reason::Computation}},
-                                                                     {StepStatus::NoContinuation, {Outcome::Aborted, Reason::Computation}},
-                                                                     {StepStatus::AtEnd, {Outcome::Failure, Reason::EndOfConstraint}}};
+  const std::pair<dynamics::StepStatus, std::pair<Outcome, Reason>> cases[] = {
+      {dynamics::StepStatus::NotFinite, {Outcome::Aborted, Reason::Computation}},
+      {dynamics::StepStatus::Capped, {Outcome::Aborted, Reason::Computation}},
+      {dynamics::StepStatus::NoContinuation, {Outcome::Aborted, Reason::Computation}},
+      {dynamics::StepStatus::AtEnd, {Outcome::Failure, Reason::EndOfConstraint}}};
   for (const auto& [fault, end] : cases) {
     state = {};
-    status = StepStatus::Ok;
+    status = dynamics::StepStatus::Ok;
     hip = settings.start;
     leave();
     status = fault;
@@ -343,11 +344,11 @@ TEST_F(Protocol, TheNextTrialForgetsTheLast) {
 
 // 1.35 s and 0.5 s have no exact binary form; the window's ends are whole ticks all the same.
 TEST(ProtocolSettings, WindowInTicksIsExactForDecimalTimes) {
-  Experiment experiment;
-  experiment.task = Task{};
+  experiment::Experiment experiment;
+  experiment.task = experiment::Task{};
   experiment.task->start = {0};
   experiment.task->target = {6.283185307179586};
-  const Constraint line = makeConstraint({"line", {}, {}, {{"length_m", 0.2}}});
+  const constraints::Constraint line = constraints::makeConstraint({"line", {}, {}, {{"length_m", 0.2}}});
   const double cases[][2] = {{1.35, 0.5}, {2.26, 0.5}, {0.68, 0.5}, {2.5, 0.3}, {0.1, 0.07}};
   for (const auto& [duration, tolerance] : cases) {
     experiment.task->duration = duration;
@@ -361,7 +362,9 @@ TEST(ProtocolSettings, WindowInTicksIsExactForDecimalTimes) {
   EXPECT_NEAR(s.target.x, 0.1, 1e-15);
 }
 
-TEST(ProtocolSettings, RefusesAnExperimentWithoutATask) { EXPECT_THROW(makeProtocolSettings(Experiment{}, Constraint{}), UsageError); }
+TEST(ProtocolSettings, RefusesAnExperimentWithoutATask) {
+  EXPECT_THROW(makeProtocolSettings(experiment::Experiment{}, constraints::Constraint{}), UsageError);
+}
 
 }  // namespace
-}  // namespace reachlab
+}  // namespace reachlab::trial

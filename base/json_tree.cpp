@@ -1,4 +1,4 @@
-#include "constraints/json_tree.h"
+#include "base/json_tree.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
 namespace reachlab {
 namespace {

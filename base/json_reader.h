@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "constraints/json_tree.h"
-#include "constraints/names.h"
+#include "base/json_tree.h"
+#include "base/names.h"
 
 namespace reachlab {
 

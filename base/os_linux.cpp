@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "sim/haptics/os.h"
+#include "base/os.h"
 
 namespace reachlab::os {
 namespace {

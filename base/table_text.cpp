@@ -1,4 +1,4 @@
-#include "sim/record/table_text.h"
+#include "base/table_text.h"
 
 #include <fmt/format.h>
 

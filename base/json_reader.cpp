@@ -1,4 +1,4 @@
-#include "constraints/json_reader.h"
+#include "base/json_reader.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "constraints/error.h"
+#include "base/error.h"
 
 namespace reachlab {
 namespace {

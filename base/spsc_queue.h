@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "sim/haptics/triple_buffer.h"
+#include "base/triple_buffer.h"
 
 namespace reachlab {
 

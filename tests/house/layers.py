@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""The house's layers, read from the sources: exits 1 with a line for every arrow that CMake does not know, that no include needs, that
+runs back up, or for a file whose namespace is not its folder's.
+
+  tests/house/layers.py          checks
+  tests/house/layers.py --show   prints the arrows
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+ORDER = ["base", "constraints", "sim", "devices", "network", "gui", "cli"]  # a folder uses those to its left; gui and cli not each other
+
+
+def library_of(folder):
+    """The folder whose CMakeLists.txt takes in the sources of this one."""
+    while folder != Path(".") and not re.search(r"add_library|add_executable|reachlab_library", cmake_text(folder)):
+        folder = folder.parent
+    return folder
+
+
+def cmake_text(folder):
+    file = ROOT / folder / "CMakeLists.txt"
+    return file.read_text() if file.exists() else ""
+
+
+def sources():
+    for top in ORDER:
+        for file in sorted((ROOT / top).rglob("*")):
+            if file.suffix in (".h", ".cpp"):
+                yield file.relative_to(ROOT)
+
+
+def namespace_of(folder):
+    parts = [p for p in folder.parts if p != "sim"]
+    return "reachlab" if parts == ["base"] else "reachlab::" + parts[0]
+
+
+def included(file):
+    return [Path(m).parent for m in re.findall(r'^#include "([^"]+/[^"]+)"', (ROOT / file).read_text(), re.M)]
+
+
+def declared_arrows(folder, target_folder):
+    """Folders of the project's libraries that this folder's CMakeLists.txt names."""
+    # The program's own target may name its folder; that is no arrow.
+    named = set(re.findall(r"\breachlab_(\w+)", re.sub(r"#.*", "", cmake_text(folder))))
+    return {target_folder[n] for n in named if n in target_folder} - {folder}
+
+
+def main():
+    files = list(sources())
+    folders = sorted({library_of(f.parent) for f in files})
+    target_folder = {f.name: f for f in folders}
+    faults, arrows = [], {f: set() for f in folders}
+    for file in files:
+        here = library_of(file.parent)
+        for other in map(library_of, included(file)):
+            if other != here:
+                arrows[here].add(other)
+        text = (ROOT / file).read_text()
+        text = re.sub(r"^namespace \w[\w:]* {\n(?:(?:class|struct) \w+;\n)+}", "", text, flags=re.M)  # names said in advance
+        wrong = [n for n in re.findall(r"^namespace (reachlab[\w:]*) {", text, re.M)
+                 if n != namespace_of(here) and not n.startswith(namespace_of(here) + "::")]
+        faults += [f"{file}: namespace {n}, expected {namespace_of(here)}" for n in wrong]
+
+    for folder, used in arrows.items():
+        declared = declared_arrows(folder, target_folder)
+        faults += [f"{folder}/CMakeLists.txt: does not name {o}, which is included" for o in sorted(used - declared)]
+        faults += [f"{folder}/CMakeLists.txt: names {o}, which nothing includes" for o in sorted(declared - used)]
+        for other in used:
+            rank, below = ORDER.index(folder.parts[0]), ORDER.index(other.parts[0])
+            if below > rank or (folder.parts[0], other.parts[0]) == ("cli", "gui"):
+                faults.append(f"{folder} includes {other}: the arrow runs back up")
+
+    # No ring: taking away what has no arrow left leaves nothing.
+    rest = {f: set(used) for f, used in arrows.items()}
+    while ready := [f for f, used in rest.items() if not used & rest.keys()]:
+        for f in ready:
+            del rest[f]
+    if rest:
+        faults.append("a ring of arrows among " + ", ".join(map(str, sorted(rest))))
+
+    if "--show" in sys.argv:
+        for folder in folders:
+            print(folder, "->", ", ".join(map(str, sorted(arrows[folder]))) or "nothing")
+    print("\n".join(faults) or f"{len(files)} files in {len(folders)} libraries: every arrow is declared, used and points down")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
