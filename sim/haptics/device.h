@@ -1,8 +1,12 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "base/vec3.h"
+#include "sim/dynamics/plant.h"
 
 namespace reachlab::haptics {
 
@@ -13,13 +17,28 @@ struct DeviceSample {
   std::uint32_t buttons = 0;
   bool hasVelocity = false;
   bool valid = true;
+  bool released = false;          // the dead-man switch is open: no force as long as it is
+  bool hasOrientation = false;    // of the handle
+  std::uint64_t reports = 0;      // how many the device has given so far; a held hand repeats its place, not its report. 0: not counted
+  std::int64_t takenNs = 0;       // monotonic clock when the newest report came, 0: now
+  std::array<double, 4> orientation{1, 0, 0, 0};  // unit quaternion w, x, y, z; world frame
 };
 
+/// What a device is and can do. Numbers that the device itself gives go before those of a data sheet.
 struct DeviceInfo {
   std::string name, version;
-  double maxForce = 12;           // [N] the limit applied when the experiment gives none
-  double maxContinuousForce = 0;  // [N] 0: unknown
+  double maxForce = 12;           // [N] instantaneous; an experiment may ask for less, never for more
+  double maxContinuousForce = 0;  // [N] that its motors stand for ever; 0: unknown, no budget is kept
+  double thermalSeconds = 10;     // [s] time constant of the motors' heat, for the budget
   bool virtualHand = false;       // moves by tick count, so it may run on a virtual clock
+  bool rendersForce = false;      // the watch and the watchdog guard it (device_watch.h)
+  bool drivesClock = false;       // calls us (startClock) instead of being asked at our own deadlines
+  double speedLimit = 3;          // [m/s] of the hand; beyond it the force is latched off
+  double silenceLimit = 0.02;     // [s] longest time without a new report while force is felt
+  int degreesOfFreedom = 3;       // of the force; of the place where there is none
+  double rate = 1000;             // [1/s] of its reports
+  double workspaceRadius = 0;     // [m] about the origin; 0: unknown
+  std::string secondPath;         // what `stopForce` does, in words; empty: nothing, the device's own watchdog is relied on
 };
 
 /// A trial's cue to a hand that is simulated or replayed.
@@ -28,18 +47,47 @@ enum class Cue : std::uint8_t {
   Go,     // the go signal: the hand's own time runs from here
 };
 
-/// Where the hand comes from and the force goes. `read`, `write` and `cue` are called by the haptic thread once a tick: they never
-/// wait, allocate or throw. `prepareTrial` is called between trials by the controlling thread, while the haptic thread does not touch
-/// what it prepares (it is taken over at Cue::Place).
+/// How a device is, asked at any time.
+enum class DeviceHealth : std::uint8_t { Ready, NeedsCalibration, Warm, Lost, Failed };
+std::string_view nameOf(DeviceHealth health);  // "ready", "needs_calibration", …
+
+/// Where the hand comes from and the force goes. Making one opens it (ResourceError where it cannot be had), destroying it writes zero
+/// force and closes it. Threads:
+///   haptic thread, once a tick: `read`, `write`, `cue`, `see`; they never wait, allocate or throw. A device whose transport may wait
+///     is put behind a thread of its own (devices/io/polled_device.h);
+///   controlling thread: `info`, `calibrationHint`, `calibrate`, `startClock`, `stopClock`, and `prepareTrial` between trials, while
+///     the haptic thread does not touch what it prepares (it is taken over at Cue::Place);
+///   any thread: `health`, `stopForce`.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
   virtual DeviceInfo info() const = 0;
-  /// Trial index from 0; the motion depends on (seed, index) alone.
+
+  /// Trial index from 0; the motion depends on (seed, index) alone unless the device says otherwise.
   virtual void prepareTrial(int /*index*/) {}
   virtual void cue(Cue) noexcept {}
   virtual DeviceSample read() noexcept = 0;
   virtual void write(const Vec3& force) noexcept = 0;
+  /// What a person would see after this tick: every mass. For virtual subjects.
+  virtual void see(std::span<const dynamics::MassState> /*masses*/) noexcept {}
+
+  virtual DeviceHealth health() const noexcept { return DeviceHealth::Ready; }
+  /// Why it is not ready, or warnings of the last frames, in the device's own words. Empty: nothing to say.
+  virtual std::string healthText() const { return {}; }
+  /// What the experimenter is to do before `calibrate` ("hold the stylus in the inkwell"); empty: the device needs none.
+  virtual std::string calibrationHint() const { return {}; }
+  /// Takes the present place as the calibration place. Throws ResourceError in the device's words.
+  virtual void calibrate() {}
+
+  /// Zero force by another way than `write`, for the moment when the haptic thread hangs. Must not wait for anything that `write` may
+  /// hang in. False: there is no such way.
+  virtual bool stopForce() noexcept { return false; }
+
+  /// Devices that drive the clock: from now on `tick(context)` is called by the device's own thread at its rate, until `stopClock`
+  /// returns. Throws ResourceError.
+  using ClockTick = void (*)(void* context) noexcept;
+  virtual void startClock(ClockTick /*tick*/, void* /*context*/) {}
+  virtual void stopClock() noexcept {}
 };
 
 }  // namespace reachlab::haptics

@@ -2,119 +2,124 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <atomic>
+#include <chrono>
 
 #include "base/os.h"
+#include "sim/haptics/watchdog.h"
 
 namespace reachlab::haptics {
 namespace {
 
-// A counter with one writer.
-template <typename T>
-void raise(std::atomic<T>& counter, T by) noexcept {
-  counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+constexpr std::chrono::milliseconds kPatience{HapticLoop::kPatienceMs};
+constexpr std::int64_t kLookNs = 5'000'000;  // of the watchdog
+
+std::string describeRights(const std::string& priority, int wanted, const std::string& memory) {
+  return fmt::format("{}, {}", priority.empty() ? fmt::format("SCHED_FIFO {}", wanted) : priority,
+                     memory.empty() ? "memory locked" : memory);
 }
 
-}  // namespace
-
-HapticLoop::HapticLoop(std::unique_ptr<TickEngine> engine, HapticDevice& device, RunSink* sink, const LoopOptions& options)
-    : engine_(std::move(engine)), device_(device), sink_(sink), options_(options) {
-  copyState(engine_->state(), snapshots_.back());
-  snapshots_.publish();
-}
-
-HapticLoop::~HapticLoop() { stop(); }
-
-void HapticLoop::start() {
-  if (options_.virtualClock || thread_.joinable()) return;
-  const std::string memory = os::lockMemory();
-  std::atomic<bool> ready{false};
-  thread_ = std::jthread([this, &ready, memory](const std::stop_token& stopToken) {
-    const std::string priority = os::requestRealTime(options_.priority);
-    os::requestExactSleep();
-    mode_ = fmt::format("{}, {}", priority.empty() ? fmt::format("SCHED_FIFO {}", options_.priority) : priority,
-                        memory.empty() ? "memory locked" : memory);
-    ready.store(true, std::memory_order_release);
-    ready.notify_one();
-    run(stopToken);
-  });
-  ready.wait(false, std::memory_order_acquire);
-}
-
-void HapticLoop::stop() {
-  if (thread_.joinable()) {
-    thread_.request_stop();
-    thread_.join();
-  }
-  device_.write({});
-}
-
-void HapticLoop::run(const std::stop_token& stop) {
+void runOnOwnClock(LoopCore& core, const LoopOptions& options) {
+  constexpr std::int64_t kPeriodNs = LoopCore::kPeriodNs;
   std::int64_t deadline = os::now() + kPeriodNs;
-  firstNs_.store(deadline, std::memory_order_relaxed);
-  while (!stop.stop_requested()) {
-    os::sleepUntil(deadline - options_.spinNs);
+  core.firstNs.store(deadline, std::memory_order_relaxed);
+  while (!core.stopping.load(std::memory_order_acquire)) {
+    os::sleepUntil(deadline - options.spinNs);
     std::int64_t time = os::now();
     while (time < deadline) time = os::now();
     const std::int64_t lateness = time - deadline;
     const auto missed = static_cast<std::uint32_t>(lateness / kPeriodNs);
-    countLateness(lateness, missed);
-    tick(missed, time);
+    core.countLateness(lateness, missed);
+    if (!core.tick(missed, time)) return;
     deadline += (static_cast<std::int64_t>(missed) + 1) * kPeriodNs;
   }
+  core.writeLastZero();
 }
 
-void HapticLoop::countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept {
-  lateness_.add(latenessNs);
-  if (missed == 0) return;
-  raise(late_, std::uint64_t{1});
-  raise(missed_, std::uint64_t{missed});
-  if (const auto gap = static_cast<std::uint64_t>(latenessNs + kPeriodNs); gap > longestGapNs_.load(std::memory_order_relaxed))
-    longestGapNs_.store(gap, std::memory_order_relaxed);
-}
-
-void HapticLoop::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
-  TickInput input;
-  input.device = device_.read();
-  Order order;
-  if (commands_.tryPop(order)) {
-    input.command = order.command;
-    input.planned = order.planned;
+void watchLoop(LoopCore& core) {
+  while (!core.stopping.load(std::memory_order_acquire)) {
+    const std::int64_t now = os::now();
+    const DeviceFault fault =
+        judgeLoop({now, core.completedNs.load(std::memory_order_acquire), core.forceOn.load(std::memory_order_relaxed), core.info.drivesClock});
+    if (fault != DeviceFault::None) {
+      core.latch(fault);
+      if (core.silentSinceNs.load(std::memory_order_relaxed) == 0) core.silentSinceNs.store(now, std::memory_order_release);
+      core.device->stopForce();
+    } else {
+      core.silentSinceNs.store(0, std::memory_order_release);
+    }
+    os::sleepUntil(now + kLookNs);
   }
-  input.missedTicks = missed;
-  input.measuredNs = measuredNs;
-  engine_->tick(input);
-  const TickState& state = engine_->state();
-  device_.write(state.deviceForce);
-  if (const auto cue = engine_->cue()) device_.cue(*cue);
-
-  LoopFaults& faults = engine_->faults();
-  faults.lateTicks = late_.load(std::memory_order_relaxed);
-  faults.longestGapNs = longestGapNs_.load(std::memory_order_relaxed);
-  if (sink_ != nullptr && !sink_->onTick(state, input.command, missed)) {
-    ++faults.droppedRecords;
-    raise(dropped_, std::uint64_t{1});
-  }
-  copyState(state, snapshots_.back());
-  snapshots_.publish();
-  raise(ticks_, std::uint64_t{1});
-  lastNs_.store(measuredNs, std::memory_order_relaxed);
 }
 
-LoopReport HapticLoop::report() const {
-  LoopReport report;
-  report.ticks = ticks_.load(std::memory_order_relaxed);
-  report.seconds = static_cast<double>(lastNs_.load(std::memory_order_relaxed) - firstNs_.load(std::memory_order_relaxed)) * 1e-9;
-  report.rate = report.seconds > 0 && report.ticks > 1 ? static_cast<double>(report.ticks - 1) / report.seconds : 0;
-  report.latenessP50 = lateness_.percentile(0.50) * 1e-3;
-  report.latenessP99 = lateness_.percentile(0.99) * 1e-3;
-  report.latenessMax = lateness_.max() * 1e-3;
-  report.faults.lateTicks = late_.load(std::memory_order_relaxed);
-  report.faults.missedTicks = missed_.load(std::memory_order_relaxed);
-  report.faults.longestGapNs = longestGapNs_.load(std::memory_order_relaxed);
-  report.faults.droppedRecords = dropped_.load(std::memory_order_relaxed);
-  report.mode = mode_;
-  return report;
+}  // namespace
+
+HapticLoop::HapticLoop(std::unique_ptr<TickEngine> engine, std::shared_ptr<HapticDevice> device, RunSink* sink, const LoopOptions& options)
+    : options_(options), core_(std::make_shared<LoopCore>(std::move(engine), std::move(device), sink)) {}
+
+HapticLoop::HapticLoop(std::unique_ptr<TickEngine> engine, HapticDevice& device, RunSink* sink, const LoopOptions& options)
+    : HapticLoop(std::move(engine), std::shared_ptr<HapticDevice>(std::shared_ptr<HapticDevice>(), &device), sink, options) {}
+
+HapticLoop::~HapticLoop() { stop(); }
+
+void HapticLoop::start() {
+  if (options_.virtualClock || started_) return;
+  started_ = true;
+  const std::string memory = os::lockMemory();
+  if (core_->info.drivesClock) {
+    core_->mode = fmt::format("the device's clock, {}", memory.empty() ? "memory locked" : memory);
+    core_->completedNs.store(os::now(), std::memory_order_release);  // the watchdog waits for the first call from here
+    core_->device->startClock([](void* core) noexcept { static_cast<LoopCore*>(core)->tickOfDevice(); }, core_.get());
+  } else {
+    auto ready = std::make_shared<std::atomic<bool>>(false);
+    thread_ = LeavableThread([core = core_, options = options_, ready, memory] {
+      core->mode = describeRights(os::requestRealTime(options.priority), options.priority, memory);
+      os::requestExactSleep();
+      ready->store(true, std::memory_order_release);
+      ready->notify_one();
+      runOnOwnClock(*core, options);
+    });
+    ready->wait(false, std::memory_order_acquire);
+  }
+  if (core_->info.rendersForce)
+    watchdog_ = LeavableThread([core = core_, priority = options_.priority] {
+      os::requestRealTime(priority);
+      watchLoop(*core);
+    });
+}
+
+void HapticLoop::advance() noexcept {
+  core_->tick(0, static_cast<std::int64_t>(core_->engine->state().tick) * kPeriodNs);
+}
+
+// Within the device's patience, or it is left behind with nothing of ours in its hands.
+void HapticLoop::stop() {
+  if (stopped_) return;
+  stopped_ = true;
+  core_->stopping.store(true, std::memory_order_release);
+  if (!started_) {
+    core_->device->write({});
+    return;
+  }
+  if (core_->info.drivesClock)
+    thread_ = LeavableThread([core = core_] {
+      core->device->stopClock();
+      core->device->write({});
+    });
+  if (!thread_.join(kPatience)) {
+    core_->latch(DeviceFault::Stalled);
+    while (!core_->abandon()) std::this_thread::yield();
+    core_->abandoned.store(true, std::memory_order_release);
+    LeavableThread lastWord([core = core_] { core->device->stopForce(); });  // it, too, may hang
+    lastWord.join(kPatience);
+    thread_.leave();
+  }
+  if (!watchdog_.join(kPatience)) watchdog_.leave();
+}
+
+bool HapticLoop::hangs() const noexcept {
+  const std::int64_t since = core_->silentSinceNs.load(std::memory_order_acquire);
+  return (since != 0 && os::now() - since > kHangNs) || core_->abandoned.load(std::memory_order_acquire);
 }
 
 }  // namespace reachlab::haptics

@@ -1,6 +1,10 @@
 #include "sim/haptics/run_conductor.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
+
+#include "base/error.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -21,7 +25,7 @@ RunConductor::~RunConductor() {
 
 void RunConductor::start(RunSink* sink) {
   sink_ = sink;
-  loop_ = std::make_unique<HapticLoop>(std::move(engine_), *device_, sink, options_);
+  loop_ = std::make_unique<HapticLoop>(std::move(engine_), device_, sink, options_);
   loop_->start();
 }
 
@@ -52,6 +56,7 @@ void RunConductor::advanceUntilDone(const std::atomic<bool>* stop) {
 std::optional<ConductedTrial> RunConductor::poll() {
   if (options_.virtualClock && underWay_) advanceUntilDone(nullptr);
   if (const TickState* newer = loop_->takeLatest()) latest_ = newer;
+  if (loop_->hangs()) throw ResourceError(describe(loop_->fault(), device_->info().name));
   if (!underWay_ || latest_->trial != trial_ || latest_->phase != trial::Phase::Done) return std::nullopt;
   underWay_ = false;
   if (sink_ != nullptr) sink_->awaitTrial(trial_);
@@ -70,6 +75,17 @@ std::optional<ConductedTrial> RunConductor::runTrial(const std::atomic<bool>& st
     }
     std::this_thread::sleep_for(kLook);
   }
+}
+
+std::optional<std::string> RunConductor::fault() const {
+  if (!loop_) return std::nullopt;
+  const std::string device = device_->info().name;
+  const DeviceHealth health = device_->health();
+  const std::string said = device_->healthText();
+  if (health == DeviceHealth::Lost) return fmt::format("device {} is lost{}", device, said.empty() ? "" : ": " + said);
+  if (const DeviceFault fault = loop_->fault(); fault != DeviceFault::None)
+    return describe(fault, device) + (said.empty() ? "" : ": " + said);
+  return std::nullopt;
 }
 
 void RunConductor::finish() {

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/haptics/haptic_loop.h"
@@ -44,7 +45,8 @@ class RunConductor {
   bool underWay() const { return underWay_; }
 
   /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Does not wait for the trial,
-  /// but does for the disk. May throw ResourceError from the sink. On the virtual clock it computes the trial to its end.
+  /// but does for the disk. May throw ResourceError from the sink, and when a call of the device hangs, so that no trial can end any
+  /// more; `finish` then leaves it behind. On the virtual clock it computes the trial to its end.
   std::optional<ConductedTrial> poll();
   /// After `poll`: the newest state seen.
   const TickState& latest() const { return *latest_; }
@@ -59,10 +61,17 @@ class RunConductor {
   void finish();
   LoopReport report() const { return loop_ ? loop_->report() : LoopReport{}; }
 
+  /// What was latched on the device, or that it was lost, in one sentence; nullopt while all is well. Whoever conducts ends the run with
+  /// it, or asks the experimenter and calls `resetFault`.
+  std::optional<std::string> fault() const;
+  void resetFault() noexcept {
+    if (loop_) loop_->resetFault();
+  }
+
  private:
   void advanceUntilDone(const std::atomic<bool>* stop);
 
-  std::unique_ptr<HapticDevice> device_;
+  std::shared_ptr<HapticDevice> device_;  // shared with the loop, which may have to leave a hanging call behind
   std::unique_ptr<TickEngine> engine_;  // until `start`
   LoopOptions options_;
   std::vector<trial::PlannedTrial> trials_;

@@ -1,0 +1,104 @@
+#include "sim/haptics/device_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/trial/protocol.h"
+
+namespace reachlab::haptics {
+
+std::string_view nameOf(DeviceHealth health) {
+  switch (health) {
+    case DeviceHealth::Ready: return "ready";
+    case DeviceHealth::NeedsCalibration: return "needs_calibration";
+    case DeviceHealth::Warm: return "warm";
+    case DeviceHealth::Lost: return "lost";
+    case DeviceHealth::Failed: break;
+  }
+  return "failed";
+}
+
+std::string_view nameOf(DeviceFault fault) {
+  switch (fault) {
+    case DeviceFault::None: return "none";
+    case DeviceFault::Silent: return "silent";
+    case DeviceFault::Jump: return "jump";
+    case DeviceFault::Speed: return "speed";
+    case DeviceFault::NotFinite: return "not_finite";
+    case DeviceFault::Stalled: return "stalled";
+    case DeviceFault::NoClock: return "no_clock";
+    case DeviceFault::Device: break;
+  }
+  return "device";
+}
+
+std::string describe(DeviceFault fault, const std::string& device) {
+  const char* what = "is in order";
+  switch (fault) {
+    case DeviceFault::None: break;
+    case DeviceFault::Silent: what = "gave no new report while force was on it; is it connected, is the machine too busy?"; break;
+    case DeviceFault::Jump: what = "jumped by more than 20 mm within a tick; check its encoders and calibrate it"; break;
+    case DeviceFault::Speed: what = "moved faster than its speed limit; was it let go?"; break;
+    case DeviceFault::NotFinite: what = "would have got a force that is not a number; the object cannot be computed here"; break;
+    case DeviceFault::Stalled: what = "was left without a tick for more than 20 ms while force was on it"; break;
+    case DeviceFault::NoClock: what = "does not call for its tick any more; is it connected?"; break;
+    case DeviceFault::Device: what = "reports a fault of its own"; break;
+  }
+  return fmt::format("device {} {} (fault: {}); its force is off until the fault is reset", device, what, nameOf(fault));
+}
+
+DeviceWatch::DeviceWatch(const DeviceInfo& info) noexcept
+    : guards_(info.rendersForce), speedLimit_(info.speedLimit), silenceNs_(static_cast<std::int64_t>(info.silenceLimit * 1e9)) {}
+
+void DeviceWatch::latch(DeviceFault fault) noexcept {
+  if (fault_ == DeviceFault::None) fault_ = fault;
+}
+
+void DeviceWatch::reset() noexcept {
+  fault_ = DeviceFault::None;
+  seen_ = 0;
+}
+
+// Speed over the last kWindow ticks: encoder steps and reports that fall two into one tick are averaged out.
+double DeviceWatch::speedOver(const Vec3& position, std::int64_t nowNs) noexcept {
+  const int have = std::min(seen_, kWindow);
+  double speed = 0;
+  if (have == kWindow) {
+    const Place& oldest = window_[static_cast<std::size_t>(seen_ % kWindow)];
+    const double seconds = std::max(static_cast<double>(nowNs - oldest.ns) * 1e-9, kWindow * trial::kTickSeconds);
+    speed = norm(position - oldest.position) / seconds;
+  }
+  window_[static_cast<std::size_t>(seen_ % kWindow)] = {position, nowNs};
+  seen_ = seen_ < 2 * kWindow - 1 ? seen_ + 1 : kWindow;
+  return speed;
+}
+
+DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& context) noexcept {
+  const bool first = seen_ == 0;
+  const bool isNew = first || sample.reports == 0 || sample.reports != reports_;
+  // A device slower than the tick moves on in steps, and so does one that was not asked for some ticks.
+  const double passed = silentTicks_ + context.missed;
+  const double step = first ? 0 : norm(sample.position - last_);
+  silentTicks_ = isNew ? 0 : silentTicks_ + 1;
+  if (isNew) reportNs_ = sample.takenNs != 0 ? std::min(sample.takenNs, context.nowNs) : context.nowNs;
+  reports_ = sample.reports;
+  last_ = sample.position;
+  const double speed = std::max(speedOver(sample.position, context.nowNs), sample.hasVelocity ? norm(sample.velocity) : 0);
+  if (!context.engaged || first) return DeviceFault::None;
+  if (step > kJumpMetres + speedLimit_ * passed * trial::kTickSeconds) return DeviceFault::Jump;
+  if (speed > speedLimit_) return DeviceFault::Speed;
+  if (context.force > kFeltForce && context.nowNs - reportNs_ > silenceNs_) return DeviceFault::Silent;
+  return DeviceFault::None;
+}
+
+DeviceSample DeviceWatch::look(DeviceSample sample, const WatchContext& context) noexcept {
+  if (!guards_) return sample;
+  if (sample.valid && isFinite(sample.position)) latch(judge(sample, context));
+  else seen_ = 0;
+  if (fault_ != DeviceFault::None || sample.released) sample.valid = false;
+  return sample;
+}
+
+}  // namespace reachlab::haptics

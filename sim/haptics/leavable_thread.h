@@ -1,0 +1,43 @@
+#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <semaphore>
+#include <thread>
+
+namespace reachlab::haptics {
+
+/// A thread that may hang in a device's call and can then be left behind. What the job uses it must own or share: a thread that is left
+/// goes on for as long as it hangs, and ends with the program.
+class LeavableThread {
+ public:
+  LeavableThread() = default;
+  explicit LeavableThread(std::function<void()> job) : ended_(std::make_shared<std::binary_semaphore>(0)) {
+    thread_ = std::thread([ended = ended_, job = std::move(job)]() mutable {
+      job();
+      job = nullptr;  // what it shares is released before the end is told
+      ended->release();
+    });
+  }
+  LeavableThread(LeavableThread&&) = default;
+  LeavableThread& operator=(LeavableThread&&) = default;
+  ~LeavableThread() { leave(); }
+
+  bool running() const { return thread_.joinable(); }
+  /// True when the job has ended within `patience`; the thread is then joined. May be asked again.
+  bool join(std::chrono::milliseconds patience) {
+    if (!thread_.joinable()) return true;
+    if (!ended_->try_acquire_for(patience)) return false;
+    thread_.join();
+    return true;
+  }
+  void leave() {
+    if (thread_.joinable()) thread_.detach();
+  }
+
+ private:
+  std::shared_ptr<std::binary_semaphore> ended_;
+  std::thread thread_;
+};
+
+}  // namespace reachlab::haptics

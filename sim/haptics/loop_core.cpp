@@ -1,0 +1,154 @@
+#include "sim/haptics/loop_core.h"
+
+#include "base/os.h"
+
+namespace reachlab::haptics {
+namespace {
+
+// A counter with one writer.
+template <typename T>
+void raise(std::atomic<T>& counter, T by) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+LoopCore::LoopCore(std::unique_ptr<TickEngine> theEngine, std::shared_ptr<HapticDevice> theDevice, RunSink* theSink)
+    : engine(std::move(theEngine)), device(std::move(theDevice)), info(device->info()), sink(theSink), deviceWatch(info) {
+  copyState(engine->state(), snapshots.back());
+  snapshots.publish();
+}
+
+bool LoopCore::enterDevice(Where from) noexcept { return where.compare_exchange_strong(from, Where::InDevice, std::memory_order_acq_rel); }
+
+bool LoopCore::leaveDevice() noexcept {
+  Where inside = Where::InDevice;
+  return where.compare_exchange_strong(inside, Where::Computing, std::memory_order_acq_rel);
+}
+
+bool LoopCore::abandon() noexcept {
+  for (const Where from : {Where::Idle, Where::InDevice}) {
+    Where expected = from;
+    if (where.compare_exchange_strong(expected, Where::Abandoned, std::memory_order_acq_rel) || expected == Where::Abandoned) return true;
+  }
+  return false;
+}
+
+void LoopCore::latch(DeviceFault newFault) noexcept {
+  DeviceFault none = DeviceFault::None;
+  if (newFault != DeviceFault::None) fault.compare_exchange_strong(none, newFault, std::memory_order_acq_rel);
+}
+
+void LoopCore::countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept {
+  lateness.add(latenessNs);
+  if (missed == 0) return;
+  raise(late, std::uint64_t{1});
+  raise(missedTicks, std::uint64_t{missed});
+  if (const auto gap = static_cast<std::uint64_t>(latenessNs + kPeriodNs); gap > longestGapNs.load(std::memory_order_relaxed))
+    longestGapNs.store(gap, std::memory_order_relaxed);
+}
+
+// The watchdog may latch while this tick is being computed: what it has told the device must be the last word.
+void LoopCore::writeForce(const Vec3& force) noexcept {
+  device->write(fault.load(std::memory_order_acquire) == DeviceFault::None ? force : Vec3{});
+  if (fault.load(std::memory_order_acquire) != DeviceFault::None) device->write({});
+}
+
+DeviceSample LoopCore::watched(const DeviceSample& sample, std::uint32_t missed, std::int64_t measuredNs) noexcept {
+  if (resetAsked.load(std::memory_order_acquire)) {
+    resetAsked.store(false, std::memory_order_release);
+    deviceWatch.reset();
+    fault.store(DeviceFault::None, std::memory_order_release);
+  }
+  deviceWatch.latch(fault.load(std::memory_order_acquire));
+  const TickState& before = engine->state();
+  const DeviceSample believed = deviceWatch.look(sample, {trial::isEngaged(before.phase), norm(before.deviceForce), missed, measuredNs});
+  if (device->health() == DeviceHealth::Failed) deviceWatch.latch(DeviceFault::Device);
+  latch(deviceWatch.fault());
+  return believed;
+}
+
+void LoopCore::writeLastZero() noexcept {
+  if (!enterDevice(Where::Idle)) return;
+  device->write({});
+  if (leaveDevice()) where.store(Where::Idle, std::memory_order_release);
+}
+
+bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
+  TickInput input;
+  if (!enterDevice(Where::Idle)) return false;
+  input.device = device->read();
+  if (!leaveDevice()) return false;
+  if (info.rendersForce) input.device = watched(input.device, missed, measuredNs);
+  Order order;
+  if (commands.tryPop(order)) {
+    input.command = order.command;
+    input.planned = order.planned;
+  }
+  input.missedTicks = missed;
+  input.measuredNs = measuredNs;
+  engine->tick(input);
+  const TickState& state = engine->state();
+  if (info.rendersForce && !isFinite(state.couplingForce)) latch(DeviceFault::NotFinite);
+
+  if (!enterDevice(Where::Computing)) return false;
+  writeForce(state.deviceForce);
+  if (const auto cue = engine->cue()) device->cue(*cue);
+  device->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
+  if (!leaveDevice()) return false;
+  forceOn.store(trial::isEngaged(state.phase), std::memory_order_relaxed);
+
+  LoopFaults& faults = engine->faults();
+  faults.lateTicks = late.load(std::memory_order_relaxed);
+  faults.longestGapNs = longestGapNs.load(std::memory_order_relaxed);
+  if (sink != nullptr && !sink->onTick(state, input.command, missed)) {
+    ++faults.droppedRecords;
+    raise(dropped, std::uint64_t{1});
+  }
+  copyState(state, snapshots.back());
+  snapshots.publish();
+  raise(ticks, std::uint64_t{1});
+  lastNs.store(measuredNs, std::memory_order_relaxed);
+  if (info.rendersForce) completedNs.store(os::now(), std::memory_order_release);
+  where.store(Where::Idle, std::memory_order_release);
+  return true;
+}
+
+void LoopCore::tickOfDevice() noexcept {
+  if (stopping.load(std::memory_order_acquire)) return;
+  const std::int64_t now = os::now();
+  if (deadlineNs == 0) {
+    deadlineNs = now;
+    firstNs.store(now, std::memory_order_relaxed);
+  }
+  if (now < deadlineNs - kPeriodNs / 2) {  // called twice in a period: not yet time for a tick
+    if (!enterDevice(Where::Idle)) return;
+    writeForce(engine->state().deviceForce);
+    if (leaveDevice()) where.store(Where::Idle, std::memory_order_release);
+    return;
+  }
+  const std::int64_t lateNs = now > deadlineNs ? now - deadlineNs : 0;
+  const auto missed = static_cast<std::uint32_t>(lateNs / kPeriodNs);
+  countLateness(lateNs, missed);
+  tick(missed, now);
+  deadlineNs += (static_cast<std::int64_t>(missed) + 1) * kPeriodNs;
+}
+
+LoopReport reportOf(const LoopCore& core) {
+  LoopReport report;
+  report.ticks = core.ticks.load(std::memory_order_relaxed);
+  report.seconds =
+      static_cast<double>(core.lastNs.load(std::memory_order_relaxed) - core.firstNs.load(std::memory_order_relaxed)) * 1e-9;
+  report.rate = report.seconds > 0 && report.ticks > 1 ? static_cast<double>(report.ticks - 1) / report.seconds : 0;
+  report.latenessP50 = core.lateness.percentile(0.50) * 1e-3;
+  report.latenessP99 = core.lateness.percentile(0.99) * 1e-3;
+  report.latenessMax = core.lateness.max() * 1e-3;
+  report.faults.lateTicks = core.late.load(std::memory_order_relaxed);
+  report.faults.missedTicks = core.missedTicks.load(std::memory_order_relaxed);
+  report.faults.longestGapNs = core.longestGapNs.load(std::memory_order_relaxed);
+  report.faults.droppedRecords = core.dropped.load(std::memory_order_relaxed);
+  report.mode = core.mode;
+  return report;
+}
+
+}  // namespace reachlab::haptics

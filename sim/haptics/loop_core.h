@@ -1,0 +1,88 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "base/spsc_queue.h"
+#include "base/triple_buffer.h"
+#include "sim/haptics/device_watch.h"
+#include "sim/haptics/lateness.h"
+#include "sim/haptics/run_sink.h"
+#include "sim/haptics/tick_engine.h"
+
+namespace reachlab::haptics {
+
+struct LoopOptions {
+  bool virtualClock = false;     // no thread and no waiting: whoever calls `advance` is the haptic thread
+  int priority = 80;             // SCHED_FIFO where it is allowed
+  std::int64_t spinNs = 50'000;  // the last part of each wait is spun, not slept: removes the wake-up latency for 5 % of a core
+};
+
+/// How well the loop kept time. Lateness: from deadline to the start of the tick.
+struct LoopReport {
+  std::uint64_t ticks = 0;
+  double seconds = 0;                                        // [s] from the first tick to the latest
+  double rate = 0;                                           // [1/s] achieved
+  double latenessP50 = 0, latenessP99 = 0, latenessMax = 0;  // [us]
+  LoopFaults faults;
+  std::string mode;  // "SCHED_FIFO 80, memory locked", or what was not allowed
+};
+
+/// What the haptic thread works on. Plain members with one writer each; kept alive by whoever may still run in it.
+struct LoopCore {
+  static constexpr std::int64_t kPeriodNs = 1'000'000;
+
+  struct Order {
+    trial::Command command = trial::Command::None;
+    trial::PlannedTrial planned;
+  };
+  /// Where the haptic thread is. `abandon` takes it from Idle or InDevice to Abandoned; when the device's call returns after that, the
+  /// thread leaves without touching anything.
+  enum class Where : std::uint8_t { Idle, InDevice, Computing, Abandoned };
+
+  LoopCore(std::unique_ptr<TickEngine> engine, std::shared_ptr<HapticDevice> device, RunSink* sink);
+
+  /// One tick. False: the loop was abandoned while the device held it, and nothing may be touched any more.
+  bool tick(std::uint32_t missed, std::int64_t measuredNs) noexcept;
+  /// At the end of the haptic thread.
+  void writeLastZero() noexcept;
+  void countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept;
+  /// One call of a device that drives the clock: a tick, or none when half a period has not passed since the last.
+  void tickOfDevice() noexcept;
+  /// Controlling thread: true once the haptic thread will never touch anything here again. False: it computes just now; ask again.
+  bool abandon() noexcept;
+  /// Any thread: the first fault stays.
+  void latch(DeviceFault fault) noexcept;
+
+  std::unique_ptr<TickEngine> engine;
+  std::shared_ptr<HapticDevice> device;
+  DeviceInfo info;
+  RunSink* sink;
+  DeviceWatch deviceWatch;
+  SpscQueue<Order, 16> commands;
+  TripleBuffer<TickState> snapshots;
+  LatenessHistogram lateness;
+  std::atomic<std::uint64_t> ticks{0}, late{0}, missedTicks{0}, longestGapNs{0}, dropped{0};
+  std::atomic<std::int64_t> firstNs{0}, lastNs{0};
+  std::atomic<std::int64_t> completedNs{0};  // when the latest tick was completed, for the watchdog
+  std::atomic<bool> forceOn{false};          // a trial is engaged
+  std::atomic<DeviceFault> fault{DeviceFault::None};
+  std::atomic<bool> resetAsked{false};
+  std::atomic<Where> where{Where::Idle};
+  std::atomic<bool> stopping{false};
+  std::atomic<std::int64_t> silentSinceNs{0};  // when the watchdog first saw no tick, 0 while ticks come
+  std::atomic<bool> abandoned{false};  // `stop` has left a device call behind
+  std::int64_t deadlineNs = 0;  // of the next tick of a clock that the device drives
+  std::string mode = "virtual clock";
+
+ private:
+  bool enterDevice(Where from) noexcept;
+  bool leaveDevice() noexcept;
+  void writeForce(const Vec3& force) noexcept;
+  DeviceSample watched(const DeviceSample& sample, std::uint32_t missed, std::int64_t measuredNs) noexcept;
+};
+
+LoopReport reportOf(const LoopCore& core);
+
+}  // namespace reachlab::haptics

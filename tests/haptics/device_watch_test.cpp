@@ -1,0 +1,193 @@
+#include "sim/haptics/device_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/haptics/watchdog.h"
+
+namespace reachlab::haptics {
+namespace {
+
+constexpr std::int64_t kTickNs = 1'000'000;
+
+DeviceInfo forceDevice() {
+  DeviceInfo info;
+  info.rendersForce = true;
+  info.speedLimit = 3;
+  info.silenceLimit = 0.02;
+  return info;
+}
+
+// A device that counts its reports, looked at once a tick.
+class Watch : public ::testing::Test {
+ protected:
+  DeviceSample look(const Vec3& position, bool isNew = true, std::uint32_t missed = 0) {
+    DeviceSample sample;
+    sample.position = position;
+    if (isNew) ++reports;
+    sample.reports = reports;
+    now += kTickNs * (1 + missed);
+    context.nowNs = now;
+    context.missed = missed;
+    return watch.look(sample, context);
+  }
+  void settle(const Vec3& position) {
+    for (int i = 0; i < 20; ++i) look(position);
+  }
+
+  DeviceWatch watch{forceDevice()};
+  WatchContext context{true, 5, 0, 0};
+  std::uint64_t reports = 0;
+  std::int64_t now = 0;
+};
+
+TEST_F(Watch, PassesAnOrdinaryReachUntouched) {
+  for (int i = 0; i < 1000; ++i) {
+    const double x = 0.2 * 0.5 * (1 - std::cos(i * 3.14159265 / 1000));
+    const DeviceSample sample = look({x, 0, 0});
+    ASSERT_TRUE(sample.valid) << i;
+    ASSERT_EQ(sample.position.x, x);
+  }
+  EXPECT_EQ(watch.fault(), DeviceFault::None);
+}
+
+TEST_F(Watch, AHandHeldStillIsNotFrozen) {
+  for (int i = 0; i < 5000; ++i) ASSERT_TRUE(look({0.1, 0, 0}).valid);
+  EXPECT_EQ(watch.fault(), DeviceFault::None);
+}
+
+TEST_F(Watch, MissingReportsUnderForceAreLatchedAfterTheDevicesBound) {
+  settle({0.1, 0, 0});
+  for (int i = 1; i <= 20; ++i) ASSERT_TRUE(look({0.1, 0, 0}, false).valid) << i;
+  EXPECT_FALSE(look({0.1, 0, 0}, false).valid) << "21 ms without a report";
+  EXPECT_EQ(watch.fault(), DeviceFault::Silent);
+}
+
+TEST_F(Watch, MissingReportsWithoutForceAreNotAFault) {
+  context.force = 0.9;
+  settle({0.1, 0, 0});
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(look({0.1, 0, 0}, false).valid);
+}
+
+TEST_F(Watch, ADeviceThatDoesNotCountItsReportsIsNotJudgedByThem) {
+  for (int i = 0; i < 1000; ++i) {
+    DeviceSample sample;
+    context.nowNs = now += kTickNs;
+    ASSERT_TRUE(watch.look(sample, context).valid);
+  }
+}
+
+TEST_F(Watch, AJumpOfMoreThanTwentyMillimetresIsLatched) {
+  settle({});
+  EXPECT_TRUE(look({0.0199, 0, 0}).valid || watch.fault() == DeviceFault::Speed);
+  DeviceWatch other(forceDevice());
+  watch = other;
+  settle({});
+  EXPECT_FALSE(look({0, 0.0201, 0}).valid);
+  EXPECT_EQ(watch.fault(), DeviceFault::Jump);
+}
+
+TEST_F(Watch, WhileTheObjectIsPutUpTheHandMayJump) {
+  context.engaged = false;
+  settle({});
+  EXPECT_TRUE(look({0.3, 0, 0}).valid);
+  EXPECT_EQ(watch.fault(), DeviceFault::None);
+}
+
+TEST_F(Watch, AMissedTickIsNoJump) {
+  settle({});
+  double x = 0;
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(look({x += 2e-3, 0, 0}).valid) << "2 m/s is below the limit";
+  EXPECT_TRUE(look({x += 2e-3 * 11, 0, 0}, true, 10).valid) << "22 mm in eleven ticks at 2 m/s";
+}
+
+TEST_F(Watch, AHandFasterThanItsLimitIsLatched) {
+  settle({});
+  double x = 0;
+  int ticks = 0;
+  while (ticks < 100 && look({x += 3.5e-3, 0, 0}).valid) ++ticks;
+  EXPECT_EQ(watch.fault(), DeviceFault::Speed);
+  EXPECT_LE(ticks, 10) << "within the window of ten ticks";
+}
+
+TEST_F(Watch, ASlowDevicesStepsAreHeldAgainstTheTimeTheyTook) {
+  // 125 Hz at 1 m/s: steps of 8 mm every eighth tick.
+  context.force = 0;
+  double x = 0;
+  for (int i = 0; i < 800; ++i) {
+    if (i % 8 == 0) x += 8e-3;
+    ASSERT_TRUE(look({x, 0, 0}, i % 8 == 0).valid) << i;
+  }
+}
+
+TEST_F(Watch, ALatchedFaultStaysUntilReset) {
+  settle({});
+  look({0.1, 0, 0});
+  ASSERT_NE(watch.fault(), DeviceFault::None);
+  for (int i = 0; i < 1000; ++i) ASSERT_FALSE(look({0.1, 0, 0}).valid);
+  watch.latch(DeviceFault::Device);
+  EXPECT_EQ(watch.fault(), DeviceFault::Jump) << "the first one is told";
+  watch.reset();
+  EXPECT_TRUE(look({0.1, 0, 0}).valid);
+  EXPECT_EQ(watch.fault(), DeviceFault::None);
+}
+
+TEST_F(Watch, AnOpenDeadManSwitchTakesTheForceAndLeavesNoLatch) {
+  settle({});
+  DeviceSample sample;
+  sample.reports = ++reports;
+  sample.released = true;
+  context.nowNs = now += kTickNs;
+  EXPECT_FALSE(watch.look(sample, context).valid);
+  sample.released = false;
+  sample.reports = ++reports;
+  context.nowNs = now += kTickNs;
+  EXPECT_TRUE(watch.look(sample, context).valid);
+}
+
+TEST_F(Watch, AHandThatWasLostMayComeBackElsewhere) {
+  settle({});
+  DeviceSample lost;
+  lost.valid = false;
+  context.nowNs = now += kTickNs;
+  EXPECT_FALSE(watch.look(lost, context).valid);
+  EXPECT_TRUE(look({0.2, 0, 0}).valid);
+}
+
+TEST(DeviceWatch, LeavesDevicesWithoutForceAlone) {
+  DeviceWatch watch{DeviceInfo{}};
+  DeviceSample sample;
+  for (int i = 0; i < 10; ++i) {
+    sample.position.x = i;
+    EXPECT_TRUE(watch.look(sample, {true, 5, 0, i * kTickNs}).valid);
+  }
+}
+
+TEST(Watchdog, FiresWhenNoTickIsCompletedForTwentyMillisecondsUnderForce) {
+  constexpr std::int64_t kMs = 1'000'000, kLast = 1000 * kMs;
+  EXPECT_EQ(judgeLoop({kLast + 20 * kMs, kLast, true, false}), DeviceFault::None);
+  EXPECT_EQ(judgeLoop({kLast + 20 * kMs + 1, kLast, true, false}), DeviceFault::Stalled);
+  EXPECT_EQ(judgeLoop({kLast + 400 * kMs, kLast, false, false}), DeviceFault::None) << "no force, no haste";
+  EXPECT_EQ(judgeLoop({kLast + 400 * kMs, 0, true, false}), DeviceFault::None) << "no tick yet";
+}
+
+TEST(Watchdog, ADeviceThatDrivesTheClockMustCall) {
+  constexpr std::int64_t kMs = 1'000'000, kLast = 1000 * kMs;
+  EXPECT_EQ(judgeLoop({kLast + 500 * kMs, kLast, false, true}), DeviceFault::None);
+  EXPECT_EQ(judgeLoop({kLast + 501 * kMs, kLast, false, true}), DeviceFault::NoClock);
+  EXPECT_EQ(judgeLoop({kLast + 501 * kMs, kLast, false, false}), DeviceFault::None) << "our own clock needs none";
+}
+
+TEST(DeviceFault, EverySentenceNamesDeviceAndFault) {
+  for (int i = 1; i <= static_cast<int>(DeviceFault::Device); ++i) {
+    const auto fault = static_cast<DeviceFault>(i);
+    const std::string text = describe(fault, "Omni");
+    EXPECT_NE(text.find("Omni"), std::string::npos);
+    EXPECT_NE(text.find(nameOf(fault)), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::haptics
