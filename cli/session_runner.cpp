@@ -43,6 +43,9 @@ void complete(record::RunConfiguration& configuration, const session::BlockToRun
   configuration.deviceVersion = device.version;
   configuration.deviceMaxForce = device.maxForce;
   configuration.virtualHand = device.virtualHand;
+  configuration.rendersForce = device.rendersForce;
+  configuration.deviceContinuousForce = device.maxContinuousForce;
+  configuration.deviceThermalSeconds = device.thermalSeconds;
   configuration.method = engine.choice().method;
   configuration.methodReason = engine.choice().reason;
   configuration.softwareVersion = "reachlab " REACHLAB_VERSION;

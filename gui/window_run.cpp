@@ -5,7 +5,7 @@
 #include <QSysInfo>
 
 #include "devices/make_device.h"
-#include "devices/mouse_device.h"
+#include "devices/mouse/mouse_device.h"
 #include "sim/record/bids.h"
 #include "sim/record/channels.h"
 #include "sim/trial/protocol.h"
@@ -44,6 +44,9 @@ WindowRun::WindowRun(const session::BlockToRun& block, const std::string& device
   c.deviceVersion = info.version;
   c.deviceMaxForce = info.maxForce;
   c.virtualHand = info.virtualHand;
+  c.rendersForce = info.rendersForce;
+  c.deviceContinuousForce = info.maxContinuousForce;
+  c.deviceThermalSeconds = info.thermalSeconds;
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   c.softwareVersion = "reachlab " REACHLAB_VERSION;

@@ -25,10 +25,10 @@ std::string describe(DeviceFault fault, const std::string& device);
 
 /// What the watch needs to know of a tick beside the sample.
 struct WatchContext {
-  bool engaged = false;       // a trial is armed or moving: forces act
-  double force = 0;           // [N] the device has got at the tick before
-  std::uint32_t missed = 0;   // periods skipped before this tick
-  std::int64_t nowNs = 0;     // monotonic clock
+  bool engaged = false;      // a trial is armed or moving: forces act
+  double force = 0;          // [N] the device has got at the tick before
+  std::uint32_t missed = 0;  // periods skipped before this tick
+  std::int64_t nowNs = 0;    // monotonic clock
 };
 
 /// Looks at every sample of a device that renders force, before anything is computed from it. What it does not believe becomes

@@ -39,8 +39,8 @@ void runOnOwnClock(LoopCore& core, const LoopOptions& options) {
 void watchLoop(LoopCore& core) {
   while (!core.stopping.load(std::memory_order_acquire)) {
     const std::int64_t now = os::now();
-    const DeviceFault fault =
-        judgeLoop({now, core.completedNs.load(std::memory_order_acquire), core.forceOn.load(std::memory_order_relaxed), core.info.drivesClock});
+    const DeviceFault fault = judgeLoop(
+        {now, core.completedNs.load(std::memory_order_acquire), core.forceOn.load(std::memory_order_relaxed), core.info.drivesClock});
     if (fault != DeviceFault::None) {
       core.latch(fault);
       if (core.silentSinceNs.load(std::memory_order_relaxed) == 0) core.silentSinceNs.store(now, std::memory_order_release);
@@ -88,9 +88,7 @@ void HapticLoop::start() {
     });
 }
 
-void HapticLoop::advance() noexcept {
-  core_->tick(0, static_cast<std::int64_t>(core_->engine->state().tick) * kPeriodNs);
-}
+void HapticLoop::advance() noexcept { core_->tick(0, static_cast<std::int64_t>(core_->engine->state().tick) * kPeriodNs); }
 
 // Within the device's patience, or it is left behind with nothing of ours in its hands.
 void HapticLoop::stop() {

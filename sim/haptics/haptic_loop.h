@@ -37,7 +37,9 @@ class HapticLoop {
   void advance() noexcept;
 
   /// Controlling thread: takes effect at the next tick, in order. False when 16 wait already.
-  bool tryCommand(trial::Command command, const trial::PlannedTrial& planned = {}) noexcept { return core_->commands.tryPush({command, planned}); }
+  bool tryCommand(trial::Command command, const trial::PlannedTrial& planned = {}) noexcept {
+    return core_->commands.tryPush({command, planned});
+  }
   /// Controlling thread: the newest state, or nullptr when none is newer than the last one taken. Valid until the next call.
   const TickState* takeLatest() noexcept { return core_->snapshots.takeLatest(); }
   /// Before `start`, after `stop` (unless `hangs`), or on the virtual clock; `report` also while running (approximate).

@@ -137,8 +137,7 @@ void LoopCore::tickOfDevice() noexcept {
 LoopReport reportOf(const LoopCore& core) {
   LoopReport report;
   report.ticks = core.ticks.load(std::memory_order_relaxed);
-  report.seconds =
-      static_cast<double>(core.lastNs.load(std::memory_order_relaxed) - core.firstNs.load(std::memory_order_relaxed)) * 1e-9;
+  report.seconds = static_cast<double>(core.lastNs.load(std::memory_order_relaxed) - core.firstNs.load(std::memory_order_relaxed)) * 1e-9;
   report.rate = report.seconds > 0 && report.ticks > 1 ? static_cast<double>(report.ticks - 1) / report.seconds : 0;
   report.latenessP50 = core.lateness.percentile(0.50) * 1e-3;
   report.latenessP99 = core.lateness.percentile(0.99) * 1e-3;

@@ -72,8 +72,8 @@ struct LoopCore {
   std::atomic<Where> where{Where::Idle};
   std::atomic<bool> stopping{false};
   std::atomic<std::int64_t> silentSinceNs{0};  // when the watchdog first saw no tick, 0 while ticks come
-  std::atomic<bool> abandoned{false};  // `stop` has left a device call behind
-  std::int64_t deadlineNs = 0;  // of the next tick of a clock that the device drives
+  std::atomic<bool> abandoned{false};          // `stop` has left a device call behind
+  std::int64_t deadlineNs = 0;                 // of the next tick of a clock that the device drives
   std::string mode = "virtual clock";
 
  private:

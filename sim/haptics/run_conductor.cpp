@@ -15,9 +15,8 @@ constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting cal
 
 RunConductor::RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : device_(std::move(device)),
-      engine_(std::make_unique<TickEngine>(experiment, EngineOptions{device_->info().maxForce, device_->info().virtualHand})),
-      options_(options), trials_(std::move(trials)), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
+    : device_(std::move(device)), engine_(std::make_unique<TickEngine>(experiment, engineOptions(device_->info()))), options_(options),
+      trials_(std::move(trials)), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
 
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();

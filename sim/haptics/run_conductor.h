@@ -72,7 +72,7 @@ class RunConductor {
   void advanceUntilDone(const std::atomic<bool>* stop);
 
   std::shared_ptr<HapticDevice> device_;  // shared with the loop, which may have to leave a hanging call behind
-  std::unique_ptr<TickEngine> engine_;  // until `start`
+  std::unique_ptr<TickEngine> engine_;    // until `start`
   LoopOptions options_;
   std::vector<trial::PlannedTrial> trials_;
   std::size_t next_ = 0;

@@ -21,15 +21,24 @@ struct Blend {
 };
 Blend fadeOut(double x) noexcept { return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x)}; }
 
+ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOptions& options) {
+  double most = experiment.forceLimit.value_or(options.deviceMaxForce);
+  if (options.rendersForce) most = std::min(most, options.deviceMaxForce);
+  return {most, options.rendersForce ? options.continuousForce : 0, options.thermalSeconds};
+}
+
 }  // namespace
+
+EngineOptions engineOptions(const DeviceInfo& device) {
+  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds};
+}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOptions& options)
     : TickEngine(experiment, (taskOf(experiment), dynamics::compileScene(experiment)), options) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), start_(taskOf(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
-      virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump),
-      safety_(experiment.forceLimit.value_or(options.deviceMaxForce)),
+      virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump), safety_(limitsFor(experiment, options)),
       fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
   lastSeen_ = settings_.start;

@@ -23,10 +23,15 @@ struct TickInput {
 };
 
 struct EngineOptions {
-  double deviceMaxForce = 12;  // [N] DeviceInfo::maxForce, unless the experiment gives a limit
+  double deviceMaxForce = 12;  // [N] DeviceInfo::maxForce
   /// DeviceInfo::virtualHand: the hand moves by tick count, so after a gap it is where it was and nothing has to be anchored anew.
   bool virtualHand = false;
+  /// DeviceInfo::rendersForce: then an experiment's limit can only lower the device's. Where no force is felt it takes its place.
+  bool rendersForce = false;
+  double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
+  double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
 };
+EngineOptions engineOptions(const DeviceInfo& device);
 
 /// Everything deterministic of one tick, from device sample to device force: estimate the hand, step the object, judge the trial, limit
 /// the force. Physics and protocol advance by one tick a tick, whatever the clock did; after a gap of more than kGapTicks the device's

@@ -71,7 +71,8 @@ void compareTrials(const RunLog& log, Replay& replay) {
 Replay replayRun(const RunLog& log) {
   const RunConfiguration& c = log.configuration();
   const experiment::Experiment experiment = recordedExperiment(c);
-  haptics::TickEngine engine(experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand});
+  haptics::TickEngine engine(
+      experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds});
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);
   TrialTracker tracker(c.firstTrial);

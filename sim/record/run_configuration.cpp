@@ -95,6 +95,9 @@ std::string toJson(const RunConfiguration& c) {
       {"device_version", c.deviceVersion},
       {"device_max_force_n", c.deviceMaxForce},
       {"virtual_hand", c.virtualHand},
+      {"device_renders_force", c.rendersForce},
+      {"device_continuous_force_n", c.deviceContinuousForce},
+      {"device_thermal_s", c.deviceThermalSeconds},
       {"method", c.method},
       {"method_reason", c.methodReason},
       {"software_version", c.softwareVersion},
@@ -141,6 +144,9 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     c.deviceVersion = j.at("device_version");
     c.deviceMaxForce = j.at("device_max_force_n");
     c.virtualHand = j.at("virtual_hand");
+    c.rendersForce = j.value("device_renders_force", false);
+    c.deviceContinuousForce = j.value("device_continuous_force_n", 0.0);
+    c.deviceThermalSeconds = j.value("device_thermal_s", 10.0);
     c.method = j.at("method");
     c.methodReason = j.at("method_reason");
     c.softwareVersion = j.at("software_version");

@@ -40,6 +40,9 @@ struct RunConfiguration {
   std::string deviceName, deviceVersion;
   double deviceMaxForce = 0;         // [N]
   bool virtualHand = false;          // DeviceInfo::virtualHand
+  bool rendersForce = false;         // DeviceInfo::rendersForce; this and the next two are not in logs of 0.1.0
+  double deviceContinuousForce = 0;  // [N] 0: no budget was kept
+  double deviceThermalSeconds = 10;  // [s]
   std::string method, methodReason;  // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace reachlab::haptics {
@@ -11,7 +12,7 @@ constexpr double kRounding = 1e-12;  // [N] a few operations on numbers of about
 
 // Past the ramp, at rest on `force`.
 ForceSafety settled(double limit, const Vec3& force) {
-  ForceSafety safety(limit);
+  ForceSafety safety({limit});
   for (int i = 0; i < 300; ++i) safety.limit(force, true, true);
   return safety;
 }
@@ -43,7 +44,7 @@ TEST(ForceSafety, AKickIsSpreadOverTicks) {
 }
 
 TEST(ForceSafety, GrowsFromZeroWhenATrialEngages) {
-  ForceSafety safety(10);
+  ForceSafety safety({10});
   double last = 0;
   for (int tick = 1; tick <= 200; ++tick) {
     const double size = norm(safety.limit({100, 0, 0}, true, true));
@@ -75,6 +76,33 @@ TEST(ForceSafety, LatchesOnWhatIsNotANumberUntilRearmed) {
 TEST(ForceSafety, AHugeForceIsStillTheLimit) {
   ForceSafety safety = settled(10, {1e200, 0, 0});
   EXPECT_LE(norm(safety.limit({1e200, 1e200, 0}, true, true)), 10 + kRounding);
+}
+
+// 8.5 N peak and 1.4 N continuous, as a Premium 1.5: a steady wish for the peak is granted at first and worn down to the continuous one.
+TEST(ForceSafety, WearsThePeakDownToWhatTheMotorsStand) {
+  ForceSafety safety({8.5, 1.4, 10});
+  double first = 0, last = 0;
+  for (int tick = 0; tick < 60'000; ++tick) {
+    last = norm(safety.limit({100, 0, 0}, true, true));
+    first = std::max(first, last);
+    ASSERT_LE(safety.heat(), 1 + kRounding) << "the mean square over the time constant never exceeds the continuous force's";
+  }
+  EXPECT_NEAR(first, 8.5, kRounding);
+  EXPECT_NEAR(last, 1.4, 0.01);
+  for (int tick = 0; tick < 60'000; ++tick) safety.limit({}, true, true);
+  EXPECT_LT(safety.heat(), 0.01) << "and it cools";
+}
+
+TEST(ForceSafety, ShortPeaksAreFeltInFull) {
+  ForceSafety safety({8.5, 1.4, 10});
+  for (int trial = 0; trial < 20; ++trial)
+    for (int tick = 0; tick < 3000; ++tick) {
+      const Vec3 wish{tick < 500 ? 3.0 : 0.0, 0, 0};  // RMS 1.2 N
+      const Vec3 felt = safety.limit(wish, true, true);
+      if (tick > 250 && tick < 500) {
+        ASSERT_EQ(felt, wish);
+      }
+    }
 }
 
 }  // namespace

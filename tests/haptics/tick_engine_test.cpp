@@ -313,5 +313,32 @@ TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {
   EXPECT_EQ(engine.state().result.reason, trial::Reason::ForceLimit);
 }
 
+// The hand is frozen ahead of the object: the coupling asks for more than the device's 12 N and goes on asking.
+double mostForceOnAFrozenHand(double experimentsLimit, bool rendersForce) {
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  experiment.forceLimit = experimentsLimit;
+  EngineOptions options{kLimit};
+  options.rendersForce = rendersForce;
+  TickEngine engine(experiment, options);
+  TickInput input;
+  input.device = handAt(engine.protocol().start);
+  double most = 0, asked = 0;
+  for (int i = 0; i < 1500; ++i) {
+    input.command = i == 0 ? trial::Command::NextTrial : trial::Command::None;
+    if (i > 10 && i < 260) input.device.position.x += 4e-4;
+    engine.tick(input);
+    most = std::max(most, norm(engine.state().deviceForce));
+    asked = std::max(asked, norm(engine.state().feedbackForce));
+  }
+  EXPECT_GT(asked, 13.2);
+  return most;
+}
+
+TEST(TickEngine, AnExperimentCannotRaiseTheLimitOfADeviceThatRendersForce) {
+  EXPECT_NEAR(mostForceOnAFrozenHand(20, true), kLimit, 1e-12);
+  EXPECT_NEAR(mostForceOnAFrozenHand(5, true), 5, 1e-12);
+  EXPECT_GT(mostForceOnAFrozenHand(20, false), 13.2) << "where no force is felt, the experiment's stands for the device's";
+}
+
 }  // namespace
 }  // namespace reachlab::haptics
