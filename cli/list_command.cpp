@@ -7,7 +7,7 @@
 
 #include "cli/commands.h"
 #include "constraints/definition.h"
-#include "devices/make_device.h"
+#include "devices/registry.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 
@@ -71,11 +71,34 @@ Json listCriteria() {
   return rows;
 }
 
+template <typename Number>
+Json orNull(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
 Json listDevices() {
   Json rows = Json::array();
-  for (const devices::DeviceDescription& device : devices::knownDevices())
-    rows.push_back({{"name", device.name}, {"description", device.description}});
+  for (const devices::FoundDevice& d : devices::findDevices())
+    rows.push_back({{"name", d.name},
+                    {"kind", d.kind},
+                    {"description", d.description},
+                    {"present", d.present},
+                    {"why_not", d.present ? Json(nullptr) : Json(d.whyNot)},
+                    {"degrees_of_freedom", orNull(d.degreesOfFreedom)},
+                    {"max_force_n", orNull(d.maxForce)},
+                    {"continuous_force_n", orNull(d.continuousForce)},
+                    {"rate_hz", orNull(d.rate)}});
   return rows;
+}
+
+// What it can do, or why it is not there.
+std::string describeDevice(const Json& row) {
+  const std::string what = row["description"];
+  if (!row["present"]) return fmt::format("{}: not there: {}", what, row["why_not"].get<std::string>());
+  if (!row["max_force_n"].is_number() || row["max_force_n"] == 0) return what;
+  const std::string forever =
+      row["continuous_force_n"].is_number() ? fmt::format(", {} N for ever", row["continuous_force_n"].get<double>()) : "";
+  return fmt::format("{} ({} N{})", what, row["max_force_n"].get<double>(), forever);
 }
 
 }  // namespace
@@ -99,7 +122,9 @@ void addListCommand(CLI::App& app, int&) {
       std::puts(rows.dump(2).c_str());
       return;
     }
-    for (const Json& row : rows) fmt::print("{:<24} {}\n", row["name"].get<std::string>(), row["description"].get<std::string>());
+    for (const Json& row : rows)
+      fmt::print("{:<24} {}\n", row["name"].get<std::string>(),
+                 *what == "devices" ? describeDevice(row) : row["description"].get<std::string>());
   });
 }
 

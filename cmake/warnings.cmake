@@ -19,10 +19,15 @@ if(REACHLAB_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${REACHLAB_CCACHE})
 endif()
 
-# reachlab_library(<name> DEPENDS <public libraries…> PRIVATE <private libraries…>): the .cpp files of this folder as one target.
+# reachlab_library(<name> DEPENDS <public libraries…> PRIVATE <private libraries…> ROOMS <sub-folders…>): the .cpp files of this folder and
+# of its rooms as one target.
 function(reachlab_library name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE;ROOMS" ${ARGN})
+  set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(room IN LISTS ARG_ROOMS)
+    list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${room}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE} reachlab_warnings)

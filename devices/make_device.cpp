@@ -1,34 +1,36 @@
 #include "devices/make_device.h"
 
 #include "base/error.h"
-#include "devices/replayed_reach.h"
-#include "devices/simulated_hand.h"
-#include "sim/trial/protocol.h"
+#include "devices/registry.h"
+#include "devices/replay/replayed_reach.h"
 
 namespace reachlab::devices {
+namespace {
+
+struct Spec {
+  std::string name, argument;
+};
+Spec parse(const std::string& spec) {
+  const std::size_t colon = spec.find(':');
+  if (colon != std::string::npos) return {spec.substr(0, colon), spec.substr(colon + 1)};
+  // Options without a name of one device: `hid,model=polhem_v1`.
+  const std::size_t comma = std::min(spec.find(','), spec.size());
+  return {spec.substr(0, comma), spec.substr(comma)};
+}
+
+}  // namespace
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {
-  const std::size_t colon = spec.find(':');
-  const std::string name = spec.substr(0, colon), argument = colon == std::string::npos ? "" : spec.substr(colon + 1);
-  if (name == "simulated") return makeSimulatedHand(experiment, parseSubject(argument), seed);
-  if (name == "replay") {
-    if (argument.empty()) throw UsageError("--device replay: what to replay is missing; allowed: replay:FILE, replay:FOLDER");
-    const trial::ProtocolSettings task = trial::makeProtocolSettings(experiment, constraints::makeConstraint(experiment.constraint));
-    return makeReplayHand(argument, task.start, task.target);
-  }
-  if (name == "mouse") throw ResourceError("--device mouse: needs a window to point into; use `reachlab`");
-  throw UsageError("--device " + spec + ": unknown; allowed: simulated[:KEY=VALUE,...], replay:FILE, replay:FOLDER, mouse");
+  const Spec asked = parse(spec);
+  if (const DeviceDriver* driver = findDriver(asked.name)) return driver->make({asked.name, asked.argument, experiment, seed});
+  std::string known;
+  for (const DeviceDriver& driver : deviceDrivers()) known += (known.empty() ? "" : ", ") + driver.usage;
+  throw UsageError("device " + spec + ": unknown; allowed: " + known);
 }
 
 int trialsOnOffer(const std::string& spec) {
-  const std::string replay = "replay:";
-  return spec.starts_with(replay) && spec.size() > replay.size() ? static_cast<int>(reachFiles(spec.substr(replay.size())).size()) : 1;
-}
-
-std::vector<DeviceDescription> knownDevices() {
-  return {{"simulated", "a virtual subject: minimum hand jerk for this very object, with seeded motor noise"},
-          {"replay", "replay:FILE|FOLDER, recorded reaches laid onto start and target, one a trial"},
-          {"mouse", "the pointer in the window of `reachlab`"}};
+  const Spec asked = parse(spec);
+  return asked.name == "replay" && !asked.argument.empty() ? static_cast<int>(reachFiles(asked.argument).size()) : 1;
 }
 
 }  // namespace reachlab::devices

@@ -2,29 +2,19 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
 
-/// Makes the device that `NAME[:ARGUMENT]` names, for this experiment:
-///   replay:FILE | replay:FOLDER          recorded reaches, the files of a folder in name order, one a trial, again from the first
-///   simulated[:KEY=VALUE,…]              a virtual subject; keys: noise, criterion, hand-mass, time-sd, reaction (simulated_hand.h)
-///   mouse                                only in the window, which makes it itself
-/// Trial i depends on (seed, i) alone. Throws UsageError (unknown name, key or value, a file that cannot be understood), ResourceError
-/// (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
+/// Makes the device that `NAME[:ARGUMENT]` names, for this experiment; `deviceDrivers` (registry.h) has all that there are. Of a virtual
+/// hand, trial i depends on (seed, i) alone. Throws UsageError (unknown name, key or value, a file that cannot be understood),
+/// ResourceError (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
 /// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws
 /// ResourceError when there is nothing to replay.
 int trialsOnOffer(const std::string& spec);
-
-struct DeviceDescription {
-  std::string name, description;
-};
-/// The devices that this program knows, for lists.
-std::vector<DeviceDescription> knownDevices();
 
 }  // namespace reachlab::devices

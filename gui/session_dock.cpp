@@ -13,7 +13,7 @@
 #include <QVBoxLayout>
 
 #include "base/error.h"
-#include "devices/make_device.h"
+#include "devices/registry.h"
 #include "gui/fault_label.h"
 #include "gui/trial_texts.h"
 #include "gui/unit_spin_box.h"
@@ -71,8 +71,7 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   data_->setObjectName(QStringLiteral("data"));
   form->addRow(QStringLiteral("data in"), data_);
   QString devices;
-  for (const devices::DeviceDescription& d : devices::knownDevices())
-    devices += QString::fromStdString(d.name + ": " + d.description + "\n");
+  for (const devices::DeviceDriver& d : devices::deviceDrivers()) devices += QString::fromStdString(d.usage + ": " + d.description + "\n");
   device_->setToolTip(devices.trimmed());
   layout->addWidget(who_);
   faults_ = new FaultLabel;

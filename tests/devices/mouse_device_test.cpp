@@ -1,4 +1,4 @@
-#include "devices/mouse_device.h"
+#include "devices/mouse/mouse_device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "devices/replayed_reach.h"
+#include "devices/replay/replayed_reach.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "devices/natural_spline.h"
+#include "devices/replay/natural_spline.h"
 #include "test_paths.h"
 
 namespace reachlab::devices {

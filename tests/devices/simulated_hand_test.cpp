@@ -1,4 +1,4 @@
-#include "devices/simulated_hand.h"
+#include "devices/simulated/simulated_hand.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "devices/natural_spline.h"
+#include "devices/replay/natural_spline.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "devices/played_hand.h"
+#include "devices/simulated/played_hand.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "devices/simulated_hand.h"
+#include "devices/simulated/simulated_hand.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,9 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "devices/played_hand.h"
-#include "devices/reach_plan.h"
+#include "devices/drivers.h"
+#include "devices/simulated/played_hand.h"
+#include "devices/simulated/reach_plan.h"
 #include "base/seeded.h"
 #include "sim/trial/protocol.h"
 
@@ -103,13 +104,13 @@ double readNumber(const std::string& key, const std::string& text, double most) 
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= 0) || !(value <= most))
-    throw UsageError(fmt::format("--device simulated: {}={}: allowed: a number from 0 to {}", key, text, most));
+    throw UsageError(fmt::format("device simulated: {}={}: allowed: a number from 0 to {}", key, text, most));
   return value;
 }
 
 predict::Criterion readCriterion(const std::string& text) {
   if (const auto criterion = predict::criterionFromName(text)) return *criterion;
-  throw UsageError(fmt::format("--device simulated: criterion={}: allowed: the names of `reach list criteria`", text));
+  throw UsageError(fmt::format("device simulated: criterion={}: allowed: the names of `reach list criteria`", text));
 }
 
 }  // namespace
@@ -131,7 +132,7 @@ SubjectSpec parseSubject(const std::string& text) {
     else if (key == "criterion") subject.criterion = readCriterion(value);
     else
       throw UsageError(
-          fmt::format("--device simulated: {}: unknown; allowed: noise, criterion, hand-mass, time-sd, speed-sd, reaction", key));
+          fmt::format("device simulated: {}: unknown; allowed: noise, criterion, hand-mass, time-sd, speed-sd, reaction", key));
   }
   return subject;
 }
@@ -143,6 +144,15 @@ std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::Exper
   info.name = "simulated";
   info.version = "1";
   return std::make_unique<PlayedHand>(info, [=](int trial) { return carryOut(plan, subject, seed, trial); });
+}
+
+DeviceDriver simulatedDriver() {
+  return {"simulated",
+          "simulated[:KEY=VALUE,…]",
+          "a virtual subject: minimum hand jerk for this very object, with seeded motor noise",
+          false,
+          alwaysThere,
+          [](const DeviceRequest& r) { return makeSimulatedHand(r.experiment, parseSubject(r.argument), r.seed); }};
 }
 
 }  // namespace reachlab::devices

@@ -1,4 +1,4 @@
-#include "devices/replayed_reach.h"
+#include "devices/replay/replayed_reach.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,8 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "devices/natural_spline.h"
+#include "devices/drivers.h"
+#include "devices/replay/natural_spline.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -120,6 +121,22 @@ std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& path, c
   info.version = "1";
   return std::make_unique<PlayedHand>(
       info, [reaches = std::move(reaches)](int trial) { return reaches[static_cast<std::size_t>(trial) % reaches.size()]; });
+}
+
+namespace {
+
+std::unique_ptr<haptics::HapticDevice> makeReplay(const DeviceRequest& request) {
+  if (request.argument.empty()) throw UsageError("device replay: what to replay is missing; allowed: replay:FILE, replay:FOLDER");
+  const trial::ProtocolSettings task =
+      trial::makeProtocolSettings(request.experiment, constraints::makeConstraint(request.experiment.constraint));
+  return makeReplayHand(request.argument, task.start, task.target);
+}
+
+}  // namespace
+
+DeviceDriver replayDriver() {
+  return {"replay", "replay:FILE|FOLDER", "replay:FILE|FOLDER, recorded reaches laid onto start and target, one a trial",
+          false,    alwaysThere,          makeReplay};
 }
 
 }  // namespace reachlab::devices

@@ -1,4 +1,4 @@
-#include "devices/reach_plan.h"
+#include "devices/simulated/reach_plan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/played_hand.h"
+#include "devices/simulated/played_hand.h"
 
 namespace reachlab::devices {
 

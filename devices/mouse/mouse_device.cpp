@@ -1,7 +1,9 @@
-#include "devices/mouse_device.h"
+#include "devices/mouse/mouse_device.h"
 
 #include <cmath>
 
+#include "base/error.h"
+#include "devices/drivers.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -29,5 +31,20 @@ haptics::DeviceSample MouseDevice::read() noexcept {
 }
 
 void MouseDevice::write(const Vec3&) noexcept {}
+
+DeviceDriver mouseDriver() {
+  return {"mouse",
+          "mouse",
+          "the pointer in the window of `reachlab`",
+          true,
+          [](const DeviceDriver& self) {
+            std::vector<FoundDevice> rows = alwaysThere(self);
+            rows.front().rate = 125;
+            return rows;
+          },
+          [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
+            throw ResourceError("device mouse: needs a window to point into; use `reachlab`");
+          }};
+}
 
 }  // namespace reachlab::devices

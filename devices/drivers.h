@@ -1,0 +1,16 @@
+#pragma once
+#include "devices/registry.h"
+
+/// Every driver's entry; each is defined beside its driver.
+namespace reachlab::devices {
+
+DeviceDriver simulatedDriver();
+DeviceDriver replayDriver();
+DeviceDriver mouseDriver();
+DeviceDriver virtualDriver();
+DeviceDriver phantomDriver();
+DeviceDriver forceDimensionDriver();
+DeviceDriver hidDriver();
+DeviceDriver spaceMouseDriver();
+
+}  // namespace reachlab::devices

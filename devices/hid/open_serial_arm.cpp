@@ -1,0 +1,149 @@
+#include "devices/hid/open_serial_arm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace reachlab::devices {
+namespace {
+
+constexpr ArmModel kModels[] = {
+    {"woodenhaptics_v2015",
+     {.010, .010, .010},
+     {.080, .205, .245},
+     {.160, .120, .120},
+     {.220, 0, .080},
+     {.0259, .0259, .0259},
+     2000,
+     5,
+     1000,
+     {0, 0, 6000},
+     {false, false, false}},
+    {"woodenhaptics_v2019",
+     {.010, .010, .010},
+     {.080, .205, .245},
+     {.160, .120, .120},
+     {.220, 0, .080},
+     {.321, .0603, .0603},
+     2000,
+     5,
+     1000,
+     {0, 0, 6000},
+     {false, false, false}},
+    {"default_woody",
+     {.010, .010, .010},
+     {.080, .205, .245},
+     {.160, .120, .120},
+     {.220, 0, .080},
+     {.0259, .0259, .0259},
+     2000,
+     5,
+     1000,
+     {0, 0, 0},
+     {false, true, false}},
+    {"polhem_v1",
+     {.010, .010, .010},
+     {.058, .174, .133},
+     {.180, .100, .100},
+     {.140, 0, .100},
+     {.0538, .0538, .0538},
+     2000,
+     5,
+     800,
+     {0, 0, -5000},
+     {true, true, true}},
+    {"aluhaptics_v2",
+     {.0138, .0098, .0098},
+     {.111, .140, .111},
+     {.116, .076, .076},
+     {.140, 0, 0},
+     {.0259, .0259, .0259},
+     2000,
+     5,
+     1000,
+     {0, 0, 0},
+     {false, false, false}},
+    {"vintage",
+     {.013, .010, .010},
+     {.056, .138, .112},
+     {.117, .077, .077},
+     {.140, 0, 0},
+     {.0163, .0163, .0163},
+     4000,
+     5,
+     800,
+     {0, 0, 0},
+     {false, false, false}},
+};
+
+double reduction(const ArmModel& m, int i) noexcept { return m.body[i] / m.capstan[i]; }
+double sign(const ArmModel& m, int i) noexcept { return m.aligned[i] ? -1 : 1; }
+
+}  // namespace
+
+std::span<const ArmModel> armModels() { return kModels; }
+
+const ArmModel* findArmModel(std::string_view name) {
+  const auto at = std::find_if(std::begin(kModels), std::end(kModels), [&](const ArmModel& m) { return m.name == name; });
+  return at == std::end(kModels) ? nullptr : at;
+}
+
+std::array<double, 3> jointAngles(const ArmModel& m, const std::array<double, 3>& counts) noexcept {
+  std::array<double, 3> angles{};
+  for (int i = 0; i < 3; ++i) angles[i] = sign(m, i) * 2 * std::numbers::pi * counts[i] / m.countsPerTurn / reduction(m, i);
+  return angles;
+}
+
+std::array<double, 3> encoderCounts(const ArmModel& m, const std::array<double, 3>& angles) noexcept {
+  std::array<double, 3> counts{};
+  for (int i = 0; i < 3; ++i) counts[i] = sign(m, i) * angles[i] * reduction(m, i) * m.countsPerTurn / (2 * std::numbers::pi);
+  return counts;
+}
+
+Vec3 handlePlace(const ArmModel& m, const std::array<double, 3>& th) noexcept {
+  const double out = m.length[1] * std::sin(th[1]) + m.length[2] * std::sin(th[2]);
+  return Vec3{std::cos(th[0]) * out, std::sin(th[0]) * out, m.length[0] + m.length[1] * std::cos(th[1]) - m.length[2] * std::cos(th[2])} -
+         m.origin;
+}
+
+// In the arm's plane: lb (sin thB, cos thB) + lc (sin thC, -cos thC) = (out, up). With thC' = pi - thC it is a plain two-link chain of
+// angles from the vertical; the elbow lies towards the user's side of the line when thB < thC'.
+std::array<double, 3> anglesAt(const ArmModel& m, const Vec3& place) noexcept {
+  const Vec3 p = place + m.origin;
+  const double out = std::hypot(p.x, p.y), up = p.z - m.length[0], reach2 = out * out + up * up;
+  const double lb = m.length[1], lc = m.length[2];
+  const double towards = std::atan2(out, up);  // from the vertical
+  const double spread = std::acos((reach2 + lb * lb - lc * lc) / (2 * lb * std::sqrt(reach2)));
+  const double thB = towards - spread;
+  const double lowerOut = out - lb * std::sin(thB), lowerUp = up - lb * std::cos(thB);
+  return {std::atan2(p.y, p.x), thB, std::atan2(lowerOut, -lowerUp)};
+}
+
+std::array<Vec3, 3> jacobianRows(const ArmModel& m, const std::array<double, 3>& th) noexcept {
+  const double ca = std::cos(th[0]), sa = std::sin(th[0]), lb = m.length[1], lc = m.length[2];
+  const double out = lb * std::sin(th[1]) + lc * std::sin(th[2]);
+  return {Vec3{-sa * out, lb * ca * std::cos(th[1]), lc * ca * std::cos(th[2])},
+          Vec3{ca * out, lb * sa * std::cos(th[1]), lc * sa * std::cos(th[2])}, Vec3{0, -lb * std::sin(th[1]), lc * std::sin(th[2])}};
+}
+
+std::array<double, 3> jointTorques(const ArmModel& m, const std::array<double, 3>& th, const Vec3& f) noexcept {
+  const auto j = jacobianRows(m, th);
+  return {j[0].x * f.x + j[1].x * f.y + j[2].x * f.z, j[0].y * f.x + j[1].y * f.y + j[2].y * f.z,
+          j[0].z * f.x + j[1].z * f.y + j[2].z * f.z};
+}
+
+std::array<double, 3> motorCurrents(const ArmModel& m, const std::array<double, 3>& th, const Vec3& force, double maxCurrent) noexcept {
+  const std::array<double, 3> torque = jointTorques(m, th, force);
+  std::array<double, 3> current{};
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    current[i] = sign(m, i) * torque[i] / reduction(m, i) / m.torqueConstant[i];
+    most = std::max(most, std::abs(current[i]));
+    if (!std::isfinite(current[i])) return {};
+  }
+  if (most > maxCurrent)
+    for (double& i : current) i *= maxCurrent / most;
+  return current;
+}
+
+}  // namespace reachlab::devices

@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "base/vec3.h"
+
+/// The open WoodenHaptics and Polhem arms: three motors, capstan drives, a serial linkage whose second and third joint are both measured
+/// against the base. Frame of the arm: x towards the user, y right, z up [m].
+///
+///   theta_i = s_i 2 pi enc_i / cpr_i / r_i      r_i = D_body,i / D_capstan,i;  s_i = -1 where motor and body turn alike, else +1
+///   R = Lb sin thB + Lc sin thC
+///   x = cos thA R - x0,  y = sin thA R - y0,  z = Ln + Lb cos thB - Lc cos thC - z0
+///   tau = J^T F,  I_i = s_i tau_i / r_i / kt_i
+namespace reachlab::devices {
+
+struct ArmModel {
+  std::string_view name;
+  std::array<double, 3> capstan;         // [m] diameter
+  std::array<double, 3> length;          // [m] L_a (Ln), L_b, L_c
+  std::array<double, 3> body;            // [m] diameter
+  Vec3 origin;                           // [m] of the workspace
+  std::array<double, 3> torqueConstant;  // [Nm/A]
+  double countsPerTurn;
+  double maxForce;                       // [N] data sheet
+  double maxStiffness;                   // [N/m]
+  std::array<int, 3> calibrationCounts;  // encoders in the calibration pose
+  std::array<bool, 3> aligned;           // motor and body turn alike
+};
+
+/// Every model whose kinematics are public (variants 0 to 2).
+std::span<const ArmModel> armModels();
+/// Null when there is none of that name.
+const ArmModel* findArmModel(std::string_view name);
+
+/// Joint angles [rad] of encoder counts, and back (not rounded).
+std::array<double, 3> jointAngles(const ArmModel& model, const std::array<double, 3>& counts) noexcept;
+std::array<double, 3> encoderCounts(const ArmModel& model, const std::array<double, 3>& angles) noexcept;
+/// The handle [m], frame of the arm.
+Vec3 handlePlace(const ArmModel& model, const std::array<double, 3>& angles) noexcept;
+/// The angles that bring the handle to `place`, elbow as in the workspace; not a number where the arm does not reach.
+std::array<double, 3> anglesAt(const ArmModel& model, const Vec3& place) noexcept;
+/// d(x, y, z)/d(angles), rows x, y, z.
+std::array<Vec3, 3> jacobianRows(const ArmModel& model, const std::array<double, 3>& angles) noexcept;
+/// Torques of the joints for a force at the handle [N m].
+std::array<double, 3> jointTorques(const ArmModel& model, const std::array<double, 3>& angles, const Vec3& force) noexcept;
+/// Currents of the motors [A] for a force [N], all three scaled by one factor where any would exceed `maxCurrent`, so that the force
+/// keeps its direction. A force or an angle that is not finite gives zero.
+std::array<double, 3> motorCurrents(const ArmModel& model, const std::array<double, 3>& angles, const Vec3& force,
+                                    double maxCurrent) noexcept;
+
+}  // namespace reachlab::devices

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "base/os.h"
+#include "devices/drivers.h"
+#include "devices/hid/hid_port.h"
+#include "devices/hid/space_mouse_report.h"
+#include "devices/io/rate_hand.h"
+#include "devices/options.h"
+#include "sim/trial/protocol.h"
+
+/// 3Dconnexion SpaceMouse: six axes of push without force, every 8 ms (wired). Verified against published reports, not on a device.
+namespace reachlab::devices {
+namespace {
+
+constexpr std::uint16_t kLogitech = 0x046D, k3Dconnexion = 0x256F;
+
+bool isSpaceMouse(const HidInterface& at) {
+  constexpr std::uint16_t older[] = {0xC603, 0xC605, 0xC606, 0xC621, 0xC623, 0xC625, 0xC626, 0xC627, 0xC628, 0xC629, 0xC62B};
+  return at.vendor == k3Dconnexion ||
+         (at.vendor == kLogitech && std::find(std::begin(older), std::end(older), at.product) != std::end(older));
+}
+
+std::vector<HidInterface> findSpaceMice() {
+  std::vector<HidInterface> found = findHid();
+  std::erase_if(found, [](const HidInterface& at) { return !isSpaceMouse(at); });
+  return found;
+}
+
+HidInterface chooseSpaceMouse(const std::string& key, const std::string& words) {
+  for (const HidInterface& mouse : findSpaceMice())
+    if (key.empty() || mouse.key() == key || mouse.path == key) return mouse;
+  throw ResourceError(fmt::format("{}: no such 3Dconnexion SpaceMouse is connected", words));
+}
+
+class SpaceMouseSource final : public DeflectionSource {
+ public:
+  SpaceMouseSource(std::string key, std::string words)
+      : key_(std::move(key)), words_(std::move(words)), port_(openHid(chooseSpaceMouse(key_, words_))) {}
+
+  // Everything that waits is taken, so that the newest is never seconds old.
+  bool wait(Deflection& newest, bool& lost) override {
+    if (!port_ && !reopen()) {
+      lost = true;
+      return false;
+    }
+    std::array<std::uint8_t, 32> report{};
+    bool came = false;
+    constexpr int kMost = 256, kWaitMs = 50;
+    for (int i = 0; i < kMost; ++i) {
+      const int got = port_->read(report, came ? 0 : kWaitMs);
+      if (got < 0) {
+        port_.reset();
+        lost = true;
+        return false;
+      }
+      if (got == 0) break;
+      came = takeSpaceMouseReport({report.data(), static_cast<std::size_t>(got)}, state_) || came;
+    }
+    newest = {state_.push, state_.buttons};
+    return came;
+  }
+
+ private:
+  bool reopen() {
+    constexpr std::int64_t kPauseNs = 200'000'000;
+    os::sleepUntil(os::now() + kPauseNs);
+    try {
+      port_ = openHid(chooseSpaceMouse(key_, words_));
+      state_ = {};
+      return true;
+    } catch (const ResourceError&) {
+      return false;
+    }
+  }
+  std::string key_, words_;
+  std::unique_ptr<HidPort> port_;
+  SpaceMouseState state_;
+};
+
+std::unique_ptr<haptics::HapticDevice> makeSpaceMouse(const DeviceRequest& request) {
+  DeviceOptions options(request.argument, request.words());
+  RateHand::Options chosen;
+  chosen.gain = options.number("gain", chosen.gain, 0.01, 5);
+  chosen.deadZone = options.number("dead-zone", chosen.deadZone, 0, 0.5);
+  options.done();
+  const HidInterface mouse = chooseSpaceMouse(options.plain(), request.words());
+  haptics::DeviceInfo info;
+  info.name = mouse.title.empty() ? "SpaceMouse" : mouse.title;
+  info.version = "HID";
+  info.rate = 125;
+  return std::make_unique<RateHand>(info, chosen, startOf(request.experiment),
+                                    std::make_shared<SpaceMouseSource>(mouse.key(), request.words()));
+}
+
+std::vector<FoundDevice> findSpaceMouseDevices(const DeviceDriver& self) {
+  std::vector<FoundDevice> found;
+  for (const HidInterface& mouse : findSpaceMice()) {
+    haptics::DeviceInfo info;
+    info.name = mouse.title;
+    info.rate = 125;
+    info.degreesOfFreedom = 6;
+    found.push_back(presentDevice(self, self.name + ":" + mouse.key(), info));
+    found.back().whyNot = whyNotOpen(mouse);
+    found.back().present = found.back().whyNot.empty();
+  }
+  if (found.empty()) return {absentDevice(self, "no 3Dconnexion SpaceMouse (USB 256f, 046d:c6xx) is connected")};
+  return found;
+}
+
+}  // namespace
+
+DeviceDriver spaceMouseDriver() {
+  return {"spacemouse",
+          "spacemouse[:SERIAL][,gain=M_PER_S,dead-zone=SHARE]",
+          "3Dconnexion SpaceMouse: the push steers the hand's speed",
+          false,
+          findSpaceMouseDevices,
+          makeSpaceMouse};
+}
+
+}  // namespace reachlab::devices

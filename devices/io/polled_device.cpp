@@ -1,0 +1,164 @@
+#include "devices/io/polled_device.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "base/error.h"
+#include "base/os.h"
+
+namespace reachlab::devices {
+
+using haptics::DeviceHealth;
+using haptics::DeviceSample;
+
+namespace {
+
+struct TimedForce {
+  Vec3 force;           // [N]
+  std::int64_t ns = 0;  // when the tick left it
+};
+
+constexpr std::int64_t kPauseNs = 1'000'000;  // after an exchange that brought nothing, so that a dead device does not burn a core
+constexpr std::chrono::milliseconds kPatience{300};
+
+}  // namespace
+
+struct PolledDevice::Shared final : ForceSource {
+  explicit Shared(std::shared_ptr<Transport> t) : transport(std::move(t)) {}
+
+  std::shared_ptr<Transport> transport;
+  TripleBuffer<TimedForce> forces;     // tick -> I/O
+  TripleBuffer<DeviceSample> samples;  // I/O -> tick
+  std::atomic<bool> stopping{false}, lost{false}, forceStopped{false};
+  std::atomic<std::uint64_t> reports{0};
+  // Between the controlling thread and the I/O thread only.
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool calibrationAsked = false, calibrated = false;
+  std::string calibrationFault;
+  TimedForce latest;  // the I/O thread's
+
+  Vec3 newest() noexcept override;
+  void run();
+  void serveCalibration();
+  void takeReport(DeviceSample& sample);
+};
+
+void PolledDevice::Shared::takeReport(DeviceSample& sample) {
+  sample.valid = true;
+  sample.reports = reports.load(std::memory_order_relaxed) + 1;
+  sample.takenNs = os::now();
+  samples.publish(sample);
+  lost.store(false, std::memory_order_release);
+  const bool first = sample.reports == 1;
+  reports.store(sample.reports, std::memory_order_release);
+  if (first) {
+    const std::lock_guard lock(mutex);
+    changed.notify_all();
+  }
+}
+
+void PolledDevice::Shared::serveCalibration() {
+  {
+    const std::lock_guard lock(mutex);
+    if (!calibrationAsked) return;
+  }
+  const std::string fault = transport->calibrate();
+  const std::lock_guard lock(mutex);
+  calibrationAsked = false;
+  calibrated = true;
+  calibrationFault = fault;
+  changed.notify_all();
+}
+
+Vec3 PolledDevice::Shared::newest() noexcept {
+  if (const TimedForce* force = forces.takeLatest()) latest = *force;
+  const bool off = os::now() - latest.ns > kStaleNs || forceStopped.load(std::memory_order_acquire) ||
+                   lost.load(std::memory_order_acquire) || stopping.load(std::memory_order_acquire);
+  return off ? Vec3{} : latest.force;
+}
+
+void PolledDevice::Shared::run() {
+  DeviceSample sample;
+  std::int64_t nextReopenNs = 0;
+  while (!stopping.load(std::memory_order_acquire)) {
+    serveCalibration();
+    if (lost.load(std::memory_order_acquire)) {
+      os::sleepUntil(os::now() + kPauseNs);
+      if (os::now() < nextReopenNs) continue;
+      nextReopenNs = os::now() + kReopenNs;
+      if (!transport->reopen()) continue;
+    }
+    switch (transport->exchange(*this, sample)) {
+      case Exchange::Report: takeReport(sample); break;
+      case Exchange::Nothing: os::sleepUntil(os::now() + kPauseNs); break;
+      case Exchange::Lost:
+        lost.store(true, std::memory_order_release);
+        nextReopenNs = os::now() + kReopenNs;
+        break;
+    }
+  }
+  transport->close();
+}
+
+PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
+    : info_(transport->info()), shared_(std::make_shared<Shared>(std::move(transport))) {
+  thread_ = haptics::LeavableThread([shared = shared_] {
+    constexpr int kBelowTheTick = 70;
+    os::requestRealTime(kBelowTheTick);
+    os::requestExactSleep();
+    shared->run();
+  });
+  std::unique_lock lock(shared_->mutex);
+  const bool came = shared_->changed.wait_for(lock, std::chrono::milliseconds(patienceMs), [&] { return shared_->reports > 0; });
+  lock.unlock();
+  if (came) return;
+  shared_->stopping = true;
+  if (!thread_.join(kPatience)) thread_.leave();
+  throw ResourceError(fmt::format("device {}: it was opened, but no report came within {} ms", info_.name, patienceMs));
+}
+
+PolledDevice::~PolledDevice() {
+  shared_->stopping = true;
+  if (!thread_.join(kPatience)) thread_.leave();
+}
+
+DeviceSample PolledDevice::read() noexcept {
+  if (const DeviceSample* newest = shared_->samples.takeLatest()) last_ = *newest;
+  DeviceSample sample = last_;
+  if (shared_->lost.load(std::memory_order_acquire)) sample.valid = false;
+  return sample;
+}
+
+void PolledDevice::write(const Vec3& force) noexcept {
+  shared_->forceStopped.store(false, std::memory_order_release);
+  shared_->forces.publish({force, os::now()});
+}
+
+DeviceHealth PolledDevice::health() const noexcept {
+  return shared_->lost.load(std::memory_order_acquire) ? DeviceHealth::Lost : DeviceHealth::Ready;
+}
+
+std::string PolledDevice::healthText() const { return health() == DeviceHealth::Lost ? "no connection any more" : ""; }
+
+bool PolledDevice::stopForce() noexcept {
+  shared_->forceStopped.store(true, std::memory_order_release);
+  shared_->transport->stopForce();
+  return true;
+}
+
+std::string PolledDevice::calibrationHint() const { return shared_->transport->calibrationHint(); }
+
+void PolledDevice::calibrate() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->calibrationAsked = true;
+  shared_->calibrated = false;
+  const bool came = shared_->changed.wait_for(lock, std::chrono::seconds(5), [&] { return shared_->calibrated; });
+  if (!came) throw ResourceError(fmt::format("device {}: it did not answer the calibration within 5 s", info_.name));
+  if (!shared_->calibrationFault.empty()) throw ResourceError(fmt::format("device {}: {}", info_.name, shared_->calibrationFault));
+}
+
+}  // namespace reachlab::devices

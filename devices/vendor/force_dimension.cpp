@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/os.h"
+#include "devices/drivers.h"
+#include "devices/io/polled_device.h"
+#include "devices/options.h"
+#include "devices/orientation.h"
+#include "devices/vendor/force_dimension_api.h"
+
+/// omega, delta, sigma, lambda and the Falcon by the vendor's library. Its calls may wait, so an I/O thread makes them, at most 2 kHz.
+namespace reachlab::devices {
+namespace {
+
+constexpr std::int64_t kPeriodNs = 500'000;
+constexpr int kMostErrors = 20;  // in a row, before it counts as lost: some 10 ms
+
+// x towards the user, y right, z up <-> x right, y up, z towards the user.
+Vec3 toWorld(const Vec3& v) { return {v.y, v.z, v.x}; }
+Vec3 toDevice(const Vec3& v) { return {v.z, v.x, v.y}; }
+
+// Data sheets: peak force where the library does not tell it [N], radius of the workspace [m].
+struct Model {
+  int type;
+  double maxForce, radius;
+};
+constexpr Model kModels[] = {{63, 20, 0.20},  {33, 12, 0.08},   {34, 12, 0.08},   {36, 12, 0.08},   {35, 12, 0.08},
+                             {37, 12, 0.08},  {206, 20, 0.095}, {104, 20, 0.095}, {105, 20, 0.095}, {203, 20, 0.12},
+                             {108, 20, 0.12}, {109, 20, 0.12},  {60, 9, 0.05}};
+constexpr double kUnknownForce = 8, kUnknownRadius = 0.05;
+
+class ForceDimension final : public Transport {
+ public:
+  ForceDimension(int index, std::string words, bool deviceVelocity)
+      : dhd_(dhd::api()), id_(static_cast<char>(index)), words_(std::move(words)), deviceVelocity_(deviceVelocity) {
+    open();
+  }
+  ~ForceDimension() override { shut(); }
+
+  haptics::DeviceInfo info() const override { return info_; }
+
+  Exchange exchange(ForceSource& source, haptics::DeviceSample& sample) override {
+    os::sleepUntil(nextNs_);
+    nextNs_ = std::max(nextNs_ + kPeriodNs, os::now());
+    Vec3 place, velocity;
+    bool fine = dhd_.getPosition(&place.x, &place.y, &place.z, id_) >= 0;
+    if (fine && deviceVelocity_) fine = dhd_.getLinearVelocity(&velocity.x, &velocity.y, &velocity.z, id_) >= 0;
+    const Vec3 force = toDevice(source.newest());
+    fine = (dhd_.setForce(force.x, force.y, force.z, id_) >= 0) && fine;
+    if (!fine) return fault();
+    errors_ = 0;
+    sample.position = toWorld(place);
+    sample.velocity = toWorld(velocity);
+    sample.hasVelocity = deviceVelocity_;
+    sample.buttons = dhd_.getButtonMask != nullptr ? dhd_.getButtonMask(id_) : 0;
+    if (wrist_) readOrientation(sample);
+    return Exchange::Report;
+  }
+
+  bool reopen() override {
+    try {
+      shut();
+      open();
+      return true;
+    } catch (const ResourceError&) {
+      return false;
+    }
+  }
+
+  void close() noexcept override { shut(); }
+
+ private:
+  void open() {
+    if (dhd_.openId(id_) < 0) throw ResourceError(fmt::format("{}: {}: {}", words_, dhd_.library.name(), dhd_.lastError()));
+    isOpen_ = true;
+    if (dhd_.enableForce(1, id_) < 0) {
+      const std::string said = dhd_.lastError();
+      shut();
+      throw ResourceError(fmt::format("{}: its forces cannot be switched on: {}", words_, said));
+    }
+    describe();
+    errors_ = 0;
+  }
+
+  void shut() noexcept {
+    if (!isOpen_) return;
+    isOpen_ = false;
+    dhd_.setForce(0, 0, 0, id_);
+    if (dhd_.stop != nullptr) dhd_.stop(id_);
+    dhd_.close(id_);
+  }
+
+  void describe() {
+    const char* name = dhd_.getSystemName != nullptr ? dhd_.getSystemName(id_) : nullptr;
+    std::uint16_t serial = 0;
+    const bool hasSerial = dhd_.getSerialNumber != nullptr && dhd_.getSerialNumber(&serial, id_) >= 0;
+    info_.name = fmt::format("{}{}", name != nullptr && *name != 0 ? name : "Force Dimension", hasSerial ? fmt::format(" {}", serial) : "");
+    info_.version = "DHD, " + dhd_.library.name();
+    const int type = dhd_.getSystemType != nullptr ? dhd_.getSystemType(id_) : -1;
+    const auto model = std::find_if(std::begin(kModels), std::end(kModels), [&](const Model& m) { return m.type == type; });
+    info_.maxForce = model != std::end(kModels) ? model->maxForce : kUnknownForce;
+    info_.workspaceRadius = model != std::end(kModels) ? model->radius : kUnknownRadius;
+    if (const double told = dhd_.getMaxForce != nullptr ? dhd_.getMaxForce(id_) : 0; std::isfinite(told) && told > 0) info_.maxForce = told;
+    info_.rendersForce = true;
+    info_.rate = 1e9 / kPeriodNs;
+    info_.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms";
+    wrist_ = dhd_.hasWrist != nullptr && dhd_.getOrientationFrame != nullptr && dhd_.hasWrist(id_);
+    deviceVelocity_ = deviceVelocity_ && dhd_.getLinearVelocity != nullptr;
+  }
+
+  Exchange fault() {
+    const int code = dhd_.errorGetLast != nullptr ? dhd_.errorGetLast() : dhd::kComm;
+    if (code == dhd::kNoDevice || code == dhd::kNotAvailable || ++errors_ >= kMostErrors) return Exchange::Lost;
+    return Exchange::Nothing;
+  }
+
+  // R in the device's axes; in the world's it is P R P^T with P the change of axes.
+  void readOrientation(haptics::DeviceSample& sample) {
+    double r[3][3] = {};
+    sample.hasOrientation = dhd_.getOrientationFrame(r, id_) >= 0;
+    if (!sample.hasOrientation) return;
+    constexpr int from[3] = {1, 2, 0};  // world axis i is the device's axis from[i]
+    std::array<std::array<double, 3>, 3> world{};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) world[i][j] = r[from[i]][from[j]];
+    const auto q = quaternionOf(world);
+    sample.hasOrientation = q.has_value();
+    if (q) sample.orientation = *q;
+  }
+
+  const dhd::Api& dhd_;
+  char id_;
+  std::string words_;
+  haptics::DeviceInfo info_;
+  bool deviceVelocity_, wrist_ = false, isOpen_ = false;
+  int errors_ = 0;  // in a row
+  std::int64_t nextNs_ = 0;
+};
+
+std::unique_ptr<haptics::HapticDevice> makeForceDimension(const DeviceRequest& request) {
+  DeviceOptions options(request.argument, request.words());
+  int index = 0;
+  const std::string& plain = options.plain();
+  if (!plain.empty()) {
+    if (plain.size() > 2 || plain.find_first_not_of("0123456789") != std::string::npos)
+      throw UsageError(fmt::format("{}: allowed: forcedimension:N with N = 0, 1, …", request.words()));
+    index = std::stoi(plain);
+  }
+  const bool deviceVelocity = options.word("velocity", {"estimated", "device"}) == "device";
+  options.done();
+  return std::make_unique<PolledDevice>(std::make_shared<ForceDimension>(index, request.words(), deviceVelocity));
+}
+
+std::vector<FoundDevice> findForceDimension(const DeviceDriver& self) {
+  std::vector<FoundDevice> found;
+  try {
+    const int count = dhd::api().getDeviceCount();
+    if (count <= 0) return {absentDevice(self, fmt::format("{}: no device: {}", dhd::api().library.name(), dhd::api().lastError()))};
+    for (int i = 0; i < count; ++i) {
+      const std::string name = fmt::format("{}:{}", self.name, i);
+      try {
+        found.push_back(presentDevice(self, name, ForceDimension(i, "device " + name, false).info()));
+      } catch (const ResourceError& error) {
+        found.push_back(absentDevice(self, error.what()));
+        found.back().name = name;
+      }
+    }
+  } catch (const ResourceError& error) {
+    return {absentDevice(self, error.what())};
+  }
+  return found;
+}
+
+}  // namespace
+
+DeviceDriver forceDimensionDriver() {
+  return {"forcedimension",
+          "forcedimension[:N]",
+          "omega, delta, sigma, lambda and Falcon by Force Dimension's library (libdrd.so or libdhd.so)",
+          false,
+          findForceDimension,
+          makeForceDimension};
+}
+
+}  // namespace reachlab::devices

@@ -1,0 +1,25 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace reachlab::devices {
+
+/// A force device as a body, in numbers that its maker has published. `source` says where from; all are data-sheet values, none was measured
+/// here.
+struct DeviceModel {
+  std::string_view name, title;
+  double mass;             // [kg] apparent, at the handle
+  double friction;         // [N] Coulomb, to move it backwards
+  double viscosity;        // [N s/m] makers do not publish it: 0
+  double resolution;       // [m]
+  double maxForce;         // [N] nominal peak
+  double continuousForce;  // [N]
+  double workspaceRadius;  // [m]
+  std::string_view source;
+};
+
+std::span<const DeviceModel> deviceModels();
+/// Null when there is none of that name.
+const DeviceModel* findDeviceModel(std::string_view name);
+
+}  // namespace reachlab::devices

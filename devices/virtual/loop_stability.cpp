@@ -1,0 +1,77 @@
+#include "devices/virtual/loop_stability.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "sim/trial/protocol.h"
+
+namespace reachlab::devices {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+// x' = A x + B F over one tick with F held: the two blocks of the exponential of [A B; 0 0].
+Matrix heldStep(const LoopSettings& s) {
+  Matrix generator = Matrix::Zero(3, 3);
+  generator(0, 1) = 1;
+  generator(1, 0) = -s.handStiffness / s.mass;
+  generator(1, 1) = -s.friction / s.mass;
+  generator(1, 2) = 1 / s.mass;
+  return (generator * trial::kTickSeconds).exp();
+}
+
+}  // namespace
+
+// State: x, v of the body; x(n-1); the filter's two last inputs and outputs; then the forces that are on their way.
+double spectralRadius(const LoopSettings& s) {
+  const bool filtered = s.estimator.kind != "difference";
+  constexpr int kX = 0, kV = 1, kOldX = 2, kIn1 = 3, kIn2 = 4, kOut1 = 5, kOut2 = 6, kForces = 7;
+  const int size = kForces + s.delayTicks;
+  using Row = Eigen::RowVectorXd;
+  const auto unit = [&](int at) { return Row(Row::Unit(size, at)); };
+
+  const Row difference = (unit(kX) - unit(kOldX)) / trial::kTickSeconds;
+  Row velocity = difference;
+  if (filtered) {  // the low-pass of VelocityEstimator
+    const double w = std::tan(std::numbers::pi * s.estimator.cutoff * trial::kTickSeconds), scale = 1 + std::numbers::sqrt2 * w + w * w;
+    const double b0 = w * w / scale, a1 = 2 * (w * w - 1) / scale, a2 = (1 - std::numbers::sqrt2 * w + w * w) / scale;
+    velocity = b0 * (difference + 2 * unit(kIn1) + unit(kIn2)) - a1 * unit(kOut1) - a2 * unit(kOut2);
+  }
+  const Row force = -s.stiffness * unit(kX) - s.damping * velocity;
+  const Row acting = s.delayTicks == 0 ? force : unit(size - 1);
+
+  const Matrix held = heldStep(s);
+  Matrix step = Matrix::Zero(size, size);
+  step.row(kX) = held(0, 0) * unit(kX) + held(0, 1) * unit(kV) + held(0, 2) * acting;
+  step.row(kV) = held(1, 0) * unit(kX) + held(1, 1) * unit(kV) + held(1, 2) * acting;
+  step.row(kOldX) = unit(kX);
+  step.row(kIn1) = difference;
+  step.row(kIn2) = unit(kIn1);
+  step.row(kOut1) = velocity;
+  step.row(kOut2) = unit(kOut1);
+  for (int i = 0; i < s.delayTicks; ++i) step.row(kForces + i) = i == 0 ? force : unit(kForces + i - 1);
+  return step.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double passivityMargin(const LoopSettings& s) noexcept {
+  return s.friction - (s.stiffness * trial::kTickSeconds / 2 + std::abs(s.damping));
+}
+
+double largestStableStiffness(LoopSettings settings, double most) {
+  const auto stableAt = [&](double stiffness) {
+    settings.stiffness = stiffness;
+    return isStable(settings);
+  };
+  if (stableAt(most)) return most;
+  double stable = 0, unstable = most;
+  while (unstable - stable > 1e-3 * std::max(stable, 1.0)) {
+    const double middle = (stable + unstable) / 2;
+    (stableAt(middle) ? stable : unstable) = middle;
+  }
+  return stable;
+}
+
+}  // namespace reachlab::devices

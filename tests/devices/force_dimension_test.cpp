@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "base/error.h"
+#include "devices/make_device.h"
+#include "devices/registry.h"
+#include "tests/devices/fakes/fake_dhd.h"
+
+/// The driver behind its I/O thread; waits are for events.
+namespace reachlab::devices {
+namespace {
+
+using test::fakeDhd;
+using namespace std::chrono_literals;
+
+template <typename Condition>
+bool until(Condition&& condition) {
+  for (int i = 0; i < 20'000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+class ForceDimension : public ::testing::Test {
+ protected:
+  ForceDimension() { test::resetFakeDhd(); }
+  std::unique_ptr<haptics::HapticDevice> open(const std::string& spec = "forcedimension:0") { return makeDevice(spec, experiment, 1); }
+  // Newer samples than those that wait already.
+  static haptics::DeviceSample newest(haptics::HapticDevice& device) {
+    const std::uint64_t seen = device.read().reports;
+    haptics::DeviceSample sample;
+    until([&] { return (sample = device.read()).reports >= seen + 3; });
+    return sample;
+  }
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+};
+
+TEST_F(ForceDimension, TurnsItsAxesIntoTheWorlds) {
+  const auto device = open();
+  fakeDhd().position[0] = 0.01, fakeDhd().position[1] = 0.02, fakeDhd().position[2] = 0.03;
+  EXPECT_EQ(newest(*device).position, (Vec3{0.02, 0.03, 0.01}));
+  ASSERT_TRUE(until([&] {
+    device->write({1, 2, 3});
+    return fakeDhd().force[0] == 3 && fakeDhd().force[1] == 1 && fakeDhd().force[2] == 2;
+  })) << "F_device = R^T F_world";
+}
+
+TEST_F(ForceDimension, IsListedByTheNameThatOpensIt) {
+  for (const FoundDevice& found : findDriver("forcedimension")->find(*findDriver("forcedimension"))) {
+    EXPECT_TRUE(found.present) << found.whyNot;
+    EXPECT_EQ(found.name, "forcedimension:0");
+    EXPECT_EQ(found.maxForce, 12) << "data sheet of omega.3: the library did not tell";
+    EXPECT_NO_THROW(open(found.name));
+  }
+  EXPECT_FALSE(fakeDhd().open) << "left as it was";
+}
+
+TEST_F(ForceDimension, NoneThereIsSaidInTheLibrarysWords) {
+  fakeDhd().count = 0;
+  const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_FALSE(rows[0].present);
+  EXPECT_NE(rows[0].whyNot.find("no device"), std::string::npos) << rows[0].whyNot;
+  EXPECT_THROW(open(), ResourceError);
+}
+
+TEST_F(ForceDimension, AForceThatIsNotRenewedIsTakenBack) {
+  const auto device = open();
+  ASSERT_TRUE(until([&] {
+    device->write({1, 0, 0});
+    return fakeDhd().force[1] == 1;
+  }));
+  EXPECT_TRUE(until([&] { return fakeDhd().force[1] == 0; })) << "the tick hangs: the I/O thread says zero";
+}
+
+TEST_F(ForceDimension, OneErrorIsPassedOverManyAreALoss) {
+  const auto device = open();
+  fakeDhd().failOnce = 7;
+  EXPECT_TRUE(newest(*device).valid);
+  fakeDhd().error = 2;
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost);
+  fakeDhd().error = 0;
+  EXPECT_TRUE(until([&] { return device->read().valid; })) << "back again";
+}
+
+TEST_F(ForceDimension, AHangingCallIsLeftBehind) {
+  auto device = open();
+  fakeDhd().hangs = true;
+  const std::uint64_t seen = device->read().reports;
+  EXPECT_EQ(device->read().reports, seen) << "the tick does not wait";
+  device.reset();
+  fakeDhd().hangs = false;
+  EXPECT_TRUE(until([&] { return !fakeDhd().open; })) << "and it is closed once the call returns";
+}
+
+TEST_F(ForceDimension, ClosingLeavesNoForce) {
+  auto device = open();
+  ASSERT_TRUE(until([&] {
+    device->write({1, 0, 0});
+    return fakeDhd().force[1] == 1;
+  }));
+  device.reset();
+  EXPECT_EQ(fakeDhd().force[1], 0);
+  EXPECT_FALSE(fakeDhd().open);
+  EXPECT_FALSE(fakeDhd().forceOn);
+}
+
+TEST_F(ForceDimension, AWrongIndexIsAWrongArgument) {
+  EXPECT_THROW(open("forcedimension:x"), UsageError);
+  EXPECT_THROW(open("forcedimension:0,colour=red"), UsageError);
+  EXPECT_THROW(open("forcedimension:7"), ResourceError);
+}
+
+}  // namespace
+}  // namespace reachlab::devices

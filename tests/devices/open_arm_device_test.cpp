@@ -1,0 +1,208 @@
+#include "devices/hid/open_arm_device.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <random>
+
+#include "base/error.h"
+
+namespace reachlab::devices {
+namespace {
+
+using Report = std::vector<std::uint8_t>;
+
+// What a port is asked to give, and what it was sent.
+struct Line {
+  std::deque<Report> waiting;
+  std::vector<Report> sent;
+  bool gone = false, refuses = false;
+};
+class FakePort final : public HidPort {
+ public:
+  explicit FakePort(std::shared_ptr<Line> line) : line_(std::move(line)) {}
+  int read(std::span<std::uint8_t> bytes, int) noexcept override {
+    if (line_->gone) return -1;
+    if (line_->waiting.empty()) return 0;
+    const Report report = line_->waiting.front();
+    line_->waiting.pop_front();
+    std::copy_n(report.begin(), std::min(report.size(), bytes.size()), bytes.begin());
+    return static_cast<int>(report.size());
+  }
+  bool write(std::span<const std::uint8_t> bytes) noexcept override {
+    if (line_->refuses) return false;
+    line_->sent.emplace_back(bytes.begin(), bytes.end());
+    return true;
+  }
+
+ private:
+  std::shared_ptr<Line> line_;
+};
+
+struct Wish final : ForceSource {
+  Vec3 force;
+  Vec3 newest() noexcept override { return force; }
+};
+
+class OpenArmOverAPort : public ::testing::Test {
+ protected:
+  OpenArmOverAPort() {
+    options.model = findArmModel("woodenhaptics_v2015");
+    arm = std::make_unique<OpenArm>(options, "1", [this]() -> std::unique_ptr<HidPort> {
+      if (line->gone) throw ResourceError("gone");
+      return std::make_unique<FakePort>(line);
+    });
+  }
+  static Report reportAt(const std::array<double, 3>& counts, std::int16_t info = 0) {
+    Report report(64, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(counts[i])));
+      report[2 * i] = static_cast<std::uint8_t>(raw & 0xFF);
+      report[2 * i + 1] = static_cast<std::uint8_t>(raw >> 8);
+    }
+    report[12] = static_cast<std::uint8_t>(info);
+    return report;
+  }
+  Report reportOf(const Vec3& inArm) const { return reportAt(encoderCounts(*options.model, anglesAt(*options.model, inArm))); }
+  static std::int16_t field(const Report& report, std::size_t at) { return static_cast<std::int16_t>(report[at] | report[at + 1] << 8); }
+
+  OpenArm::Options options;
+  std::shared_ptr<Line> line = std::make_shared<Line>();
+  std::unique_ptr<OpenArm> arm;
+  Wish wish;
+  haptics::DeviceSample sample;
+};
+
+TEST_F(OpenArmOverAPort, GivesThePlaceInTheWorldsAxesToACount) {
+  const Vec3 inArm{0.02, -0.03, 0.04};
+  line->waiting.push_back(reportOf(inArm));
+  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_LT(norm(sample.position - Vec3{-0.03, 0.04, 0.02}), 2e-4) << "a count on every axis is 0.1 mm";
+}
+
+TEST_F(OpenArmOverAPort, AnswersEveryReportOnceWithTheForcesCurrents) {
+  line->waiting.push_back(reportOf({}));
+  wish.force = {1, 0, 0};  // the arm's y: to the right
+  arm->exchange(wish, sample);
+  ASSERT_EQ(line->sent.size(), 1u);
+  EXPECT_EQ(line->sent[0].size(), 65u);
+  EXPECT_EQ(field(line->sent[0], 7), 0);
+  // tau_A = cos(thA) R F = 0.22 N m at the origin; through 16:1 and 0.0259 Nm/A: 531 mA.
+  EXPECT_NEAR(field(line->sent[0], 1), 531, 2);
+  EXPECT_EQ(field(line->sent[0], 3), 0);
+}
+
+TEST_F(OpenArmOverAPort, TakesTheNewestOfWhatHasPiledUp) {
+  for (int i = 0; i < 10; ++i) line->waiting.push_back(reportOf({0.001 * i, 0, 0}));
+  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_NEAR(sample.position.z, 0.009, 2e-4);
+  EXPECT_EQ(line->sent.size(), 1u);
+}
+
+TEST_F(OpenArmOverAPort, ALostReportIsAskedForAgainWithoutForce) {
+  wish.force = {1, 1, 1};
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  ASSERT_EQ(line->sent.size(), 1u);
+  for (const std::uint8_t byte : line->sent[0]) EXPECT_EQ(byte, 0);
+}
+
+TEST_F(OpenArmOverAPort, WhatIsNotAWholeReportIsNotBelieved) {
+  line->waiting.push_back(Report(10, 0x7F));
+  line->waiting.push_back(Report(63, 0x7F));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(arm->garbled(), 2u);
+}
+
+TEST_F(OpenArmOverAPort, CountsGoOnPastTheEndOfSixteenBits) {
+  const auto placeAt = [&](double counts) {
+    line->waiting.push_back(reportAt(std::array<double, 3>{counts, 3000, 6000}));
+    EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+    return sample.position;
+  };
+  Vec3 last = placeAt(32'000);
+  for (double counts = 32'050; counts < 34'000; counts += 50) {
+    const Vec3 place = placeAt(counts);
+    ASSERT_LT(norm(place - last), 0.006) << counts;
+    last = place;
+  }
+}
+
+TEST_F(OpenArmOverAPort, TheCalibrationButtonSetsTheEncoders) {
+  line->waiting.push_back(reportAt(std::array<double, 3>{11, 22, 33}, 1));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  ASSERT_EQ(line->sent.size(), 1u);
+  EXPECT_EQ(field(line->sent[0], 7), 1);
+  EXPECT_EQ(field(line->sent[0], 13), 6000);
+  line->waiting.push_back(reportAt(std::array<double, 3>{0, 0, 6000}));
+  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_LT(norm(sample.position - Vec3{0, 0.205, 0.025}), 1e-12) << "the published home";
+}
+
+TEST_F(OpenArmOverAPort, AGoneDeviceIsLostAndComesBack) {
+  line->gone = true;
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
+  EXPECT_FALSE(arm->reopen());
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
+  line->gone = false;
+  EXPECT_TRUE(arm->reopen());
+  line->waiting.push_back(reportOf({}));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  line->refuses = true;
+  line->waiting.push_back(reportOf({}));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "a force that cannot be told is a loss";
+}
+
+TEST_F(OpenArmOverAPort, TheLastWordIsZero) {
+  wish.force = {2, 0, 0};
+  line->waiting.push_back(reportOf({}));
+  arm->exchange(wish, sample);
+  arm->close();
+  for (const std::uint8_t byte : line->sent.back()) EXPECT_EQ(byte, 0);
+}
+
+// 1,000 seeded runs of everything a wire can do: garbage, gaps, short reads, jumps, absurd forces, unplugging. No current beyond the
+// limit, none that turns round, and nothing but zero when nothing was read.
+TEST_F(OpenArmOverAPort, NoFaultOfTheWireGivesACurrentBeyondTheLimit) {
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> kind(0, 9), byte(0, 255), length(0, 64);
+    std::uniform_real_distribution<double> size(-1e6, 1e6);
+    *line = {};
+    ASSERT_TRUE(arm->reopen());
+    for (int step = 0; step < 50; ++step) {
+      Report report(64);
+      for (auto& b : report) b = static_cast<std::uint8_t>(byte(random));
+      bool any = true;
+      switch (kind(random)) {
+        case 0: any = false; break;
+        case 1: report.resize(static_cast<std::size_t>(length(random))); break;
+        case 2: line->gone = true; break;
+        case 3: wish.force = {std::numeric_limits<double>::quiet_NaN(), 0, size(random)}; break;
+        case 4: wish.force = {size(random), std::numeric_limits<double>::infinity(), 0}; break;
+        default: wish.force = {size(random), size(random), size(random)}; break;
+      }
+      if (any) line->waiting.push_back(report);
+      const std::size_t before = line->sent.size();
+      const Exchange ended = arm->exchange(wish, sample);
+      for (std::size_t i = before; i < line->sent.size(); ++i) {
+        if (field(line->sent[i], 7) != 0) continue;  // encoders, no currents
+        for (const std::size_t at : {1u, 3u, 5u}) {
+          ASSERT_LE(std::abs(field(line->sent[i], at)), 2000) << seed;
+          if (ended != Exchange::Report) {
+            ASSERT_EQ(field(line->sent[i], at), 0) << seed;
+          }
+        }
+      }
+      if (line->gone) {
+        line->gone = false;
+        line->waiting.clear();
+        ASSERT_TRUE(arm->reopen());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::devices

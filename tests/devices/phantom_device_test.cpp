@@ -1,0 +1,203 @@
+#include "devices/vendor/phantom_device.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "tests/devices/fakes/fake_hd.h"
+
+namespace reachlab::devices {
+namespace {
+
+using test::fakeHd;
+
+// Servo steps are taken by the test, one by one.
+class Phantom : public ::testing::Test {
+ protected:
+  Phantom() { test::resetFakeHd(); }
+  struct Ticks {
+    haptics::HapticDevice* device = nullptr;
+    int count = 0;
+    Vec3 force;
+    haptics::DeviceSample sample;
+  };
+  static void tick(void* context) noexcept {
+    auto& ticks = *static_cast<Ticks*>(context);
+    ++ticks.count;
+    ticks.sample = ticks.device->read();
+    ticks.device->write(ticks.force);
+  }
+  static double feltAlongX(const std::string& name = "") { return fakeHd().devices[name].force[0]; }
+};
+
+std::string refusal(const PhantomDevice::Options& options = {}) {
+  try {
+    const PhantomDevice device(options);
+  } catch (const ResourceError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(Phantom, ReadsItsLimitsFromTheDevice) {
+  const PhantomDevice device({});
+  const haptics::DeviceInfo info = device.info();
+  EXPECT_EQ(info.maxForce, 3.3);
+  EXPECT_EQ(info.maxContinuousForce, 0.88);
+  EXPECT_NEAR(info.workspaceRadius, 0.035, 1e-15);
+  EXPECT_NE(info.name.find("Omni"), std::string::npos);
+  EXPECT_TRUE(info.drivesClock);
+  EXPECT_TRUE(info.rendersForce);
+}
+
+TEST_F(Phantom, OneCallIsOneFrameWithOneTickInMetresAndNewtons) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {1, -2, 0.5}, {}};
+  device.startClock(tick, &ticks);
+  fakeHd().devices[""].position[0] = 12;
+  fakeHd().devices[""].position[2] = -34;
+  test::stepFakeHd();
+  EXPECT_EQ(ticks.count, 1);
+  EXPECT_NEAR(ticks.sample.position.x, 0.012, 1e-15);
+  EXPECT_NEAR(ticks.sample.position.z, -0.034, 1e-15);
+  EXPECT_TRUE(ticks.sample.hasOrientation);
+  EXPECT_EQ(feltAlongX(), 1);
+  EXPECT_EQ(fakeHd().devices[""].force[1], -2);
+  device.stopClock();
+  EXPECT_EQ(fakeHd().violations, 0);
+}
+
+TEST_F(Phantom, CallsInTheDocumentedOrder) {
+  {
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {1, 0, 0}, {}};
+    device.startClock(tick, &ticks);
+    test::stepFakeHd();
+    device.stopClock();
+  }
+  const std::vector<std::string> expected{"hdInitDevice:",    "hdEnable:force",  "hdEnable",     "hdEnable",       "hdScheduleAsynchronous",
+                                          "hdStartScheduler", "hdStopScheduler", "hdUnschedule", "hdDisableDevice"};
+  EXPECT_EQ(fakeHd().calls, expected);
+  EXPECT_EQ(fakeHd().violations, 0);
+}
+
+TEST_F(Phantom, TwoDevicesShareTheSchedulerAndNotTheForce) {
+  fakeHd().devices["Left"], fakeHd().devices["Right"];
+  PhantomDevice left({"Left"}), right({"Right"});
+  Ticks first{&left, 0, {1, 0, 0}, {}}, second{&right, 0, {2, 0, 0}, {}};
+  left.startClock(tick, &first);
+  right.startClock(tick, &second);
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX("Left"), 1);
+  EXPECT_EQ(feltAlongX("Right"), 2);
+  left.stopClock();
+  test::stepFakeHd();
+  EXPECT_TRUE(fakeHd().schedulerRuns) << "the other one still needs it";
+  EXPECT_EQ(second.count, 2);
+  right.stopClock();
+  EXPECT_FALSE(fakeHd().schedulerRuns);
+  EXPECT_EQ(fakeHd().violations, 0);
+}
+
+TEST_F(Phantom, EveryRefusalAtOpeningIsSaidInTheLibrarysWordsAndLeavesNothingOpen) {
+  for (const char* call : {"hdInitDevice", "hdEnable"}) {
+    test::resetFakeHd();
+    fakeHd().failures[call] = 0x0600;
+    const std::string said = refusal();
+    EXPECT_NE(said.find("HD_INVALID_LICENSE (0x0600)"), std::string::npos) << call << ": " << said;
+    EXPECT_NE(said.find("device phantom"), std::string::npos);
+    EXPECT_FALSE(fakeHd().devices[""].open);
+  }
+  for (const char* call : {"hdScheduleAsynchronous", "hdStartScheduler"}) {
+    test::resetFakeHd();
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {}, {}};
+    fakeHd().failures[call] = 0x0304;
+    EXPECT_THROW(device.startClock(tick, &ticks), ResourceError) << call;
+  }
+}
+
+TEST_F(Phantom, ADeviceThatIsNotConfiguredIsRefusedByItsName) {
+  const std::string said = refusal({"Nowhere"});
+  EXPECT_NE(said.find("phantom:Nowhere"), std::string::npos) << said;
+}
+
+TEST_F(Phantom, WithoutItsLargestForceItIsNotDriven) {
+  fakeHd().maxForce = 0;
+  EXPECT_NE(refusal().find("largest force"), std::string::npos);
+}
+
+TEST_F(Phantom, ItIsCalibratedWhereThatNeedsNoHandsAndElseRefused) {
+  fakeHd().calibration = 0x5001;
+  EXPECT_EQ(refusal(), "");
+  fakeHd().calibration = 0x5002;
+  EXPECT_NE(refusal().find("inkwell"), std::string::npos);
+}
+
+TEST_F(Phantom, LostCommunicationTakesTheForceForGood) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {1, 0, 0}, {}};
+  device.startClock(tick, &ticks);
+  test::stepFakeHd();
+  ASSERT_EQ(feltAlongX(), 1);
+  fakeHd().failures["hdEndFrame"] = 0x0302;
+  test::stepFakeHd();
+  for (int i = 0; i < 20; ++i) {
+    test::stepFakeHd();
+    EXPECT_EQ(feltAlongX(), 0);
+    EXPECT_FALSE(ticks.sample.valid);
+  }
+  EXPECT_EQ(device.health(), haptics::DeviceHealth::Lost);
+  EXPECT_NE(device.healthText().find("HD_COMM_ERROR"), std::string::npos);
+}
+
+TEST_F(Phantom, AForceErrorIsAFaultOfTheDevice) {
+  for (const std::uint32_t error : {0x0201u, 0x0202u, 0x0203u, 0x0204u, 0x0402u}) {
+    test::resetFakeHd();
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {1, 0, 0}, {}};
+    device.startClock(tick, &ticks);
+    fakeHd().failures["hdSetDoublev"] = error;
+    test::stepFakeHd();
+    test::stepFakeHd();
+    EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << std::hex << error;
+    EXPECT_EQ(feltAlongX(), 0);
+  }
+}
+
+TEST_F(Phantom, WarmMotorsHoldTheForceToTheContinuousOne) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {3, 0, 0}, {}};
+  device.startClock(tick, &ticks);
+  test::stepFakeHd();
+  ASSERT_EQ(feltAlongX(), 3);
+  fakeHd().failures["hdEndFrame"] = 0x0200;
+  test::stepFakeHd();
+  test::stepFakeHd();
+  EXPECT_NEAR(feltAlongX(), 0.88, 1e-12);
+  for (int i = 0; i < 1100; ++i) test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 3) << "a second without the warning: cool again";
+}
+
+TEST_F(Phantom, AForceThatIsNoNumberIsNoForce) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}};
+  device.startClock(tick, &ticks);
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 0);
+}
+
+TEST_F(Phantom, TheSecondPathSwitchesItsForcesOff) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {1, 0, 0}, {}};
+  device.startClock(tick, &ticks);
+  test::stepFakeHd();
+  EXPECT_TRUE(device.stopForce());
+  EXPECT_EQ(feltAlongX(), 0);
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 1) << "and a new force switches them on again";
+}
+
+}  // namespace
+}  // namespace reachlab::devices
