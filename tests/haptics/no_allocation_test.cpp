@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "cli/allocation_count.h"
+#include "cli/bench/allocation_count.h"
 #include "sim/haptics/haptic_loop.h"
 #include "tests/haptics/scripted_device.h"
 

@@ -1,4 +1,4 @@
-#include "cli/allocation_count.h"
+#include "cli/bench/allocation_count.h"
 
 #include <cstdlib>
 #include <new>

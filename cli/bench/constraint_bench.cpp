@@ -1,4 +1,4 @@
-#include "cli/constraint_bench.h"
+#include "cli/bench/constraint_bench.h"
 
 #include <time.h>
 

@@ -1,0 +1,25 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace reachlab::cli {
+
+/// What `reach bench` was asked for. `reach` and the program that measures read the same options by the same definition.
+struct BenchOptions {
+  std::vector<std::string> scenes, methods;  // empty: all
+  int rounds = 7;
+  bool quick = false, sampled = false, tick = false;
+  std::uint64_t ticks = 1'000'000;
+  std::string json, svg;  // files; empty: none
+};
+
+inline constexpr const char* kBenchProgram = "reachlab-bench";
+inline constexpr const char* kBenchSummary =
+    "Sets speed against error: scenes S1 to S8, every method, against references of over 20 digits";
+
+/// Puts the options and the footer on `command`; what is parsed ends in `options`, which must outlive it.
+void addBenchOptions(CLI::App& command, BenchOptions& options);
+
+}  // namespace reachlab::cli

@@ -1,0 +1,122 @@
+#include "cli/bench/run_bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/bench/allocation_count.h"
+#include "cli/bench/constraint_bench.h"
+#include "base/error.h"
+#include "sim/bench/sampled_hand.h"
+#include "sim/bench/suite.h"
+#include "sim/haptics/tick_timing.h"
+
+namespace reachlab::cli {
+namespace {
+
+void showProgress(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+// What a method does not do is said after what the others did.
+void showRefusals(const std::vector<std::string>& refusals) {
+  if (!refusals.empty()) std::fflush(stdout), showProgress("\nrefused:");
+  for (const std::string& refusal : refusals) showProgress("  " + refusal);
+}
+
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+void writeFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw ResourceError(path + ": cannot be written");
+}
+
+std::string toJson(const std::vector<bench::Row>& rows) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const bench::Row& row : rows) {
+    nlohmann::ordered_json o;
+    o["scene"] = row.scene;
+    o["method"] = row.method;
+    o["step_s"] = row.step;
+    o["tolerance"] = row.tolerance > 0 ? number(row.tolerance) : nullptr;
+    o["state_error"] = number(row.error.state);
+    o["position_error_m"] = number(row.error.position);
+    o["ns_per_ms"] = row.failure.empty() ? number(row.nsPerMs) : nullptr;
+    o["steps"] = row.steps;
+    o["rhs_evaluations"] = row.rhsEvaluations;
+    all.push_back(std::move(o));
+  }
+  return all.dump(1) + "\n";
+}
+
+std::string toJson(const std::vector<ConstraintEvalRow>& rows) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const ConstraintEvalRow& row : rows)
+    all.push_back({{"constraint", row.constraint}, {"form", row.form}, {"ns_per_eval", number(row.nsPerEval)}});
+  return all.dump(1) + "\n";
+}
+
+void benchConstraints(const BenchOptions& options) {
+  const std::vector<ConstraintEvalRow> rows = benchConstraintEval();
+  fmt::print("{:<16} {:<14} {:>11}\n", "constraint", "form", "ns_per_eval");
+  for (const ConstraintEvalRow& row : rows) fmt::print("{:<16} {:<14} {:>11.1f}\n", row.constraint, row.form, row.nsPerEval);
+  if (!options.json.empty()) writeFile(options.json, toJson(rows));
+}
+
+void benchTicks(const BenchOptions& options) {
+  std::vector<bench::BenchScene> scenes;
+  for (const std::string& name : options.scenes) scenes.push_back(bench::benchScene(name));
+  if (scenes.empty()) scenes = bench::benchScenes();
+  fmt::print("{:<7} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock\n", "scene", "ticks", "p50", "p99", "p99.9", "max",
+             "clock", "allocations");
+  std::vector<std::string> refusals;
+  for (const bench::BenchScene& scene : scenes) {
+    showProgress(scene.name + ": " + scene.title);
+    try {
+      const haptics::TickTiming t = haptics::measureTicks(scene.experiment, options.ticks, countAllocations);
+      fmt::print("{:<7} {:>9} {:>8.0f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.p99, t.p999, t.max,
+                 t.clock, t.allocations);
+    } catch (const Error& e) {
+      refusals.push_back(scene.name + ": " + e.what());
+    }
+  }
+  showRefusals(refusals);
+}
+
+}  // namespace
+
+void runBench(const BenchOptions& options) {
+  const auto& scenes = options.scenes;
+  if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
+    if (scenes.size() > 1) throw UsageError("bench: --scene constraint-eval stands alone; run the other scenes by themselves");
+    benchConstraints(options);
+    return;
+  }
+  if (options.tick) {
+    benchTicks(options);
+    return;
+  }
+  if (options.sampled) {
+    std::fputs(bench::formatSampledHand(bench::measureSampledHand(showProgress)).c_str(), stdout);
+    return;
+  }
+  bench::SuiteOptions suite{.scenes = options.scenes, .methods = options.methods, .effort = {}, .quick = options.quick};
+  suite.effort.rounds = options.rounds;
+  std::vector<std::string> refusals;
+  const std::vector<bench::Row> rows = bench::runSuite(suite, showProgress, refusals);
+  std::fputs(bench::formatTable(rows).c_str(), stdout);
+  bool peers = false;
+  for (const bench::Row& row : rows) peers |= bench::isPeer(row);
+  if (peers) std::fputs(("\n" + bench::formatRatios(rows)).c_str(), stdout);
+  showRefusals(refusals);
+  if (!options.json.empty()) writeFile(options.json, toJson(rows));
+  if (!options.svg.empty()) writeFile(options.svg, bench::drawWorkPrecision(rows));
+}
+
+}  // namespace reachlab::cli

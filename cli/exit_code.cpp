@@ -1,0 +1,56 @@
+#include "cli/exit_code.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/names.h"
+
+namespace reachlab::cli {
+namespace {
+
+/// "; --sede: did you mean --seed?" for the first word that no command knows; empty when nothing is near.
+std::string proposal(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  for (const std::string& word : app.remaining(true)) {
+    std::vector<std::string> known;
+    if (word.starts_with("--")) {
+      for (const CLI::Option* option : command->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    } else {
+      for (const CLI::App* other : command->get_subcommands({})) known.push_back(other->get_name());
+    }
+    const std::string nearest = reachlab::nearestName(word.substr(0, word.find('=')), known);
+    if (!nearest.empty()) return "; " + word + ": did you mean " + nearest + "?";
+  }
+  return {};
+}
+
+}  // namespace
+
+int exitCodeOf(CLI::App& app, const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "reach: %s%s\n", e.what(), proposal(app).c_str());
+    return 2;
+  } catch (const UsageError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  } catch (const ResourceError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 3;
+  } catch (const RefusedError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 4;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "reach: %s\n", e.what());
+    return 3;
+  }
+}
+
+}  // namespace reachlab::cli

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "test_paths.h"
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+// What a shell command prints, line by line.
+std::string outputOf(const std::string& command) {
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+  pclose(pipe);
+  return text;
+}
+
+TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
+  const fs::path file = fs::path(testing::TempDir()) / "rows.json";
+  const Ended ended = reach("bench --scene S1 --scene S6 --method auto --quick --rounds 5 --json " + file.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  std::ifstream in(file);
+  const Json rows = Json::parse(in);
+  ASSERT_EQ(rows.size(), 2u);
+  for (const Json& row : rows) {
+    for (const char* key :
+         {"scene", "method", "step_s", "tolerance", "state_error", "position_error_m", "ns_per_ms", "steps", "rhs_evaluations"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_LT(row["state_error"].get<double>(), 1e-12);  // the exact step's rounding over 1350 ticks
+    EXPECT_GT(row["ns_per_ms"].get<double>(), 0);
+  }
+  EXPECT_NE(ended.out.find("S6"), std::string::npos);
+  EXPECT_EQ(reach("bench --scene S99").exitCode, 2);
+  EXPECT_EQ(reach("bench --rounds 1").exitCode, 2);
+  EXPECT_EQ(reach("bench --scene S1 --quick --rounds 5 --method auto --json /no/such/folder/rows.json").exitCode, 3);
+}
+
+TEST(Bench, SaysWhereTheMeasuringProgramWasLookedFor) {
+  const fs::path folder = fs::path(testing::TempDir()) / "alone";
+  fs::create_directories(folder);
+  fs::copy_file(REACH_PROGRAM, folder / "reach", fs::copy_options::overwrite_existing);
+  const std::string said = outputOf((folder / "reach").string() + " bench --scene S1 2>&1; echo exit $?");
+  EXPECT_NE(said.find((folder / "reachlab-bench").string()), std::string::npos) << said;
+  EXPECT_NE(said.find("libexec/reachlab/reachlab-bench"), std::string::npos) << said;
+  EXPECT_NE(said.find("exit 3"), std::string::npos) << said;
+}
+
+TEST(Bench, TheProgramThatRecordsPeopleRunsUnderTheSystemsOperatorNew) {
+  const auto replaces = [](const std::string& program) { return !outputOf("nm --defined-only " + program + " | grep -w _Znwm").empty(); };
+  EXPECT_FALSE(replaces(REACH_PROGRAM));
+  EXPECT_TRUE(replaces(fs::path(REACH_PROGRAM).replace_filename("reachlab-bench").string())) << "the check itself";
+}
+
+}  // namespace
