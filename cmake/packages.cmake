@@ -1,0 +1,113 @@
+# What is installed beside the programs, and the Debian packages: reachlab-cli (no Qt, no VTK), reachlab (the window), reachlab-doc (the manual).
+# `packaging/deb` builds them.
+set(packaging ${PROJECT_SOURCE_DIR}/packaging)
+set(share ${CMAKE_INSTALL_DATADIR})
+
+install(DIRECTORY resources/ DESTINATION ${share}/reachlab PATTERN make_success.py EXCLUDE PATTERN LICENSE EXCLUDE)
+install(DIRECTORY constraints/definitions DESTINATION ${share}/reachlab)
+file(GLOB udev_rules CONFIGURE_DEPENDS ${packaging}/udev/*.rules)
+if(udev_rules)
+  install(FILES ${udev_rules} DESTINATION lib/udev/rules.d)
+endif()
+if(REACHLAB_GUI)
+  install(FILES ${packaging}/linux/reachlab.desktop DESTINATION ${share}/applications COMPONENT gui)
+  install(FILES ${packaging}/linux/org.reachlab.Reachlab.metainfo.xml DESTINATION ${share}/metainfo COMPONENT gui)
+  install(FILES resources/icons/reachlab.svg DESTINATION ${share}/icons/hicolor/scalable/apps COMPONENT gui)
+  foreach(size 16 24 32 48 64 128 256)
+    install(FILES ${packaging}/icons/reachlab-${size}.png DESTINATION ${share}/icons/hicolor/${size}x${size}/apps RENAME reachlab.png COMPONENT gui)
+  endforeach()
+endif()
+
+if(NOT REACHLAB_PACKAGES)
+  return()
+endif()
+
+# Man pages and completions, out of the programs' own --help.
+set(pages ${PROJECT_BINARY_DIR}/command-pages)
+set(programs reach)
+if(REACHLAB_GUI)
+  list(APPEND programs reachlab)
+endif()
+foreach(program ${programs})
+  list(APPEND program_files $<TARGET_FILE:${program}>)
+endforeach()
+add_custom_command(OUTPUT ${pages}/made
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
+  COMMAND /usr/bin/python3 ${packaging}/manual/command_pages.py ${PROJECT_VERSION} ${pages} ${program_files}
+  COMMAND sh -c "gzip -9n ${pages}/man1/*"
+  COMMAND ${CMAKE_COMMAND} -E touch ${pages}/made
+  DEPENDS ${programs} ${packaging}/manual/command_pages.py ${packaging}/manual/command_line.py ${packaging}/manual/completions.py VERBATIM)
+add_custom_target(command_pages ALL DEPENDS ${pages}/made)
+foreach(program ${programs})
+  set(component cli)
+  if(program STREQUAL reachlab)
+    set(component gui)
+  endif()
+  install(FILES ${pages}/bash/${program} DESTINATION ${share}/bash-completion/completions COMPONENT ${component})
+  install(FILES ${pages}/zsh/_${program} DESTINATION ${share}/zsh/vendor-completions COMPONENT ${component})
+  install(FILES ${pages}/fish/${program}.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT ${component})
+  install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT ${component}
+    FILES_MATCHING PATTERN ${program}.1.gz PATTERN ${program}-*.1.gz)
+endforeach()
+
+# The manual as a site.
+file(GLOB_RECURSE manual_sources CONFIGURE_DEPENDS docs/*)
+add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/manual/index.html
+  COMMAND ${packaging}/manual/build ${PROJECT_BINARY_DIR}/manual
+  DEPENDS ${manual_sources} ${PROJECT_SOURCE_DIR}/mkdocs.yml VERBATIM)
+add_custom_target(manual ALL DEPENDS ${PROJECT_BINARY_DIR}/manual/index.html)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${share}/doc/reachlab/html COMPONENT doc)
+
+# Debian's own files in each package.
+configure_file(${packaging}/debian/changelog.in ${PROJECT_BINARY_DIR}/debian/changelog @ONLY)
+execute_process(COMMAND gzip -9nfk ${PROJECT_BINARY_DIR}/debian/changelog COMMAND_ERROR_IS_FATAL ANY)
+foreach(pair cli=reachlab-cli gui=reachlab doc=reachlab-doc)
+  string(REGEX MATCH "(.*)=(.*)" _ ${pair})
+  install(FILES ${packaging}/debian/copyright ${PROJECT_BINARY_DIR}/debian/changelog.gz DESTINATION ${share}/doc/${CMAKE_MATCH_2} COMPONENT ${CMAKE_MATCH_1})
+endforeach()
+install(FILES ${packaging}/linux/limits.conf DESTINATION /etc/security/limits.d RENAME reachlab.conf)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_SET_DESTDIR ON)
+set(CPACK_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_NAME reachlab)
+set(CPACK_PACKAGE_CONTACT "The Reachlab authors <authors@reachlab.invalid>")
+set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_COMPONENTS_ALL cli doc)
+if(REACHLAB_GUI)
+  list(APPEND CPACK_COMPONENTS_ALL gui)
+endif()
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_CLI_PACKAGE_NAME reachlab-cli)
+set(CPACK_DEBIAN_CLI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_CLI_PACKAGE_DEPENDS "adduser, fonts-dejavu-core")
+set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "reachlab-doc")
+set(CPACK_DEBIAN_CLI_PACKAGE_CONTROL_EXTRA "${packaging}/debian/postinst;${packaging}/debian/postrm;${packaging}/debian/conffiles")
+set(CPACK_DEBIAN_CLI_DESCRIPTION "laboratory for reaching movements: command line
+ Records, judges, predicts and analyses how people move masses and springs that
+ are bound to curves and surfaces, from rest to rest. The program reach does
+ every job of the window of package reachlab: sessions with a force device or a
+ simulated subject, datasets in Motion-BIDS and CSV, tables, figures.")
+set(CPACK_DEBIAN_GUI_PACKAGE_NAME reachlab)
+set(CPACK_DEBIAN_GUI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), libqt5svg5, libgl1-mesa-dri")
+set(CPACK_DEBIAN_GUI_PACKAGE_RECOMMENDS "libqt5multimedia5-plugins, reachlab-doc")
+set(CPACK_DEBIAN_GUI_PACKAGE_SUGGESTS "xwayland")
+set(CPACK_DEBIAN_GUI_DESCRIPTION "laboratory for reaching movements: window
+ A person holds a force device or a mouse and moves masses and springs that
+ are bound to a curve, a surface or nothing. The window shows the scene, a
+ semaphore and live velocity profiles with predictions; every trial is judged
+ and recorded so that it cannot be lost.")
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME reachlab-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_DESCRIPTION "laboratory for reaching movements: manual
+ Tutorial, how to make each figure and table of the paper that the program
+ implements, reference of experiment, plan and definition files, recordings,
+ analysis and predictions, as pages that need no network.")
+include(CPack)

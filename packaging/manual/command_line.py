@@ -1,0 +1,89 @@
+"""The command line of a program as it tells it itself: `PROGRAM [COMMAND...] --help`, read into a tree."""
+import re
+import subprocess
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Option:
+    names: list        # ["-h", "--help"], or the positional's name
+    value: str         # "TEXT", "INT", … ; empty for a flag
+    choices: list      # of the value, if it has a fixed set
+    bounds: str        # " in [1 - 9999]"
+    default: str
+    required: bool
+    repeats: bool
+    text: str
+
+
+@dataclass
+class Command:
+    words: list        # ["reach", "run"]
+    text: str
+    usage: str
+    options: list = field(default_factory=list)
+    positionals: list = field(default_factory=list)
+    commands: list = field(default_factory=list)
+    footer: str = ""
+
+    @property
+    def name(self):
+        return "-".join(self.words)
+
+    def walk(self):
+        yield self
+        for command in self.commands:
+            yield from command.walk()
+
+
+COLUMN = 30  # where CLI11 begins the right column; a longer left one has a line of its own
+
+
+def rows(lines):
+    """(left, right) of a two-column section; the right column may go on below."""
+    found = []
+    for line in lines:
+        if not line.startswith("   "):
+            left, right = line[:COLUMN], line[COLUMN:]
+            whole = right == "" or (left.endswith(" ") and left.count("[") == left.count("]") and left.count("{") == left.count("}"))
+            found.append([left.strip(), right.strip()] if whole else [line.strip(), ""])
+        elif found:
+            found[-1][1] = f"{found[-1][1]} {line.strip()}".strip()
+    return found
+
+
+def option(left, right):
+    names, _, rest = left.partition(" ")
+    required = "REQUIRED" in rest
+    rest = rest.replace("REQUIRED", "").strip()
+    repeats = rest.endswith("...")
+    rest = rest.removesuffix("...").strip()
+    value, default = (rest.split("=", 1) + [""])[:2] if "=" in rest and "{" not in rest.split("=")[0] else (rest, "")
+    if "}=" in rest:
+        value, default = rest.split("}=", 1)[0] + "}", rest.split("}=", 1)[1]
+    kind, _, limit = value.partition(":")
+    choices = limit.strip("{}").split(",") if limit.startswith("{") else []
+    bounds = re.search(r"in \[.*\]", limit)
+    allowed = bounds[0] if bounds else {"POSITIVE": "more than 0", "NONNEGATIVE": "0 or more"}.get(limit, "")
+    return Option(names.split(","), kind, choices, allowed, default, required, repeats, right)
+
+
+def read(program, words):
+    """The tree of `program`, called by the name words[0]."""
+    done = subprocess.run([program, *words[1:], "--help"], capture_output=True, text=True, check=True)
+    lines = done.stdout.splitlines()
+    at = {line.rstrip(":"): i for i, line in enumerate(lines) if line in ("Positionals:", "Options:", "Subcommands:")}
+    usage = next(i for i, line in enumerate(lines) if line.startswith("Usage: "))
+    command = Command(list(words), " ".join(lines[:usage]).removeprefix(f"{words[0]}: "), lines[usage].removeprefix("Usage: "))
+    end = usage + 1
+    for section, start in at.items():
+        end = next((i for i in range(start + 1, len(lines)) if not lines[i].strip()), len(lines))
+        table = rows(lines[start + 1:end])
+        if section == "Options":
+            command.options = [option(*row) for row in table]
+        elif section == "Positionals":
+            command.positionals = [option(*row) for row in table]
+        else:
+            command.commands = [read(program, [*words, name]) for name, _ in table]
+    command.footer = "\n".join(lines[end:]).strip("\n")
+    return command
