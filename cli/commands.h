@@ -16,5 +16,6 @@ void addExportCommand(CLI::App& app, int& exitCode);
 void addRecoverCommand(CLI::App& app, int& exitCode);
 void addConstraintCommand(CLI::App& app, int& exitCode);
 void addBenchCommand(CLI::App& app, int& exitCode);
+void addStabilityCommand(CLI::App& app, int& exitCode);
 
 }  // namespace reachlab::cli

@@ -1,0 +1,57 @@
+#include "tests/devices/example_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "test_paths.h"
+
+namespace reachlab::devices {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string textOf(const std::string& file) {
+  std::ifstream in(std::string(REACHLAB_SOURCE_DIR "/") + file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+template <typename Condition>
+bool until(Condition&& condition) {
+  for (int i = 0; i < 20'000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+TEST(ExampleDriver, IsTheOneOfTheManualsPage) {
+  const std::string example = textOf("tests/devices/example_driver.h"), page = textOf("docs/devices.md");
+  ASSERT_FALSE(example.empty());
+  EXPECT_NE(page.find(example), std::string::npos) << "docs/devices.md shows another text than the one that is tested";
+}
+
+TEST(ExampleDriver, GivesPlacesTakesForcesAndSurvivesAPulledCable) {
+  const experiment::Experiment experiment;
+  const DeviceDriver driver = example::springHandleDriver();
+  ASSERT_TRUE(driver.find(driver).front().present);
+  const auto device = driver.make({driver.name, "", experiment});
+  EXPECT_EQ(device->read().position, 1e-3 * Vec3(20, 30, -10));
+  ASSERT_TRUE(until([&] {
+    device->write({1, 2, 3});
+    return example::vendorForce[0] == -3 && example::vendorForce[1] == 1 && example::vendorForce[2] == 2;
+  }));
+  example::vendorUnplugged = true;
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_FALSE(driver.find(driver).front().present);
+  example::vendorUnplugged = false;
+  EXPECT_TRUE(until([&] { return device->read().valid; }));
+}
+
+}  // namespace
+}  // namespace reachlab::devices
