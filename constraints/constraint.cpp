@@ -9,6 +9,8 @@
 #include "constraints/analysis.h"
 #include "base/error.h"
 #include "base/names.h"
+#include "constraints/places.h"
+#include "constraints/surface_branches.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -28,14 +30,39 @@ Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::a
   return c;
 }
 
-void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, const std::string& origin) {
-  if (const std::string place = findNonFinite(c, range); !place.empty())
-    throw UsageError(origin + ": " + place + "; allowed: a formula that is finite, with its first and second derivatives, on its domain");
+/// The first place in the range that no mass can cross, in words; empty if there is none.
+std::string findBarrier(const Constraint& c, const std::array<Domain, 2>& range) {
+  if (c.kind != ConstraintKind::Curve || !(range[0].lo < range[0].hi)) return {};
+  const CurveRegularity regularity = computeRegularityWithin(c, range[0].lo, range[0].hi);
+  for (const Place& place : regularity.places)
+    if (!isPassed(place.kind))
+      return place.kind == PlaceKind::Jump
+                 ? describe(place, c.kind)
+                 : fmt::format("not finite at phi = {:.9g}: {} of {}", place.at, nameOf(place.kind), place.because);
+  if (regularity.lo > range[0].lo || regularity.hi < range[0].hi)
+    return fmt::format("the formula could be examined from phi = {:.6g} to {:.6g} only", regularity.lo, regularity.hi);
+  return {};
+}
+
+void requireMoving(const Constraint& c, const std::array<Domain, 2>& range, const std::string& origin) {
   // A path along a pole's line sees nothing but the pole: the surface as a whole decides.
   if (degeneratesEverywhere(c, range) && degeneratesEverywhere(c, boundedDomain(c)))
     throw UsageError(origin + (c.kind == ConstraintKind::Curve
                                    ? ": degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi"
                                    : ": degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface"));
+}
+
+void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, bool watched, const std::string& origin) {
+  if (const std::string place = findBarrier(c, range); !place.empty())
+    throw UsageError(origin + ": " + place +
+                     ", which no mass can cross; allowed: a range (from start to target, or the domain) without such a place");
+  // Places with a limit, and a surface's ends, are met as a mass moves.
+  const bool passed = c.kind == ConstraintKind::Curve
+                          ? range[0].lo < range[0].hi && !computeRegularityWithin(c, range[0].lo, range[0].hi).places.empty()
+                          : watched && !computeBranches(c)->smooth();
+  if (const std::string place = passed ? "" : findNonFinite(c, range); !place.empty())
+    throw UsageError(origin + ": " + place + "; allowed: a formula that is finite, with its first and second derivatives, on its domain");
+  requireMoving(c, range, origin);
 }
 
 }  // namespace
@@ -74,7 +101,7 @@ Constraint makeConstraint(const Definition& definition, const std::map<std::stri
   Constraint c = assemble(compileFormula(formulaOf(definition), origin), values, generatedFunctions(definition));
   c.name = definition.name;
   c.domain = domainOf(definition, values);
-  requireUsable(c, boundedDomain(c), origin);
+  requireUsable(c, boundedDomain(c), false, origin);
   return c;
 }
 
@@ -105,7 +132,9 @@ Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin)
   if (!faults.empty()) throw UsageError(faults);
   Constraint c = assemble(compileFormula(text, origin), values, {});
   c.name = text.kind == ConstraintKind::Curve ? "curve" : "surface";
-  requireUsable(c, spec.inUse.value_or(boundedDomain(c)), origin);
+  // Without a task nobody knows yet where a mass will be: its start decides.
+  if (spec.inUse) requireUsable(c, *spec.inUse, true, origin);
+  else requireMoving(c, boundedDomain(c), origin);
   return c;
 }
 

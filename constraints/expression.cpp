@@ -233,6 +233,11 @@ int ExpressionGraph::pow(int a, int b) {
 int ExpressionGraph::apply(Op function, int a, int b) {
   if (isConstant(a) && (operandCount(function) == 1 || isConstant(b)))
     return constant(applyOp(function, node(a).value, b < 0 ? 0 : node(b).value));
+  // sqrt(a^2) is |a|: squared, a loses the digits that decide near its zero.
+  if (function == Op::Sqrt && node(a).op == Op::PowInt && node(a).b % 2 == 0) {
+    const ExpressionNode square = node(a);
+    return square.b % 4 == 0 ? powInt(square.a, square.b / 2) : apply(Op::Abs, powInt(square.a, square.b / 2));
+  }
   if (node(a).op == Op::Neg) {
     const int inner = node(a).a;
     switch (function) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "constraints/guards.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -97,7 +98,16 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
       if (k <= 2) append(formula->roots, order);
     }
     const auto& second = formula->derivatives[2];
-    formula->straight = std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
+    // A derivative of 0 says nothing of kinks and jumps: {phi/10, abs(phi), 0} is none, nor is atan2(sin(phi), cos(phi)).
+    const std::vector<bool> needed = graph.reachableFrom(r), moving = findMoving(graph);
+    bool broken = false;
+    for (std::size_t id = 0; id < needed.size(); ++id) {
+      const ExpressionNode& n = graph.node(static_cast<int>(id));
+      const bool polynomial = n.op == Op::Variable || n.op == Op::Add || n.op == Op::Sub || n.op == Op::Mul || n.op == Op::Neg ||
+                              n.op == Op::PowInt || (n.op == Op::Div && !moving[static_cast<std::size_t>(n.b)]);
+      broken = broken || (needed[id] && moving[id] && !polynomial);
+    }
+    formula->straight = !broken && std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
   } else {
     const std::vector<int> rU = graph.differentiate(r, 0), rV = graph.differentiate(r, 1);
     append(formula->roots, rU);

@@ -21,6 +21,8 @@ class IntervalEvaluator {
   IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape);
   /// Finiteness of each root on the box.
   const std::vector<Finiteness>& evaluate(const std::array<Interval, 2>& box);
+  /// Bounds of root k on the box last evaluated.
+  Interval rangeOf(std::size_t k) const { return bounds_[static_cast<std::size_t>(roots_[k])].range; }
 
  private:
   struct Bound {

@@ -128,26 +128,40 @@ TEST(Usable, FormulasThatDegenerateEverywhereAreRefused) {
 
 TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
   const auto expect = [](const std::string& x, const std::string& place) {
-    const std::string message = refusal({.name = {}, .curve = {x, "phi", "0"}, .surface = {}, .shape = {}});
+    ConstraintSpec spec{.name = {}, .curve = {x, "phi", "0"}, .surface = {}, .shape = {}};
+    spec.inUse = {Domain{0, 2 * kPi}, Domain{0, 0}};
+    const std::string message = refusal(spec);
     EXPECT_NE(message.find("not finite at phi = " + place), std::string::npos) << x << ": " << message;
   };
   expect("1/(phi - 1)", "1");
   expect("1/(phi - 1.2345678)", "1.2345678");
-  expect("log(phi - 2)", "0");
+  expect("log(phi - 2)", "2");  // up to which it has no value
   expect("log(abs(phi - 1.1))", "1.1");
   expect("tan(phi)", "1.5707963");
   expect("1/(phi - 1.3)^2", "1.3");
   expect("sqrt(phi)", "0");                    // its derivative
   expect("sqrt(4 - phi)", "4");                // from where on it has no value
   expect("exp(exp(exp(phi)))", "2.35619449");  // the first of the places looked at beyond 1.88
-  expect("sin(phi)/phi", "0");
-  const std::string surface = refusal({.name = {}, .curve = {}, .surface = {"u", "v", "1/(u^2 + v^2)"}, .shape = {}});
-  EXPECT_NE(surface.find("not finite at u = "), std::string::npos) << surface;
+}
+
+TEST(Usable, JumpsBetweenStartAndTargetAreRefused) {
+  ConstraintSpec spec{.name = {}, .curve = {"phi/10", "sign(phi - 1)/20", "0"}, .surface = {}, .shape = {}};
+  spec.inUse = {Domain{0, 2}, Domain{0, 0}};
+  EXPECT_NE(refusal(spec).find("jump at phi = 1: sign(phi - 1), which no mass can cross"), std::string::npos) << refusal(spec);
+  spec.inUse = {Domain{1.1, 2}, Domain{0, 0}};
+  EXPECT_EQ(refusal(spec), "accepted");
+}
+
+TEST(Usable, WithoutATaskTheStartDecides) {
+  EXPECT_EQ(refusal({.name = {}, .curve = {"log(phi)", "1/phi", "phi"}, .surface = {}, .shape = {}}), "accepted");
+  EXPECT_EQ(refusal({.name = {}, .curve = {"sin(phi)/phi", "phi", "0"}, .surface = {}, .shape = {}}), "accepted");
+  EXPECT_EQ(refusal({.name = {}, .curve = {}, .surface = {"u", "v", "1/(u^2 + v^2)"}, .shape = {}}), "accepted");
 }
 
 TEST(Usable, OnlyWhereItIsMovedOnMustItBeFinite) {
   ConstraintSpec spec{.name = {}, .curve = {"log(phi)", "1/phi", "phi"}, .surface = {}, .shape = {}};
-  EXPECT_NE(refusal(spec).find("not finite at phi = 0"), std::string::npos);
+  spec.inUse = {Domain{-1, 1}, Domain{0, 0}};
+  EXPECT_NE(refusal(spec).find("not finite at phi = 0"), std::string::npos) << refusal(spec);
   spec.inUse = {Domain{1, 2}, Domain{0, 0}};
   EXPECT_EQ(refusal(spec), "accepted");
 }

@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "constraints/places.h"
+#include "constraints/program.h"
+
+namespace reachlab::constraints {
+
+/// What interval analysis of the formula's graph decides about a surface: the lines across which it is not smooth, and its branches
+/// between them. A typed surface has no ends: where its formula cannot be proved smooth everywhere, the lines are watched as a mass moves.
+struct SurfaceBranches {
+  static constexpr int kMostGuards = 6;
+  static constexpr int kMostBranching = 4;  // more lines that can be passed than that are stopped at
+
+  struct Line {
+    std::string because;               // the operation: "abs(u + v)"
+    bool passable = false;             // a branching operation (abs, sign, atan2): another smooth formula lies behind
+    PlaceKind kind = PlaceKind::Kink;  // what it is where it was looked at; a jump and a kink are told apart again where a mass meets it
+    int bit = -1;                      // of the branch's index; passable ones only
+    double level = 0;                  // the line is argument = level
+  };
+  std::vector<Line> lines;        // empty: smooth
+  std::vector<Place> places;      // what a person is told
+  std::vector<Surface> branches;  // by index: bit set where argument > level. One when there is no passable line
+  std::shared_ptr<const void> owner;
+
+  bool smooth() const { return lines.empty(); }
+  /// argument - level of each line, and its derivatives by u and v. Never allocates.
+  struct Guarded {
+    double value = 0, u = 0, v = 0;
+  };
+  std::array<Guarded, kMostGuards> at(double u, double v) const noexcept;
+
+  const Program* program = nullptr;  // of `at`
+  std::array<double, kMaxShapeParameters> shape{};
+};
+
+/// Throws UsageError where the formula has more than kMostGuards such lines.
+std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& surface);
+
+}  // namespace reachlab::constraints
