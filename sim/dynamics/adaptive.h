@@ -34,31 +34,72 @@ class Adaptive {
                         StepReport& report) noexcept {
     State inside = y0;
     double reached = 0;
-    const StepStatus status = advance(system, hand, dt, y0, y, reached, report,
-                                      [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
-                                        if (system.inside(to)) return false;
-                                        const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
-                                        report.rhs += 4;
-                                        inside = from;
-                                        meeting.beyond = to;
-                                        State at(system.states());
-                                        double low = 0, high = 1;
-                                        for (double middle = 0.5; middle > low && middle < high; middle = 0.5 * (low + high)) {
-                                          dense.at(middle, at);
-                                          const bool good = system.inside(at);
-                                          (good ? low : high) = middle;
-                                          (good ? inside : meeting.beyond) = at;
-                                        }
-                                        meeting.met = true;
-                                        reached = t + low * h;
-                                        return true;
-                                      });
+    const StepStatus status =
+        advance(system, hand, dt, y0, y, reached, report,
+                       [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
+                         const bool ends = !system.inside(to);
+                         if (!ends && !mayHaveTurned(system, from, to, h)) return false;
+                         const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
+                         report.rhs += 4;
+                         State at(system.states());
+                         double low = 0, high = 1;
+                         inside = from;
+                         meeting.beyond = to;
+                         if (!ends) {
+                           high = findTurnOutside(system, dense, from, meeting.beyond);
+                           if (high == 0) return false;
+                         }
+                         for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high)) {
+                           dense.at(middle, at);
+                           const bool good = system.inside(at);
+                           (good ? low : high) = middle;
+                           (good ? inside : meeting.beyond) = at;
+                         }
+                         meeting.met = true;
+                         reached = t + low * h;
+                         return true;
+                       });
     meeting.share = reached / dt;
     if (meeting.met) y = inside;
     return status;
   }
 
  private:
+  static bool mayHaveTurned(const System& system, const State& from, const State& to, double h) noexcept {
+    if constexpr (requires { system.turned(from, to, h); }) return system.turned(from, to, h);
+    return false;
+  }
+  /// A share of a sub-step at which a mass is beyond an end, though it is back at the sub-step's end; 0 if there is none.
+  template <class Dense>
+  static double findTurnOutside(const System& system, const Dense& dense, const State& from, State& beyond) noexcept {
+    const int n = system.states();
+    State at(n), end(n);
+    dense.at(1, end);
+    const auto outside = [&](double share) {
+      dense.at(share, at);
+      if (system.inside(at)) return false;
+      beyond = at;
+      return true;
+    };
+    if constexpr (requires { system.pieceOf(0); }) {  // on a curve exactly where the speed changes its sign
+      for (int i = n / 2; i < n; ++i) {
+        if (!(from[i] * end[i] < 0)) continue;
+        double low = 0, high = 1;
+        for (int round = 0; round < 50; ++round) {
+          const double middle = 0.5 * (low + high);
+          dense.at(middle, at);
+          (from[i] * at[i] > 0 ? low : high) = middle;
+        }
+        if (outside(high)) return high;
+      }
+    } else {
+      constexpr int kLooks = 64;
+      for (int k = 1; k < kLooks; ++k)
+        if (outside(k / double{kLooks})) return k / double{kLooks};
+    }
+    return 0;
+  }
+
   /// Sub-steps from 0 to dt, until `stops(rate, t, h, y, stages, next)` says of an accepted one that it is the last. `t`: how far they came.
   template <class Stops>
   StepStatus advance(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, double& t, StepReport& report,

@@ -24,6 +24,11 @@ class BodyPlant final : public SystemPlant<BodySystem, Method> {
     return 0.5 * this->model_.mass[0] * dot(p.v, p.v) - this->model_.mass[0] * dot(this->model_.gravity, p.r) +
            0.5 * dot(p.turn, times(this->system_.inertia, p.turn)) + 0.5 * this->system_.springs.handStiffness[0] * dot(stretch, stretch);
   }
+  void setAngularVelocity(const Vec3& velocity) noexcept override {
+    const Vec3 turn = pose().toBody(velocity);
+    this->state()[10] = turn.x, this->state()[11] = turn.y, this->state()[12] = turn.z;
+    this->restart();
+  }
   BodyState body() const noexcept override {
     const auto p = pose();
     return {{p.w, p.x, p.y, p.z}, p.toWorld(p.turn)};

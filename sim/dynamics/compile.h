@@ -2,6 +2,8 @@
 #include <memory>
 #include <string>
 
+#include "constraints/places.h"
+#include "constraints/surface_branches.h"
 #include "sim/dynamics/linear_plant.h"
 #include "sim/dynamics/quadric.h"
 
@@ -25,7 +27,13 @@ struct CurveForm {
 };
 std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                                       const MethodRequest& request);
-std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraints::Constraint& constraint, const MethodRequest& request);
+/// A curve whose formula is smooth by pieces only.
+std::unique_ptr<Plant> makeBrokenCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint,
+                                            std::shared_ptr<const constraints::CurveRegularity> regularity, double typicalSpeed,
+                                            const MethodRequest& request);
+/// `branches`: null for a surface that is smooth throughout.
+std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraints::Constraint& constraint,
+                                      std::shared_ptr<const constraints::SurfaceBranches> branches, const MethodRequest& request);
 /// `edges`: some end of the domain is an edge and not a pole.
 std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& quadric,
                                         bool edges, const MethodRequest& request);

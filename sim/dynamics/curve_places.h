@@ -25,7 +25,8 @@ struct CurvePlaces {
   constexpr int n() const noexcept { return N > 0 ? N : count; }
   constexpr int rates() const noexcept { return Room > 0 ? Room : room; }
   constexpr int states() const noexcept { return 2 * rates(); }
-  double speedAt(double phi) const noexcept { return norm(constraints::evaluate(curve, phi).rPhi); }
+  const constraints::Curve& curveOf(int) const noexcept { return curve; }
+  double speedAt(int, double phi) const noexcept { return norm(evaluate(curve, phi).rPhi); }
   double scale(int i) const noexcept { return i < rates() ? 0.1 : Tangential ? 0.1 : 1.0; }
 
   /// All masses at one place; room beyond them rests there too.
@@ -33,7 +34,7 @@ struct CurvePlaces {
   void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
     for (int i = 0; i < rates(); ++i) {
       y[i] = q[0];
-      y[rates() + i] = i >= n() ? 0 : Tangential ? qRate[0] * speedAt(q[0]) : qRate[0];
+      y[rates() + i] = i >= n() ? 0 : Tangential ? qRate[0] * speedAt(0, q[0]) : qRate[0];
     }
   }
   template <class State>

@@ -46,13 +46,13 @@ class CuspAdaptive {
     double speed = 0;  // [m] |r_phi|
   };
   static Lead nearest(const System& system, const State& y) noexcept {
-    Lead lead{0, system.speedAt(y[0])};
+    Lead lead{0, system.speedAt(0, y[0])};
     for (int i = 1; i < system.n(); ++i)
-      if (const double speed = system.speedAt(y[i]); speed < lead.speed) lead = {i, speed};
+      if (const double speed = system.speedAt(i, y[i]); speed < lead.speed) lead = {i, speed};
     return lead;
   }
-  static double slope(const System& system, double phi) noexcept {
-    const constraints::CurvePoint p = constraints::evaluate(system.curve, phi);
+  static double slope(const System& system, int mass, double phi) noexcept {
+    const constraints::CurvePoint p = evaluate(system.curveOf(mass), phi);
     return dot(p.rPhi, p.rPhiPhi);
   }
 
@@ -67,7 +67,7 @@ class CuspAdaptive {
     const auto rate = [&](double, const Extended& at, Extended& d) {
       for (int i = 0; i < n; ++i) plain[i] = at[i];
       system.rate(system.handAt(hand, at[n] / dt), plain, rates);
-      const double factor = system.speedAt(at[lead.mass]) / c;
+      const double factor = system.speedAt(lead.mass, at[lead.mass]) / c;
       for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
       d[lead.mass] = at[system.rates() + lead.mass] / c;
       d[n] = factor;
@@ -96,10 +96,10 @@ class CuspAdaptive {
       bool cuspEnd = false;
       if (std::isfinite(error) && from != to) {
         const double direction = to > from ? 1 : -1;
-        const bool falling = onCusp ? false : direction * slope(system, from) < 0;
-        if (falling && direction * slope(system, to) > 0) {
+        const bool falling = onCusp ? false : direction * slope(system, lead.mass, from) < 0;
+        if (falling && direction * slope(system, lead.mass, to) > 0) {
           double phi = 0;
-          if (findCusp(system, from, to, phi)) {
+          if (findCusp(system, lead.mass, from, to, phi)) {
             double tau = h * (phi - from) / (to - from);
             for (int round = 0; round < 12; ++round) {
               error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
@@ -123,7 +123,7 @@ class CuspAdaptive {
         double low = 0, high = h, tau = h;
         for (int round = 0; round < 40 && std::abs(trial[n] - dt) > 2e-16 * dt; ++round) {
           (trial[n] > dt ? high : low) = tau;
-          const double factor = system.speedAt(trial[lead.mass]) / c;
+          const double factor = system.speedAt(lead.mass, trial[lead.mass]) / c;
           double better = tau - (trial[n] - dt) / std::max(factor, 1e-300);
           if (!(better > low && better < high)) better = 0.5 * (low + high);
           if (better == tau) break;
@@ -168,11 +168,11 @@ class CuspAdaptive {
   }
 
   /// The minimum of |r_phi| between two places where it falls and rises; true if it is a cusp. Gauss-Newton on r_phi = 0.
-  static bool findCusp(const System& system, double from, double to, double& phi) noexcept {
+  static bool findCusp(const System& system, int mass, double from, double to, double& phi) noexcept {
     double low = std::min(from, to), high = std::max(from, to);
     phi = 0.5 * (low + high);
     for (int round = 0; round < 80 && high - low > 1e-16 * (std::abs(low) + std::abs(high)); ++round) {
-      const constraints::CurvePoint p = constraints::evaluate(system.curve, phi);
+      const constraints::CurvePoint p = evaluate(system.curveOf(mass), phi);
       const double s = dot(p.rPhi, p.rPhiPhi);
       if (s == 0) break;
       (s > 0 ? high : low) = phi;
@@ -181,7 +181,7 @@ class CuspAdaptive {
       if (better == phi) break;
       phi = better;
     }
-    return system.speedAt(phi) < kCusp * system.speedScale;
+    return system.speedAt(mass, phi) < kCusp * system.speedScale;
   }
 
   Adaptive<System> regular_;

@@ -40,6 +40,8 @@ class Plant {
   virtual void placeAtRest(std::span<const double> q) noexcept = 0;
   /// All masses at parameters q with rates qRate.
   virtual void place(std::span<const double> q, std::span<const double> qRate) noexcept = 0;
+  /// A body's angular velocity [rad/s], world axes; place() sets it to zero and the orientation to none. Nothing for other objects.
+  virtual void setAngularVelocity(const Vec3&) noexcept {}
   /// A constant extra force on mass 1 [N], world frame.
   virtual void setExtraForce(const Vec3& force) noexcept = 0;
   /// False switches the coupling off (no hand).

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "constraints/formula.h"
+#include "constraints/polynomial.h"
+
 namespace reachlab::dynamics {
 namespace {
 
@@ -59,6 +62,39 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
   q.b = q.b / slope;
   q.c /= slope;
   return q;
+}
+
+bool provesQuadric(const constraints::Constraint& surface, const Quadric& q) {
+  if (surface.owner == nullptr) return false;
+  const constraints::CompiledFormula& formula = *std::static_pointer_cast<const constraints::CompiledFormula>(surface.owner);
+  const double* shape = surface.surface.shape.data();
+  const constraints::ExpressionGraph& graph = formula.graph;
+  std::array<constraints::Polynomial, 3> d;
+  const double centre[3] = {q.centre.x, q.centre.y, q.centre.z};
+  double size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto coordinate = constraints::Polynomial::of(graph, formula.roots[k], shape);
+    if (!coordinate) return false;
+    d[k] = *coordinate;
+    d[k] += constraints::Polynomial::constant(-centre[k]);
+    size = std::max(size, d[k].largest());
+  }
+  constraints::Polynomial f = constraints::Polynomial::constant(q.c);
+  const double slope[3] = {q.b.x, q.b.y, q.b.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    constraints::Polynomial term = d[k];
+    term *= slope[k];
+    f += term;
+  }
+  constexpr std::size_t kRow[6] = {0, 1, 2, 0, 0, 1}, kColumn[6] = {0, 1, 2, 1, 2, 2};
+  for (std::size_t k = 0; k < 6; ++k) {
+    auto product = d[kRow[k]].times(d[kColumn[k]], graph, shape);
+    if (!product) return false;
+    *product *= q.a[k] * (k < 3 ? 1 : 2);
+    f += *product;
+  }
+  constexpr double kRounding = 1e-11;  // of a coordinate's largest coefficient: what the fit leaves
+  return f.largest() <= kRounding * size;
 }
 
 }  // namespace reachlab::dynamics

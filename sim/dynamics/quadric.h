@@ -31,4 +31,8 @@ struct Quadric {
 std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
                                   const std::array<double, 2>& start);
 
+/// F(r(u, v)) vanishes identically: shown on the formula itself, as a polynomial in its sines, roots … with their identities, and so on
+/// the whole domain, narrow bumps between samples included. The formula must be analytic there. Allocates.
+bool provesQuadric(const constraints::Constraint& surface, const Quadric& quadric);
+
 }  // namespace reachlab::dynamics

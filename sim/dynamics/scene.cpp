@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "constraints/analysis.h"
 #include "base/error.h"
+#include "constraints/places.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/plant.h"
@@ -21,37 +23,45 @@ bool isLinear(const constraints::Constraint& constraint, const ObjectModel& mode
 }
 
 struct SpeedRange {
-  double least = 0, most = 0;  // [m] |r_phi|
+  double least = 0, most = 0;  // [m] |r_phi|; the largest counts only up to kSteep times the typical one
 };
-/// On the domain, or over 2 pi about the start where it has no end; a dip between samples is followed to its bottom.
-SpeedRange findSpeedRange(const constraints::Constraint& constraint, double start) {
+/// On the piece that holds the start, over 2 pi about it where it has no end; a dip between samples is followed to its bottom.
+SpeedRange findSpeedRange(const constraints::Constraint& constraint, const constraints::CurvePiece& piece, double start) {
   const constraints::Domain d = constraints::boundedDomain(constraint)[0];
   constexpr int kSamples = 1440;
+  constexpr double kSteep = 8;
   SpeedRange range{1e300, 0};
+  std::vector<double> speeds;
+  const auto speedAt = [&](double phi) { return norm(evaluate(piece.curve, phi).rPhi); };
   for (const double centre : {0.5 * (d.lo + d.hi), start}) {
     double before = 1e300, last = 1e300;
     for (int i = 0; i <= kSamples; ++i) {
       const auto phiAt = [&](double k) {
-        return std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
+        const double phi =
+            std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
+        return std::fmin(std::fmax(phi, piece.lo), piece.hi);
       };
-      const double speed = norm(constraints::evaluate(constraint.curve, phiAt(i)).rPhi);
+      const double speed = speedAt(phiAt(i));
       if (!std::isfinite(speed)) continue;
+      speeds.push_back(speed);
       range.least = std::min(range.least, speed);
       range.most = std::max(range.most, speed);
       if (last < before && last <= speed) {
         double lo = i - 2, hi = i;
         for (int round = 0; round < 60; ++round) {
           const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-          const double atA = norm(constraints::evaluate(constraint.curve, phiAt(a)).rPhi),
-                       atB = norm(constraints::evaluate(constraint.curve, phiAt(b)).rPhi);
+          const double atA = speedAt(phiAt(a)), atB = speedAt(phiAt(b));
           (atA < atB ? hi : lo) = atA < atB ? b : a;
         }
-        range.least = std::min(range.least, norm(constraints::evaluate(constraint.curve, phiAt(lo)).rPhi));
+        range.least = std::min(range.least, speedAt(phiAt(lo)));
       }
       before = last;
       last = speed;
     }
   }
+  if (speeds.empty()) return {0, 0};
+  std::nth_element(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2), speeds.end());
+  range.most = std::min(range.most, std::max(kSteep * speeds[speeds.size() / 2], norm(evaluate(piece.curve, start).rPhi)));
   return range;
 }
 
@@ -71,6 +81,28 @@ bool hasEdges(const constraints::Constraint& c) {
     }
   }
   return false;
+}
+
+bool isStill(constraints::PlaceKind kind) {
+  return kind == constraints::PlaceKind::Cusp || kind == constraints::PlaceKind::Fold || kind == constraints::PlaceKind::Standstill;
+}
+
+const constraints::CurvePiece& startPiece(const constraints::CurveRegularity& regularity, double start) {
+  const int piece = regularity.pieceAt(start);
+  if (piece >= 0) return regularity.pieces[static_cast<std::size_t>(piece)];
+  if (regularity.pieces.empty() && regularity.places.empty())
+    throw RefusedError(
+        fmt::format("where the curve is smooth about the start phi = {} could not be decided: the formula has no value there, or "
+                    "breaks off too often; choose another start, or a simpler formula",
+                    start));
+  std::string near;
+  double nearest = 1e300;
+  for (const constraints::Place& place : regularity.places)
+    if (std::abs(place.at - start) < nearest) {
+      nearest = std::abs(place.at - start);
+      near = "; near it: " + describe(place, constraints::ConstraintKind::Curve);
+    }
+  throw RefusedError(fmt::format("the curve has no place for a mass at the start phi = {}{}; choose another start", start, near));
 }
 
 void requireStart(const constraints::Constraint& c, const std::vector<double>& start) {
@@ -101,6 +133,7 @@ Scene compileScene(const experiment::Experiment& experiment, const SceneOptions&
   SceneFacts facts{.linear = linear, .step = options.step};
   if (experiment.task) facts.duration = experiment.task->duration;
   CurveForm form;
+  std::shared_ptr<const constraints::CurveRegularity> regularity;
   double speedRatio = 1;
   if (linear) {
     const LinearSpace space = linearSpace(constraint);
@@ -109,13 +142,16 @@ Scene compileScene(const experiment::Experiment& experiment, const SceneOptions&
     facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == constraints::AtEnd::Bounce &&
                         (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
   } else if (constraint.kind == constraints::ConstraintKind::Curve) {
-    const SpeedRange speeds = findSpeedRange(constraint, start[0]);
+    regularity = std::make_shared<const constraints::CurveRegularity>(constraints::computeRegularity(constraint, start[0]));
+    const constraints::CurvePiece& piece = startPiece(*regularity, start[0]);
+    const SpeedRange speeds = findSpeedRange(constraint, piece, start[0]);
     speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
-    form = {speedRatio < kHardSpeedRatio, speeds.most};
-    facts.hardCurve = form.tangential;
-    if (experiment.task && !(norm(constraints::evaluate(constraint.curve, start[0]).rPhi) > 1e-12 * speeds.most))
-      throw RefusedError(
-          fmt::format("the start phi = {} is a cusp: from rest there the mass could go either way; choose another start", start[0]));
+    form = {speedRatio < kHardSpeedRatio || !regularity->whole, speeds.most};
+    facts.hardCurve = speedRatio < kHardSpeedRatio;
+    for (const constraints::Place& place : regularity->places)
+      if (experiment.task && isStill(place.kind) && std::abs(start[0] - place.at) < 1e-9 * std::max(1.0, std::abs(place.at)))
+        throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start",
+                                       start[0], nameOf(place.kind)));
   }
   scene.choice = chooseMethod(options.method.empty() ? experiment.method : options.method, model, facts);
   MethodChoice& choice = scene.choice;
@@ -135,17 +171,27 @@ Scene compileScene(const experiment::Experiment& experiment, const SceneOptions&
     choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", speedRatio,
                                                 2 * model.count())
                                   : fmt::format("curve in phi, {} states", 2 * model.count());
-    scene.plant = makeCurvePlant(model, constraint, form, request);
+    if (!regularity->whole) {
+      choice.form = fmt::format("curve by {} smooth pieces (examined from phi = {:.6g} to {:.6g}), speed along it, {} states",
+                                regularity->pieces.size(), regularity->lo, regularity->hi, 2 * model.count());
+      scene.plant = makeBrokenCurvePlant(model, constraint, regularity, form.largestSpeed, request);
+    } else {
+      scene.plant = makeCurvePlant(model, constraint, form, request);
+    }
   } else {
     if (model.count() != 1 || model.kind == experiment::ObjectKind::Body)
       throw RefusedError("on a surface only a point moves; use a curve, or one mass");
-    const auto quadric = fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]});
-    if (quadric) {
+    const auto branches = constraints::computeBranches(constraint);
+    if (!isFinite(evaluate(constraint.surface, start[0], start[1]).r))
+      throw RefusedError(fmt::format("the surface has no value at the start u = {}, v = {}; choose another start", start[0], start[1]));
+    const auto quadric = branches->smooth() ? fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]}) : std::nullopt;
+    if (quadric && provesQuadric(constraint, *quadric)) {
       choice.form = "surface of second degree in world coordinates, 6 states";
       scene.plant = makeQuadricPlant(model, constraint, *quadric, hasEdges(constraint), request);
     } else {
       choice.form = "surface in u and v, 4 states";
-      scene.plant = makeChartPlant(model, constraint, request);
+      if (!branches->smooth()) choice.form += fmt::format(", smooth between {} lines", branches->lines.size());
+      scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
     }
   }
   if (experiment.task) scene.plant->placeAtRest(start);

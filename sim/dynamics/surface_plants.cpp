@@ -4,8 +4,11 @@
 
 namespace reachlab::dynamics {
 
-std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraints::Constraint& constraint, const MethodRequest& request) {
-  return makePlant(model, SurfaceSystem(model, constraint), request);
+std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraints::Constraint& constraint,
+                                      std::shared_ptr<const constraints::SurfaceBranches> branches, const MethodRequest& request) {
+  SurfaceSystem system(model, constraint);
+  system.branches = std::move(branches);
+  return makePlant(model, system, request);
 }
 
 std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& quadric,

@@ -5,6 +5,7 @@
 namespace reachlab::dynamics {
 namespace {
 
+constexpr double kMargin = 3e-7;              // of the argument's size
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
 constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
 constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
@@ -69,6 +70,106 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   }
   polar = {surface, fixed, across, from > across ? 1.0 : -1.0};
   return true;
+}
+
+void SurfaceSystem::findBranch(std::span<const double> q, std::span<const double> qRate) noexcept {
+  const auto lines = branches->at(q[0], q[1]);
+  where = {};
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    double value = lines[k].value;
+    if (value == 0) value = lines[k].u * qRate[0] + lines[k].v * qRate[1];
+    where.side[k] = value < 0 ? -1 : 1;
+    const double typical = std::max(std::abs(value), 0.1 * (std::abs(lines[k].u) + std::abs(lines[k].v)));
+    margin[k] = branches->lines[k].passable ? 0 : kMargin * typical;
+    if (const int bit = branches->lines[k].bit; bit >= 0 && where.side[k] > 0) where.branch |= 1 << bit;
+  }
+  useBranch();
+}
+
+bool SurfaceSystem::onBranch(const State& y) const noexcept {
+  const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
+  const auto lines = branches->at(q[0], q[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k)
+    if (!(lines[k].value * where.side[k] >= margin[k])) return false;
+  return true;
+}
+
+bool SurfaceSystem::turned(const State& from, const State& to, double dt) const noexcept {
+  if (branches == nullptr || inPolar) return false;
+  const auto a = branches->at(from[0], from[1]), b = branches->at(to[0], to[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double before = (a[k].u * from[2] + a[k].v * from[3]) * where.side[k], after = (b[k].u * to[2] + b[k].v * to[3]) * where.side[k];
+    if (before < 0 && after > 0 && std::fmin(a[k].value, b[k].value) * where.side[k] < -before * dt) return true;
+  }
+  return false;
+}
+
+bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double) noexcept {
+  if (branches == nullptr) return false;
+  const std::array<double, 2> behind = inPolar ? polar.toBase(beyond[0], beyond[1]) : std::array{beyond[0], beyond[1]};
+  const auto lines = branches->at(behind[0], behind[1]);
+  bool passed = false;
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    if (lines[k].value * where.side[k] >= margin[k]) continue;
+    metLine = static_cast<int>(k);
+    const constraints::SurfaceBranches::Line& line = branches->lines[k];
+    if (!line.passable) return false;
+    if (inPolar) {
+      const constraints::SurfacePoint local = evaluate(active, y[0], y[1]);
+      const std::array<double, 2> q = polar.toBase(y[0], y[1]);
+      const std::array<double, 2> rate = solveRates(evaluate(surface, q[0], q[1]), y[2] * local.rU + y[3] * local.rV);
+      y.values = {q[0], q[1], rate[0], rate[1]};
+      inPolar = false;
+    }
+    const Where other{where.branch ^ (1 << line.bit), where.side};
+    const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
+    const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], y[0], y[1]);
+    if (!(norm(here.r - there.r) <= 1e-9 * (1e-3 + norm(here.r)))) return false;
+    const auto at = branches->at(y[0], y[1])[k];
+    // Unit vectors along the crease and across it, the latter in each side's tangent plane.
+    const auto across = [&](const constraints::SurfacePoint& p, const Vec3& along) {
+      const Vec3 through = at.u * p.rU + at.v * p.rV, part = through - dot(through, along) * along;
+      return part / norm(part);
+    };
+    Vec3 along = at.u * here.rV - at.v * here.rU;
+    along = along / norm(along);
+    const Vec3 v = y[2] * here.rU + y[3] * here.rV;
+    const Vec3 turnedVelocity = dot(v, along) * along + dot(v, across(here, along)) * across(there, along);
+    const std::array<double, 2> rate = solveRates(there, turnedVelocity);
+    if (!std::isfinite(rate[0]) || !std::isfinite(rate[1])) return false;
+    y[2] = rate[0];
+    y[3] = rate[1];
+    where = other;
+    where.side[k] = static_cast<signed char>(-where.side[k]);
+    useBranch();
+    metLine = -1;
+    passed = true;
+  }
+  return passed;
+}
+
+int SurfaceSystem::endingLine(const State& y) const noexcept {
+  if (branches == nullptr) return -1;
+  const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
+  const auto lines = branches->at(q[0], q[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k)
+    if (!branches->lines[k].passable && !(std::abs(lines[k].value) > 0.02 * (std::abs(lines[k].u) + std::abs(lines[k].v))))
+      return static_cast<int>(k);
+  return -1;
+}
+
+std::string SurfaceSystem::endReason() const {
+  if (metLine < 0) return "the mass reached the end of the constraint's domain";
+  const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(metLine)];
+  return fmt::format("the mass met a place of the surface that is never crossed: {}: {}",
+                     nameOf(line.passable ? constraints::PlaceKind::Jump : line.kind), line.because);
+}
+
+std::string SurfaceSystem::lostReason(const State& y) const {
+  const int k = endingLine(y);
+  if (k < 0) return kNoContinuation;
+  const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];
+  return fmt::format("the mass is beside a place of the surface that is never crossed: {}: {}", nameOf(line.kind), line.because);
 }
 
 }  // namespace reachlab::dynamics

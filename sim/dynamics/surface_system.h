@@ -1,6 +1,10 @@
 #pragma once
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+
+#include "constraints/surface_branches.h"
 #include "sim/dynamics/polar_chart.h"
 #include "sim/dynamics/surface_rates.h"
 #include "sim/dynamics/system.h"
@@ -26,6 +30,19 @@ struct SurfaceSystem {
   int ticks = 0, waiting = 0;                          // between looks for a pole
   double largestU = 0, largestV = 0, largestArea = 0;  // [m^2], [m^2], [m^4] the largest |r_u|^2, |r_v|^2, |r_u x r_v|^2 seen so far
 
+  /// Lines across which the formula is not smooth; null for a surface without them. A crease (abs) is passed as the geodesic does: what of
+  /// the velocity is along it stays, what is across it turns into the other side's tangent plane. Jumps, poles and ends are never crossed.
+  std::shared_ptr<const constraints::SurfaceBranches> branches;
+  struct Where {
+    int branch = 0;
+    std::array<signed char, constraints::SurfaceBranches::kMostGuards> side{};  // sign of each line's argument - level
+  };
+  Where where;
+  int metLine = -1;  // that stopped the mass
+  mutable double leastDeterminant = 1e300;  // [m^4] of G in this step
+  /// How near a mass comes to a line at which the formula ends, in its argument: nearer, its rounding shows in the speed.
+  std::array<double, constraints::SurfaceBranches::kMostGuards> margin{};
+
   SurfaceSystem(const ObjectModel& model, const constraints::Constraint& constraint)
       : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
   static constexpr int states() noexcept { return 4; }
@@ -45,6 +62,7 @@ struct SurfaceSystem {
     const Vec3 drive = springs.inverseMass[0] * force + springs.gravity - bend;
     const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), determinant = e * g - f * f;
     const double a = dot(p.rU, drive), b = dot(p.rV, drive), inverse = 1 / determinant;
+    leastDeterminant = std::fmin(leastDeterminant, determinant);
     dy[0] = du;
     dy[1] = dv;
     dy[2] = (g * a - f * b) * inverse - drag * du;
@@ -54,8 +72,11 @@ struct SurfaceSystem {
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     y.values = {q[0], q[1], qRate[0], qRate[1]};
-    active = surface;
     inPolar = false;
+    metLine = -1;
+    leastDeterminant = 1e300;
+    if (branches != nullptr) findBranch(q, qRate);
+    active = surface;
     ticks = waiting = 0;
     for (int i = 0; i < 16; ++i) look(constraints::evaluate(surface, q[0] + 0.4 * (i % 4), q[1] + 0.4 * (i / 4)));
   }
@@ -72,13 +93,19 @@ struct SurfaceSystem {
 
   /// Every few ticks: is a pole near, or has it been left?
   Settled settle(const State&, State& y) noexcept {
+    // Across a place where r_u and r_v span no plane the parameters carry no velocity: what comes out of such a step is nothing.
+    constexpr double kDegenerate = 1e-7;
+    const bool degenerate = leastDeterminant < kDegenerate * largestArea;
+    leastDeterminant = 1e300;
+    if (degenerate) return Settled::Lost;
     constexpr int kLookEvery = 4;
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
   }
   Settled chooseChart(State& y) noexcept;
   /// Beside a place where r_u and r_v do not span a plane.
   bool lost(const State& y) const noexcept {
-    const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
+    if (endingLine(y) >= 0) return true;
+    const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
     const Vec3 area = cross(p.rU, p.rV);
     return dot(area, area) < 0.25 * 0.25 * largestArea;
   }
@@ -98,14 +125,31 @@ struct SurfaceSystem {
   }
 
   static bool ends(const constraints::Domain& d) noexcept { return !d.periodic && (std::isfinite(d.lo) || std::isfinite(d.hi)); }
-  bool bounded() const noexcept { return ends(domain[0]) || ends(domain[1]); }
-  bool bounces() const noexcept { return (ends(domain[0]) ? domain[0] : domain[1]).atEnd == constraints::AtEnd::Bounce; }
+  bool bounded() const noexcept { return ends(domain[0]) || ends(domain[1]) || branches != nullptr; }
+  bool bounces() const noexcept { return metLine < 0 && (ends(domain[0]) ? domain[0] : domain[1]).atEnd == constraints::AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {
+    if (branches != nullptr && !onBranch(y)) return false;
     if (inPolar) return true;  // left long before another end comes near
     for (int k = 0; k < 2; ++k)
       if (!domain[k].periodic && !(y[k] >= domain[k].lo && y[k] <= domain[k].hi)) return false;
     return true;
   }
+  /// Takes the branch at q; on a line itself the one that the rates lead to.
+  void findBranch(std::span<const double> q, std::span<const double> qRate) noexcept;
+  void useBranch() noexcept {
+    if (branches == nullptr) return;
+    surface = branches->branches[static_cast<std::size_t>(where.branch)];
+    if (!inPolar) active = surface;
+  }
+  bool onBranch(const State& y) const noexcept;
+  /// The mass may have crossed a line and come back within a step.
+  bool turned(const State& from, const State& to, double dt) const noexcept;
+  /// The mass goes on behind the line that it crosses; false where it may not, or where it met an end of the domain.
+  bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept;
+  /// A line at which the formula ends, if the mass is beside it; else -1.
+  int endingLine(const State& y) const noexcept;
+  std::string endReason() const;
+  std::string lostReason(const State& y) const;
   /// An elastic edge turns the velocity's part across it, which is not the parameter's rate where the lines are oblique.
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
     for (int k = 0; k < 2; ++k) {

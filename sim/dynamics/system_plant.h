@@ -44,9 +44,12 @@ class SystemPlant : public PlantBase {
   StepStatus step(const HandSegment& hand, double dt) noexcept override {
     StepReport report;
     fraction_ = 1;
+    if constexpr (requires { system_.anyHeld(); })
+      if (system_.anyHeld() && !system_.release(system_.handAt(hand, 0), system_.handAt(hand, 1), now())) return noContinuation();
     StepStatus status = method_.step(system_, hand, dt, now(), next(), report);
     if constexpr (System::kEnds)
-      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()))) status = meetEnds(hand, dt, status, report);
+      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()) || mayHaveTurned(dt)))
+        status = meetEnds(hand, dt, status, report);
     if constexpr (requires(System & s, State & y) { s.settle(y, y); })
       if (status == StepStatus::Ok) {
         const Settled settled = system_.settle(now(), next());
@@ -72,13 +75,20 @@ class SystemPlant : public PlantBase {
   }
   double errorEstimate() const noexcept override { return error_; }
   std::string stopReason() const override {
+    if constexpr (requires { system_.endReason(); })
+      if (stopped_ == StepStatus::AtEnd) return system_.endReason();
     if (stopped_ == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
+    if constexpr (requires { system_.troubleReason(now()); })
+      if (stopped_ == StepStatus::Capped || stopped_ == StepStatus::NotFinite) return system_.troubleReason(now());
+    if constexpr (requires { system_.lostReason(now()); })
+      if (stopped_ == StepStatus::NoContinuation) return system_.lostReason(now());
     if (stopped_ == StepStatus::NoContinuation) return System::kNoContinuation;
     return {};
   }
 
  protected:
   const State& state() const noexcept { return now(); }
+  State& state() noexcept { return now(); }
   void locate(std::span<MassState> masses) const noexcept override { system_.locate(now(), masses); }
 
   System system_;
@@ -88,15 +98,30 @@ class SystemPlant : public PlantBase {
   const State& now() const noexcept { return states_[current_]; }
   State& next() noexcept { return states_[1 - current_]; }
 
+  StepStatus noContinuation() noexcept {
+    fraction_ = 0;
+    return stopped_ = StepStatus::NoContinuation;
+  }
+  bool mayHaveTurned(double dt) noexcept {
+    if constexpr (requires { system_.turned(now(), next(), dt); }) return system_.turned(now(), next(), dt);
+    return false;
+  }
+
   /// The part of the tick after which every mass is still on the constraint, and the state then; at an elastic end the rest of the tick
   /// follows.
   StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
     const State before = now();
+    [[maybe_unused]] const auto branches = branchesNow();
+    const auto takeBack = [&] {
+      now() = before;
+      if constexpr (requires { system_.where; }) system_.where = branches;
+      if constexpr (requires { system_.useBranch(); }) system_.useBranch();
+    };
     State at = before;
     double begun = 0;
     HandSegment rest = hand;
     // A step over an end that is a cusp is known only to the method; the locator comes up to it.
-    const bool seen = status == StepStatus::Ok;
+    const bool seen = status == StepStatus::Ok && !system_.inside(next());
     for (bool first = true; report.rhs < kMostRhsPerTick; first = false) {
       typename Adaptive<System>::Meeting meeting{false, 1, now()};
       if (first && seen) meeting.beyond = next();
@@ -108,11 +133,15 @@ class SystemPlant : public PlantBase {
         return StepStatus::Ok;
       }
       if (!meeting.met && !(first && seen)) {  // not an end: the method itself failed
-        now() = before;
+        takeBack();
         return status;
       }
       begun += meeting.share * (1 - begun);
       now() = at;
+      if constexpr (requires { system_.passEnds(at, at, system_.handAt(rest, 0), dt); }) {
+        rest = part(hand, begun, 1);
+        if (system_.passEnds(meeting.beyond, now(), system_.handAt(rest, 0), dt)) continue;
+      }
       system_.meetEnd(meeting.beyond, now(), system_.bounces());
       // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity: it stops just before, elastic or not.
       const bool degenerate = !sameSpeed(at, now()) || !hasRates(rest, now());
@@ -124,8 +153,13 @@ class SystemPlant : public PlantBase {
       }
       rest = part(hand, begun, 1);
     }
-    now() = before;
+    takeBack();
     return StepStatus::Capped;
+  }
+
+  auto branchesNow() const noexcept {
+    if constexpr (requires { system_.where; }) return system_.where;
+    else return 0;
   }
 
   bool sameSpeed(const State& a, const State& b) const noexcept {

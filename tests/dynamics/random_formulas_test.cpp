@@ -1,0 +1,133 @@
+// Free motion on random formulas of the whole language: energy is kept, or the run ends in words. REACHLAB_RANDOM_FORMULAS sets how many
+// (tests/long/random_formulas.sh: 10,000).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
+#include "base/error.h"
+#include "constraints/places.h"
+#include "constraints/surface_branches.h"
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+constexpr double kKept = 1e-9;         // of the energy, over 2 s
+constexpr double kMostStopped = 0.05;  // of those proved smooth
+constexpr double kSpeed = 0.3;         // [m/s]
+constexpr int kTicks = 2000;
+
+class Writer {
+ public:
+  Writer(std::uint64_t seed, bool surface) : random_(seed), surface_(surface) {}
+  double uniform(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+  std::string coordinate() { return fmt::format("{:.3f}*({})", uniform(0.02, 0.2), sum(3)); }
+
+ private:
+  int pick(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
+  std::string variable() { return !surface_ ? "phi" : pick(2) == 0 ? "u" : "v"; }
+  std::string atom() {
+    switch (pick(8)) {
+      case 0: return fmt::format("{:.2f}", uniform(0.1, 3));
+      case 1: return pick(2) == 0 ? "pi" : "e";
+      default: return variable();
+    }
+  }
+  std::string sum(int depth) {
+    if (depth == 0) return atom();
+    static constexpr const char* kFunctions[] = {"sin",  "cos",  "tan", "asin", "acos", "atan", "sinh",
+                                                 "cosh", "tanh", "exp", "log",  "sqrt", "abs",  "sign"};
+    switch (pick(11)) {
+      case 0: return "(" + sum(depth - 1) + " + " + sum(depth - 1) + ")";
+      case 1: return "(" + sum(depth - 1) + " - " + sum(depth - 1) + ")";
+      case 2: return sum(depth - 1) + "*" + sum(depth - 1);
+      case 3: return "(" + sum(depth - 1) + ")/(" + sum(depth - 1) + ")";
+      case 4: return "(" + sum(depth - 1) + ")^" + std::to_string(2 + pick(3));
+      case 5: return "(" + sum(depth - 1) + ")^" + fmt::format("{:.1f}", uniform(0.3, 3));
+      case 6: return "atan2(" + sum(depth - 1) + ", " + sum(depth - 1) + ")";
+      case 7: return atom();
+      case 8: return std::string(pick(2) == 0 ? "sin(" : "cos(") + sum(depth - 1) + ")";
+      default: return std::string(kFunctions[pick(14)]) + "(" + sum(depth - 1) + ")";
+    }
+  }
+  std::mt19937_64 random_;
+  bool surface_;
+};
+
+struct Tally {
+  int refused = 0, ran = 0, stopped = 0, smooth = 0, smoothStopped = 0;
+};
+
+void tryOne(std::uint64_t seed, Tally& tally) {
+  const bool surface = seed % 3 == 0;
+  Writer writer(seed, surface);
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+  std::vector<std::string>& lines = surface ? e.constraint.surface : e.constraint.curve;
+  e.constraint.name.clear();
+  for (int k = 0; k < 3; ++k) lines.push_back(writer.coordinate());
+  SCOPED_TRACE(fmt::format("seed {}: {}, {}, {}", seed, lines[0], lines[1], lines[2]));
+  std::vector<double> start;
+  for (int k = 0; k < (surface ? 2 : 1); ++k) start.push_back(writer.uniform(-1.5, 1.5));
+  experiment::Task task;
+  task.start = task.target = start;
+  e.task = task;
+  Scene scene;
+  bool smooth = false;
+  std::vector<double> rate;
+  try {
+    scene = compileScene(e);
+    const constraints::Constraint& c = scene.constraint;
+    if (surface) {
+      smooth = constraints::computeBranches(c)->smooth();
+      const constraints::SurfacePoint p = constraints::evaluate(c.surface, start[0], start[1]);
+      const double angle = writer.uniform(0, 6.28);
+      const double speed = norm(std::cos(angle) * p.rU + std::sin(angle) * p.rV);
+      rate = {kSpeed * std::cos(angle) / speed, kSpeed * std::sin(angle) / speed};
+    } else {
+      const constraints::CurveRegularity regularity = constraints::computeRegularity(c, start[0]);
+      smooth = regularity.smooth && regularity.whole;
+      rate = {kSpeed / norm(constraints::evaluate(c.curve, start[0]).rPhi)};
+    }
+  } catch (const Error& refusal) {
+    EXPECT_STRNE(refusal.what(), "");
+    ++tally.refused;
+    return;
+  }
+  if (!std::isfinite(rate[0]) || !std::isfinite(rate.back())) {  // r does not move there
+    ++tally.refused;
+    return;
+  }
+  scene.plant->setCoupled(false);
+  scene.plant->place(start, rate);
+  const double before = scene.plant->energy({});
+  ++tally.ran;
+  tally.smooth += smooth;
+  for (int i = 0; i < kTicks; ++i) {
+    const StepStatus status = scene.plant->step({}, 1e-3);
+    ASSERT_LE(std::abs(scene.plant->energy({}) / before - 1), kKept)
+        << "after " << i + 1 << " ms, " << scene.choice.form << ", " << describe(status);
+    if (status == StepStatus::Ok) continue;
+    EXPECT_FALSE(describe(status).empty());
+    ++tally.stopped;
+    tally.smoothStopped += smooth;
+    return;
+  }
+}
+
+}  // namespace
+
+TEST(RandomFormulas, KeepTheEnergyOfAFreeMassOrStop) {
+  const char* asked = std::getenv("REACHLAB_RANDOM_FORMULAS");
+  const int count = asked != nullptr ? std::atoi(asked) : 200;
+  Tally tally;
+  for (int seed = 1; seed <= count && !HasFatalFailure(); ++seed) tryOne(static_cast<std::uint64_t>(seed), tally);
+  std::cout << fmt::format("measured: {} formulas, {} refused, {} ran, {} of them stopped; {} proved smooth, {} of them stopped\n", count,
+                           tally.refused, tally.ran, tally.stopped, tally.smooth, tally.smoothStopped);
+  EXPECT_GT(tally.ran, count / 4);
+  EXPECT_LE(tally.smoothStopped, kMostStopped * tally.smooth + 1);
+}
+
+}  // namespace reachlab::dynamics
