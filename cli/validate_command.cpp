@@ -10,6 +10,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/session/plan.h"
 #include "sim/trial/task_check.h"
+#include "sim/trial/task_places.h"
 
 namespace reachlab::cli {
 namespace {
@@ -58,6 +59,7 @@ void validateFile(const std::string& fileOrName) {
     const experiment::Experiment experiment = experiment::parseExperiment(text, file);
     if (experiment.task) trial::checkTask(experiment, file);
     for (const std::string& warning : trial::implausibleNumbers(experiment, file)) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& place : trial::describeWay(experiment, file)) fmt::print(stderr, "warning: {}\n", place);
   }
 }
 
