@@ -11,6 +11,8 @@
 #include "constraints/definition.h"
 #include "base/error.h"
 #include "base/json_tree.h"
+#include "constraints/places.h"
+#include "constraints/surface_branches.h"
 
 namespace reachlab::cli {
 namespace {
@@ -122,17 +124,27 @@ void showPlaces(const constraints::Constraint& c) {
                range[0].hi);
     const constraints::SlowPlace slow = constraints::findMinSpeed(c, range[0].lo, range[0].hi);
     fmt::print("|r_phi|   at least {:.3g} m, at phi = {:.6g}\n", slow.speed, slow.phi);
-    const std::vector<double> cusps = constraints::findCusps(c, range[0].lo, range[0].hi);
-    for (const double cusp : cusps)
-      if (!range[0].periodic || cusp < range[0].hi - 1e-9) fmt::print("cusp      phi = {:.9g}\n", cusp);
-    if (cusps.empty()) fmt::print("regular   no cusp\n");
+    const constraints::CurveRegularity regularity = constraints::computeRegularity(c, 0.5 * (range[0].lo + range[0].hi));
+    std::size_t told = 0;
+    for (const constraints::Place& place : regularity.places) {
+      if (place.at < range[0].lo || place.at > range[0].hi || (range[0].periodic && place.at >= range[0].hi - 1e-9)) continue;
+      fmt::print("{:<9} phi = {:.9g}: {}; {}\n", nameOf(place.kind), place.at, place.because,
+                 constraints::isPassed(place.kind) ? "passed" : "never crossed");
+      ++told;
+    }
+    if (told == 0) fmt::print("smooth    no kink, jump, pole, end or cusp from phi = {:.6g} to {:.6g}\n", range[0].lo, range[0].hi);
   } else {
+    const auto branches = constraints::computeBranches(c);
+    for (const constraints::Place& place : branches->places)
+      fmt::print("{:<9} {}\n", nameOf(place.kind),
+                 place.parameter < 0 ? "along " + place.because + " = 0"
+                                     : fmt::format("{} = {:.9g}: {}", place.parameter == 0 ? "u" : "v", place.at, place.because));
     const std::vector<constraints::DegeneratePlace> places = constraints::findDegeneratePlaces(c);
     for (const constraints::DegeneratePlace& p : places)
       fmt::print("{:<9} {}\n", constraints::nameOf(p.kind),
                  p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
                              : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
-    if (places.empty())
+    if (places.empty() && branches->smooth())
       fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]\n", range[0].lo, range[0].hi, range[1].lo,
                  range[1].hi);
     if (places.size() >= constraints::kMaxDegeneratePlaces)

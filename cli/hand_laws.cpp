@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -43,6 +44,7 @@ HandLaw straightReach(const experiment::Experiment& experiment, const constraint
             const dynamics::MinJerk law = dynamics::minJerk(t / duration);
             return dynamics::HandSample{start + law.s * chord, (law.rate / duration) * chord, true};
           },
+          {},
           {0, duration}};
 }
 
@@ -92,6 +94,7 @@ HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::
             const Vec3 v = speed > 0 ? (law.rate / duration * total / speed) * p.rPhi : Vec3{};
             return dynamics::HandSample{p.r, v, true};
           },
+          {},
           {0, duration}};
 }
 
@@ -147,9 +150,17 @@ HandLaw sampledHand(const std::string& file) {
   if (columns[0].empty()) throw UsageError(file + ": has no samples; allowed: at least one row");
   const auto splines = std::make_shared<std::array<Spline, 3>>(
       std::array{Spline(columns[0], columns[1]), Spline(columns[0], columns[2]), Spline(columns[0], columns[3])});
-  return {[splines](double t) {
-            const auto x = (*splines)[0].at(t), y = (*splines)[1].at(t), z = (*splines)[2].at(t);
-            return dynamics::HandSample{{x.x, y.x, z.x}, {x.rate, y.rate, z.rate}, true};
+  const auto at = [splines](double t) {
+    const auto x = (*splines)[0].at(t), y = (*splines)[1].at(t), z = (*splines)[2].at(t);
+    return dynamics::HandSample{{x.x, y.x, z.x}, {x.rate, y.rate, z.rate}, true};
+  };
+  const double first = columns[0].front(), last = columns[0].back();
+  return {at,
+          [at, first, last](double t, double within) {
+            if (first < within && within < last) return at(std::clamp(t, first, last));
+            dynamics::HandSample rest = at(within <= first ? first : last);
+            rest.velocity = {};
+            return rest;
           },
           columns[0]};
 }
@@ -157,12 +168,12 @@ HandLaw sampledHand(const std::string& file) {
 }  // namespace
 
 HandLaw makeHandLaw(const std::string& name, const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
-  if (name == "none") return {[](double) { return dynamics::HandSample{}; }, {}};
+  if (name == "none") return {[](double) { return dynamics::HandSample{}; }};
   if (name == "min-jerk") return straightReach(experiment, constraint);
   if (name == "min-jerk-along") return reachAlong(experiment, constraint);
   if (name == "hold") {
     const Vec3 start = placeOf(constraint, requireTask(experiment, name).start, "start");
-    return {[start](double) { return dynamics::HandSample{start, {}, true}; }, {}};
+    return {[start](double) { return dynamics::HandSample{start, {}, true}; }};
   }
   return sampledHand(name);
 }

@@ -11,7 +11,14 @@ namespace reachlab::cli {
 /// which the hand's law is not smooth, which a step should end at. Throws RefusedError (no task, zero chord) or UsageError (bad file).
 struct HandLaw {
   dynamics::HandFunction function;
-  std::vector<double> breaks;  // [s] increasing
+  /// At `time` by the law that holds at `within`: a step that begins or ends at a break sees its own side of it. Empty: `function`.
+  std::function<dynamics::HandSample(double time, double within)> sided = {};
+  dynamics::HandSegment segment(double t0, double dt) const {
+    if (!sided) return dynamics::makeSegment(function, t0, dt);
+    const double within = t0 + dt / 2;
+    return dynamics::makeSegment([&](double t) { return sided(t, within); }, t0, dt);
+  }
+  std::vector<double> breaks = {};  // [s] increasing
 };
 HandLaw makeHandLaw(const std::string& name, const experiment::Experiment& experiment, const constraints::Constraint& constraint);
 

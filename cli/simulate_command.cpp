@@ -17,7 +17,7 @@ namespace {
 struct Request {
   std::string experiment, hand, method, out;
   double until = -1, every = 0.01, step = 0.001;
-  std::vector<double> at, rate, force;
+  std::vector<double> at, rate, force, angularRate;
 };
 
 /// A row of numbers with 17 significant digits, whatever the locale.
@@ -51,7 +51,7 @@ class Table {
   std::string buffer_;
 };
 
-void writeHeader(Table& table, int masses, int parameters) {
+void writeHeader(Table& table, int masses, int parameters, bool body) {
   table.text("time_s,hand_x_m,hand_y_m,hand_z_m");
   for (int i = 1; i <= masses; ++i) {
     if (parameters == 1) {
@@ -62,11 +62,13 @@ void writeHeader(Table& table, int masses, int parameters) {
     for (const char* axis : {"x", "y", "z"}) table.text(fmt::format(",mass{}_{}_m", i, axis));
     for (const char* axis : {"x", "y", "z"}) table.text(fmt::format(",mass{}_v{}_m_per_s", i, axis));
   }
+  if (body) table.text(",body_qw,body_qx,body_qy,body_qz,body_wx_rad_per_s,body_wy_rad_per_s,body_wz_rad_per_s");
   table.text(",force_x_n,force_y_n,force_z_n");
   table.endRow();
 }
 
-void writeRow(Table& table, const dynamics::Plant& plant, double time, const dynamics::HandSample& hand, bool coupled, int parameters) {
+void writeRow(Table& table, const dynamics::Plant& plant, double time, const dynamics::HandSample& hand, bool coupled, int parameters,
+              bool body) {
   std::vector<dynamics::MassState> masses(static_cast<std::size_t>(plant.massCount()));
   plant.observe(hand, masses);
   table.number(time);
@@ -76,6 +78,11 @@ void writeRow(Table& table, const dynamics::Plant& plant, double time, const dyn
     for (int k = 0; k < parameters; ++k) table.number(mass.qRate[k]);
     table.vector(mass.r);
     table.vector(mass.v);
+  }
+  if (body) {
+    const dynamics::BodyState state = plant.body();
+    for (const double part : state.orientation) table.number(part);
+    table.vector(state.angularVelocity);
   }
   table.vector(coupled ? plant.couplingForce(hand) : Vec3{});
   table.endRow();
@@ -112,7 +119,7 @@ std::vector<Stop> makeSchedule(const Request& request, double until, const std::
 // Nobody waits for a tick here: a step that would cost more than a tick may is taken in halves. `last` becomes the time reached.
 constexpr int kMostHalvings = 12;
 dynamics::StepStatus stepInHalves(dynamics::Plant& plant, const HandLaw& law, double t, double dt, int halvings, double& last) {
-  dynamics::StepStatus status = plant.step(dynamics::makeSegment(law.function, t, dt), dt);
+  dynamics::StepStatus status = plant.step(law.segment(t, dt), dt);
   // Capped, or before a place without continuation: it comes as near as 2^-12 of the step.
   if ((status == dynamics::StepStatus::Capped || status == dynamics::StepStatus::NoContinuation) && halvings > 0) {
     status = stepInHalves(plant, law, t, dt / 2, halvings - 1, last);
@@ -155,6 +162,10 @@ void simulate(const Request& request) {
   requireCount(at, "--at");
   requireCount(rate, "--rate");
   if (!request.force.empty() && request.force.size() != 3) throw UsageError("--force: allowed: three numbers X,Y,Z in N");
+  const bool body = experiment.object.kind == experiment::ObjectKind::Body;
+  if (!request.angularRate.empty() && (!body || request.angularRate.size() != 3))
+    throw UsageError(body ? "--angular-rate: allowed: three numbers X,Y,Z in rad/s"
+                          : "--angular-rate: the object does not turn; allowed: for object.kind body only");
   if (!experiment.task) experiment.task = experiment::Task{};
   experiment.task->start = at;
   if (experiment.task->target.empty()) experiment.task->target = at;
@@ -168,11 +179,12 @@ void simulate(const Request& request) {
   if (!request.force.empty()) plant.setExtraForce({request.force[0], request.force[1], request.force[2]});
   plant.setCoupled(coupled);
   plant.place(at, rate);
+  if (!request.angularRate.empty()) plant.setAngularVelocity({request.angularRate[0], request.angularRate[1], request.angularRate[2]});
   for (const std::string& warning : scene.choice.warnings) std::cerr << "warning: " << warning << '\n';
 
   Table table(request.out);
-  writeHeader(table, plant.massCount(), parameters);
-  writeRow(table, plant, 0, law.function(0), coupled, parameters);
+  writeHeader(table, plant.massCount(), parameters, body);
+  writeRow(table, plant, 0, law.function(0), coupled, parameters, body);
   double now = 0;
   for (const auto [stop, isRow] : makeSchedule(request, until, law.breaks)) {
     if (table.nobodyReads()) return;
@@ -187,17 +199,17 @@ void simulate(const Request& request) {
       if (status == dynamics::StepStatus::Ok) continue;
       const std::string reason = plant.stopReason();
       if (status == dynamics::StepStatus::AtEnd || status == dynamics::StepStatus::NoContinuation) {
-        if (last > now) writeRow(table, plant, last, law.function(last), coupled, parameters);
+        if (last > now) writeRow(table, plant, last, law.function(last), coupled, parameters, body);
         table.close();
         std::cerr << fmt::format("stopped at {:.9g} s: {}\n", last, reason.empty() ? std::string(dynamics::describe(status)) : reason);
         return;
       }
       table.close();
-      throw RefusedError(
-          fmt::format("at {:.9g} s the step failed ({}); try a smaller --step, or --method adaptive", t, dynamics::describe(status)));
+      throw RefusedError(fmt::format("at {:.9g} s the step failed ({}{}{}); try a smaller --step, or --method adaptive", t,
+                                     describe(status), reason.empty() ? "" : ": ", reason));
     }
     now = stop;
-    if (isRow) writeRow(table, plant, stop, law.function(stop), coupled, parameters);
+    if (isRow) writeRow(table, plant, stop, law.function(stop), coupled, parameters, body);
   }
   table.close();
 }
@@ -212,7 +224,10 @@ void addSimulateCommand(CLI::App& app, int&) {
   command
       ->add_option("--hand", request->hand,
                    "none (no coupling), hold (at the start), min-jerk (along the chord), min-jerk-along (along the curve),\n"
-                   "or a CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]")
+                   "or a CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]. A file is interpolated by a cubic spline\n"
+                   "with two continuous derivatives and not-a-knot ends; v_HIP is its derivative. At the first and the last\n"
+                   "sample's time v_HIP is the spline's inner velocity there; before the first and after the last the hand rests\n"
+                   "where it is, so that its velocity jumps unless the samples begin and end at rest")
       ->required();
   command->add_option("--until", request->until, "End of the simulation [s] (default: the task's duration_s)")
       ->check(CLI::NonNegativeNumber);
@@ -223,11 +238,16 @@ void addSimulateCommand(CLI::App& app, int&) {
   command->add_option("--at", request->at, "Initial parameters of all masses: phi, or u,v; metres when free (default: the start)")
       ->delimiter(',');
   command->add_option("--rate", request->rate, "Initial rates of these parameters [1/s, free: m/s] (default 0)")->delimiter(',');
+  command->add_option("--angular-rate", request->angularRate, "A body's initial angular velocity, world axes, X,Y,Z [rad/s] (default 0)")
+      ->delimiter(',');
   command->add_option("--force", request->force, "Constant extra force on mass 1, X,Y,Z [N]")->delimiter(',');
   command->add_option("--out", request->out, "File for the rows (default: standard output)");
   command->footer(
       "Example: reach simulate chain-moderate --hand min-jerk --until 2 --every 0.01 --out chain.csv\n"
-      "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.");
+      "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.\n"
+      "A body starts unturned with its centre of mass at the start (or --at); its FP is at fp_offset_m from there. Its columns body_qw … "
+      "are\n"
+      "the unit quaternion from body to world axes, body_wx_rad_per_s … its angular velocity in world axes.");
   command->callback([request] { simulate(*request); });
 }
 

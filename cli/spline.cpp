@@ -38,9 +38,10 @@ Spline::Spline(std::vector<double> times, std::vector<double> values)
 }
 
 Spline::Value Spline::at(double t) const {
-  if (t_.size() == 1 || t <= t_.front()) return {x_.front(), 0};
-  if (t >= t_.back()) return {x_.back(), 0};
-  const std::size_t i = static_cast<std::size_t>(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin()) - 1;
+  if (t_.size() == 1 || t < t_.front()) return {x_.front(), 0};
+  if (t > t_.back()) return {x_.back(), 0};
+  const auto behind = std::upper_bound(t_.begin(), t_.end() - 1, t);
+  const std::size_t i = static_cast<std::size_t>(behind - t_.begin()) - 1;
   const double h = t_[i + 1] - t_[i], u = (t - t_[i]) / h, w = 1 - u;
   return {w * x_[i] + u * x_[i + 1] + h * h / 6 * ((w * w * w - w) * second_[i] + (u * u * u - u) * second_[i + 1]),
           (x_[i + 1] - x_[i]) / h + h / 6 * ((3 * u * u - 1) * second_[i + 1] - (3 * w * w - 1) * second_[i])};

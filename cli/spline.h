@@ -4,7 +4,7 @@
 namespace reachlab::cli {
 
 /// Cubic spline through (t_i, x_i) with two continuous derivatives and not-a-knot ends (fewer than four points: the polynomial through
-/// them); held beyond both ends with zero rate.
+/// them). At the first and last time the rate is the inner one; beyond them the value is held with zero rate.
 class Spline {
  public:
   /// Times strictly increasing, as many values.

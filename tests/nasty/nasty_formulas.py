@@ -123,7 +123,7 @@ right('sech', [x, '0.1/cosh(3*phi)', '0'], -2, 2, 2)
 right('logistic', [x, '0.1/(1 + exp(-8*phi))', '0'], -1, 1, 2)
 # holes
 right('sinc', [x, '0.1*sin(phi)/phi', '0'], -2, 1.3, 2.5, [(0, [x, 'sin(phi)/phi/10', '0']), (INF, [x, 'sin(phi)/phi/10', '0'])])
-stopped('(1 - cos)/phi', [x, '0.1*(1 - cos(phi))/phi', '0'], -2, 1.3, 2.5, 'the formula loses its digits there')
+refused('(1 - cos)/phi', [x, '0.1*(1 - cos(phi))/phi', '0'], -2, 1.3, 2.5, 'the formula loses its digits there')
 right('tan(phi)/phi', [x, '0.1*tan(phi)/phi', '0'], -1, 0.8, 1.7, [(0, [x, 'tan(phi)/phi/10', '0']), (INF, [x, 'tan(phi)/phi/10', '0'])])
 # cusps, folds, standstills
 right('astroid', ['0.1*cos(phi)^3', '0.1*sin(phi)^3', '0'], 0.4, 2, 3, marks=[sp.pi.evalf(45) * k / 2 for k in range(1, 12)])
