@@ -80,13 +80,13 @@ record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
 
 trial::Outcome outcomeFrom(const std::string& text) {
   for (const trial::Outcome o : {trial::Outcome::Success, trial::Outcome::Failure, trial::Outcome::Aborted, trial::Outcome::Interrupted})
-    if (trial::nameOf(o) == text) return o;
+    if (nameOf(o) == text) return o;
   return trial::Outcome::None;
 }
 
 trial::Reason reasonFrom(const std::string& text) {
-  for (int i = 0; i <= static_cast<int>(trial::Reason::FalseStart); ++i)
-    if (trial::nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
+  for (int i = 0; i < 64; ++i)  // names of reasons that there are none of are empty
+    if (!text.empty() && nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
   return trial::Reason::None;
 }
 
@@ -116,31 +116,41 @@ RunSource readRun(const fs::path& motion) {
   if (about.is_object()) c.experimentName = record::experimentNameIn(about.value("TaskDescription", ""));
 
   auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table.size()));
-  if (rows->size() > 1) c.sampleEveryTicks = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, rows->ticks[1] - rows->ticks[0]));
+  double frequency = about.is_object() ? about.value("SamplingFrequency", 0.0) : 0.0;
+  if (!(frequency > 0) && rows->size() > 1) frequency = 1000.0 / static_cast<double>(rows->ticks[1] - rows->ticks[0]);
+  if (!(frequency > 0)) frequency = 100;
+  c.sampleEveryTicks = static_cast<std::uint32_t>(std::max<long long>(1, std::llround(1000.0 / frequency)));
   c.samplingHz = 1000.0 / c.sampleEveryTicks;
 
   const fs::path eventsFile = sibling("events.tsv");
   const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
+  const auto has = [&](const char* key) { return std::find(events.columns.begin(), events.columns.end(), key) != events.columns.end(); };
   const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
+  // Events count from the first row, as BIDS asks; those written before arming was a column count from the run's own clock.
+  run.armedFromRows = !has("armed");
+  const double begin = run.armedFromRows || rows->size() == 0 ? 0 : static_cast<double>(rows->ticks.front()) / 1000.0;
   for (const auto& row : events.rows) {
+    const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
+    const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };
     record::RecordedTrial trial;
-    trial.trial = static_cast<int>(numberOf(row.at(column("trial"))));
+    trial.trial = static_cast<int>(number("trial"));
     trial.planned.catchTrial = row.at(column("trial_type")) == "catch";
     trial.result.outcome = outcomeFrom(row.at(column("outcome")));
     trial.result.reason = reasonFrom(row.at(column("reason")));
-    trial.result.mass = static_cast<int>(numberOf(row.at(column("mass"))));
-    trial.result.by = numberOf(row.at(column("by")));
-    const double onset = numberOf(row.at(column("onset"))), duration = numberOf(row.at(column("duration")));
-    const double movement = numberOf(row.at(column("movement_time")));
+    trial.result.mass = static_cast<int>(number("mass"));
+    trial.result.by = number("by");
+    const double movement = number("movement_time");
     trial.result.movementTime = std::isfinite(movement) ? movement : 0;
-    trial.result.onsetTick = std::isfinite(movement) ? tickOf(onset) : 0;
-    trial.result.endTick = tickOf(onset + duration);
-    trial.goTick = tickOf(numberOf(row.at(column("go"))));
-    trial.armedTick = armedTickOf(*rows, c.table, trial.trial);
+    trial.result.onsetTick = std::isfinite(movement) ? tick("onset") : 0;
+    trial.result.endTick = tickOf(number("onset") + number("duration") + begin);
+    trial.goTick = tick("go");
+    trial.armedTick = run.armedFromRows ? armedTickOf(*rows, c.table, trial.trial) : tick("armed");
     trial.startTick = trial.armedTick;
     trial.lastTick = trial.result.endTick;
-    trial.peakForce = numberOf(row.at(column("peak_force")));
-    c.block = static_cast<int>(numberOf(row.at(column("block"))));
+    trial.peakForce = number("peak_force");
+    trial.meanForce = has("mean_force") ? number("mean_force") : kNotMeasured;
+    if (has("day")) c.day = std::isfinite(number("day")) ? static_cast<int>(number("day")) : 0;
+    c.block = static_cast<int>(number("block"));
     c.practice = row.at(column("phase")) == "practice";
     c.condition = row.at(column("condition"));
     run.trials.push_back(trial);
@@ -148,12 +158,13 @@ RunSource readRun(const fs::path& motion) {
   run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) {
     record::SampleRows part;
     part.columns = rows->columns;
-    for (std::size_t row = 0; row < rows->size(); ++row) {
-      if (rows->ticks[row] < first || rows->ticks[row] > last) continue;
-      part.ticks.push_back(rows->ticks[row]);
-      const auto begin = rows->values.begin() + static_cast<std::ptrdiff_t>(row * rows->columns);
-      part.values.insert(part.values.end(), begin, begin + static_cast<std::ptrdiff_t>(rows->columns));
-    }
+    const auto from = std::lower_bound(rows->ticks.begin(), rows->ticks.end(), first);
+    const auto to = std::upper_bound(from, rows->ticks.end(), last);
+    part.ticks.assign(from, to);
+    const auto row = [&](auto at) {
+      return rows->values.begin() + (at - rows->ticks.begin()) * static_cast<std::ptrdiff_t>(rows->columns);
+    };
+    part.values.assign(row(from), row(to));
     return part;
   };
   return run;
@@ -161,19 +172,19 @@ RunSource readRun(const fs::path& motion) {
 
 }  // namespace
 
-std::vector<RunSource> readBidsRuns(const std::string& folder) {
+std::vector<std::string> findBidsRuns(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw UsageError(folder + ": no such folder");
-  std::vector<fs::path> files;
+  std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
     if (const std::string name = entry.path().filename().string();
         name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
-      files.push_back(entry.path());
+      files.push_back(entry.path().string());
   if (files.empty()) throw UsageError(folder + ": neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)");
   std::sort(files.begin(), files.end());
-  std::vector<RunSource> runs;
-  for (const fs::path& file : files) runs.push_back(readRun(file));
-  return runs;
+  return files;
 }
+
+RunSource readBidsRun(const std::string& motionFile) { return readRun(motionFile); }
 
 }  // namespace reachlab::analyze

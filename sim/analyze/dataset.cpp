@@ -39,8 +39,8 @@ Vec3 vectorAt(const record::SampleRows& rows, std::size_t row, std::size_t colum
 
 Vec3 pointAt(const constraints::Constraint& constraint, const std::vector<double>& at) {
   switch (constraint.kind) {
-    case constraints::ConstraintKind::Curve: return constraints::evaluate(constraint.curve, at.at(0)).r;
-    case constraints::ConstraintKind::Surface: return constraints::evaluate(constraint.surface, at.at(0), at.at(1)).r;
+    case constraints::ConstraintKind::Curve: return evaluate(constraint.curve, at.at(0)).r;
+    case constraints::ConstraintKind::Surface: return evaluate(constraint.surface, at.at(0), at.at(1)).r;
     case constraints::ConstraintKind::Free: return {at.at(0), at.at(1), at.at(2)};
   }
   return {};
@@ -60,10 +60,11 @@ struct Path {
     chord = norm(way) > 0 ? way / norm(way) : Vec3{};
     if (constraint.kind == constraints::ConstraintKind::Curve) sense = task.target[0] >= task.start[0] ? 1 : -1;
   }
+  bool closed() const { return bent() && constraint.domain[0].periodic; }
   bool bent() const { return constraint.kind == constraints::ConstraintKind::Curve && !constraint.straight; }
   bool directed() const { return constraint.kind != constraints::ConstraintKind::Surface && (bent() || norm(chord) > 0); }
   Vec3 tangent(double parameter) const {
-    const Vec3 d = constraints::evaluate(constraint.curve, parameter).rPhi;
+    const Vec3 d = evaluate(constraint.curve, parameter).rPhi;
     const double length = norm(d);
     return length > 0 ? sense / length * d : Vec3{};
   }
@@ -96,8 +97,8 @@ std::string nameApart(const std::string& name, const std::vector<std::string>& d
   return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
 }
 
-std::size_t conditionIndex(Dataset& dataset, const std::string& name, const experiment::Experiment& experiment) {
-  auto& conditions = dataset.input.conditions;
+std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const experiment::Experiment& experiment) {
+  auto& conditions = dataset.conditions;
   const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return c.name == name; });
   if (first == conditions.end()) {
     conditions.push_back({name, experiment});
@@ -143,7 +144,7 @@ RunProvenance provenanceOf(const record::RunConfiguration& c, std::size_t trials
   return p;
 }
 
-void noteMixedDevices(Dataset& dataset) {
+void noteMixedDevices(DatasetIndex& dataset) {
   std::map<std::string, std::set<std::string>> devices;
   for (const RunProvenance& run : dataset.runs) devices[run.condition].insert(run.device.substr(0, run.device.find(':')));
   for (const auto& [condition, used] : devices) {
@@ -158,65 +159,54 @@ void noteMixedDevices(Dataset& dataset) {
 
 }  // namespace
 
-void addRun(const RunSource& run, const experiment::Experiment& experiment, Dataset& dataset) {
-  constexpr std::uint64_t kAfterTicks = 500;  // the hand may come to rest a little after the trial has ended
+void addRun(const RunSource& run, const experiment::Experiment& experiment, DatasetIndex& index, const TrialSink& sink) {
   const record::RunConfiguration& c = run.configuration;
-  dataset.runs.push_back(provenanceOf(c, run.trials.size()));
+  index.runs.push_back(provenanceOf(c, run.trials.size()));
   if (!experiment.task) {
-    dataset.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
+    index.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
     return;
   }
-  const std::size_t condition = conditionIndex(dataset, dataset.runs.back().condition, experiment);
+  const std::size_t condition = conditionIndex(index, index.runs.back().condition, experiment);
   const Columns columns(c.table);
   const Path path(experiment);
   const std::uint64_t every = std::max<std::uint64_t>(1, c.sampleEveryTicks);
-  for (std::size_t i = 0; i < run.trials.size(); ++i) {
-    const record::RecordedTrial& recorded = run.trials[i];
+  for (const record::RecordedTrial& recorded : run.trials) {
     TrialData trial;
-    trial.key = {c.subject, c.session, dataset.input.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
+    trial.key = {c.subject, c.session, index.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
     trial.practice = c.practice;
     trial.catchTrial = recorded.planned.catchTrial;
     trial.result = recorded.result;
     trial.rate = 1000.0 / static_cast<double>(every);
     trial.start = path.start;
     trial.target = path.target;
+    trial.closed = path.closed();
     if (path.directed() && !path.bent()) trial.along = {path.chord};
     if (recorded.armedTick > 0) {
-      std::uint64_t last = recorded.lastTick + kAfterTicks;
-      if (i + 1 < run.trials.size()) last = std::min(last, std::max(recorded.lastTick, run.trials[i + 1].startTick - 1));
-      const record::SampleRows rows = run.rowsOf(recorded.armedTick, last);
+      // What the hand does after the trial, or where it is put for the next one, is no part of the movement.
+      const std::uint64_t end = recorded.result.endTick > 0 ? recorded.result.endTick : recorded.lastTick;
+      const record::SampleRows rows = run.rowsOf(recorded.armedTick, std::max(end, recorded.armedTick));
+      const auto seconds = [&](std::uint64_t tick) {
+        return tick == 0 ? kNotMeasured : (static_cast<double>(tick) - static_cast<double>(recorded.armedTick)) / 1000.0;
+      };
       if (rows.size() > 0) {
         appendEvenly(trial, rows, columns, path, every);
-        const auto seconds = [&](std::uint64_t tick) {
-          return tick == 0 ? kNotMeasured : (static_cast<double>(tick) - static_cast<double>(rows.ticks.front())) / 1000.0;
-        };
+        trial.first = seconds(rows.ticks.front());
         trial.goTime = seconds(recorded.goTick);
         trial.taskOnset = seconds(recorded.result.onsetTick);
-        trial.taskEnd =
-            recorded.result.onsetTick == 0 ? kNotMeasured : seconds(std::max(recorded.result.endTick, recorded.result.onsetTick));
+        trial.taskEnd = recorded.result.onsetTick == 0 ? kNotMeasured : seconds(std::max(end, recorded.result.onsetTick));
       }
       if (recorded.result.onsetTick > 0 && recorded.peakForce > 0) {
         trial.peakForce = recorded.peakForce;
         if (recorded.meanForce > 0) trial.meanForce = recorded.meanForce;
       }
     }
-    dataset.input.trials.push_back(std::move(trial));
-    dataset.input.conditionOf.push_back(condition);
+    sink(std::move(trial), condition);
   }
 }
 
-void numberDays(std::span<TrialData> trials) {
-  std::map<std::string, std::set<std::string>> sessions;
-  for (const TrialData& trial : trials) sessions[trial.key.subject].insert(trial.key.session);
-  for (TrialData& trial : trials) {
-    if (trial.key.day > 0) continue;
-    const auto& own = sessions[trial.key.subject];
-    trial.key.day = 1 + static_cast<int>(std::distance(own.begin(), own.find(trial.key.session)));
-  }
-}
-
-Dataset openDataset(const std::string& folder, const std::string& experimentFile, const DatasetProgress& progress) {
-  Dataset dataset;
+DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile,
+                         const DatasetProgress& progress) {
+  DatasetIndex dataset;
   std::vector<std::string> logs;
   try {
     logs = record::findLogs(folder);
@@ -233,7 +223,7 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
       if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
       experiment::Experiment experiment = known->second;
       experiment.text = c.experimentText;
-      addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset);
+      addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset, sink);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
@@ -242,19 +232,28 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
     }
   }
   if (logs.empty()) {
-    bool foreign = false;  // an experiment that may not be the recorded one
-    for (const RunSource& run : readBidsRuns(folder)) {
+    bool foreign = false, old = false;  // an experiment that may not be the recorded one; events written before arming was
+    const std::vector<std::string> runs = findBidsRuns(folder);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (progress) progress(i, runs.size(), runs[i]);
+      const RunSource run = readBidsRun(runs[i]);
       const std::string own = folder + "/" + record::experimentPath(run.configuration);
       std::error_code error;
       const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
       if (!hasOwn) foreign = true;
+      if (run.armedFromRows) old = true;
       addRun(run,
              hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
                     : experiment::readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
-             dataset);
+             dataset, sink);
+      dataset.runs.back().file = runs[i];
     }
     dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
                             (foreign ? "as they are shipped or given now" : "in code/experiments/"));
+    if (old)
+      dataset.notes.push_back(
+          "events.tsv of an older version does not say when trials were armed: the first row of the armed phase is taken, up to one sample "
+          "later, so that onset_s and offset_s are that much too small");
   }
   if (dataset.runs.empty()) {
     std::string why = folder + ": nothing to analyse";
@@ -262,7 +261,21 @@ Dataset openDataset(const std::string& folder, const std::string& experimentFile
     throw UsageError(why);
   }
   noteMixedDevices(dataset);
-  numberDays(dataset.input.trials);
+  return dataset;
+}
+
+Dataset openDataset(const std::string& folder, const std::string& experimentFile, const DatasetProgress& progress) {
+  Dataset dataset;
+  StudyInput input;
+  static_cast<DatasetIndex&>(dataset) = readDataset(
+      folder,
+      [&](TrialData&& trial, std::size_t condition) {
+        input.trials.push_back(std::move(trial));
+        input.conditionOf.push_back(condition);
+      },
+      experimentFile, progress);
+  input.conditions = dataset.conditions;
+  dataset.input = std::move(input);
   return dataset;
 }
 

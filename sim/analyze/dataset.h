@@ -21,18 +21,28 @@ struct RunProvenance {
   bool healthy = true;
 };
 
-/// A dataset read into memory.
-struct Dataset {
-  StudyInput input;
+/// What a dataset is made of, but for its trials.
+struct DatasetIndex {
+  std::vector<StudyCondition> conditions;
   std::vector<RunProvenance> runs;
   std::vector<std::string> notes;  // what was left out or mended, one sentence each
 };
+/// A dataset read into memory.
+struct Dataset : DatasetIndex {
+  StudyInput input;
+};
+
+/// Takes one trial of the condition with that index; sees them run by run, so that none need stay in memory.
+using TrialSink = std::function<void(TrialData&& trial, std::size_t condition)>;
 
 using DatasetProgress = std::function<void(std::size_t done, std::size_t of, const std::string& file)>;
 
 /// Reads the dataset at `folder` (a session's folder or a single log do too): from the logs in sourcedata/, or where there are none from
 /// the BIDS files, whose experiment must then be a shipped one or given in `experimentFile`. A damaged log is read to its last good
 /// record and noted. Throws UsageError when there is nothing to read.
+DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile = "",
+                         const DatasetProgress& progress = {});
+/// The same with every trial kept.
 Dataset openDataset(const std::string& folder, const std::string& experimentFile = "", const DatasetProgress& progress = {});
 
 /// What a run's rows are turned into; `rowsOf` gives the rows between two ticks. Shared by both ways of reading.
@@ -40,13 +50,14 @@ struct RunSource {
   record::RunConfiguration configuration;
   std::vector<record::RecordedTrial> trials;
   std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
+  bool armedFromRows = false;  // the file does not say when trials were armed
 };
-/// Adds the run's trials; the day of a run without one is 0 until numberDays.
-void addRun(const RunSource& run, const experiment::Experiment& experiment, Dataset& dataset);
-/// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order.
-void numberDays(std::span<TrialData> trials);
+/// Hands on the run's trials; the day of a run without one is 0.
+void addRun(const RunSource& run, const experiment::Experiment& experiment, DatasetIndex& index, const TrialSink& sink);
 
-/// The runs of a dataset without logs, from its motion, channels and events files.
-std::vector<RunSource> readBidsRuns(const std::string& folder);
+/// The runs of a dataset without logs, by their motion files, in order.
+std::vector<std::string> findBidsRuns(const std::string& folder);
+/// One of them, from its motion, channels and events files.
+RunSource readBidsRun(const std::string& motionFile);
 
 }  // namespace reachlab::analyze

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "sim/analyze/filter.h"
@@ -48,16 +49,17 @@ double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3
 
 /// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it.
 Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, TrialSignals& signals) {
-  if (!std::isfinite(trial.taskEnd)) return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
+  const double taskEnd = trial.taskEnd - trial.first, taskOnset = trial.taskOnset - trial.first;  // since sample 0
+  if (!std::isfinite(taskEnd)) return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
   // Rows are 10 ms apart, the trial ends between two of them; where the next was never taken it is continued in a straight line.
-  const auto last = static_cast<std::size_t>(std::max(0.0, std::ceil(trial.taskEnd * trial.rate - 1e-9)));
+  const auto last = static_cast<std::size_t>(std::max(0.0, std::ceil(taskEnd * trial.rate - 1e-9)));
   for (auto* signal : {&signals.speed, &signals.handVelocity, &signals.objectVelocity})
     if (signal->size() == last && last >= 2) signal->push_back(2 * signal->back() - (*signal)[last - 2]);
   if (!signals.speed.empty()) signals.speed.back() = std::max(0.0, signals.speed.back());
-  if (options.rule == OnsetRule::Task) return movementWithin(signals.speed, trial.rate, trial.taskOnset, trial.taskEnd);
+  if (options.rule == OnsetRule::Task) return movementWithin(signals.speed, trial.rate, taskOnset, taskEnd);
   const std::span<const double> inside(signals.speed.data(), std::min(signals.speed.size(), last + 1));
   Movement movement = findMovement(inside, trial.rate, options);
-  movement.offset = std::min(movement.offset, trial.taskEnd);
+  movement.offset = std::min(movement.offset, taskEnd);
   return movement;
 }
 
@@ -73,6 +75,12 @@ TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& option
   for (std::size_t i = 0; i < trial.objectVelocity.size(); ++i)
     signals.objectVelocity.push_back(alongPath(trial, trial.objectVelocity[i], i));
   signals.movement = findWithinTrial(trial, options.onset, signals);
+  // A closed curve leads to its target either way round.
+  if (trial.closed && std::accumulate(signals.handVelocity.begin(), signals.handVelocity.end(), 0.0) < 0) {
+    signals.otherWay = true;
+    for (auto* velocity : {&signals.handVelocity, &signals.objectVelocity})
+      for (double& v : *velocity) v = -v;
+  }
   return signals;
 }
 
@@ -83,10 +91,11 @@ TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signal
   m.meanForce = trial.meanForce;
   const Movement& move = signals.movement;
   if (!move.found) return m;
-  m.onset = move.onset;
-  m.offset = move.offset;
+  m.onset = trial.first + move.onset;
+  m.offset = trial.first + move.offset;
   m.duration = move.duration();
-  m.reactionTime = move.onset - trial.goTime;
+  m.beforeGo = m.onset < trial.goTime;
+  if (!m.beforeGo) m.reactionTime = m.onset - trial.goTime;
   m.peakSpeed = move.peak;
   m.timeToPeak = move.peakTime - move.onset;
   m.timeToPeakPercent = 100 * m.timeToPeak / m.duration;
@@ -105,7 +114,8 @@ TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signal
   const Vec3 asked = trial.target - trial.start;
   m.handEndpointError = norm(trial.hand[std::min(last, trial.hand.size() - 1)] - trial.hand.front() - asked);
   if (!trial.object.empty()) {
-    const std::size_t end = std::isfinite(trial.taskEnd) ? sampleAt(trial, trial.taskEnd, trial.object.size()) : trial.object.size() - 1;
+    const std::size_t end =
+        std::isfinite(trial.taskEnd) ? sampleAt(trial, trial.taskEnd - trial.first, trial.object.size()) : trial.object.size() - 1;
     m.objectEndpointError = norm(trial.object[end] - trial.target);
   }
   if (trial.along.size() == 1) {

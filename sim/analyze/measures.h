@@ -11,7 +11,8 @@ struct MeasureOptions {
 
 /// Everything that docs/analysis.md defines for one trial; NaN where it does not exist (no movement, no go signal …).
 struct TrialMeasures {
-  double reactionTime = kNotMeasured;                                   // [s] go signal to onset
+  bool beforeGo = false;                                                // the hand left before the go signal
+  double reactionTime = kNotMeasured;                                   // [s] go signal to onset; none where the hand left before it
   double onset = kNotMeasured, offset = kNotMeasured;                   // [s] since arming
   double duration = kNotMeasured;                                       // [s] onset to offset
   double movementTime = kNotMeasured;                                   // [s] the task's own: t_e
@@ -30,10 +31,12 @@ struct TrialMeasures {
 
 /// A trial's filtered signals; what profiles and errors are made of.
 struct TrialSignals {
-  Movement movement;                   // of the hand; ends with the trial at the latest
+  Movement movement;                   // of the hand, in seconds since sample 0; ends with the trial at the latest
   std::vector<double> speed;           // [m/s] of the hand, >= 0
   std::vector<double> handVelocity;    // [m/s] along the path, signed where the path has a direction
   std::vector<double> objectVelocity;  // [m/s] the same of the last mass
+  /// On a closed curve the hand went round the other way: both velocities above are along the way it went.
+  bool otherWay = false;
 };
 
 TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options);

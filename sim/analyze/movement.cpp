@@ -43,19 +43,23 @@ Movement findMovement(std::span<const double> speed, double rate, const OnsetOpt
     return (static_cast<double>(i) + (rise == 0 ? 0.5 : (threshold - speed[i]) / rise)) / rate;
   };
   const double shortest = std::max(1.0, options.holdSeconds * rate);
-  for (std::size_t i = 0; i < n;) {
+  // Back from the peak, so that a hand that drifted or twitched before the movement does not begin it. A movement of several humps may
+  // rest between them below the threshold: the search starts at the first hump, the first sample above half the peak.
+  const double hump = std::max(threshold, movement.peak / 2);
+  std::size_t before = 0;
+  while (speed[before] < hump) ++before;
+  while (before > 0 && speed[before - 1] >= threshold) --before;
+  movement.found = true;
+  movement.cutAtStart = before == 0;
+  movement.onset = before == 0 ? 0 : crossing(before - 1);
+  for (std::size_t i = before; i < n;) {
     if (speed[i] < threshold) {
       ++i;
       continue;
     }
     std::size_t end = i;  // one past the stretch above the threshold
     while (end < n && speed[end] >= threshold) ++end;
-    if (static_cast<double>(end - i) >= shortest) {
-      if (!movement.found) {
-        movement.found = true;
-        movement.cutAtStart = i == 0;
-        movement.onset = i == 0 ? 0 : crossing(i - 1);
-      }
+    if (static_cast<double>(end - i) >= shortest || i == before) {
       movement.cutAtEnd = end == n;
       movement.offset = end == n ? static_cast<double>(n - 1) / rate : crossing(end - 1);
     }

@@ -31,8 +31,8 @@ struct Movement {
   double duration() const { return offset - onset; }
 };
 
-/// Onset: first upward crossing of the threshold that is followed by at least `holdSeconds` above it; offset: last downward crossing of
-/// such a stretch. `speed` >= 0 sampled at `rate` [Hz]. OnsetRule::Task is not for this function: give the window yourself.
+/// Onset: the last upward crossing of the threshold before the first hump (the first sample above half the peak), found by searching back
+/// from it; offset: the last downward crossing of a stretch of at least `holdSeconds` above the threshold. `speed` >= 0 sampled at `rate` [Hz]. OnsetRule::Task is not for this function: give the window yourself.
 Movement findMovement(std::span<const double> speed, double rate, const OnsetOptions& options);
 /// The same fields for a window that is already known [s].
 Movement movementWithin(std::span<const double> speed, double rate, double onset, double offset);

@@ -18,13 +18,15 @@ struct TrialKey {
   int run = 0, block = 0, trial = 0;
 };
 
-/// One recorded trial as plain arrays, evenly sampled from the tick at which it was armed; sample i is at i / rate. Nothing is filtered.
+/// One recorded trial as plain arrays, evenly sampled from arming to its end; sample i is at first + i / rate after arming. Nothing is
+/// filtered.
 struct TrialData {
   TrialKey key;
   bool practice = false, catchTrial = false;
   trial::TrialResult result;
   double rate = 100;                                          // [Hz]
-  double goTime = kNotMeasured;                               // [s] go signal
+  double first = 0;                                           // [s] of sample 0 since arming, below 1 / rate
+  double goTime = kNotMeasured;                               // [s] go signal, since arming like all times here
   double taskOnset = kNotMeasured, taskEnd = kNotMeasured;    // [s] the task's own window: t = 0 and t_e (or where it was broken off)
   std::vector<Vec3> hand;                                     // [m] HIP as the coupling saw it
   std::vector<Vec3> object;                                   // [m] last mass
@@ -33,7 +35,8 @@ struct TrialData {
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] over every tick, where the log has them
   /// Direction of the path: one for a straight task, one a sample on a curve, none where only speed makes sense (a surface).
   std::vector<Vec3> along;
-  Vec3 start, target;  // [m] of the object
+  bool closed = false;  // the path is a closed curve
+  Vec3 start, target;   // [m] of the object
 };
 
 }  // namespace reachlab::analyze

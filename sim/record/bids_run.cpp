@@ -102,20 +102,26 @@ std::string channelsJson() {
 std::string eventsTsv(const RunLog& run) {
   const RunConfiguration& c = run.configuration();
   TableText table('\t', "n/a");
-  table.row({"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by", "movement_time",
-             "reaction_time", "go", "foreperiod", "peak_hand_speed", "hand_path", "peak_force", "missed_ticks"});
+  table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",  "outcome",
+             "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod", "peak_hand_speed",
+             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day"});
+  // BIDS counts events from the first row of the motion file, which is not the run's first tick.
+  double begin = 0;
+  if (!run.trials().empty())
+    if (const SampleRows first = run.rows(0, run.trials().front().lastTick); first.size() > 0)
+      begin = static_cast<double>(first.ticks.front()) / 1000.0;
   for (const RecordedTrial& trial : run.trials()) {
     const TrialTimes times = timesOf(trial);
     const double onset = std::isfinite(times.onset) ? times.onset : times.start;
-    table.number(onset).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
+    table.number(onset - begin).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
     table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(c.condition);
     table.cell(trial::nameOf(trial.result.outcome))
         .cell(trial::nameOf(trial.result.reason))
         .whole(trial.result.mass)
         .number(trial.result.by);
-    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go).number(trial.planned.foreperiodTicks / 1000.0);
+    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go - begin).number(trial.planned.foreperiodTicks / 1000.0);
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
-    table.whole(static_cast<long long>(trial.missedTicks));
+    table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed - begin).number(trial.meanForce).whole(c.day);
     table.endRow();
   }
   return table.text();
@@ -141,12 +147,15 @@ std::string eventsJson(const RunConfiguration& c) {
   j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short and time_long");
   j["movement_time"] = described("From movement onset to the end of the trial", "s");
   j["reaction_time"] = described("From the go signal to movement onset", "s");
-  j["go"] = described("Go signal, since the recording began", "s");
+  j["go"] = described("Go signal, since the first sample of the recording", "s");
   j["foreperiod"] = described("Planned time from arming to the go signal", "s");
   j["peak_hand_speed"] = described("Largest estimated speed of the hand, every tick, unfiltered", "m/s");
   j["hand_path"] = described("Length of the hand's path during the movement", "m");
   j["peak_force"] = described("Largest coupling force", "N");
   j["missed_ticks"] = described("Ticks of 1 ms that were skipped in the trial");
+  j["armed"] = described("When the hand was at the start and the trial could begin, since the first sample of the recording", "s");
+  j["mean_force"] = described("Mean coupling force over every tick of the movement", "N");
+  j["day"] = described("Day of the session's plan; 0: the plan gives none");
   j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
   return j.dump(2) + "\n";
 }
