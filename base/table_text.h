@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace reachlab {
@@ -20,6 +21,8 @@ class TableText {
   void endRow();
   void row(const std::vector<std::string>& cells);
   const std::string& text() const { return text_; }
+  /// What is written so far, which the table forgets: a long one goes to its file piece by piece.
+  std::string takeText() { return std::exchange(text_, {}); }
 
  private:
   TableText& raw(std::string_view text);

@@ -60,6 +60,13 @@ struct Rule {
   Dash dash = Dash::Dotted;
 };
 
+/// A word in a panel, centred on a place: the number of a cell.
+struct Word {
+  double x = 0, y = 0;  // in the axes' units
+  std::string text;
+  Color color = palette::kBlack;
+};
+
 enum class Scale { Linear, Log };
 
 struct Axis {
@@ -78,6 +85,7 @@ struct Panel {
   std::vector<Band> bands;
   std::vector<Series> series;  // drawn in order: later ones on top
   std::vector<Rule> rules;
+  std::vector<Word> words;                 // on top of everything
   LegendPlace legend = LegendPlace::Auto;  // Auto: the corner with the fewest data
   bool equalScale = false;                 // one metre along x is as long as one along y
 };

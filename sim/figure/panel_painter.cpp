@@ -166,6 +166,10 @@ void PanelPainter::draw(double left, double top, double topMargin) {
   cairo_restore(context);
 
   canvas_.setFont(kTickFont);
+  for (const Word& word : panel_.words) {
+    canvas_.setColor(word.color);
+    canvas_.text(left_ + xAt(word.x), top_ + yAt(word.y) + 0.36 * kTickFont, word.text, Align::Centre);
+  }
   for (const Rule& rule : panel_.rules) {
     canvas_.setColor(rule.color);
     if (rule.vertical) canvas_.text(left_ + xAt(rule.at), top_ - 3, rule.label, Align::Centre);
