@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sim/analyze/filter.h"
+#include "sim/analyze/person_fit.h"
+#include "tests/analyze/synthetic.h"
+
+namespace reachlab::analyze {
+namespace {
+
+using predict::Criterion;
+
+CandidateOptions of(std::vector<Criterion> criteria) {
+  CandidateOptions options;
+  options.criteria = std::move(criteria);
+  return options;
+}
+const std::vector<Criterion> kQuick{Criterion::MinHandJerk, Criterion::MinCrackle, Criterion::MinHandForce, Criterion::MinHandForceChange,
+                                    Criterion::MinHandCrackle};
+
+/// A recording of `family` at `duration`, from 0.3 s before it to 0.3 s after.
+FitWindow recorded(const ProfileFamily& family, double duration, double onset, double amplitude, double stretch = 1) {
+  Profile profile;
+  EXPECT_TRUE(family.at(duration, profile));
+  FitWindow window;
+  window.rate = 100;
+  window.begin = onset - 0.3;
+  const double T = stretch * duration;
+  for (int i = 0; i <= static_cast<int>((T + 0.6) * 100); ++i)
+    window.velocity.push_back(amplitude * profile.at((window.begin + i / 100.0 - onset) / T));
+  window.weight.assign(window.velocity.size(), 1.0);
+  return window;
+}
+
+TEST(RecordingFilter, IsWhatTheDigitalFilterDoesToSamples) {
+  // A minimum jerk of 0.8 s, sampled at 1 kHz and filtered there both ways, against the filter of the function.
+  const double T = 0.8, rate = 1000;
+  std::vector<double> exact(801), samples(2001, 0.0);
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double s = static_cast<double>(i) / 800;
+    exact[i] = samples[i + 600] = 30 * s * s * (1 - s) * (1 - s);
+  }
+  const std::vector<double> digital = lowPass(samples, rate, 10);
+  const std::vector<double> ours = RecordingFilter(10, rate).apply(exact, T, 300);
+  for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], digital[i + 300], 2e-6 * 1.875) << i;  // reach ends at 1e-6
+}
+
+TEST(RecordingFilter, IntegratesPolynomialsOfSeventhDegreeExactly) {
+  const std::vector<double> w = gregoryWeights(41);
+  for (int degree = 0; degree <= 7; ++degree) {
+    double sum = 0;
+    for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * std::pow(static_cast<double>(i) / 40, degree) / 40;
+    EXPECT_NEAR(sum, 1.0 / (degree + 1), 1e-13) << degree;
+  }
+}
+
+TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
+  for (const double T : {0.68, 1.35, 2.26}) {
+    const experiment::Experiment chain = chainExperiment(T);
+    const CandidateSet set = makeCandidates(chain, of(kQuick));
+    for (const Candidate& candidate : set.candidates)
+      for (const auto& family : candidate.families)
+        for (const double t : {0.8 * T, 0.93 * T, 1.21 * T}) {
+          const double between = (std::floor(t / family->grid().spacing) + 0.5) * family->grid().spacing;
+          EXPECT_LT(family->errorAt(between), 1e-6);
+        }
+  }
+}
+
+TEST(MovementFit, FindsOnsetDurationAndAmplitudeOfASampledPrediction) {
+  const experiment::Experiment chain = chainExperiment(1.35);
+  const CandidateSet set = makeCandidates(chain, of(kQuick));
+  for (const Candidate& candidate : set.candidates) {
+    const ProfileFamily& family = *candidate.families.back();
+    const FitWindow window = recorded(family, 1.2, 0.47, 0.16);
+    Profile start, scratch;
+    ASSERT_TRUE(family.at(1.35, start));
+    const MovementFit fit = fitMovement(window, family, startFrom(momentsOf(window), momentsOf(start)), scratch);
+    ASSERT_TRUE(fit.found);
+    EXPECT_NEAR(fit.onset, 0.47, 1e-6);
+    EXPECT_NEAR(fit.duration, 1.2, 1e-6);
+    EXPECT_NEAR(fit.amplitude, 0.16, 1e-6);
+  }
+}
+
+/// Trials of one plan run faster or slower (stretched), or planned anew for each duration; no scatter but of the durations.
+PersonFit fitOf(const CandidateSet& set, std::size_t truth, std::size_t family, bool onePlan, double T) {
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 10; ++i) {
+    const double stretch = 0.9 + 0.2 * std::generate_canonical<double, 53>(random);
+    windows.push_back(onePlan ? recorded(*set.candidates[truth].families[family], T, 0.5, 0.2 / T / stretch, stretch)
+                              : recorded(*set.candidates[truth].families[family], T * stretch, 0.5, 0.2 / T / stretch));
+    durations.push_back(0.95 * T * stretch);
+  }
+  return fitPerson(windows, durations, set);
+}
+
+TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
+  for (const experiment::Experiment& e :
+       {chainExperiment(1.35), parallelExperiment(2.5), lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)}) {
+    const CandidateSet set = makeCandidates(e, of(kQuick));
+    for (std::size_t truth = 0; truth < set.candidates.size(); ++truth)
+      for (const bool onePlan : {false, true}) {
+        if (onePlan && set.candidates[truth].reference()) continue;
+        const std::size_t family = set.candidates[truth].families.size() > 2 ? 2 : 0;  // 1 kg
+        const PersonFit fit = fitOf(set, truth, family, onePlan, e.task->duration);
+        std::size_t best = 0;
+        for (std::size_t k = 1; k < fit.candidates.size(); ++k)
+          if (fit.candidates[k].meanScore < fit.candidates[best].meanScore) best = k;
+        EXPECT_EQ(best, truth) << e.task->duration << (onePlan ? " one plan" : " anew");
+        // One plan's duration and the hand's mass can stand for one another; planned anew they cannot.
+        if (!onePlan) {
+          EXPECT_EQ(fit.candidates[truth].choice.family, family) << e.task->duration;
+        }
+      }
+  }
+}
+
+// A fold's choice must not depend on its own trials: changing them changes neither the choice nor the other folds' scores' shapes.
+TEST(PersonFit, ScoresNoTrialByAChoiceItTookPartIn) {
+  const experiment::Experiment chain = chainExperiment(1.35);
+  const CandidateSet set = makeCandidates(chain, of({Criterion::MinHandForceChange, Criterion::MinHandJerk}));
+  const std::size_t force = 0;
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  // Fold 0 is planned with 2 kg, the other four with none.
+  for (int i = 0; i < 15; ++i) {
+    windows.push_back(recorded(*set.candidates[force].families[i % 5 == 0 ? 3 : 0], 1.3 + 0.01 * i, 0.5, 0.15));
+    durations.push_back(1.25 + 0.01 * i);
+  }
+  const PersonFit fit = fitPerson(windows, durations, set);
+  EXPECT_EQ(fit.candidates[force].foldChoice[0].family, 0u);
+  for (std::size_t i = 0; i < windows.size(); i += 5) EXPECT_GT(fit.candidates[force].score[i], fit.candidates[force].score[i + 1] + 3);
+}
+
+TEST(PersonFit, GivesEveryCandidateTheSameWindowAndWeights) {
+  const experiment::Experiment chain = chainExperiment(1.35);
+  const auto weightsWith = [&](std::vector<Criterion> criteria) {
+    const CandidateSet truth = makeCandidates(chain, of({Criterion::MinHandJerk})), set = makeCandidates(chain, of(std::move(criteria)));
+    std::vector<FitWindow> windows;
+    std::vector<double> durations;
+    for (int i = 0; i < 10; ++i) {
+      windows.push_back(recorded(*truth.candidates[0].families[0], 1.2 + 0.02 * i, 0.5, 0.15 + 0.002 * (i % 3)));
+      durations.push_back(1.1 + 0.02 * i);
+      for (std::size_t k = 0; k < windows.back().velocity.size(); ++k) windows.back().velocity[k] += 0.004 * std::sin(0.1 * i * k);
+    }
+    fitPerson(windows, durations, set);
+    std::vector<std::vector<double>> weights;
+    for (const FitWindow& w : windows) weights.push_back(w.weight);
+    return weights;
+  };
+  EXPECT_EQ(weightsWith({Criterion::MinHandJerk}), weightsWith({Criterion::MinCrackle, Criterion::MinHandForce}));
+}
+
+}  // namespace
+}  // namespace reachlab::analyze
