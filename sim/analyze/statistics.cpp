@@ -1,9 +1,9 @@
 #include "sim/analyze/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace reachlab::analyze {
 
@@ -22,28 +22,12 @@ MeanSd computeMeanSd(std::span<const double> values) {
   return out;
 }
 
-double normalQuantile(double share) {
-  // Newton on the distribution function; from 0 it converges for every share met here (0.5 … 0.9999) and by symmetry below.
-  if (share < 0.5) return -normalQuantile(1 - share);
-  double x = 0;
-  for (int i = 0; i < 60; ++i) {
-    const double cdf = 0.5 * std::erfc(-x / std::numbers::sqrt2);
-    const double density = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);
-    const double step = (share - cdf) / density;
-    x += std::min(step, 1.0);
-    if (std::abs(step) < 1e-13) break;
-  }
-  return x;
-}
-
-Interval computeWilsonInterval(std::size_t successes, std::size_t trials, double level) {
+Interval computeBinomialInterval(std::size_t successes, std::size_t trials, double level) {
   if (trials == 0) return {0, 1};
-  const double n = static_cast<double>(trials), p = static_cast<double>(successes) / n;
-  const double z = normalQuantile(0.5 + level / 2), z2 = z * z;
-  const double centre = (p + z2 / (2 * n)) / (1 + z2 / n);
-  const double half = z / (1 + z2 / n) * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-  // At none and at all the formula gives exactly 0 and 1, which rounding must not move.
-  return {successes == 0 ? 0 : std::max(0.0, centre - half), successes == trials ? 1 : std::min(1.0, centre + half)};
+  using Binomial = boost::math::binomial_distribution<double>;
+  const double n = static_cast<double>(trials), s = static_cast<double>(successes), outside = (1 - level) / 2;
+  return {successes == 0 ? 0 : Binomial::find_lower_bound_on_p(n, s, outside),
+          successes == trials ? 1 : Binomial::find_upper_bound_on_p(n, s, outside)};
 }
 
 double quantileOfSorted(std::span<const double> sorted, double share) {
@@ -52,17 +36,6 @@ double quantileOfSorted(std::span<const double> sorted, double share) {
   const auto i = static_cast<std::size_t>(at);
   if (i + 1 >= sorted.size()) return sorted.back();
   return sorted[i] + (at - static_cast<double>(i)) * (sorted[i + 1] - sorted[i]);
-}
-
-Interval centralInterval(std::vector<double> values, double level) {
-  std::sort(values.begin(), values.end());
-  return {quantileOfSorted(values, (1 - level) / 2), quantileOfSorted(values, (1 + level) / 2)};
-}
-
-std::size_t drawIndex(std::mt19937_64& random, std::size_t n) {
-  // The share of 2^64 that does not divide evenly is below 1e-13 for any number of trials; std::uniform_int_distribution would differ
-  // between libraries.
-  return static_cast<std::size_t>(random() % n);
 }
 
 }  // namespace reachlab::analyze
