@@ -2,8 +2,7 @@
 
 #include "base/error.h"
 #include "sim/analyze/measures.h"
-#include "sim/analyze/predicted_profile.h"
-#include "sim/analyze/ranking.h"
+#include "sim/analyze/paper_error.h"
 
 namespace reachlab::gui {
 namespace {
@@ -78,15 +77,10 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
   const analyze::MeasureOptions options;
   const analyze::TrialSignals signals = analyze::computeSignals(trial, options);
   if (!signals.movement.found) return errors;
-  const double duration = signals.movement.duration();
-  const double endLevel = analyze::valueAt(signals.speed, trial.rate, signals.movement.offset) / signals.movement.peak;
-  const std::vector<double> measured =
-      analyze::normaliseTime(signals.handVelocity, trial.rate, signals.movement.onset, signals.movement.offset);
+  const analyze::TrialProfile profile = analyze::makeTrialProfile(trial, signals);
   for (std::size_t i = 0; i < forecasts.size(); ++i) {
     if (!forecasts[i].prediction) continue;
-    const analyze::PredictedProfile predicted =
-        analyze::scaledTo(analyze::profileUntil(analyze::recordPrediction(*forecasts[i].prediction, options, task), endLevel), duration);
-    const double error = analyze::computeRmsError(predicted.hand, measured);
+    const double error = analyze::computePaperError(profile, analyze::recordPrediction(*forecasts[i].prediction, options, task)).hand;
     if (std::isfinite(error)) errors[i] = error;
   }
   return errors;

@@ -1,8 +1,9 @@
 #pragma once
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/analyze/recovery.h"
 #include "sim/analyze/study.h"
 #include "sim/figure/figure.h"
 
@@ -14,17 +15,43 @@ struct NamedFigure {
   figure::Figure figure;
 };
 
-/// Fig. 5 and 6 (9 and 10) of one condition: hand and object velocity; thin lines trials, thick black their mean, band SD, thick solid
-/// criterion (1), thick dashed criterion (3), and the criterion that ranks first where it is neither.
-NamedFigure velocityFigure(const StudyResult& study, std::size_t condition);
-/// The mean profile against every criterion.
-NamedFigure predictionFigure(const StudyResult& study, std::size_t condition);
-/// RMS error of each criterion with its interval, a panel a condition and one over all.
-NamedFigure rankingFigure(const StudyResult& study);
-/// Success against trial number with Wilson's interval, a panel a condition.
+// What leads: who follows what. In conclusion_figures.cpp.
+
+/// Scores of subjects by criterion, against the reference; lines join a subject. A panel a condition, and one over all.
+NamedFigure scoreFigure(const StudyResult& study);
+/// Protected exceedance probability of each candidate; no panels with one subject.
+NamedFigure posteriorFigure(const StudyResult& study);
+/// Of each truth, how many simulated studies named what.
+NamedFigure recoveryFigure(const Recovery& recovery);
+
+// The movements. In movement_figures.cpp.
+
+/// The paper's Figs. 5 and 6 of one condition: hand and object velocity; thin lines trials time-scaled to their average, thick solid
+/// criterion (1), thick dashed criterion (3), each for the task's T, neither cut nor stretched.
+NamedFigure paperFigure(const StudyResult& study, std::size_t condition);
+/// Figs. 9 and 10: the last five successful trials thin, criterion (1) thick grey, the average of all thick black. `subject` empty: of the
+/// only one, else of the first.
+NamedFigure lastFiveFigure(const StudyResult& study, std::size_t condition);
+/// Small multiples: each subject's mean and scatter with the fitted mean of the closest candidates and of the reference, residuals below.
+NamedFigure peopleFigure(const StudyResult& study, std::size_t condition);
+
+// Learning. In progress_figures.cpp.
+
+/// Success against trial number, a panel a condition, a line a subject.
 NamedFigure learningFigure(const StudyResult& study);
 
 /// All figures of the study that have something to show.
-std::vector<NamedFigure> makeFigures(const StudyResult& study);
+std::vector<NamedFigure> makeFigures(const StudyResult& study, const std::optional<Recovery>& recovery);
+
+/// How a criterion is drawn everywhere.
+struct CriterionLook {
+  figure::Color color;
+  figure::Dash dash;
+};
+CriterionLook lookOf(const std::vector<predict::Criterion>& criteria);
+/// "(1)", "(4, 6)", "reference": for axes.
+std::string shortNameOf(const std::vector<predict::Criterion>& criteria);
+/// A title that a panel of a grid can bear.
+std::string shortened(const std::string& text, std::size_t most = 34);
 
 }  // namespace reachlab::analyze

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
 #include <set>
 
 #include "sim/analyze/tables.h"
@@ -23,8 +23,9 @@ table { border-collapse: collapse; margin: .8rem 0; font-size: .87rem; } th, td 
 thead tr:first-child th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 1px solid #444; vertical-align: bottom; } tbody tr:nth-child(even) { background: #f5f6f8; }
 tbody tr.first td { font-weight: bold; } td.text, th.text { text-align: left; } td.text { white-space: normal; overflow-wrap: anywhere; }
 figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: .87rem; color: #444; }
-.finding { background: #eef4fa; border-left: 4px solid #0072b2; padding: .6rem .9rem; } .warning { background: #fdf3e7; border-left: 4px solid #d55e00; padding: .6rem .9rem; }
-@media print { body { max-width: none; margin: 0; font-size: 10pt; } h2, figure, table { break-inside: avoid; } }
+.answer { font-size: 1.12rem; line-height: 1.45; } .finding { background: #eef4fa; border-left: 4px solid #0072b2; padding: .6rem .9rem; } .warning { background: #fdf3e7; border-left: 4px solid #d55e00; padding: .6rem .9rem; }
+@page { size: A4; margin: 16mm 14mm; }
+@media print { body { max-width: none; margin: 0; padding: 0; font-size: 9.5pt; } figure, table, p { break-inside: avoid; } h2, h3 { break-after: avoid; } .finding, .warning, tbody tr:nth-child(even) { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
 
 struct Html {
@@ -53,61 +54,173 @@ void addFigure(Html& html, const std::vector<NamedFigure>& figures, const std::s
   }
 }
 
+std::string plural(std::size_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+std::string real(const std::string& number) {  // a minus is no hyphen
+  std::string text = number;
+  for (std::size_t at; (at = text.find('-')) != std::string::npos;) text.replace(at, 1, "−");
+  return text;
+}
+
+std::string percentInterval(double mean, const Interval& i) {
+  std::string text = real(fmt::format("{:.0f}", mean));
+  if (std::isfinite(i.low) && std::isfinite(i.high)) text += real(fmt::format(" [{:.0f}, {:.0f}]", i.low, i.high));
+  return text;
+}
+
+/// Table 2: conditions in order, their days side by side, and the last day less the first, per person and over people.
 void addSuccessTable(Html& html, const StudyResult& study) {
   if (study.success.empty()) return;
   std::set<int> days;
   for (const SuccessCell& cell : study.success) days.insert(cell.day);
-  html.heading(2, "Success by subject, condition and day (%)");
+  const bool progress = days.size() == 2;
+  html.heading(2, "Success (%), as in Table 2");
   html.add("<table><thead><tr><th rowspan=\"2\">Subject</th>");
   for (const StudyCondition& condition : study.conditions)
-    html.add(fmt::format("<th colspan=\"{}\" style=\"text-align:center\">{}</th>", days.size(), escaped(condition.name)));
+    html.add(
+        fmt::format("<th colspan=\"{}\" style=\"text-align:center\">{}</th>", days.size() + (progress ? 1 : 0), escaped(condition.name)));
   html.add("</tr><tr>");
-  for (std::size_t c = 0; c < study.conditions.size(); ++c)
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
     for (const int day : days) html.add(fmt::format("<th>D{}</th>", day));
+    if (progress) html.add(fmt::format("<th>D{} − D{}</th>", *days.rbegin(), *days.begin()));
+  }
   html.add("</tr></thead><tbody>");
+  const auto cellOf = [&](const std::string& subject, std::size_t c, int day) {
+    return std::find_if(study.success.begin(), study.success.end(),
+                        [&](const SuccessCell& s) { return s.subject == subject && s.condition == c && s.day == day; });
+  };
   for (const std::string& subject : study.subjects) {
     html.add("<tr><td>" + escaped(subject) + "</td>");
-    for (std::size_t c = 0; c < study.conditions.size(); ++c)
+    for (std::size_t c = 0; c < study.conditions.size(); ++c) {
       for (const int day : days) {
-        const auto cell = std::find_if(study.success.begin(), study.success.end(),
-                                       [&](const SuccessCell& s) { return s.subject == subject && s.condition == c && s.day == day; });
+        const auto cell = cellOf(subject, c, day);
         if (cell == study.success.end()) {
           html.add("<td>–</td>");
           continue;
         }
         html.add(fmt::format("<td title=\"{} of {}; 95 % interval {:.0f} to {:.0f} %\">{:.0f} <span class=\"quiet\">/{}</span></td>",
-                             cell->successes, cell->trials, 100 * cell->interval.low, 100 * cell->interval.high,
-                             100.0 * static_cast<double>(cell->successes) / static_cast<double>(cell->trials), cell->trials));
+                             cell->successes, cell->trials, 100 * cell->interval.low, 100 * cell->interval.high, 100 * cell->share(),
+                             cell->trials));
       }
+      if (!progress) continue;
+      const auto first = cellOf(subject, c, *days.begin()), last = cellOf(subject, c, *days.rbegin());
+      html.add(first == study.success.end() || last == study.success.end()
+                   ? "<td>–</td>"
+                   : fmt::format("<td>{}</td>", real(fmt::format("{:+.0f}", 100 * (last->share() - first->share())))));
+    }
+    html.add("</tr>");
+  }
+  if (study.subjects.size() > 1) {
+    html.add("<tr class=\"first\"><td>mean</td>");
+    for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+      for (const int day : days) {
+        std::vector<double> shares;
+        for (const SuccessCell& cell : study.success)
+          if (cell.condition == c && cell.day == day) shares.push_back(100 * cell.share());
+        html.add(shares.empty() ? "<td>–</td>"
+                                : "<td>" + percentInterval(computeTTest(shares).mean, computeMeanInterval(shares)) + "</td>");
+      }
+      if (!progress) continue;
+      const auto effect =
+          std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& e) { return e.ofDay && e.condition == c; });
+      html.add(effect == study.effects.end() ? "<td>–</td>"
+                                             : "<td>" + percentInterval(effect->points.mean, effect->pointsInterval) + "</td>");
+    }
     html.add("</tr>");
   }
   html.add("</tbody></table>");
   html.paragraph(
       "Percent of the trials that ended as success or failure (their number behind the stroke); aborted and interrupted trials are no "
-      "attempts. Intervals are in success_table.csv.",
+      "attempts. In brackets 95 % t intervals over subjects; each subject's own exact interval is in success_table.csv.",
       "quiet");
 }
 
-void addRankingTable(Html& html, const ConditionResult& result) {
-  const Ranking& ranking = result.handRanking;
-  if (ranking.places.empty()) return;
-  html.add(
-      "<table><thead><tr><th>Criterion</th><th>predicted for T (s)</th><th>ε (m/s)</th><th>95 % interval</th><th>farther than the first by "
-      "(m/s)</th><th>95 % interval</th>"
-      "<th class=\"text\">told apart</th></tr></thead><tbody>");
-  const auto speed = [](double v) { return fmt::format("{:.5f}", v); };
-  for (std::size_t i = 0; i < ranking.places.size(); ++i) {
-    const RankedCriterion& p = ranking.places[i];
-    const PredictedProfile& predicted = result.predictions[p.criterion];
-    html.add(fmt::format("<tr{}><td>{}</td><td>{:.3f}</td><td>{}</td><td>{} … {}</td>", i == 0 ? " class=\"first\"" : "",
-                         escaped(numberedName(predicted.criterion)), predicted.taskDuration, speed(p.epsilon), speed(p.interval.low),
-                         speed(p.interval.high)));
-    if (i == 0) html.add("<td></td><td></td><td class=\"text\"></td></tr>");
-    else
-      html.add(fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td></tr>", speed(p.difference),
-                           speed(p.differenceInterval.low), speed(p.differenceInterval.high), p.apartFromFirst ? "yes" : "no"));
+void addProgress(Html& html, const StudyResult& study, const std::vector<NamedFigure>& figures) {
+  html.heading(2, "Learning");
+  addFigure(html, figures, "learning");
+  html.add("<ul>");
+  for (const Effect& effect : study.effects) html.add("<li>" + escaped(describeEffect(study, effect)) + "</li>");
+  for (const LearningSlope& slope : study.slopes) html.add("<li>Slope of success: " + escaped(describeSlope(study, slope)) + "</li>");
+  html.add("</ul>");
+  html.paragraph(
+      "Differences are paired over subjects; p by the logits, corrected for all days, or all pairs of conditions, by Holm's method.",
+      "quiet");
+}
+
+/// Every candidate of one conclusion.
+void addScores(Html& html, const Conclusion& c, const std::vector<std::vector<predict::Criterion>>& names) {
+  if (!c.best) return;
+  html.add("<table><thead><tr><th>Candidate</th><th>score above the closest (ln S)</th><th>p</th>");
+  if (!c.posterior.empty()) html.add("<th>most frequent with probability</th>");
+  html.add("<th class=\"text\">told from the closest</th></tr></thead><tbody>");
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < names.size(); ++k) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return c.score[a] < c.score[b]; });
+  for (const std::size_t k : order) {
+    const bool best = k == *c.best;
+    html.add(fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td>", best ? " class=\"first\"" : "", escaped(describeCandidate(names[k])),
+                         best ? "0" : fmt::format("{:.3f}", c.against[k].mean),
+                         best ? "" : escaped(c.against[k].p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", c.against[k].p))));
+    if (!c.posterior.empty()) html.add(fmt::format("<td>{:.3f}</td>", c.posterior[k]));
+    html.add(fmt::format("<td class=\"text\">{}</td></tr>", best ? "" : c.against[k].p < c.level ? "yes" : "no"));
   }
   html.add("</tbody></table>");
+}
+
+/// A condition's fits, averaged over its subjects, and the paper's epsilon beside them.
+void addFits(Html& html, const StudyResult& study, std::size_t condition) {
+  const ConditionResult& r = study.results[condition];
+  if (r.handEpsilon.empty()) return;
+  html.add(
+      "<table><thead><tr><th>Criterion</th><th>paper’s ε (m/s)</th><th>95 % over subjects</th><th>object’s ε (m/s)</th><th>fitted ε "
+      "(m/s)</th><th>fitted T (s)</th><th>R²</th></tr></thead><tbody>");
+  const auto& candidates = r.candidates.candidates;
+  const auto row = [&](const std::string& name, const EpsilonPlace* hand, const EpsilonPlace* object, std::optional<std::size_t> k) {
+    double epsilon = 0, duration = 0, r2 = 0, people = 0;
+    for (const PersonResult& person : study.people) {
+      if (person.condition != condition || !person.fitted || !k) continue;
+      const CandidateFit& fit = person.fit.candidates[*k];
+      epsilon += fit.epsilonOfAll, duration += fit.duration, r2 += fit.r2, people += 1;
+    }
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", escaped(name),
+                         hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
+                         hand && hand->interval ? real(fmt::format("{:.4f} … {:.4f}", hand->interval->low, hand->interval->high)) : "–",
+                         object ? fmt::format("{:.4f}", object->epsilon) : "–"));
+    html.add(people > 0
+                 ? fmt::format("<td>{:.4f}</td><td>{:.3f}</td><td>{:.4f}</td></tr>", epsilon / people, duration / people, r2 / people)
+                 : "<td>–</td><td>–</td><td>–</td></tr>");
+  };
+  for (const EpsilonPlace& place : r.handEpsilon) {
+    const predict::Criterion criterion = r.signals[place.criterion].criterion;
+    const auto object =
+        std::find_if(r.objectEpsilon.begin(), r.objectEpsilon.end(), [&](const EpsilonPlace& p) { return p.criterion == place.criterion; });
+    std::optional<std::size_t> k;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (std::find(candidates[i].criteria.begin(), candidates[i].criteria.end(), criterion) != candidates[i].criteria.end()) k = i;
+    row(numberedName(criterion), &place, object == r.objectEpsilon.end() ? nullptr : &*object, k);
+  }
+  if (!candidates.empty()) row("reference", nullptr, nullptr, candidates.size() - 1);
+  html.add("</tbody></table>");
+  html.paragraph(
+      "In the order of the paper's ε, which describes but decides nothing. Fitted values are means over subjects with enough trials; every "
+      "subject's are in fits.csv.",
+      "quiet");
+}
+
+void addRecovery(Html& html, const Recovery& recovery, const std::vector<NamedFigure>& figures) {
+  if (recovery.counts.empty()) return;
+  html.heading(3, "What this design can tell");
+  addFigure(html, figures, "recovery");
+  std::size_t right = 0, wrong = 0, all = 0;
+  for (std::size_t t = 0; t + 1 < recovery.counts.size(); ++t)
+    for (std::size_t k = 0; k < recovery.counts[t].size(); ++k) {
+      all += recovery.counts[t][k];
+      if (k == t) right += recovery.counts[t][k];
+      else if (k + 1 < recovery.counts[t].size()) wrong += recovery.counts[t][k];
+    }
+  html.paragraph(
+      fmt::format("Of {} studies that were simulated with a criterion for truth, {} named it, {} named another, {} stayed undecided.", all,
+                  right, wrong, all - right - wrong));
 }
 
 void addMeasures(Html& html, const StudyResult& study, std::size_t condition) {
@@ -146,7 +259,7 @@ void addMeasures(Html& html, const StudyResult& study, std::size_t condition) {
     for (std::size_t at; (at = text.find('-')) != std::string::npos;) text.replace(at, 1, "−");
     return text;
   };
-  html.add("<table><thead><tr><th>Measure (mean ± SD)</th><th>successes</th><th>failures</th></tr></thead><tbody>");
+  html.add("<table><thead><tr><th>Measure (mean ± SD over trials)</th><th>successes</th><th>failures</th></tr></thead><tbody>");
   for (const Line& line : kLines)
     html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", line.name, summary(line, true), summary(line, false)));
   html.add("</tbody></table>");
@@ -160,26 +273,27 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   html.paragraph(describeCounts(r));
   if (r.onlyFailures)
     html.paragraph(
-        "No trial succeeded. Profiles, errors and ranking below are of the failed trials, for description only; the paper's error is of "
-        "successful ones.",
+        "No trial succeeded. Profiles and errors below are of the failed trials, for description only; the paper's error is of successful "
+        "ones, and nothing is concluded.",
         "warning");
-  const std::string durations = describeDurations(r);
-  if (!durations.empty()) html.paragraph(durations, "warning");
-  addFigure(html, figures, "velocity_" + file);
-  if (r.used > 0) {
-    html.paragraph("Hand velocity, over trials: " + describeRanking(r.handRanking, criteriaOf(r)), r.onlyFailures ? "" : "finding");
-    if (r.handOverSubjects) html.paragraph("Over subjects: " + describeRanking(*r.handOverSubjects, criteriaOf(r)));
-    addRankingTable(html, r);
-    html.paragraph("Object velocity, over trials: " + describeRanking(r.objectRanking, criteriaOf(r)));
+  if (study.conditions.size() > 1) {
+    html.paragraph(describeConclusion(r.conclusion, candidatesOf(r)), "finding");
+    if (r.conclusion.best) {
+      html.paragraph(describeEvidence(r.conclusion, candidatesOf(r)));
+      addScores(html, r.conclusion, candidatesOf(r));
+    }
   }
-  addFigure(html, figures, "predictions_" + file);
+  addFigure(html, figures, "people_" + file);
+  addFigure(html, figures, "velocity_" + file);
+  addFigure(html, figures, "last_five_" + file);
+  addFits(html, study, c);
   if (!r.refusals.empty()) {
     html.add("<p class=\"quiet\">Not predicted here:</p><ul class=\"quiet\">");
     for (const std::string& refusal : r.refusals) html.add("<li>" + escaped(refusal) + "</li>");
     html.add("</ul>");
   }
   std::set<std::string> warnings;
-  for (const PredictedProfile& p : r.predictions)
+  for (const PredictedSignal& p : r.signals)
     for (const std::string& w : p.warnings) warnings.insert(numberedName(p.criterion) + ": " + w);
   for (const std::string& w : warnings) html.paragraph(w, "warning");
   addMeasures(html, study, c);
@@ -219,41 +333,39 @@ std::string escaped(const std::string& text) {
 }
 
 std::string makeReport(const ReportHeader& header, const StudyResult& study, const std::vector<NamedFigure>& figures,
-                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes) {
+                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,
+                       const std::optional<Recovery>& recovery) {
   Html html;
   html.add(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">");
   html.add("<title>Reaching: " + escaped(header.dataset) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>");
-  html.heading(1, "Reaching movements: analysis of " + header.dataset);
+  html.heading(1, "Reaching movements: " + header.dataset);
   std::size_t trials = 0;
   for (const RunProvenance& run : runs) trials += run.trials;
-  html.paragraph(fmt::format("{} subject{}, {} run{}, {} trials recorded, {} condition{}. Reachlab {}.", study.subjects.size(),
-                             study.subjects.size() == 1 ? "" : "s", runs.size(), runs.size() == 1 ? "" : "s", trials,
-                             study.conditions.size(), study.conditions.size() == 1 ? "" : "s", header.version),
+  html.paragraph(fmt::format("{}, {}, {} recorded, {}. Reachlab {}.", plural(study.subjects.size(), "subject"), plural(runs.size(), "run"),
+                             plural(trials, "trial"), plural(study.conditions.size(), "condition"), header.version),
                  "quiet");
-  if (!study.overall.places.empty()) {
-    html.heading(2, "Which criterion is nearest?");
-    html.paragraph(
-        (study.conditions.size() > 1 ? "All conditions together, hand velocity, over trials: " : "Hand velocity, over trials: ") +
-            describeRanking(study.overall, study.common),
-        "finding");
-    if (study.overallOverSubjects) html.paragraph("Over subjects: " + describeRanking(*study.overallOverSubjects, study.common), "finding");
-    else html.paragraph("With one subject nothing can be said about other people: there is no interval over subjects.");
-    addFigure(html, figures, "ranking");
-  } else {
-    html.heading(2, "Which criterion is nearest?");
-    const bool succeeded =
-        std::any_of(study.results.begin(), study.results.end(), [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; });
-    html.paragraph(succeeded
-                       ? "Nothing to rank: no criterion can be predicted in every condition."
-                       : "Nothing to rank: no trial succeeded. What the failed ones were like is described below, condition by condition.",
-                   "warning");
+  const std::string sentence = describeConclusion(study.overall, study.common);
+  html.paragraph((study.conditions.size() > 1 ? "All conditions together: " : "") + sentence, "answer finding");
+  addFigure(html, figures, "scores");
+  if (study.overall.best) {
+    html.paragraph(describeEvidence(study.overall, study.common));
+    std::vector<std::size_t> every(study.conditions.size());
+    for (std::size_t c = 0; c < every.size(); ++c) every[c] = c;
+    html.paragraph(describeChoices(study, every, study.common[*study.overall.best]));
+    addScores(html, study.overall, study.common);
+    addFigure(html, figures, "posterior");
+  } else if (std::none_of(study.results.begin(), study.results.end(),
+                          [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; })) {
+    html.paragraph("No trial succeeded. What the failed ones were like is described below, condition by condition.", "warning");
   }
+  if (recovery) addRecovery(html, *recovery, figures);
   addSuccessTable(html, study);
-  addFigure(html, figures, "learning");
+  if (!study.success.empty()) addProgress(html, study, figures);
   for (std::size_t c = 0; c < study.conditions.size(); ++c) addCondition(html, study, c, figures);
-  html.heading(2, "How it was computed");
-  html.paragraph(describeMethods(study.options));
+  html.heading(2, "Methods");
+  html.paragraph(describeMethods(study));
+  html.paragraph(describeLimits(study));
   html.paragraph(
       "Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
   html.paragraph("Command: " + header.command, "quiet");

@@ -12,10 +12,12 @@ struct ReportHeader {
   std::string dataset, version, command;
 };
 
-/// One self-contained HTML page: what was analysed and how, counts, Table 2, figures (SVG inside), ranking in plain words, measures,
-/// provenance. Needs no network, no script, and prints.
+/// One self-contained HTML page. It leads with one plain sentence and a figure, the numbers stand in tables beneath; then success and
+/// learning, condition by condition figures and measures, the methods paragraph, limits, provenance. Needs no network, no script, and
+/// prints.
 std::string makeReport(const ReportHeader& header, const StudyResult& study, const std::vector<NamedFigure>& figures,
-                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes);
+                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,
+                       const std::optional<Recovery>& recovery = {});
 
 /// Text as HTML text.
 std::string escaped(const std::string& text);

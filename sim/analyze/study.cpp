@@ -9,46 +9,32 @@
 
 #include "base/error.h"
 #include "sim/analyze/counts.h"
+#include "sim/analyze/epsilon_table.h"
+#include "sim/analyze/fit_window.h"
 
 namespace reachlab::analyze {
 namespace {
 
 auto orderOf(const StudyTrial& t) { return std::tie(t.condition, t.key.subject, t.key.session, t.key.run, t.key.trial); }
 
-std::string whyExcluded(const StudyTrial& trial, bool catchTrial, const Movement& movement, bool includePractice) {
-  if (catchTrial) return "catch trial";
+std::string whyExcluded(const StudyTrial& trial, const Movement& movement, bool includePractice) {
+  if (trial.catchTrial) return "catch trial";
   if (trial.practice && !includePractice) return "practice";
-  if (trial.result.outcome != trial::Outcome::Success) return std::string(trial::nameOf(trial.result.outcome));
+  if (trial.result.outcome != trial::Outcome::Success)
+    return trial.result.outcome == trial::Outcome::Interrupted && nameOf(trial.result.reason) == "timing"
+               ? "invalid timing"
+               : std::string(nameOf(trial.result.outcome));
   if (!movement.found) return "no movement found";
   return {};
 }
 
-StudyTrial measureTrial(TrialData& data, std::size_t condition, const StudyOptions& options) {
-  StudyTrial trial;
-  trial.key = data.key;
-  trial.condition = condition;
-  trial.result = data.result;
-  trial.practice = data.practice;
-  const TrialSignals signals = computeSignals(data, options.measure);
-  trial.measures = computeMeasures(data, signals);
-  trial.exclusion = whyExcluded(trial, data.catchTrial, signals.movement, options.includePractice);
-  trial.counted = !data.catchTrial && (!data.practice || options.includePractice) &&
-                  (data.result.outcome == trial::Outcome::Success || data.result.outcome == trial::Outcome::Failure);
-  if (signals.movement.found) {
-    trial.hand = normaliseTime(signals.handVelocity, data.rate, signals.movement.onset, signals.movement.offset);
-    trial.object = normaliseTime(signals.objectVelocity, data.rate, signals.movement.onset, signals.movement.offset);
-    trial.endLevel = valueAt(signals.speed, data.rate, signals.movement.offset) / signals.movement.peak;
-  }
-  return trial;
-}
-
-/// Where nothing succeeded, the failed movements are still worth looking at; they are shown as such and left out of the overall ranking.
+/// Where nothing succeeded, the failed movements are still worth looking at; they are shown as such and nothing is concluded from them.
 void useFailuresWhereNothingSucceeded(StudyResult& study) {
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const auto ofCondition = [&](const StudyTrial& t) { return t.condition == c; };
     if (std::any_of(study.trials.begin(), study.trials.end(), [&](const StudyTrial& t) { return ofCondition(t) && t.used(); })) continue;
     for (StudyTrial& trial : study.trials) {
-      if (!ofCondition(trial) || !trial.counted || trial.hand.empty()) continue;
+      if (!ofCondition(trial) || !trial.counted || trial.profile.size == 0) continue;
       --study.results[c].exclusions[trial.exclusion];
       trial.exclusion.clear();
       study.results[c].onlyFailures = true;
@@ -57,22 +43,15 @@ void useFailuresWhereNothingSucceeded(StudyResult& study) {
   }
 }
 
-std::vector<double> timeScaled(const std::vector<double>& profile, double from, double to) {
-  std::vector<double> out = profile;
-  for (double& v : out) v *= from / to;
-  return out;
-}
-
-MeanProfile computeMeanProfile(const std::vector<std::vector<double>>& profiles) {
-  MeanProfile out;
-  std::vector<double> column(profiles.size());
-  for (std::size_t i = 0; i < kProfilePoints && !profiles.empty(); ++i) {
-    for (std::size_t k = 0; k < profiles.size(); ++k) column[k] = profiles[k][i];
-    const MeanSd at = computeMeanSd(column);
-    out.mean.push_back(at.mean);
-    out.sd.push_back(at.sd);
+/// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order.
+void numberDays(std::vector<StudyTrial>& trials) {
+  std::map<std::string, std::set<std::string>> sessions;
+  for (const StudyTrial& trial : trials) sessions[trial.key.subject].insert(trial.key.session);
+  for (StudyTrial& trial : trials) {
+    if (trial.key.day > 0) continue;
+    const auto& own = sessions[trial.key.subject];
+    trial.key.day = 1 + static_cast<int>(std::distance(own.begin(), own.find(trial.key.session)));
   }
-  return out;
 }
 
 std::vector<predict::Criterion> wantedCriteria(const StudyOptions& options) {
@@ -83,17 +62,19 @@ std::vector<predict::Criterion> wantedCriteria(const StudyOptions& options) {
 }
 
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
-PredictedSignal signalLasting(const StudyCondition& condition, predict::Criterion criterion, predict::PredictOptions how,
-                              const StudyOptions& options, const ConditionResult& result) {
+std::unique_ptr<predict::Prediction> predictLasting(const StudyCondition& condition, predict::Criterion criterion,
+                                                    predict::PredictOptions how, const StudyOptions& options,
+                                                    const ConditionResult& result) {
   how.duration = condition.experiment.task->duration;
-  PredictedSignal signal;
+  std::unique_ptr<predict::Prediction> prediction;
   for (int step = 0; step < 8; ++step) {
-    signal = recordPrediction(*predict::predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task);
-    const double ratio = result.duration.mean / profileUntil(signal, result.endLevel).duration;
+    prediction = predict::predict(condition.experiment, criterion, how);
+    const PredictedSignal signal = recordPrediction(*prediction, options.measure, *condition.experiment.task);
+    const double ratio = result.duration.mean / durationUntil(signal, result.endLevel);
     if (std::abs(ratio - 1) < 1e-6) break;
     how.duration *= ratio;
   }
-  return signal;
+  return prediction;
 }
 
 void addPredictions(const StudyCondition& condition, const StudyOptions& options, ConditionResult& result) {
@@ -106,113 +87,174 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
   how.handDamping = options.handDamping;
   for (const predict::Criterion criterion : wantedCriteria(options)) {
     try {
-      result.signals.push_back(
-          recordPrediction(*predict::predict(condition.experiment, criterion, how), options.measure, *condition.experiment.task));
+      std::unique_ptr<predict::Prediction> prediction = options.predictFor == PredictionDuration::Moved && result.used > 0
+                                                            ? predictLasting(condition, criterion, how, options, result)
+                                                            : predict::predict(condition.experiment, criterion, how);
+      result.signals.push_back(recordPrediction(*prediction, options.measure, *condition.experiment.task));
+      result.predictions.push_back(std::move(prediction));
     } catch (const Error& error) {
       const std::string what = error.what();
-      result.refusals.push_back(what.starts_with(predict::nameOf(criterion)) ? what
-                                                                             : fmt::format("{}: {}", predict::nameOf(criterion), what));
+      result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
     }
   }
-  if (result.used > 0 && !result.signals.empty()) {
-    std::vector<double> ratios;
-    for (const PredictedSignal& signal : result.signals)
-      ratios.push_back(result.duration.mean / profileUntil(signal, result.endLevel).duration);
-    std::sort(ratios.begin(), ratios.end());
-    result.durationRatio = quantileOfSorted(ratios, 0.5);
-    result.predictedForMoved = options.predictFor == PredictionDuration::Moved ||
-                               (options.predictFor == PredictionDuration::Auto && std::abs(result.durationRatio - 1) > kKeptDuration);
-  }
-  for (PredictedSignal& signal : result.signals) {
-    if (result.predictedForMoved) {
-      try {
-        signal = signalLasting(condition, signal.criterion, how, options, result);
-      } catch (const Error& error) {
-        result.refusals.push_back(fmt::format("{}: {}; compared at the task's T", predict::nameOf(signal.criterion), error.what()));
-      }
+}
+
+/// Welford's running mean and sum of squares, a point each.
+struct RunningProfile {
+  std::vector<double> mean = std::vector<double>(kProfilePoints, 0.0), squares = mean;
+  double count = 0;
+  void add(const std::vector<double>& profile, double factor) {
+    count += 1;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      const double apart = factor * profile[i] - mean[i];
+      mean[i] += apart / count;
+      squares[i] += apart * (factor * profile[i] - mean[i]);
     }
-    const PredictedProfile profile = profileUntil(signal, result.endLevel);
-    result.predictions.push_back(result.used > 0 ? scaledTo(profile, result.duration.mean) : profile);
   }
-}
-
-void addErrors(StudyTrial& trial, const ConditionResult& result) {
-  if (!trial.used()) return;
-  const std::vector<double> hand = timeScaled(trial.hand, trial.measures.duration, result.duration.mean);
-  const std::vector<double> object = timeScaled(trial.object, trial.measures.duration, result.duration.mean);
-  for (const PredictedSignal& signal : result.signals) {
-    const PredictedProfile prediction = scaledTo(profileUntil(signal, trial.endLevel), result.duration.mean);
-    trial.handError.push_back(computeRmsError(prediction.hand, hand));
-    trial.objectError.push_back(computeRmsError(prediction.object, object));
+  MeanProfile result() const {
+    MeanProfile out;
+    if (count == 0) return out;
+    out.mean = mean;
+    for (const double s : squares) out.sd.push_back(count > 1 ? std::sqrt(s / (count - 1)) : kNotMeasured);
+    return out;
   }
+};
+
+std::span<StudyTrial> trialsOf(StudyResult& study, std::size_t condition) {
+  const auto first = std::find_if(study.trials.begin(), study.trials.end(), [&](const StudyTrial& t) { return t.condition >= condition; });
+  const auto last = std::find_if(first, study.trials.end(), [&](const StudyTrial& t) { return t.condition > condition; });
+  return {first, last};
 }
 
-TrialErrors squaresOf(const StudyTrial& trial, const std::vector<double>& errors) {
-  TrialErrors out{trial.key.subject, {}, static_cast<double>(kProfilePoints)};
-  for (const double e : errors) out.squares.push_back(e * e * static_cast<double>(kProfilePoints));
-  return out;
-}
-
-void summarise(const std::vector<StudyTrial>& trials, std::size_t condition, const StudyCondition& what, const StudyOptions& options,
-               ConditionResult& result) {
+void summarise(StudyResult& study, std::size_t condition) {
+  ConditionResult& result = study.results[condition];
+  const std::span<StudyTrial> trials = trialsOf(study, condition);
   std::vector<double> durations, times, levels;
   for (const StudyTrial& trial : trials) {
-    if (trial.condition != condition || !trial.used()) continue;
+    if (!trial.used()) continue;
     durations.push_back(trial.measures.duration);
     times.push_back(trial.measures.movementTime);
     levels.push_back(trial.endLevel);
   }
   result.used = durations.size();
-  result.endLevel = levels.empty() ? options.measure.onset.percent / 100 : computeMeanSd(levels).mean;
+  result.endLevel = levels.empty() ? study.options.measure.onset.percent / 100 : computeMeanSd(levels).mean;
   result.duration = computeMeanSd(durations);
   result.movementTime = computeMeanSd(times);
-  std::vector<std::vector<double>> hand, object;
-  for (const StudyTrial& trial : trials) {
-    if (trial.condition != condition || !trial.used()) continue;
-    hand.push_back(timeScaled(trial.hand, trial.measures.duration, result.duration.mean));
-    object.push_back(timeScaled(trial.object, trial.measures.duration, result.duration.mean));
+  if (!times.empty()) result.movementRange = {*std::min_element(times.begin(), times.end()), *std::max_element(times.begin(), times.end())};
+  addPredictions(study.conditions[condition], study.options, result);
+  RunningProfile hand, object;
+  for (StudyTrial& trial : trials) {
+    if (!trial.used()) continue;
+    const TrialProfile profile = study.profileOf(trial);
+    hand.add(profile.hand, profile.duration / result.duration.mean);
+    object.add(profile.object, profile.duration / result.duration.mean);
+    const std::size_t criteria = result.signals.size();
+    trial.paperError.resize(2 * criteria);
+    for (std::size_t c = 0; c < criteria; ++c) {
+      const PaperError error = computePaperError(profile, result.signals[c]);
+      trial.paperError[c] = error.hand;
+      trial.paperError[criteria + c] = error.object;
+    }
   }
-  result.hand = computeMeanProfile(hand);
-  result.object = computeMeanProfile(object);
-  addPredictions(what, options, result);
+  result.hand = hand.result();
+  result.object = object.result();
+  result.handEpsilon = makeEpsilonTable(trials, result.signals.size(), false);
+  result.objectEpsilon = makeEpsilonTable(trials, result.signals.size(), true);
 }
 
-void rankCondition(const std::vector<StudyTrial>& trials, std::size_t condition, const StudyOptions& options, ConditionResult& result) {
-  std::vector<TrialErrors> hand, object;
-  for (const StudyTrial& trial : trials) {
-    if (trial.condition != condition || !trial.used()) continue;
-    hand.push_back(squaresOf(trial, trial.handError));
-    object.push_back(squaresOf(trial, trial.objectError));
-  }
-  result.handRanking = rankOverTrials(hand, options.ranking);
-  result.objectRanking = rankOverTrials(object, options.ranking);
-  result.handOverSubjects = rankOverSubjects(hand, options.ranking);
-  result.objectOverSubjects = rankOverSubjects(object, options.ranking);
+FitWindow windowOf(const StudyResult& study, const StudyTrial& trial) {
+  FitWindow window;
+  window.rate = trial.windowRate;
+  window.begin = trial.windowBegin;
+  window.velocity = study.signals->get(trial.window);
+  window.weight.assign(window.velocity.size(), 1.0);
+  return window;
 }
 
-void rankTogether(StudyResult& study) {
-  // Only criteria that every condition with trials has can be compared over all of them.
-  bool first = true;
-  for (const ConditionResult& result : study.results) {
-    if (result.used == 0 || result.onlyFailures) continue;
-    std::vector<predict::Criterion> here;
-    for (const PredictedProfile& p : result.predictions) here.push_back(p.criterion);
-    if (first) study.common = here;
-    else std::erase_if(study.common, [&](predict::Criterion c) { return std::find(here.begin(), here.end(), c) == here.end(); });
-    first = false;
+void fitPeople(StudyResult& study, std::size_t condition, const StudyProgress& progress) {
+  ConditionResult& result = study.results[condition];
+  const std::span<StudyTrial> trials = trialsOf(study, condition);
+  const auto offset = static_cast<std::size_t>(trials.data() - study.trials.data());
+  for (std::size_t first = 0; first < trials.size();) {
+    std::size_t end = first;
+    while (end < trials.size() && trials[end].key.subject == trials[first].key.subject) ++end;
+    PersonResult person;
+    person.subject = trials[first].key.subject;
+    person.condition = condition;
+    person.firstTrial = offset + first;
+    std::vector<FitWindow> windows;
+    std::vector<double> durations;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!trials[i].used() || trials[i].window.size == 0 || result.onlyFailures) continue;
+      windows.push_back(windowOf(study, trials[i]));
+      durations.push_back(trials[i].measures.duration);
+    }
+    person.trials = windows.size();
+    person.duration = durations.empty() ? kNotMeasured : computeMeanSd(durations).mean;
+    if (windows.size() >= kFewestTrials) {
+      if (result.candidates.candidates.empty()) {
+        CandidateOptions how;
+        how.criteria = study.options.criteria;
+        how.handMasses = study.options.handMasses;
+        how.handMass = study.options.handMass;
+        how.handDamping = study.options.handDamping;
+        how.cutoff = study.options.measure.cutoff;
+        how.rate = windows.front().rate;
+        result.candidates = makeCandidates(study.conditions[condition].experiment, how);
+      }
+      person.fit = fitPerson(windows, durations, result.candidates);
+      person.fitted = true;
+      for (const FitWindow& w : windows) person.rest.push_back(restCost(w));
+      if (!study.options.keepScatter) person.fit.own.apart.clear(), person.fit.own.apart.shrink_to_fit();
+      PersonScores scores = scoresOf(person);
+      const std::size_t candidates = result.candidates.candidates.size();
+      person.follows = concludePerson(scores, candidates, candidates - 1).follows;
+    }
+    study.people.push_back(std::move(person));
+    if (progress) progress(offset + end, study.trials.size());
+    first = end;
   }
-  std::vector<TrialErrors> all;
-  for (const StudyTrial& trial : study.trials) {
-    if (!trial.used() || study.results[trial.condition].onlyFailures) continue;
-    const auto& predictions = study.results[trial.condition].predictions;
-    std::vector<double> errors;
-    for (const predict::Criterion c : study.common)
-      for (std::size_t k = 0; k < predictions.size(); ++k)
-        if (predictions[k].criterion == c) errors.push_back(trial.handError[k]);
-    all.push_back(squaresOf(trial, errors));
+  result.conclusion = concludeCondition(study.people, condition, result.candidates);
+}
+
+/// Over all conditions: the candidates that every condition with fits has.
+void concludeTogether(StudyResult& study) {
+  std::vector<std::size_t> judged;
+  for (std::size_t c = 0; c < study.results.size(); ++c)
+    if (!study.results[c].candidates.candidates.empty()) judged.push_back(c);
+  if (judged.empty()) {
+    study.overall.subjects = 0;
+    return;
   }
-  study.overall = rankOverTrials(all, study.options.ranking);
-  study.overallOverSubjects = rankOverSubjects(all, study.options.ranking);
+  for (const Candidate& candidate : study.results[judged.front()].candidates.candidates) {
+    const bool everywhere = std::all_of(judged.begin(), judged.end(), [&](std::size_t c) {
+      const auto& others = study.results[c].candidates.candidates;
+      return std::any_of(others.begin(), others.end(), [&](const Candidate& o) { return o.criteria == candidate.criteria; });
+    });
+    if (everywhere) study.common.push_back(candidate.criteria);
+  }
+  std::vector<PersonScores> people;
+  for (const std::string& subject : study.subjects) {
+    PersonScores person;
+    person.subject = subject;
+    for (const PersonResult& own : study.people) {
+      if (own.subject != subject || !own.fitted) continue;
+      const auto& candidates = study.results[own.condition].candidates.candidates;
+      const PersonScores here = scoresOf(own);
+      ConditionScores scores = here.conditions.front();
+      scores.score.clear();
+      scores.r2.clear();
+      for (const auto& criteria : study.common)
+        for (std::size_t k = 0; k < candidates.size(); ++k)
+          if (candidates[k].criteria == criteria) {
+            scores.score.push_back(here.conditions.front().score[k]);
+            scores.r2.push_back(here.conditions.front().r2[k]);
+          }
+      person.conditions.push_back(std::move(scores));
+    }
+    people.push_back(std::move(person));
+  }
+  study.overall = concludePeople(people, study.common.size(), study.common.size() - 1);
 }
 
 void addSeries(StudyResult& study) {
@@ -221,23 +263,38 @@ void addSeries(StudyResult& study) {
   };
   for (const StudyTrial& trial : study.trials) {
     if (!trial.used()) continue;
+    const std::size_t criteria = trial.paperError.size() / 2;
     if (study.series.empty() || !sameSeries(trial, study.series.back())) {
-      SeriesResult series{trial.key, trial.condition, 0, std::vector<double>(trial.handError.size(), 0.0), {}};
+      SeriesResult series{trial.key, trial.condition, 0, std::vector<double>(criteria, 0.0), {}};
       series.key.trial = 0;
       series.objectError = series.handError;
       study.series.push_back(series);
     }
     SeriesResult& series = study.series.back();
     ++series.trials;
-    for (std::size_t c = 0; c < trial.handError.size(); ++c) {
-      series.handError[c] += trial.handError[c] * trial.handError[c];
-      series.objectError[c] += trial.objectError[c] * trial.objectError[c];
+    for (std::size_t c = 0; c < criteria; ++c) {
+      series.handError[c] += trial.paperError[c] * trial.paperError[c];
+      series.objectError[c] += trial.paperError[criteria + c] * trial.paperError[criteria + c];
     }
   }
   // Every trial has the same number of samples, so the mean of their mean squares is the mean over all samples.
   for (SeriesResult& series : study.series)
     for (auto* errors : {&series.handError, &series.objectError})
       for (double& e : *errors) e = std::sqrt(e / static_cast<double>(series.trials));
+}
+
+void addProgress(StudyResult& study) {
+  std::vector<Attempt> attempts;
+  for (const StudyTrial& t : study.trials)
+    if (t.counted) attempts.push_back({t.key.subject, t.key.session, t.key.day, t.condition, t.result.outcome == trial::Outcome::Success});
+  study.success = successTable(attempts);
+  study.learning = learningCurves(attempts, study.options.learningBin);
+  study.effects = effectsOf(study.success, study.conditions.size());
+  study.slopes = learningSlopes(attempts, study.conditions.size());
+  for (std::size_t c = 0; c < study.results.size(); ++c) {
+    const std::vector<double> shares = sharesOf(study.success, c);
+    if (shares.size() > 1) study.results[c].success = MeanInterval{computeTTest(shares).mean, computeMeanInterval(shares), shares.size()};
+  }
 }
 
 void check(const StudyOptions& options) {
@@ -248,39 +305,107 @@ void check(const StudyOptions& options) {
          "onset percent: allowed: more than 0 and less than 100");
   refuse(!(options.measure.onset.speed > 0), "onset speed: allowed: more than 0 m/s");
   refuse(!(options.measure.cutoff >= 0), "cut-off: allowed: 0 (none) or more Hz");
-  refuse(options.ranking.resamples < 100, "resamples: allowed: 100 or more");
   refuse(options.learningBin < 1, "learning bin: allowed: 1 trial or more");
   refuse(options.handMass && !(*options.handMass >= 0), "hand mass: allowed: 0 kg or more");
+  refuse(options.handMasses.empty(), "hand masses: allowed: one or more");
+  for (const double mass : options.handMasses) refuse(!(mass >= 0) || !std::isfinite(mass), "hand masses: allowed: 0 kg or more each");
 }
 
 }  // namespace
 
-StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const StudyProgress& progress) {
+TrialProfile StudyResult::profileOf(const StudyTrial& trial) const {
+  TrialProfile out;
+  if (trial.profile.size == 0) return out;
+  const std::vector<double> both = signals->get(trial.profile);
+  const auto middle = both.begin() + static_cast<std::ptrdiff_t>(kProfilePoints);
+  out.hand.assign(both.begin(), middle);
+  out.object.assign(middle, both.end());
+  out.duration = trial.measures.duration;
+  out.endLevel = trial.endLevel;
+  return out;
+}
+
+PersonScores scoresOf(const PersonResult& person) {
+  PersonScores out;
+  out.subject = person.subject;
+  if (!person.fitted) return out;
+  ConditionScores scores;
+  scores.condition = person.condition;
+  scores.effectiveSamples = person.fit.own.effectiveSamples;
+  scores.ceiling = person.fit.own.ceiling;
+  for (const CandidateFit& fit : person.fit.candidates) scores.score.push_back(fit.score), scores.r2.push_back(fit.r2);
+  out.conditions.push_back(std::move(scores));
+  return out;
+}
+
+Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& set) {
+  std::vector<PersonScores> scores;
+  for (const PersonResult& person : people)
+    if (person.condition == condition) scores.push_back(scoresOf(person));
+  const std::size_t candidates = set.candidates.size();
+  return concludePeople(scores, candidates, candidates - 1);
+}
+
+StudyBuilder::StudyBuilder(const StudyOptions& options) : signals_(std::make_shared<SignalStore>()) {
   check(options);
-  StudyResult study;
-  study.options = options;
-  study.conditions = std::move(input.conditions);
-  for (std::size_t i = 0; i < input.trials.size(); ++i) {
-    study.trials.push_back(measureTrial(input.trials[i], input.conditionOf.at(i), options));
-    countTrial(input.trials[i], study.trials.back(), study.conditions.size(), study.results);
-    input.trials[i] = {};
-    if (progress) progress(i + 1, input.trials.size());
+  study_.options = options;
+}
+
+void StudyBuilder::add(TrialData&& data, std::size_t condition) {
+  const StudyOptions& options = study_.options;
+  StudyTrial trial;
+  trial.key = std::move(data.key);
+  trial.condition = condition;
+  trial.result = data.result;
+  trial.practice = data.practice;
+  trial.catchTrial = data.catchTrial;
+  const TrialSignals signals = computeSignals(data, options.measure);
+  trial.otherWay = signals.otherWay;
+  trial.measures = computeMeasures(data, signals);
+  trial.exclusion = whyExcluded(trial, signals.movement, options.includePractice);
+  trial.counted = !trial.catchTrial && (!trial.practice || options.includePractice) &&
+                  (trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure);
+  if (signals.movement.found) {
+    TrialProfile profile = makeTrialProfile(data, signals);
+    trial.endLevel = profile.endLevel;
+    profile.hand.insert(profile.hand.end(), profile.object.begin(), profile.object.end());
+    trial.profile = signals_->put(profile.hand);
   }
+  if (trial.used())
+    if (const auto window = makeFitWindow(data, signals)) {
+      trial.window = signals_->put(window->velocity);
+      trial.windowBegin = window->begin;
+      trial.windowRate = window->rate;
+    }
+  if (study_.results.size() <= condition) study_.results.resize(condition + 1);
+  countTrial(trial, study_.results[condition]);
+  study_.trials.push_back(std::move(trial));
+}
+
+StudyResult StudyBuilder::finish(std::vector<StudyCondition> conditions, const StudyProgress& fitting) {
+  StudyResult study = std::move(study_);
+  study.signals = signals_;
+  study.conditions = std::move(conditions);
   study.results.resize(study.conditions.size());
+  numberDays(study.trials);
   useFailuresWhereNothingSucceeded(study);
   std::stable_sort(study.trials.begin(), study.trials.end(),
                    [](const StudyTrial& a, const StudyTrial& b) { return orderOf(a) < orderOf(b); });
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) summarise(study.trials, c, study.conditions[c], options, study.results[c]);
-  for (StudyTrial& trial : study.trials) addErrors(trial, study.results[trial.condition]);
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) rankCondition(study.trials, c, options, study.results[c]);
-  rankTogether(study);
-  addSeries(study);
-  study.success = successTable(study.trials);
-  study.learning = learningCurves(study.trials, options.learningBin);
   std::set<std::string> subjects;
   for (const StudyTrial& trial : study.trials) subjects.insert(trial.key.subject);
   study.subjects.assign(subjects.begin(), subjects.end());
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) summarise(study, c);
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) fitPeople(study, c, fitting);
+  concludeTogether(study);
+  addSeries(study);
+  addProgress(study);
   return study;
+}
+
+StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const StudyProgress& progress) {
+  StudyBuilder builder(options);
+  for (std::size_t i = 0; i < input.trials.size(); ++i) builder.add(std::move(input.trials[i]), input.conditionOf.at(i));
+  return builder.finish(std::move(input.conditions), progress);
 }
 
 }  // namespace reachlab::analyze

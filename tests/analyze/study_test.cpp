@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "tests/analyze/synthetic.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 StudyOptions quickOptions() {
   StudyOptions options;
-  options.ranking.resamples = 500;
   options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinHandForce, predict::Criterion::MinHandForceChange,
                       predict::Criterion::MinComAcceleration, predict::Criterion::MinHandCrackle};
   return options;
@@ -21,45 +21,51 @@ std::vector<StudyCondition> threePaces() {
   return {{"slow", chainExperiment(2.26)}, {"moderate", chainExperiment(1.35)}, {"fast", chainExperiment(0.68)}};
 }
 
-std::size_t firstOf(const Ranking& ranking, const ConditionResult& result) {
-  return static_cast<std::size_t>(result.predictions[ranking.places.front().criterion].criterion);
+std::string followed(const Conclusion& c, const std::vector<std::vector<predict::Criterion>>& names) {
+  return c.follows ? nameOfCandidate(names[*c.follows]) : "undecided: " + std::string(nameOf(c.reason));
 }
 
-TEST(Study, PlannedByMinimumHandJerkRanksItFirstAloneInEveryPace) {
-  const StudyResult study = analyzeStudy(simulatedStudy(threePaces(), predict::Criterion::MinHandJerk, 0, 3, 2, 10, 1), quickOptions());
-  for (const ConditionResult& result : study.results) {
-    EXPECT_EQ(firstOf(result.handRanking, result), static_cast<std::size_t>(predict::Criterion::MinHandJerk));
-    EXPECT_TRUE(result.handRanking.decided());
+TEST(Study, OfFiveSubjectsPlannedByMinimumHandJerkIsDecidedForIt) {
+  const std::vector<StudyCondition> paces{{"slow", chainExperiment(2.26)}, {"moderate", chainExperiment(1.35)}};
+  const StudyResult study = analyzeStudy(simulatedStudy(paces, predict::Criterion::MinHandJerk, 0, 5, 1, 15, 1), quickOptions());
+  EXPECT_EQ(followed(study.overall, study.common), "min-hand-jerk") << describeConclusion(study.overall, study.common);
+  EXPECT_TRUE(study.overall.overSubjects);
+  EXPECT_EQ(study.overall.subjects, 5u);
+}
+
+TEST(Study, PlannedByForceChangeWithAHandMassIsDecidedForThatAndFindsTheMass) {
+  const StudyResult study = analyzeStudy(
+      simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandForceChange, 1.0, 5, 1, 25, 2), quickOptions());
+  EXPECT_EQ(followed(study.overall, study.common), "min-hand-force-change") << describeConclusion(study.overall, study.common);
+  for (const FitRow& row : fitRows(study)) {
+    if (row.criterion == "min-hand-force-change") {
+      EXPECT_EQ(row.handMass, 1.0) << row.subject;
+    }
   }
-  ASSERT_FALSE(study.overall.places.empty());
-  EXPECT_EQ(study.common[study.overall.places.front().criterion], predict::Criterion::MinHandJerk);
-  EXPECT_TRUE(study.overall.decided());
-  ASSERT_TRUE(study.overallOverSubjects);
-  EXPECT_TRUE(study.overallOverSubjects->decided());
 }
 
-TEST(Study, PlannedByForceChangeWithAHandMassRanksThatFirst) {
-  StudyOptions options = quickOptions();
-  options.handMass = 1.0;
-  const StudyResult study = analyzeStudy(simulatedStudy(threePaces(), predict::Criterion::MinHandForceChange, 1.0, 3, 2, 10, 2), options);
-  ASSERT_FALSE(study.overall.places.empty());
-  EXPECT_EQ(study.common[study.overall.places.front().criterion], predict::Criterion::MinHandForceChange);
-  EXPECT_TRUE(study.overall.decided());
+TEST(Study, NamesForceAndCentreOfMassTogetherBecauseTheyPredictTheSame) {
+  const StudyResult study = analyzeStudy(
+      simulatedStudy({{"parallel", parallelExperiment(2.5)}}, predict::Criterion::MinHandForce, 0.5, 1, 1, 15, 3), quickOptions());
+  const auto names = candidatesOf(study.results[0]);
+  ASSERT_EQ(names.size(), 5u);  // (1), (4) and (6), (5), (3h), the reference
+  const std::vector<predict::Criterion> both{predict::Criterion::MinHandForce, predict::Criterion::MinComAcceleration};
+  EXPECT_NE(std::find(names.begin(), names.end(), both), names.end());
+  EXPECT_NE(describeCandidate(both).find("which predict the same"), std::string::npos);
 }
 
-TEST(Study, OfTheParallelObjectSaysWhichCriteriaCannotBeToldApart) {
-  // Without a hand mass criteria (4) and (6) are one prediction: their costs differ by the factor M^2 alone.
-  const std::vector<StudyCondition> parallel{{"parallel", parallelExperiment(2.5)}};
-  const StudyResult study = analyzeStudy(simulatedStudy(parallel, predict::Criterion::MinComAcceleration, 0, 2, 1, 10, 3), quickOptions());
-  const Ranking& ranking = study.results[0].handRanking;
-  EXPECT_FALSE(ranking.decided());
-  EXPECT_FALSE(ranking.places[1].apartFromFirst);
-  EXPECT_NE(describeRanking(ranking, criteriaOf(study.results[0])).find("cannot be told apart from"), std::string::npos);
+TEST(Study, OfOneSubjectSaysNothingAboutOtherPeople) {
+  const StudyResult study =
+      analyzeStudy(simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandForce, 1, 1, 1, 30, 3), quickOptions());
+  EXPECT_FALSE(study.overall.overSubjects);
+  EXPECT_EQ(followed(study.overall, study.common), "min-hand-force");
+  EXPECT_NE(describeConclusion(study.overall, study.common).find("nothing follows about other people"), std::string::npos);
+}
 
-  const StudyResult jerk = analyzeStudy(simulatedStudy(parallel, predict::Criterion::MinHandJerk, 0, 2, 1, 10, 3), quickOptions());
-  const Ranking& behind = jerk.results[0].handRanking;
-  EXPECT_EQ(firstOf(behind, jerk.results[0]), static_cast<std::size_t>(predict::Criterion::MinHandJerk));
-  EXPECT_NE(describeRanking(behind, criteriaOf(jerk.results[0])).find("these cannot be told apart"), std::string::npos);
+TEST(Study, OfTooFewTrialsConcludesNothing) {
+  const StudyResult study =
+      analyzeStudy(simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 5, 1, 10, 3), quickOptions());
+  EXPECT_EQ(followed(study.overall, study.common), "undecided: too_few_trials");  // 8 successes each
 }
 
 TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
@@ -102,7 +108,7 @@ TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
   double sum = 0;
   int n = 0;
   for (const StudyTrial& t : study.trials)
-    if (t.used() && t.key.subject == "S1" && t.key.session == "01") sum += t.handError[0] * t.handError[0], ++n;
+    if (t.used() && t.key.subject == "S1" && t.key.session == "01") sum += t.paperError[0] * t.paperError[0], ++n;
   EXPECT_NEAR(study.series[0].handError[0], std::sqrt(sum / n), 1e-15);
 }
 
@@ -121,14 +127,14 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
   for (StudyInput* input : {&empty, &still}) {
     const StudyResult study = analyzeStudy(*input, quickOptions());
     EXPECT_EQ(study.results[0].used, 0u);
-    EXPECT_TRUE(study.overall.places.empty());
+    EXPECT_FALSE(study.overall.best);
     EXPECT_FALSE(study.results[0].predictions.empty());
   }
   // Failures alone are described, but decide nothing over all.
   const StudyResult study = analyzeStudy(failed, quickOptions());
   EXPECT_TRUE(study.results[0].onlyFailures);
   EXPECT_EQ(study.results[0].used, 1u);
-  EXPECT_TRUE(study.overall.places.empty());
+  EXPECT_FALSE(study.overall.best);
 }
 
 TEST(Study, RefusesOptionsOutOfRange) {
@@ -136,8 +142,37 @@ TEST(Study, RefusesOptionsOutOfRange) {
   options.measure.onset.percent = 0;
   EXPECT_THROW(analyzeStudy({}, options), UsageError);
   options = quickOptions();
-  options.ranking.resamples = 10;
+  options.handMasses = {};
   EXPECT_THROW(analyzeStudy({}, options), UsageError);
+}
+
+TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
+  StudyInput input = simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
+  for (int i = 0; i < 64; ++i)
+    if (trial::nameOf(static_cast<trial::Reason>(i)) == "timing") input.trials[0].result.reason = static_cast<trial::Reason>(i);
+  if (input.trials[0].result.reason == trial::Reason::None) GTEST_SKIP() << "no such reason is recorded yet";
+  input.trials[0].result.outcome = trial::Outcome::Interrupted;
+  input.trials[1].goTime = 1.0;  // the hand leaves at 0.4 s
+  const StudyResult study = analyzeStudy(std::move(input), quickOptions());
+  EXPECT_EQ(study.results[0].counts.invalidTiming, 1u);
+  EXPECT_EQ(study.results[0].counts.beforeGo, 1u);
+  EXPECT_EQ(study.trials[0].exclusion, "invalid timing");
+  EXPECT_TRUE(std::isnan(study.trials[1].measures.reactionTime));
+  const std::string words = describeCounts(study.results[0]);
+  EXPECT_NE(words.find("invalid timing"), std::string::npos) << words;
+  EXPECT_NE(words.find("before the go signal"), std::string::npos) << words;
+}
+
+TEST(Study, OfAClosedCurveTravelledTheOtherWayScoresTheWayThatTheHandWent) {
+  StudyInput input = simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 4, 4);
+  const StudyInput straight = input;
+  for (TrialData& trial : input.trials) {
+    trial.closed = true;
+    trial.along = {{-1, 0, 0}};  // what the task calls forward
+  }
+  const StudyResult backwards = analyzeStudy(std::move(input), quickOptions()), forwards = analyzeStudy(straight, quickOptions());
+  EXPECT_EQ(backwards.results[0].counts.otherWay, 4u);
+  EXPECT_EQ(backwards.trials[0].paperError, forwards.trials[0].paperError);
 }
 
 TEST(Measures, OfAKnownMovementAreWhatTheyShouldBe) {

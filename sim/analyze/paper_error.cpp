@@ -1,9 +1,10 @@
-#include "sim/analyze/predicted_profile.h"
+#include "sim/analyze/paper_error.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/analyze/filter.h"
+#include "sim/analyze/movement.h"
 
 namespace reachlab::analyze {
 
@@ -15,9 +16,10 @@ PredictedSignal recordPrediction(const predict::Prediction& prediction, const Me
 
   PredictedSignal signal;
   signal.criterion = prediction.criterion;
-  signal.taskDuration = T;
+  signal.plannedDuration = T;
   signal.warnings = prediction.warnings;
   signal.rate = static_cast<double>(steps) / T;
+  signal.begin = static_cast<double>(kRest) / signal.rate;
   signal.hand.assign(steps + 1 + 2 * kRest, 0.0);
   signal.object = signal.hand;
   std::vector<double> position(static_cast<std::size_t>(prediction.massCount())), velocity(position.size());
@@ -39,7 +41,7 @@ PredictedSignal recordPrediction(const predict::Prediction& prediction, const Me
   return signal;
 }
 
-PredictedProfile profileUntil(const PredictedSignal& signal, double endLevel) {
+double durationUntil(const PredictedSignal& signal, double endLevel) {
   const double threshold = std::clamp(endLevel, 0.0, 0.999) * signal.peak;
   std::size_t last = signal.hand.size() - 1;
   while (last > 0 && std::abs(signal.hand[last]) <= threshold) --last;
@@ -48,21 +50,36 @@ PredictedProfile profileUntil(const PredictedSignal& signal, double endLevel) {
     const double above = std::abs(signal.hand[last]), below = std::abs(signal.hand[last + 1]);
     if (above > below) end += (above - threshold) / (above - below) / signal.rate;
   }
-  PredictedProfile profile;
-  profile.criterion = signal.criterion;
-  profile.taskDuration = signal.taskDuration;
-  profile.warnings = signal.warnings;
-  profile.duration = std::max(end - signal.onset, 1 / signal.rate);
-  profile.hand = normaliseTime(signal.hand, signal.rate, signal.onset, signal.onset + profile.duration);
-  profile.object = normaliseTime(signal.object, signal.rate, signal.onset, signal.onset + profile.duration);
-  return profile;
+  return std::max(end - signal.onset, 1 / signal.rate);
 }
 
-PredictedProfile scaledTo(PredictedProfile profile, double duration) {
-  const double factor = profile.duration / duration;
-  for (double& v : profile.hand) v *= factor;
-  for (double& v : profile.object) v *= factor;
-  return profile;
+TrialProfile makeTrialProfile(const TrialData& trial, const TrialSignals& signals) {
+  TrialProfile out;
+  const Movement& move = signals.movement;
+  if (!move.found) return out;
+  out.hand = normaliseTime(signals.handVelocity, trial.rate, move.onset, move.offset);
+  out.object = normaliseTime(signals.objectVelocity, trial.rate, move.onset, move.offset);
+  out.duration = move.duration();
+  out.endLevel = valueAt(signals.speed, trial.rate, move.offset) / move.peak;
+  return out;
+}
+
+double computeRmsError(std::span<const double> predicted, std::span<const double> measured) {
+  const std::size_t n = std::min(predicted.size(), measured.size());
+  if (n == 0) return kNotMeasured;
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += (predicted[i] - measured[i]) * (predicted[i] - measured[i]);
+  return std::sqrt(sum / static_cast<double>(n));
+}
+
+PaperError computePaperError(const TrialProfile& trial, const PredictedSignal& predicted) {
+  if (trial.hand.empty()) return {kNotMeasured, kNotMeasured};
+  const double duration = durationUntil(predicted, trial.endLevel), scale = trial.duration / duration;
+  const auto error = [&](const std::vector<double>& signal, std::vector<double> measured) {
+    for (double& v : measured) v *= scale;
+    return computeRmsError(normaliseTime(signal, predicted.rate, predicted.onset, predicted.onset + duration), measured);
+  };
+  return {error(predicted.hand, trial.hand), error(predicted.object, trial.object)};
 }
 
 }  // namespace reachlab::analyze

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "sim/analyze/figures.h"
+
+namespace reachlab::analyze {
+
+NamedFigure learningFigure(const StudyResult& study) {
+  NamedFigure out;
+  out.name = "learning";
+  out.caption = fmt::format(
+      "Success in groups of {} trials, in the order they were made, with exact 95 % intervals of each subject's share (Clopper and "
+      "Pearson). A gap parts sessions.",
+      study.options.learningBin);
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    figure::Panel panel;
+    panel.title = shortened(study.conditions[c].name);
+    panel.x.label = "Trial";
+    panel.y.label = "Success (%)";
+    panel.y.from = 0.0;
+    panel.y.to = 100.0;
+    panel.x.from = 0.0;
+    std::map<std::string, figure::Series> bySubject;
+    std::map<std::string, std::string> session;
+    for (const LearningPoint& p : study.learning) {
+      if (p.condition != c) continue;
+      figure::Series& s = bySubject[p.subject];
+      const bool newSession = !s.x.empty() && session[p.subject] != p.session;
+      session[p.subject] = p.session;
+      const int i = static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), p.subject) - study.subjects.begin());
+      s.label = "subject " + p.subject;
+      s.color = figure::palette::series(i);
+      s.marker = figure::markerOf(i);
+      const auto add = [&](double x, double y, double low, double high) {
+        s.x.push_back(x), s.y.push_back(y), s.errorLow.push_back(low), s.errorHigh.push_back(high);
+      };
+      if (newSession) add(kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured);
+      // Subjects stand a little beside one another, so that their bars do not cover each other.
+      const double beside = 0.12 * study.options.learningBin * (i - 0.5 * static_cast<double>(study.subjects.size() - 1));
+      add(0.5 * (p.firstTrial + p.lastTrial) + (study.subjects.size() > 6 ? 0 : beside),
+          100.0 * static_cast<double>(p.successes) / static_cast<double>(p.trials), 100 * p.interval.low, 100 * p.interval.high);
+    }
+    for (auto& [subject, series] : bySubject) panel.series.push_back(std::move(series));
+    panel.legend = c == 0 ? figure::LegendPlace::Below : figure::LegendPlace::None;
+    if (!panel.series.empty()) out.figure.panels.push_back(std::move(panel));
+  }
+  out.figure.columns = static_cast<int>(std::min<std::size_t>(3, std::max<std::size_t>(1, out.figure.panels.size())));
+  out.figure.panelWidth = out.figure.columns == 1 ? 90 : 52;
+  out.figure.panelHeight = 40;
+  return out;
+}
+
+}  // namespace reachlab::analyze
