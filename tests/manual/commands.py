@@ -52,7 +52,7 @@ def blocks(page):
                 sys.exit(f"{page}:{i + 1}: the block has no end")
             yield Block(page, i + 1, fence[2], "\n".join(lines[i + 1:end]), mark)
             mark, i = "", end
-        elif line.startswith("    ") and line.strip() and (i == 0 or not lines[i - 1].strip()):
+        elif line.startswith("    ") and line.strip() and (i == 0 or not lines[i - 1].strip() or MARK.match(lines[i - 1])):
             end = i
             while end < len(lines) and (lines[end].startswith("    ") or not lines[end].strip()):
                 end += 1
