@@ -16,12 +16,20 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::string FaultList::place(const JsonNode& where) const { return fmt::format("{}:{}:{}", file_, where.line, where.column); }
 
 void FaultList::add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed) {
+  if (isFull()) return static_cast<void>(++more_);
   faults_.push_back(fmt::format("{}: {}{}{}", place(where), key.empty() ? "" : key + ": ", what,
                                 allowed.empty() ? std::string() : "; allowed: " + allowed));
 }
 
+void FaultList::addLine(std::string line) {
+  if (isFull()) return static_cast<void>(++more_);
+  faults_.push_back(std::move(line));
+}
+
 void FaultList::throwIfAny() const {
-  if (!faults_.empty()) throw UsageError(fmt::format("{}", fmt::join(faults_, "\n")));
+  if (faults_.empty()) return;
+  const std::string more = more_ == 0 ? "" : fmt::format("\n{}: and {} more faults", file_, more_);
+  throw UsageError(fmt::format("{}{}", fmt::join(faults_, "\n"), more));
 }
 
 NumberRange anyNumber() { return {-kInfinity, kInfinity, true, "any finite number"}; }
@@ -163,6 +171,10 @@ bool ObjectReader::strings(const JsonNode& node, const std::string& key, int len
 void ObjectReader::finish() {
   for (const auto& [key, value] : node_.members) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    if (faults_.isFull()) {
+      faults_.addLine({});
+      continue;
+    }
     const std::string nearest = nearestName(key, known_);
     std::vector<std::string> sorted = known_;
     std::sort(sorted.begin(), sorted.end());

@@ -15,7 +15,9 @@ class FaultList {
  public:
   explicit FaultList(std::string file) : file_(std::move(file)) {}
   void add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed = {});
-  void addLine(std::string line) { faults_.push_back(std::move(line)); }
+  void addLine(std::string line);
+  /// More than a person reads: further faults are only counted.
+  bool isFull() const { return faults_.size() >= kMostFaults; }
   /// `FILE:LINE:COLUMN` of a node.
   std::string place(const JsonNode& where) const;
   const std::vector<std::string>& faults() const { return faults_; }
@@ -24,8 +26,10 @@ class FaultList {
   void throwIfAny() const;
 
  private:
+  static constexpr std::size_t kMostFaults = 100;
   std::string file_;
   std::vector<std::string> faults_;
+  std::size_t more_ = 0;
 };
 
 /// Range of a number, with the words that a message uses.

@@ -4,12 +4,15 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <tuple>
+#include <unordered_set>
 
 #include "base/error.h"
 
@@ -72,10 +75,10 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   bool end_array() override { return close(); }
   bool key(string_t& value) override {
     const std::size_t start = stringStart();
-    if (open_.back()->find(value) != nullptr)
+    if (!keys_.back().insert(value).second)
       throw UsageError(fmt::format("{}: {}: stands here twice; allowed: each key once", place(start), value));
     key_ = value;
-    keyStart_ = start;
+    std::tie(keyLine_, keyColumn_) = lineAndColumn(start);
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
@@ -92,20 +95,21 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
  private:
   std::size_t offset() const { return static_cast<std::size_t>(*furthest_ - text_.data()); }
 
-  std::string place(std::size_t at) const {
+  std::string place(std::size_t at) {
     const auto [line, column] = lineAndColumn(at);
     return fmt::format("{}:{}:{}", file_, line, column);
   }
-  std::pair<int, int> lineAndColumn(std::size_t at) const {
-    int line = 1, column = 1;
-    for (std::size_t i = 0; i < at && i < text_.size(); ++i) {
-      if (text_[i] == '\n') {
-        ++line, column = 1;
-      } else if ((static_cast<unsigned char>(text_[i]) & 0xC0) != 0x80) {
-        ++column;
+  // Counted on from the place asked for last: values come in the order of the file, so that all of them together cost one pass.
+  std::pair<int, int> lineAndColumn(std::size_t at) {
+    if (at < counted_.at) counted_ = {};
+    for (; counted_.at < at && counted_.at < text_.size(); ++counted_.at) {
+      if (text_[counted_.at] == '\n') {
+        ++counted_.line, counted_.column = 1;
+      } else if ((static_cast<unsigned char>(text_[counted_.at]) & 0xC0) != 0x80) {
+        ++counted_.column;
       }
     }
-    return {line, column};
+    return {counted_.line, counted_.column};
   }
   // Start of the word or number that has just been read; the parser is at most one character past its end.
   std::size_t tokenStart() const {
@@ -141,7 +145,7 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     }
     JsonNode& parent = *open_.back();
     if (parent.kind == JsonNode::Kind::Array) return &parent.items.emplace_back(std::move(node));
-    std::tie(node.keyLine, node.keyColumn) = lineAndColumn(keyStart_);
+    node.keyLine = keyLine_, node.keyColumn = keyColumn_;
     return &parent.members.emplace_back(key_, std::move(node)).second;
   }
   bool put(JsonNode node, std::size_t start) {
@@ -155,10 +159,12 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     node.kind = kind;
     // A child's address is stable: its parent gets no further child before it is closed.
     open_.push_back(attach(std::move(node), start));
+    keys_.emplace_back();
     return true;
   }
   bool close() {
     open_.pop_back();
+    keys_.pop_back();
     return true;
   }
 
@@ -166,8 +172,13 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   std::string file_;
   const char** furthest_;
   std::vector<JsonNode*> open_;
+  std::vector<std::unordered_set<std::string>> keys_;  // of each open object
   std::string key_;
-  std::size_t keyStart_ = 0;
+  int keyLine_ = 0, keyColumn_ = 0;
+  struct {
+    std::size_t at = 0;
+    int line = 1, column = 1;
+  } counted_;
 };
 
 }  // namespace
@@ -201,6 +212,14 @@ JsonNode parseJson(const std::string& text, const std::string& file) {
 }
 
 std::string readTextFile(const std::string& file) {
+  constexpr std::uintmax_t kMostBytes = 16u << 20;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  // A pipe or a device might never end, or never begin.
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
+    throw UsageError(fmt::format("{}: is no regular file; allowed: a file on a disk", file));
+  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > kMostBytes)
+    throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", file, size, kMostBytes));
   std::ifstream in(file, std::ios::binary);
   if (!in) throw UsageError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
   std::ostringstream text;

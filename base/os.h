@@ -20,8 +20,11 @@ std::string lockMemory();
 /// What was written to an open file, or to the names in a folder, survives a power cut once this returns. False with errno set.
 bool syncFile(int descriptor) noexcept;
 bool syncFolder(const std::string& folder) noexcept;
-/// Bytes free to this user where `path` lies; 0 when that cannot be known.
-std::uint64_t freeDiskSpace(const std::string& path) noexcept;
+/// Bytes free to this user, and in all, on the disk where `path` lies; 0 when that cannot be known.
+struct DiskSpace {
+  std::uint64_t free = 0, size = 0;
+};
+DiskSpace diskSpace(const std::string& path) noexcept;
 
 /// Opens those of the descriptors 0, 1 and 2 that are closed on /dev/null, so that no file that is opened later becomes one of them and takes
 /// what is meant for the terminal. First of all in main.

@@ -71,9 +71,10 @@ int aboveStandardDescriptors(int descriptor) noexcept {
   return copy;
 }
 
-std::uint64_t freeDiskSpace(const std::string& path) noexcept {
+DiskSpace diskSpace(const std::string& path) noexcept {
   struct statvfs disk {};
-  return ::statvfs(path.c_str(), &disk) == 0 ? static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize : 0;
+  if (::statvfs(path.c_str(), &disk) != 0) return {};
+  return {static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize, static_cast<std::uint64_t>(disk.f_blocks) * disk.f_frsize};
 }
 
 }  // namespace reachlab::os

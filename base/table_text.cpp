@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -14,6 +15,16 @@ TableText& TableText::raw(std::string_view text) {
   return *this;
 }
 
+namespace {
+
+bool isNumber(std::string_view text) {
+  double value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return fault == std::errc{} && end == text.data() + text.size();
+}
+
+}  // namespace
+
 TableText& TableText::cell(std::string_view text) {
   if (text.empty()) return missing();
   if (separator_ != ',') {
@@ -22,8 +33,10 @@ TableText& TableText::cell(std::string_view text) {
       if (c == '\t' || c == '\n' || c == '\r') c = ' ';
     return raw(clean);
   }
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return raw(text);
-  std::string quoted = "\"";
+  // A spreadsheet would take such a text for a formula and carry it out.
+  const bool guarded = std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos && !isNumber(text);
+  if (!guarded && text.find_first_of(",\"\r\n") == std::string_view::npos) return raw(text);
+  std::string quoted = guarded ? "\"'" : "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return raw(quoted + "\"");
 }
