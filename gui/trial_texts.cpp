@@ -25,6 +25,8 @@ QString outcomeText(const trial::TrialResult& result) {
     case trial::Reason::Computation: return QStringLiteral("The simulation could not go on");
     case trial::Reason::Program: return QStringLiteral("Interrupted");
     case trial::Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
+    case trial::Reason::Timing: return QStringLiteral("The computer was too busy: this trial does not count");
+    case trial::Reason::NoStart: return QStringLiteral("The hand was never at the start");
     case trial::Reason::None: break;
   }
   if (result.outcome == trial::Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
@@ -45,6 +47,8 @@ QString reasonText(trial::Reason reason) {
     case trial::Reason::Computation: return QStringLiteral("not computable");
     case trial::Reason::Program: return QStringLiteral("interrupted");
     case trial::Reason::FalseStart: return QStringLiteral("too early");
+    case trial::Reason::Timing: return QStringLiteral("computer too busy");
+    case trial::Reason::NoStart: return QStringLiteral("hand never at the start");
     case trial::Reason::None: break;
   }
   return QStringLiteral("no reason");

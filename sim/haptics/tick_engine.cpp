@@ -41,6 +41,7 @@ TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene
       virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump), safety_(limitsFor(experiment, options)),
       fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
+  if (virtualHand_) settings_.startTimeoutTicks = settings_.timeoutTicks;
   lastSeen_ = settings_.start;
   putUp();
 }
@@ -133,7 +134,8 @@ void TickEngine::tick(const TickInput& input) noexcept {
                   handBroken_,
                   clamped_,
                   status,
-                  {state_.masses.data(), static_cast<std::size_t>(state_.massCount)}},
+                  {state_.masses.data(), static_cast<std::size_t>(state_.massCount)},
+                  input.missedTicks},
                  protocol_);
   if (before == trial::Phase::Waiting && protocol_.phase == trial::Phase::Armed) {
     placeFixedPoint(hand);

@@ -28,8 +28,18 @@ std::string_view nameOf(Reason reason) {
     case Reason::Computation: return "computation";
     case Reason::Program: return "program";
     case Reason::FalseStart: return "false_start";
+    case Reason::Timing: return "timing";
+    case Reason::NoStart: return "no_start";
   }
   return "none";
+}
+
+bool endsRun(const TrialResult& result) {
+  return result.outcome == Outcome::Interrupted && (result.reason == Reason::Experimenter || result.reason == Reason::Program);
+}
+
+bool isPutUpAgain(const TrialResult& result) {
+  return result.outcome == Outcome::Aborted || (result.outcome == Outcome::Interrupted && !endsRun(result));
 }
 
 }  // namespace reachlab::trial

@@ -19,8 +19,11 @@ enum class Reason : std::uint8_t {
   EndOfConstraint,
   Computation,
   Program,
-  FalseStart
+  FalseStart,
+  Timing,   // more ticks were missed in the movement than the experiment allows
+  NoStart,  // a simulated or replayed hand was never at the start
 };
+inline constexpr Reason kLastReason = Reason::NoStart;
 std::string_view nameOf(Outcome outcome);  // "success", "failure", "aborted", "interrupted"
 std::string_view nameOf(Reason reason);    // "position", "velocity", "time_short", …
 
@@ -33,6 +36,11 @@ struct TrialResult {
   double movementTime = 0;  // [s] t_e, or the time since onset at which the trial ended
   std::uint64_t onsetTick = 0, endTick = 0;
 };
+
+/// True when the run ends with this trial: somebody, or the end of the program, broke it off. What the machine or the device spoilt does not.
+bool endsRun(const TrialResult& result);
+/// True when it says nothing of the subject and is put up once more at the end, if the plan says so (`repeat_aborted`).
+bool isPutUpAgain(const TrialResult& result);
 
 /// Where the trial stands, as recorded with every tick.
 enum class Phase : std::uint8_t { Idle, Waiting, Armed, Moving, Done };

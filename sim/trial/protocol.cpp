@@ -97,7 +97,12 @@ bool endByForce(const ProtocolSettings& s, const ProtocolInput& in, ProtocolStat
   if (in.command == Command::Interrupt) return end(state, in.tick, Outcome::Interrupted, Reason::Experimenter), true;
   if (in.command == Command::Abort) return end(state, in.tick, Outcome::Aborted, Reason::Experimenter), true;
   state.lostTicks = in.handValid ? 0 : state.lostTicks + 1;
-  if (in.handBroken || state.lostTicks > kLostTicks) return end(state, in.tick, Outcome::Aborted, Reason::DeviceLost), true;
+  if (in.handBroken || state.lostTicks > kLostTicks) return end(state, in.tick, Outcome::Interrupted, Reason::DeviceLost), true;
+  if (state.phase == Phase::Moving && in.missedTicks > 0) {
+    state.missedTicks += in.missedTicks;
+    if (state.missedTicks > s.maxMissedTicks || std::int64_t{in.missedTicks} + 1 > s.maxGapTicks)
+      return end(state, in.tick, Outcome::Interrupted, Reason::Timing), true;
+  }
   if (!isEngaged(state.phase)) return false;
   switch (in.status) {
     case dynamics::StepStatus::Ok:
@@ -122,6 +127,8 @@ void advance(const ProtocolSettings& settings, const ProtocolInput& input, Proto
   switch (state.phase) {
     case Phase::Waiting:
       if (input.handValid && norm(input.hip - settings.start) <= settings.armRadius) arm(input, state);
+      else if (static_cast<std::int64_t>(input.tick - state.putUpTick) >= settings.startTimeoutTicks)
+        end(state, input.tick, Outcome::Aborted, Reason::NoStart);
       break;
     case Phase::Armed: watchForOnset(settings, input, state); break;
     case Phase::Moving: watchForArrival(settings, input, state); break;

@@ -24,8 +24,11 @@
 ///   Armed, Moving    the device's force was clamped, if that ends trials    Done      failure, force_limit
 ///   Armed, Moving    the body ran off the constraint                        Done      failure, end_of_constraint
 ///   Armed, Moving    a step failed (not finite, capped, no continuation)    Done      aborted, computation
-///   W., A., M.       the device lost for kLostTicks, or a number of its     Done      aborted, device_lost
+///   Moving           more ticks missed since onset, or in one gap, than     Done      interrupted, timing
+///                    the experiment allows
+///   W., A., M.       the device lost for kLostTicks, or a number of its     Done      interrupted, device_lost
 ///                    is not finite
+///   Waiting          `startTimeout` is over (hands without a person only)   Done      aborted, no_start
 ///   W., A., M.       Abort / Interrupt                                      Done      aborted / interrupted, experimenter
 ///
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
@@ -34,6 +37,7 @@
 namespace reachlab::trial {
 
 inline constexpr double kTickSeconds = 0.001;
+inline constexpr std::int64_t kNoLimit = INT64_MAX;
 inline constexpr int kLostTicks = 20;  // a driver may skip a packet or two; longer than this the movement is not known any more
 
 /// A task in metres and ticks.
@@ -47,6 +51,9 @@ struct ProtocolSettings {
   std::int64_t earliestTick = 0;  // first tick since onset that is not before T - dT
   std::int64_t latestTick = 0;    // last tick since onset that is not after T + dT
   std::int64_t timeoutTicks = 0;
+  std::int64_t startTimeoutTicks = kNoLimit;  // until the hand is at the start; a person may take any time
+  std::int64_t maxMissedTicks = kNoLimit;     // of one movement
+  std::int64_t maxGapTicks = kNoLimit;        // between two ticks of a movement
   bool forceLimitEndsTrial = false;
 };
 
@@ -66,6 +73,7 @@ struct ProtocolInput {
   bool clamped = false;     // at the tick before
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::span<const dynamics::MassState> masses;
+  std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
 };
 
 struct ProtocolState {
@@ -76,8 +84,9 @@ struct ProtocolState {
   bool gone = false;  // the go signal was given
   Vec3 armedAt;       // [m] the HIP at arming
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
-  int lostTicks = 0;   // in a row
-  TrialResult result;  // in Done
+  int lostTicks = 0;             // in a row
+  std::int64_t missedTicks = 0;  // since onset
+  TrialResult result;            // in Done
 };
 
 /// Haptic thread, once a tick, after the step; neither allocates nor throws.

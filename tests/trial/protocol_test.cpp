@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -37,6 +38,7 @@ class Protocol : public ::testing::Test {
     in.clamped = clamped;
     in.status = status;
     in.masses = masses;
+    in.missedTicks = std::exchange(missed, 0u);
     advance(settings, in, state);
   }
   void ticks(int count) {
@@ -70,6 +72,7 @@ class Protocol : public ::testing::Test {
   bool handValid = true, handBroken = false, clamped = false;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::uint64_t now = 0;
+  std::uint32_t missed = 0;  // before the next tick
 };
 
 TEST_F(Protocol, StaysIdleUntilATrialIsPutUp) {
@@ -245,14 +248,14 @@ TEST_F(Protocol, ALostHandEndsTheTrialOnlyAfterTheGrace) {
   ticks(kLostTicks);
   EXPECT_EQ(state.phase, Phase::Moving);
   tick();
-  expectEnd(Outcome::Aborted, Reason::DeviceLost);
+  expectEnd(Outcome::Interrupted, Reason::DeviceLost);
 }
 
 TEST_F(Protocol, AHandThatIsNotANumberEndsTheTrialAtOnce) {
   leave();
   handBroken = true;
   tick();
-  expectEnd(Outcome::Aborted, Reason::DeviceLost);
+  expectEnd(Outcome::Interrupted, Reason::DeviceLost);
 }
 
 TEST_F(Protocol, AFailedStepEndsTheTrial) {
@@ -364,6 +367,91 @@ TEST(ProtocolSettings, WindowInTicksIsExactForDecimalTimes) {
 
 TEST(ProtocolSettings, RefusesAnExperimentWithoutATask) {
   EXPECT_THROW(makeProtocolSettings(experiment::Experiment{}, constraints::Constraint{}), UsageError);
+}
+
+TEST_F(Protocol, AMovementThatMissedMoreTicksThanAllowedIsInterrupted) {
+  settings.maxMissedTicks = 5;
+  leave();
+  for (int i = 0; i < 5; ++i) {
+    missed = 1;
+    tick();
+    ticks(10);
+  }
+  EXPECT_EQ(state.phase, Phase::Moving) << "five are allowed";
+  missed = 1;
+  tick();
+  expectEnd(Outcome::Interrupted, Reason::Timing);
+  EXPECT_EQ(state.result.movementTime, 0.056) << "of 1 ms ticks, as everywhere";
+}
+
+TEST_F(Protocol, OneGapThatIsTooLongInterruptsTheMovement) {
+  settings.maxGapTicks = 20;
+  leave();
+  missed = 19;  // 20 ms between two ticks
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving);
+  missed = 20;
+  tick();
+  expectEnd(Outcome::Interrupted, Reason::Timing);
+}
+
+TEST_F(Protocol, WhatIsMissedBeforeTheMovementOrInTheTrialBeforeDoesNotCount) {
+  settings.maxMissedTicks = 5;
+  settings.maxGapTicks = 20;
+  arm();
+  missed = 300;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed);
+  hip.x += 0.05;
+  tick();
+  missed = 5;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving);
+  tick(Command::Abort);
+  hip = settings.start;
+  leave();
+  missed = 5;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving);
+}
+
+TEST_F(Protocol, ASuccessAtATickThatCameTooLateIsNone) {
+  settings.maxMissedTicks = 5;
+  leave();
+  ticks(999);
+  arrive();
+  missed = 6;
+  tick();
+  expectEnd(Outcome::Interrupted, Reason::Timing);
+}
+
+TEST_F(Protocol, OnlyAHandWithoutAPersonHasToBeAtTheStartInTime) {
+  hip.x += 0.05;
+  tick(Command::NextTrial);
+  ticks(100'000);
+  EXPECT_EQ(state.phase, Phase::Waiting) << "a person may take any time";
+  tick(Command::Abort);
+  settings.startTimeoutTicks = 5000;
+  tick(Command::NextTrial);
+  ticks(4999);
+  EXPECT_EQ(state.phase, Phase::Waiting);
+  tick();
+  expectEnd(Outcome::Aborted, Reason::NoStart);
+}
+
+TEST(TrialResult, TheRunEndsWithWhatSomebodyBrokeOffAndGoesOnAfterWhatTheComputerSpoilt) {
+  const auto result = [](Outcome outcome, Reason reason) {
+    TrialResult r;
+    r.outcome = outcome;
+    r.reason = reason;
+    return r;
+  };
+  const TrialResult person = result(Outcome::Interrupted, Reason::Experimenter), program = result(Outcome::Interrupted, Reason::Program);
+  const TrialResult timing = result(Outcome::Interrupted, Reason::Timing), lost = result(Outcome::Interrupted, Reason::DeviceLost);
+  const TrialResult aborted = result(Outcome::Aborted, Reason::Experimenter), failed = result(Outcome::Failure, Reason::Position);
+  for (const TrialResult& r : {person, program}) EXPECT_TRUE(endsRun(r) && !isPutUpAgain(r));
+  for (const TrialResult& r : {timing, lost, aborted}) EXPECT_TRUE(!endsRun(r) && isPutUpAgain(r));
+  for (const TrialResult& r : {failed, result(Outcome::Success, Reason::None)}) EXPECT_TRUE(!endsRun(r) && !isPutUpAgain(r));
 }
 
 }  // namespace
