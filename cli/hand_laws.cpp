@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 
 #include "cli/spline.h"
 #include "constraints/analysis.h"
 #include "base/error.h"
+#include "base/json_tree.h"
 
 namespace reachlab::cli {
 namespace {
@@ -110,8 +111,10 @@ double numberIn(const std::string& text, const std::string& file, int line, cons
 }
 
 HandLaw sampledHand(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw UsageError(file + ": cannot be read; allowed for --hand: none, hold, min-jerk, min-jerk-along, or a CSV file");
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw UsageError(file + ": cannot be read; allowed for --hand: none, hold, min-jerk, min-jerk-along, or a CSV file");
+  std::istringstream in(readTextFile(file));
   std::string line;
   int number = 1;
   std::array<int, 4> place{-1, -1, -1, -1};

@@ -16,6 +16,9 @@
 namespace reachlab::cli {
 namespace {
 
+constexpr int kMostSamples = 1'000'000;
+constexpr double kLongestDuration = 3600;  // [s]
+
 struct PredictArguments {
   std::string experiment, criterion, sweep, out, figure;
   double duration = 0, handMass = -1, handDamping = 0;
@@ -82,7 +85,10 @@ void runSweep(const PredictArguments& arguments, const experiment::Experiment& e
 
 void runPredict(const PredictArguments& arguments) {
   const predict::Criterion criterion = parseCriterion(arguments.criterion);
-  if (arguments.samples < 2) throw UsageError("--samples: allowed: 2 or more");
+  if (arguments.samples < 2 || arguments.samples > kMostSamples)
+    throw UsageError(fmt::format("--samples: {}; allowed: 2 to {}", arguments.samples, kMostSamples));
+  if (arguments.duration > kLongestDuration)
+    throw UsageError(fmt::format("--duration: {} s; allowed: more than 0, at most {:.0f} s", arguments.duration, kLongestDuration));
   if (arguments.json && !arguments.sweep.empty()) throw UsageError("--sweep: writes CSV rows; --json is for a single prediction");
   const experiment::Experiment experiment = experiment::readExperiment(arguments.experiment);
   predict::PredictOptions options;

@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/seed_option.h"
 #include "cli/session_runner.h"
 #include "devices/make_device.h"
 
@@ -16,10 +17,15 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", r->place.session, "Session's label, letters and digits [01]; a number is the plan's day");
   command->add_option("--data", r->place.data, "Folder of the dataset [./data]");
-  command->add_option("--seed", r->seed, "Seed of noise and order; default: one is drawn, printed and stored");
+  command->add_option("--seed", r->seed, "Seed of noise and order; default: one is drawn, printed and stored")->check(wholeSeed());
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
   command->add_flag("--resume", r->resume, "Goes on with the trial at which this session broke off, in the same order");
   command->add_flag("--every-tick", r->everyTick, "Samples at 1 kHz instead of 100 Hz");
+  command
+      ->add_option_function<double>(
+          "--disk-reserve", [r](double megabytes) { r->diskReserve = static_cast<std::uint64_t>(megabytes * 1e6); },
+          "MB that the recording leaves free on the disk [1000, at most 5 % of the disk]")
+      ->check(CLI::Range(0.0, 1e9));
   command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
   command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, 130.0));
   command->add_option("--sex", r->participant.sex, "Participant's sex: F, M or O")->check(CLI::IsMember({"F", "M", "O"}));

@@ -12,23 +12,15 @@
 #include "cli/stop_signals.h"
 #include "cli/success_table.h"
 #include "base/error.h"
+#include "base/utc.h"
 #include "devices/make_device.h"
 #include "sim/haptics/run_conductor.h"
+#include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 #include "sim/record/recorder.h"
 
 namespace reachlab::cli {
 namespace {
-
-std::string utcNow() {
-  const auto now = std::chrono::system_clock::now();
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
-  const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
-  std::tm utc{};
-  ::gmtime_r(&seconds, &utc);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min,
-                     utc.tm_sec, milliseconds);
-}
 
 std::string computerName() {
   utsname system{};
@@ -51,7 +43,7 @@ void complete(record::RunConfiguration& configuration, const session::BlockToRun
   configuration.softwareVersion = "reachlab " REACHLAB_VERSION;
   configuration.buildDescription = "g++ " __VERSION__;
   configuration.computer = computerName();
-  configuration.startedUtc = utcNow();
+  configuration.startedUtc = utcText(std::chrono::system_clock::now());
   configuration.clock = fast ? "virtual" : "monotonic";
   configuration.table = record::makeChannelTable(block.experiment, engine.constraint().parameterCount());
 }
@@ -85,7 +77,8 @@ bool runBlock(session::BlockToRun block, const session::SessionRequest& request,
     session::takeFreeRun(block, request);
     configuration = block.configuration;
     complete(configuration, block, run, request.fast);
-    recorder = std::make_unique<record::Recorder>(block.logPath, configuration, record::RecorderOptions{.threaded = !request.fast});
+    recorder = std::make_unique<record::Recorder>(block.logPath, configuration,
+                                                  record::RecorderOptions{.threaded = !request.fast, .diskReserve = request.diskReserve});
   });
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", configuration.run, configuration.condition,
              block.trials.size(), block.trials.size() == 1 ? "" : "s", configuration.practice ? " of practice" : "", configuration.method,
@@ -100,9 +93,9 @@ bool runBlock(session::BlockToRun block, const session::SessionRequest& request,
     fmt::print("{}\n", trialLine(recorder->lastTrial().trial, trial->result));
     std::fflush(stdout);
     table.add(configuration.condition + (trial->planned.catchTrial ? " (catch)" : ""), trial->result);
-    interrupted = trial->result.outcome == trial::Outcome::Interrupted;
+    interrupted = trial::endsRun(trial->result);
     const bool isRepeat = ++conducted > block.trials.size();
-    if (trial->result.outcome == trial::Outcome::Aborted && configuration.repeatAborted && !isRepeat) run.append(trial->planned);
+    if (trial::isPutUpAgain(trial->result) && configuration.repeatAborted && !isRepeat) run.append(trial->planned);
     if (!request.fast && run.trialsLeft() > 0) pauseFor(configuration.pauseSeconds, stop.asked());
     interrupted = interrupted || stop.asked();
   }
@@ -130,6 +123,7 @@ int runSession(const session::SessionRequest& request) {
   if (session.seedDrawn) fmt::print("seed={}\n", session.seed);
   if (session.blocks.empty()) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
+  record::removeLeftovers(request.place.data);
   SuccessTable table;
   bool done = true;
   for (const session::BlockToRun& block : session.blocks) {

@@ -6,9 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/json_tree.h"
 #include "devices/drivers.h"
 #include "devices/replay/natural_spline.h"
 #include "sim/trial/protocol.h"
@@ -18,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kLongestReach = 600;  // [s]
 constexpr double kRest = 0.3, kJoin = 0.1;  // [s]
 
 bool readRow(const std::string& line, std::array<double, 4>& row) {
@@ -60,8 +62,9 @@ std::vector<std::string> reachFiles(const std::string& path) {
 }
 
 RecordedReach readReach(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw ResourceError(file + ": cannot be opened");
+  std::error_code error;
+  if (!fs::exists(file, error)) throw ResourceError(file + ": cannot be opened");
+  std::istringstream in(readTextFile(file));
   RecordedReach reach;
   reach.file = file;
   std::string line;
@@ -82,6 +85,8 @@ RecordedReach readReach(const std::string& file) {
     reach.position.push_back({row[1], row[2], row[3]});
   }
   if (reach.time.size() < 2) throw UsageError(file + ": fewer than two samples");
+  if (const double lasts = reach.time.back() - reach.time.front(); !(lasts <= kLongestReach))
+    throw UsageError(fmt::format("{}: time_s: lasts {} s; allowed: a reach of at most {:.0f} s", file, lasts, kLongestReach));
   return reach;
 }
 

@@ -152,6 +152,9 @@ void readCoupling(ObjectReader& root, Experiment& experiment) {
   experiment.coupling = coupling;
 }
 
+constexpr double kLongestDuration = 3600, kLongestTimeout = 86400;  // [s]
+NumberRange seconds(double most) { return {0, most, false, fmt::format("more than 0 s, at most {:.0f} s", most)}; }
+
 void readTask(ObjectReader& root, Experiment& experiment, int coordinates) {
   const JsonNode* node = root.optional("task");
   if (node == nullptr) return;
@@ -160,17 +163,17 @@ void readTask(ObjectReader& root, Experiment& experiment, int coordinates) {
   for (auto [key, values] : {std::pair{"start", &task.start}, std::pair{"target", &task.target}})
     if (const JsonNode* place = reader.required(key, "constraint parameters, or three metres when free"))
       reader.numbers(*place, key, coordinates, anyNumber(), *values);
-  reader.requiredNumber("duration_s", positive("s"), task.duration);
+  reader.requiredNumber("duration_s", seconds(kLongestDuration), task.duration);
   if (const JsonNode* tolerance = reader.required("tolerance", "{ position_m, velocity_m_per_s, time_s }")) {
     ObjectReader inner(root.faults(), *tolerance, "task.tolerance");
     inner.requiredNumber("position_m", positive("m"), task.tolerance.position);
     inner.requiredNumber("velocity_m_per_s", positive("m/s"), task.tolerance.velocity);
-    inner.requiredNumber("time_s", positive("s"), task.tolerance.time);
+    inner.requiredNumber("time_s", seconds(kLongestDuration), task.tolerance.time);
     inner.finish();
   }
   reader.number("onset_m", positive("m"), task.onset);
   reader.number("arm_radius_m", positive("m"), task.armRadius);
-  reader.number("timeout_s", positive("s"), task.timeout);
+  reader.number("timeout_s", seconds(kLongestTimeout), task.timeout);
   reader.finish();
   experiment.task = std::move(task);
 }

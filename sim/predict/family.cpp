@@ -116,6 +116,7 @@ void applySweepValue(const std::string& key, double value, experiment::Experimen
   };
   const bool zeroAllowed = key == "damping_n_s_per_m" || key == "viscosity_n_s_per_m" || key.starts_with("hand_");
   if (!(value > 0) && !(zeroAllowed && value == 0)) throw UsageError(fmt::format("{} = {}: allowed: above 0", key, value));
+  if (key == "duration_s" && value > 3600) throw UsageError(fmt::format("{} = {}: allowed: at most 3600 s", key, value));
   if (key == "duration_s") {
     options.duration = value;
   } else if (key == "stiffness_n_per_m") {

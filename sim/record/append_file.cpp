@@ -7,8 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <random>
 #include <utility>
 
 #include "base/error.h"
@@ -42,7 +45,34 @@ bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size) {
 // After a rename or a creation the folder itself must reach the disk, or the name may be lost with the power.
 void syncFolderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  os::syncFolder(folder.empty() ? "." : folder);
+  // Some network file systems have no such thing and say EINVAL: there it is theirs to keep.
+  if (!os::syncFolder(folder.empty() ? "." : folder) && errno != EINVAL) fail("its name cannot be synced to the disk", path);
+}
+
+// The exclusive lock of a log, held as long as the descriptor is open.
+void lockExclusively(int descriptor, const std::string& path) {
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno == EWOULDBLOCK)
+      throw ResourceError(fmt::format("{}: is being written by another program{}; wait until its run has ended", path, writerOf(path)));
+    throw ResourceError(
+        fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", path, std::strerror(errno)));
+  }
+}
+
+constexpr std::string_view kTemporaryEnding = ".reachlab-tmp";
+
+// Beside `path`, with a name that nobody can have put there before.
+int openTemporary(const std::string& path, std::string& name) {
+  std::random_device entropy;
+  for (int tries = 0; tries < 100; ++tries) {
+    const std::filesystem::path whole(path);
+    const std::uint64_t number = (static_cast<std::uint64_t>(entropy()) << 32) ^ entropy();
+    name = (whole.parent_path() / fmt::format(".{:016x}{}", number, kTemporaryEnding)).string();
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+    if (descriptor >= 0 || errno != EEXIST) return os::aboveStandardDescriptors(descriptor);
+  }
+  return -1;
 }
 
 }  // namespace
@@ -51,17 +81,17 @@ AppendFile AppendFile::create(const std::string& path) {
   makeFolders(std::filesystem::path(path).parent_path().string());
   const int descriptor = os::aboveStandardDescriptors(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644));
   if (descriptor < 0) fail("cannot be created", path);
-  ::flock(descriptor, LOCK_EX | LOCK_NB);
+  AppendFile file(descriptor, path, 0);
+  lockExclusively(descriptor, path);
   syncFolderOf(path);
-  return {descriptor, path, 0};
+  return file;
 }
 
 AppendFile AppendFile::openAt(const std::string& path, std::uint64_t size) {
   const int descriptor = os::aboveStandardDescriptors(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   if (descriptor < 0) fail("cannot be opened for writing", path);
   AppendFile file(descriptor, path, size);
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-    throw ResourceError(path + ": is being written by another program; wait until its run has ended");
+  lockExclusively(descriptor, path);
   if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) fail("cannot be cut to its good part", path);
   return file;
 }
@@ -102,13 +132,14 @@ void AppendFile::sync() {
 
 void writeFileAtomically(const std::string& path, std::string_view text) {
   makeFolders(std::filesystem::path(path).parent_path().string());
-  const std::string temporary = fmt::format("{}.{}.tmp", path, ::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  std::string temporary;
+  const int descriptor = openTemporary(path, temporary);
   if (descriptor < 0) fail("cannot be created", path);
   const auto* data = reinterpret_cast<const std::uint8_t*>(text.data());
   const bool good = writeAll(descriptor, data, text.size()) && os::syncFile(descriptor);
   const int fault = errno;
   ::close(descriptor);
+  // A rename puts the new name in place of a link, never through it.
   if (!good || ::rename(temporary.c_str(), path.c_str()) != 0) {
     const int reason = good ? errno : fault;
     ::unlink(temporary.c_str());
@@ -119,21 +150,44 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
 }
 
 std::string readWholeFile(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // opening a pipe would wait for its writer
   if (descriptor < 0) fail("cannot be opened", path);
-  std::string text;
   struct stat status {};
-  if (::fstat(descriptor, &status) == 0) text.reserve(static_cast<std::size_t>(status.st_size));
-  char buffer[1 << 16];
-  ssize_t count = 0;
-  while ((count = ::read(descriptor, buffer, sizeof buffer)) > 0) text.append(buffer, static_cast<std::size_t>(count));
+  const bool known = ::fstat(descriptor, &status) == 0;
+  if (!known || !S_ISREG(status.st_mode) || status.st_size > kMostBytesOfAFile) {
+    ::close(descriptor);
+    if (known && S_ISREG(status.st_mode))
+      throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", path, status.st_size, kMostBytesOfAFile));
+    throw ResourceError(path + ": is no regular file; allowed: a file on a disk");
+  }
+  std::string text(static_cast<std::size_t>(status.st_size), '\0');
+  std::size_t done = 0;
+  ssize_t count = 1;
+  while (done < text.size() && count > 0) {
+    count = ::read(descriptor, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) count = 1;
+    else if (count > 0) done += static_cast<std::size_t>(count);
+  }
   const int fault = errno;
   ::close(descriptor);
   if (count < 0) {
     errno = fault;
     fail("cannot be read", path);
   }
+  text.resize(done);
   return text;
+}
+
+void removeLeftovers(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  constexpr auto kOld = std::chrono::minutes(10);  // another program may be writing one this moment
+  for (auto entry = fs::recursive_directory_iterator(folder, error); !error && entry != fs::end(entry); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(kTemporaryEnding) || !entry->is_regular_file(error)) continue;
+    if (fs::file_time_type::clock::now() - entry->last_write_time(error) > kOld) fs::remove(entry->path(), error);
+    error.clear();
+  }
 }
 
 void makeFolders(const std::string& path) {
@@ -145,8 +199,19 @@ void makeFolders(const std::string& path) {
   fail("cannot be made", path);
 }
 
+std::string writerOf(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  std::ifstream locks("/proc/locks");  // NUMBER: FLOCK ADVISORY WRITE PID MAJOR:MINOR:INODE 0 EOF
+  for (std::string number, kind, how, what, process, file, rest; locks >> number >> kind >> how >> what >> process >> file;) {
+    std::getline(locks, rest);
+    if (kind == "FLOCK" && file.ends_with(fmt::format(":{}", status.st_ino))) return fmt::format(" (process {})", process);
+  }
+  return {};
+}
+
 bool isBeingWritten(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return false;
   const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(descriptor);

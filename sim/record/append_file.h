@@ -36,11 +36,17 @@ class AppendFile {
 /// Replaces `path` by `text` in one step (temporary file, fsync, rename): a reader sees the old file or the new one, never a
 /// part. Makes the folders above it. Throws ResourceError.
 void writeFileAtomically(const std::string& path, std::string_view text);
-/// The whole file. Throws ResourceError.
+/// Removes what programs that were killed while they wrote left behind in a folder and those below it (`.….reachlab-tmp`, older than ten
+/// minutes). Throws nothing: what cannot be removed stays.
+void removeLeftovers(const std::string& folder);
+/// The whole file. Throws ResourceError (also for a pipe or a device, which might never end), UsageError beyond kMostBytesOfAFile.
+inline constexpr std::int64_t kMostBytesOfAFile = 1ll << 30;
 std::string readWholeFile(const std::string& path);
 /// Makes a folder and those above it. Throws ResourceError.
 void makeFolders(const std::string& path);
 /// True while another program holds the file's lock (a run is being recorded into it).
 bool isBeingWritten(const std::string& path);
+/// " (process 1234)", who holds it; empty when nobody does or the system does not say.
+std::string writerOf(const std::string& path);
 
 }  // namespace reachlab::record

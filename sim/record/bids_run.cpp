@@ -102,9 +102,9 @@ std::string channelsJson() {
 std::string eventsTsv(const RunLog& run) {
   const RunConfiguration& c = run.configuration();
   TableText table('\t', "n/a");
-  table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",  "outcome",
-             "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod", "peak_hand_speed",
-             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day"});
+  table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
+             "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
+             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s"});
   // BIDS counts events from the first row of the motion file, which is not the run's first tick.
   double begin = 0;
   if (!run.trials().empty())
@@ -122,6 +122,7 @@ std::string eventsTsv(const RunLog& run) {
     table.number(movementTimeOf(trial)).number(times.reaction).number(times.go - begin).number(trial.planned.foreperiodTicks / 1000.0);
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
     table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed - begin).number(trial.meanForce).whole(c.day);
+    table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed);
     table.endRow();
   }
   return table.text();
@@ -138,10 +139,11 @@ std::string eventsJson(const RunConfiguration& c) {
   j["phase"]["Levels"] = {{"practice", "Familiarisation"}, {"recorded", "Counted in the analysis"}};
   j["condition"] = described("Condition of the plan, else the experiment's name");
   j["outcome"] = described("How the trial ended");
-  j["outcome"]["Levels"] = {{"success", "Every mass within all tolerances"},
-                            {"failure", "A tolerance was missed"},
-                            {"aborted", "Stopped by the experimenter, or no movement"},
-                            {"interrupted", "Cut off by a stop of the program or a lost device"}};
+  j["outcome"]["Levels"] = {
+      {"success", "Every mass within all tolerances"},
+      {"failure", "A tolerance was missed"},
+      {"aborted", "Stopped by the experimenter, or no movement"},
+      {"interrupted", "Cut off by a stop of the program, a lost device or a computer too busy to keep time; counts for nothing"}};
   j["reason"] = described("Which tolerance was missed or what stopped the trial");
   j["mass"] = described("Mass that missed the tolerance, from 1; 0: none");
   j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short and time_long");
@@ -156,6 +158,8 @@ std::string eventsJson(const RunConfiguration& c) {
   j["armed"] = described("When the hand was at the start and the trial could begin, since the first sample of the recording", "s");
   j["mean_force"] = described("Mean coupling force over every tick of the movement", "N");
   j["day"] = described("Day of the session's plan; 0: the plan gives none");
+  j["dropped_samples"] = described("Ticks of 1 ms that were simulated but not recorded, because the disk was too slow");
+  j["elapsed_s"] = described("From the go signal to the end of the trial by the computer's clock", "s");
   j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
   return j.dump(2) + "\n";
 }

@@ -88,6 +88,10 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   return table;
 }
 
+std::size_t rowWidth(int massCount, int parameterCount, bool body) {
+  return kTrialColumn + 3 + static_cast<std::size_t>(massCount) * static_cast<std::size_t>(9 + 2 * parameterCount) + (body ? 7 : 0);
+}
+
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept {
   double* at = row;
   *at++ = static_cast<double>(state.tick) / 1000.0;

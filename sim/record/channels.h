@@ -34,6 +34,9 @@ struct ChannelTable {
 /// `parameterCount` is Constraint::parameterCount() of the scene's constraint.
 ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount);
 
+/// Numbers in a row of such a table.
+std::size_t rowWidth(int massCount, int parameterCount, bool body);
+
 /// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic
 /// thread; never allocates.
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept;

@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -19,6 +19,8 @@ namespace reachlab::record {
 static_assert(std::endian::native == std::endian::little, "the log is written as it lies in memory");
 
 namespace {
+
+constexpr std::size_t kLeastAhead = 4096, kMostAhead = 1 << 20;
 
 constexpr std::array<char, 8> kSignature{'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G'};
 
@@ -103,68 +105,110 @@ std::uint64_t LogWriter::append(RecordType type, std::span<const std::uint8_t> p
 void LogWriter::sync() { file_.sync(); }
 
 LogReader::LogReader(const std::string& path) : path_(path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw ResourceError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  struct stat status {};
-  const bool regular = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-  const auto size = static_cast<std::size_t>(status.st_size);
-  void* memory = regular && size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0) : MAP_FAILED;
-  ::close(descriptor);
-  if (memory != MAP_FAILED) bytes_ = {static_cast<const std::uint8_t*>(memory), size};
-  const bool signature = bytes_.size() >= kLogHeaderBytes && std::memcmp(bytes_.data(), kSignature.data(), kSignature.size()) == 0 &&
-                         checksum(bytes_.data(), 12) == load<std::uint32_t>(bytes_.data() + 12);
-  if (signature) version_ = load<std::uint32_t>(bytes_.data() + 8);
-  if (!signature || version_ > kLogSchemaVersion) {
-    if (memory != MAP_FAILED) ::munmap(memory, size);
-    bytes_ = {};
-    throw UsageError(signature ? fmt::format("{}: log of schema version {}; this program reads up to {}: use a newer one", path, version_,
-                                             kLogSchemaVersion)
-                               : path + ": not a log of reachlab, or its first 16 bytes are damaged");
+  // Without O_NONBLOCK opening a pipe would wait for somebody to write into it.
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) throw ResourceError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+  try {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) throw UsageError(path + ": no regular file, so no log of reachlab");
+    size_ = static_cast<std::uint64_t>(status.st_size);
+    const std::span<const std::uint8_t> header = bytesAt(0, kLogHeaderBytes);
+    const bool signature = !header.empty() && std::memcmp(header.data(), kSignature.data(), kSignature.size()) == 0 &&
+                           checksum(header.data(), 12) == load<std::uint32_t>(header.data() + 12);
+    if (!signature) throw UsageError(path + ": not a log of reachlab, or its first 16 bytes are damaged");
+    version_ = load<std::uint32_t>(header.data() + 8);
+    if (version_ > kLogSchemaVersion)
+      throw UsageError(
+          fmt::format("{}: log of schema version {}; this program reads up to {}: use a newer one", path, version_, kLogSchemaVersion));
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
   }
 }
 
 LogReader::~LogReader() {
-  if (!bytes_.empty()) ::munmap(const_cast<std::uint8_t*>(bytes_.data()), bytes_.size());
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 LogReader::LogReader(LogReader&& other) noexcept
-    : path_(std::move(other.path_)), bytes_(std::exchange(other.bytes_, {})), at_(other.at_), sequence_(other.sequence_),
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_),
+      window_(std::move(other.window_)), windowBegin_(other.windowBegin_), ahead_(other.ahead_), at_(other.at_), sequence_(other.sequence_),
       version_(other.version_) {}
 
 LogReader& LogReader::operator=(LogReader&& other) noexcept {
   std::swap(path_, other.path_);
-  std::swap(bytes_, other.bytes_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(size_, other.size_);
+  std::swap(window_, other.window_);
+  std::swap(windowBegin_, other.windowBegin_);
+  std::swap(ahead_, other.ahead_);
   std::swap(at_, other.at_);
   std::swap(sequence_, other.sequence_);
   std::swap(version_, other.version_);
   return *this;
 }
 
+// `size` bytes of the file, or none when it does not reach that far (any more). Throws ResourceError when the disk cannot be read.
+std::span<const std::uint8_t> LogReader::bytesAt(std::uint64_t offset, std::size_t size) {
+  if (offset > size_ || size > size_ - offset) return {};
+  const auto inWindow = [&] { return offset >= windowBegin_ && offset + size <= windowBegin_ + window_.size(); };
+  if (!inWindow()) {
+    const bool backwards = offset < windowBegin_;
+    const std::uint64_t length = std::min<std::uint64_t>(std::max(size, ahead_), size_);
+    const std::uint64_t begin = backwards ? offset + size - std::min(offset + size, length) : offset;
+    window_.resize(static_cast<std::size_t>(std::min(length, size_ - begin)));
+    windowBegin_ = begin;
+    std::size_t done = 0;
+    while (done < window_.size()) {
+      const ssize_t count = ::pread(descriptor_, window_.data() + done, window_.size() - done, static_cast<off_t>(begin + done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) {
+        window_.clear();
+        throw ResourceError(fmt::format("{}: cannot be read at byte {}: {}; copy what can be read and check the disk", path_, begin + done,
+                                        std::strerror(errno)));
+      }
+      if (count == 0) break;  // it has become shorter
+      done += static_cast<std::size_t>(count);
+    }
+    window_.resize(done);
+    ahead_ = std::min(2 * ahead_, kMostAhead);
+    if (!inWindow()) return {};
+  }
+  return std::span<const std::uint8_t>(window_).subspan(static_cast<std::size_t>(offset - windowBegin_), size);
+}
+
 bool LogReader::next(RecordView& record) {
-  if (at_ > bytes_.size() || bytes_.size() - at_ < kRecordFrameBytes) return false;
-  const std::uint8_t* at = bytes_.data() + at_;
-  const auto length = load<std::uint32_t>(at);
-  const auto type = load<std::uint16_t>(at + 4);
-  if (length > kMaxPayloadBytes || length > bytes_.size() - at_ - kRecordFrameBytes) return false;
-  if (!isKnown(type) || load<std::uint16_t>(at + 6) != 0 || load<std::uint32_t>(at + 8) != sequence_) return false;
+  std::span<const std::uint8_t> bytes = bytesAt(at_, kRecordHeaderBytes);
+  if (bytes.empty()) return false;
+  const auto length = load<std::uint32_t>(bytes.data());
+  const auto type = load<std::uint16_t>(bytes.data() + 4);
+  if (!isKnown(type) || load<std::uint16_t>(bytes.data() + 6) != 0 || load<std::uint32_t>(bytes.data() + 8) != sequence_) return false;
+  if (length > kMaxPayloadBytes) return false;
+  bytes = bytesAt(at_, kRecordFrameBytes + length);
+  if (bytes.empty()) return false;
+  const std::uint8_t* at = bytes.data();
   if (checksum(at, kRecordHeaderBytes + length) != load<std::uint32_t>(at + kRecordHeaderBytes + length)) return false;
-  record = {static_cast<RecordType>(type), sequence_, at_, bytes_.subspan(at_ + kRecordHeaderBytes, length)};
+  record = {static_cast<RecordType>(type), sequence_, at_, bytes.subspan(kRecordHeaderBytes, length)};
   at_ += kRecordFrameBytes + length;
   ++sequence_;
   return true;
 }
 
-bool LogReader::looksLike(std::uint64_t offset, RecordType type, std::uint32_t length) const {
-  if (offset > bytes_.size() || bytes_.size() - offset < kRecordFrameBytes) return false;
-  const std::uint8_t* at = bytes_.data() + offset;
-  return load<std::uint32_t>(at) == length && load<std::uint32_t>(at + 4) == static_cast<std::uint16_t>(type);
+bool LogReader::looksLike(std::uint64_t offset, RecordType type, std::uint32_t length) {
+  const std::span<const std::uint8_t> bytes = bytesAt(offset, kRecordFrameBytes);
+  return !bytes.empty() && load<std::uint32_t>(bytes.data()) == length &&
+         load<std::uint32_t>(bytes.data() + 4) == static_cast<std::uint16_t>(type);
 }
 
-std::uint32_t LogReader::sequenceAt(std::uint64_t offset) const { return load<std::uint32_t>(bytes_.data() + offset + 8); }
+std::uint32_t LogReader::sequenceAt(std::uint64_t offset) {
+  const std::span<const std::uint8_t> bytes = bytesAt(offset, kRecordHeaderBytes);
+  return bytes.empty() ? 0 : load<std::uint32_t>(bytes.data() + 8);
+}
 
 void LogReader::seek(std::uint64_t offset, std::uint32_t sequence) {
   at_ = offset;
   sequence_ = sequence;
+  ahead_ = kLeastAhead;
 }
 
 }  // namespace reachlab::record

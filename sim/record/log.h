@@ -18,7 +18,7 @@
 /// flipped bit, a cut, a zero-filled or a duplicated stretch can end a log early, never change a number in it.
 namespace reachlab::record {
 
-inline constexpr std::uint32_t kLogSchemaVersion = 1;
+inline constexpr std::uint32_t kLogSchemaVersion = 2;
 inline constexpr std::size_t kLogHeaderBytes = 16;
 inline constexpr std::size_t kRecordHeaderBytes = 12;
 inline constexpr std::size_t kRecordFrameBytes = kRecordHeaderBytes + 4;
@@ -114,10 +114,12 @@ struct RecordView {
   RecordType type{};
   std::uint32_t sequence = 0;
   std::uint64_t offset = 0;               // of its header in the file
-  std::span<const std::uint8_t> payload;  // into the reader's memory
+  std::span<const std::uint8_t> payload;  // into the reader's memory, until its next member is called
 };
 
-/// Reads a log from memory-mapped bytes. Any thread, one at a time. Records are checked as they are read.
+/// Reads a log through a window onto the file, not a map of it: a log that another program cuts short meanwhile ends early, where a map
+/// would end the program. Any thread, one at a time. Records are checked as they are read; a disk that cannot be read is a ResourceError
+/// from any member.
 class LogReader {
  public:
   /// Throws UsageError when the file is no log or of a newer schema, ResourceError when it cannot be opened.
@@ -131,19 +133,25 @@ class LogReader {
   /// Goes on reading at `offset`, where record number `sequence` is expected (from an index).
   void seek(std::uint64_t offset, std::uint32_t sequence);
   /// True when the bytes at `offset` could be the header of such a record; whether it is good, only next() tells.
-  bool looksLike(std::uint64_t offset, RecordType type, std::uint32_t length) const;
+  bool looksLike(std::uint64_t offset, RecordType type, std::uint32_t length);
   /// The sequence number that stands in the header at `offset`.
-  std::uint32_t sequenceAt(std::uint64_t offset) const;
+  std::uint32_t sequenceAt(std::uint64_t offset);
   /// Where the last good record that was read ends.
   std::uint64_t goodEnd() const { return at_; }
   std::uint32_t nextSequence() const { return sequence_; }
-  std::uint64_t fileSize() const { return bytes_.size(); }
+  std::uint64_t fileSize() const { return size_; }
   std::uint32_t schemaVersion() const { return version_; }
   const std::string& path() const { return path_; }
 
  private:
+  std::span<const std::uint8_t> bytesAt(std::uint64_t offset, std::size_t size);
+
   std::string path_;
-  std::span<const std::uint8_t> bytes_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;               // of the file when it was opened
+  std::vector<std::uint8_t> window_;     // the part of the file that was read last,
+  std::uint64_t windowBegin_ = 0;        // and where it begins
+  std::size_t ahead_ = kLogHeaderBytes;  // how much to read at a time: more while reading on, little after a seek
   std::uint64_t at_ = kLogHeaderBytes;
   std::uint32_t sequence_ = 0, version_ = 0;
 };

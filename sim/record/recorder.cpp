@@ -19,7 +19,7 @@ constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at i
 struct Recorder::Impl {
   Impl(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& recorderOptions)
       : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)),
-        firstTrial(configuration.firstTrial), writer(path, configuration),
+        firstTrial(configuration.firstTrial), writer(path, configuration, options.diskReserve),
         ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size()) {}
 
   RecorderOptions options;

@@ -10,8 +10,9 @@
 namespace reachlab::record {
 
 struct RecorderOptions {
-  bool threaded = true;           // false: written by the caller (virtual clock), so that nothing can be dropped
-  std::size_t queueTicks = 4096;  // how many ticks the disk may be behind before ticks are dropped and counted
+  bool threaded = true;                       // false: written by the caller (virtual clock), so that nothing can be dropped
+  std::uint64_t diskReserve = 1'000'000'000;  // [bytes] or 5 % of the disk, whichever is less: recording ends before the disk has no more
+  std::size_t queueTicks = 4096;              // how many ticks the disk may be behind before ticks are dropped and counted
 };
 
 /// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a

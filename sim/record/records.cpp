@@ -27,6 +27,13 @@ Vec3 getVec3(ByteReader& in) {
   return v;
 }
 
+template <typename Enum>
+Enum getEnum(ByteReader& in, Enum last, const char* what) {
+  const auto number = in.get<std::uint8_t>();
+  if (number > static_cast<std::uint8_t>(last)) throw UsageError(std::string(what) + " record of an unknown form");
+  return static_cast<Enum>(number);
+}
+
 void requireWhole(const ByteReader& in, const char* what) {
   if (!in.ok() || in.left() != 0) throw UsageError(std::string(what) + " record of an unknown form");
 }
@@ -82,7 +89,7 @@ void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick
     tick.device.velocity = flags & kHasVelocity ? getVec3(in) : Vec3{};
     tick.device.buttons = flags & kButtons ? in.get<std::uint32_t>() : 0;
     tick.device.valid = flags & kValid;
-    tick.command = flags & kCommand ? static_cast<trial::Command>(in.get<std::uint8_t>()) : trial::Command::None;
+    tick.command = flags & kCommand ? getEnum(in, trial::Command::Interrupt, "tick") : trial::Command::None;
     tick.missedTicks = flags & kMissed ? in.get<std::uint32_t>() : 0;
     if (in.ok()) out.push_back(tick);
   }
@@ -119,10 +126,9 @@ void decodeSamples(std::span<const std::uint8_t> payload, std::uint64_t firstTic
   ByteReader in(payload);
   const std::size_t count = in.get<std::uint32_t>();
   const std::size_t columns = in.get<std::uint32_t>();
-  const std::size_t rowBytes = (columns + 1) * sizeof(double);
-  if (!in.ok() || in.left() != count * rowBytes || (out.columns != 0 && out.columns != columns))
+  const std::size_t rowBytes = (columns + 1) * sizeof(double);  // divided by, not multiplied with: both counts are the file's word
+  if (!in.ok() || columns != out.columns || in.left() % rowBytes != 0 || in.left() / rowBytes != count)
     throw UsageError("sample record of an unknown form");
-  out.columns = columns;
   const std::uint8_t* at = payload.data() + 2 * sizeof(std::uint32_t);
   for (std::size_t row = 0; row < count; ++row, at += rowBytes) {
     std::uint64_t tick = 0;
@@ -147,7 +153,7 @@ RecordedEvent decodeEvent(std::span<const std::uint8_t> payload) {
   ByteReader in(payload);
   RecordedEvent event;
   event.tick = in.get<std::uint64_t>();
-  event.kind = static_cast<EventKind>(in.get<std::uint8_t>());
+  event.kind = getEnum(in, EventKind::Note, "event");
   event.trial = in.get<std::int32_t>();
   event.value = in.get<double>();
   event.text = in.getText();
@@ -187,6 +193,8 @@ void encode(const RecordedTrial& t, const TrialLink& previous, ByteWriter& out) 
   out.put(t.sequence);
   out.put(previous.offset);
   out.put(previous.sequence);
+  out.put(t.elapsed);
+  out.put(t.droppedTicks);
 }
 
 RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& previous) {
@@ -196,12 +204,13 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   t.planned.index = in.get<std::int32_t>();
   t.planned.foreperiodTicks = in.get<std::int32_t>();
   t.planned.catchTrial = in.get<std::uint8_t>() != 0;
-  t.result.outcome = static_cast<trial::Outcome>(in.get<std::uint8_t>());
-  t.result.reason = static_cast<trial::Reason>(in.get<std::uint8_t>());
+  t.result.outcome = getEnum(in, trial::Outcome::Interrupted, "trial");
+  t.result.reason = getEnum(in, trial::kLastReason, "trial");
   t.result.mass = in.get<std::int32_t>();
   for (double* value : {&t.result.by, &t.result.movementTime}) *value = in.get<double>();
   for (std::uint64_t* tick : {&t.startTick, &t.armedTick, &t.goTick, &t.result.onsetTick, &t.result.endTick, &t.lastTick})
     *tick = in.get<std::uint64_t>();
+  if (t.startTick > t.lastTick) throw UsageError("trial record of an unknown form");
   for (double* value : {&t.peakHandSpeed, &t.handPathLength, &t.peakForce, &t.meanForce}) *value = in.get<double>();
   t.clampedTicks = in.get<std::uint64_t>();
   t.missedTicks = in.get<std::uint64_t>();
@@ -209,6 +218,10 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   t.sequence = in.get<std::uint32_t>();
   previous.offset = in.get<std::uint64_t>();
   previous.sequence = in.get<std::uint32_t>();
+  if (in.left() > 0) {  // since schema version 2
+    t.elapsed = in.get<double>();
+    t.droppedTicks = in.get<std::uint64_t>();
+  }
   requireWhole(in, "trial");
   return t;
 }

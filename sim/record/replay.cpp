@@ -17,7 +17,8 @@ constexpr std::size_t kMeasuredTime = 1;  // the one column that is the computer
 bool sameBits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
-  return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) &&
+  const bool lost = a.reason == trial::Reason::DeviceLost;  // aborted in older logs
+  return (a.outcome == b.outcome || lost) && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) &&
          sameBits(a.movementTime, b.movementTime) && a.onsetTick == b.onsetTick && a.endTick == b.endTick;
 }
 
@@ -73,6 +74,9 @@ Replay replayRun(const RunLog& log) {
   const experiment::Experiment experiment = recordedExperiment(c);
   haptics::TickEngine engine(
       experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds});
+  const ChannelTable scene = makeChannelTable(experiment, engine.constraint().parameterCount());
+  if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body)
+    throw UsageError(fmt::format("{}: table: has not the masses of its experiment, so the run cannot be simulated again", log.path()));
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);
   TrialTracker tracker(c.firstTrial);

@@ -7,11 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "sim/record/checked_json.h"
 
 namespace reachlab::record {
 namespace {
 
 using nlohmann::json;
+
+constexpr int kMostRuns = 9999, kMostTrials = 10'000'000, kMostForeperiod = 1'000'000'000, kMostChannels = 10'000;
 
 json toJson(const Channel& c) {
   return {{"name", c.name},   {"component", c.component},     {"type", c.type},    {"tracked_point", c.trackedPoint},
@@ -19,7 +22,8 @@ json toJson(const Channel& c) {
 }
 
 Channel channelFrom(const json& j) {
-  return {j.at("name"), j.at("component"), j.at("type"), j.at("tracked_point"), j.at("units"), j.at("description"), j.at("column")};
+  return {textOf(j, "name"),  textOf(j, "component"),   textOf(j, "type"),  textOf(j, "tracked_point"),
+          textOf(j, "units"), textOf(j, "description"), textOf(j, "column")};
 }
 
 json toJson(const Participant& p) {
@@ -29,10 +33,11 @@ json toJson(const Participant& p) {
 }
 
 Participant participantFrom(const json& j) {
+  if (!j.is_object()) throw UsageError("participant: is no object");
   Participant p;
-  if (j.contains("age_years")) p.age = j.at("age_years").get<double>();
-  p.sex = j.value("sex", "");
-  p.handedness = j.value("handedness", "");
+  if (j.contains("age_years")) p.age = numberOf(j, "age_years", 0, 130);
+  if (j.contains("sex")) p.sex = textOf(j, "sex");
+  if (j.contains("handedness")) p.handedness = textOf(j, "handedness");
   return p;
 }
 
@@ -45,7 +50,9 @@ json toJson(const std::vector<trial::PlannedTrial>& trials) {
 
 std::vector<trial::PlannedTrial> trialsFrom(const json& list) {
   std::vector<trial::PlannedTrial> trials;
-  for (const json& j : list) trials.push_back({j.at("index"), j.at("foreperiod_ms"), j.at("catch")});
+  for (const json& j : list)
+    trials.push_back({static_cast<int>(wholeOf(j, "index", 0, kMostTrials)),
+                      static_cast<int>(wholeOf(j, "foreperiod_ms", 0, kMostForeperiod)), flagOf(j, "catch")});
   return trials;
 }
 
@@ -57,17 +64,17 @@ json tableToJson(const ChannelTable& table) {
 
 ChannelTable tableFrom(const json& j) {
   ChannelTable table;
-  table.massCount = j.at("mass_count");
-  table.parameterCount = j.at("parameter_count");
-  table.body = j.at("body");
-  for (const json& channel : j.at("channels")) table.channels.push_back(channelFrom(channel));
+  table.massCount = static_cast<int>(wholeOf(j, "mass_count", 1, experiment::kMaxMasses));
+  table.parameterCount = static_cast<int>(wholeOf(j, "parameter_count", 0, 3));
+  table.body = flagOf(j, "body");
+  for (const json& channel : listOf(j, "channels", kMostChannels)) table.channels.push_back(channelFrom(channel));
   return table;
 }
 
 }  // namespace
 
 std::string toJson(const RunConfiguration& c) {
-  const json j{
+  json j{
       {"schema_version", 1},
       {"subject", c.subject},
       {"session", c.session},
@@ -116,51 +123,53 @@ std::string toJson(const RunConfiguration& c) {
 
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin) {
   try {
-    const json j = json::parse(text);
+    const json j = json::parse(text, nullptr, false);
+    if (!j.is_object()) throw UsageError("is no JSON object");
     RunConfiguration c;
-    c.subject = j.at("subject");
-    c.session = j.at("session");
-    c.task = j.at("task");
-    c.run = j.at("run");
-    c.firstRun = j.at("first_run");
-    c.firstTrial = j.at("first_trial");
-    c.block = j.at("block");
-    c.practice = j.at("practice");
-    c.condition = j.at("condition");
-    c.day = j.at("day");
-    c.pauseSeconds = j.at("pause_s");
-    c.repeatAborted = j.at("repeat_aborted");
-    c.experimentName = j.at("experiment_name");
-    c.experimentText = j.at("experiment_text");
-    c.definitionText = j.value("definition_text", "");  // logs before 2026-11-21 have none
-    c.planName = j.at("plan_name");
-    c.planText = j.at("plan_text");
-    c.seed = j.at("seed");
-    c.sessionSeed = j.at("session_seed");
-    c.orderSeed = j.at("order_seed");
-    c.trials = trialsFrom(j.at("trials"));
-    c.device = j.at("device");
-    c.deviceName = j.at("device_name");
-    c.deviceVersion = j.at("device_version");
-    c.deviceMaxForce = j.at("device_max_force_n");
-    c.virtualHand = j.at("virtual_hand");
-    c.rendersForce = j.value("device_renders_force", false);
-    c.deviceContinuousForce = j.value("device_continuous_force_n", 0.0);
-    c.deviceThermalSeconds = j.value("device_thermal_s", 10.0);
-    c.method = j.at("method");
-    c.methodReason = j.at("method_reason");
-    c.softwareVersion = j.at("software_version");
-    c.buildDescription = j.at("build");
-    c.computer = j.at("computer");
-    c.startedUtc = j.at("started_utc");
-    c.clock = j.at("clock");
-    c.samplingHz = j.at("sampling_hz");
-    c.sampleEveryTicks = j.at("sample_every_ticks");
-    c.participant = participantFrom(j.at("participant"));
-    c.notes = j.at("notes");
-    c.table = tableFrom(j.at("table"));
+    c.subject = textOf(j, "subject");
+    c.session = textOf(j, "session");
+    c.task = textOf(j, "task");
+    c.run = static_cast<int>(wholeOf(j, "run", 1, kMostRuns));
+    c.firstRun = static_cast<int>(wholeOf(j, "first_run", 1, kMostRuns));
+    c.firstTrial = static_cast<int>(wholeOf(j, "first_trial", 1, kMostTrials));
+    c.block = static_cast<int>(wholeOf(j, "block", 1, kMostTrials));
+    c.practice = flagOf(j, "practice");
+    c.condition = textOf(j, "condition");
+    c.day = static_cast<int>(wholeOf(j, "day", 0, kMostTrials));
+    c.pauseSeconds = numberOf(j, "pause_s", 0, 1e6);
+    c.repeatAborted = flagOf(j, "repeat_aborted");
+    c.experimentName = textOf(j, "experiment_name");
+    c.experimentText = textOf(j, "experiment_text");
+    if (j.contains("definition_text")) c.definitionText = textOf(j, "definition_text");  // logs before 2026-11-21 have none
+    c.planName = textOf(j, "plan_name");
+    c.planText = textOf(j, "plan_text");
+    c.seed = seedOf(j, "seed");
+    c.sessionSeed = seedOf(j, "session_seed");
+    c.orderSeed = seedOf(j, "order_seed");
+    c.trials = trialsFrom(listOf(j, "trials", kMostTrials));
+    c.device = textOf(j, "device");
+    c.deviceName = textOf(j, "device_name");
+    c.deviceVersion = textOf(j, "device_version");
+    c.deviceMaxForce = numberOf(j, "device_max_force_n", 0, 1e6);
+    c.virtualHand = flagOf(j, "virtual_hand");
+    if (j.contains("device_renders_force")) c.rendersForce = flagOf(j, "device_renders_force");
+    c.deviceContinuousForce = j.contains("device_continuous_force_n") ? numberOf(j, "device_continuous_force_n", 0, 1e6) : 0;
+    c.deviceThermalSeconds = j.contains("device_thermal_s") ? numberOf(j, "device_thermal_s", 1e-3, 1e6) : 10;
+    c.method = textOf(j, "method");
+    c.methodReason = textOf(j, "method_reason");
+    c.softwareVersion = textOf(j, "software_version");
+    c.buildDescription = textOf(j, "build");
+    c.computer = textOf(j, "computer");
+    c.startedUtc = textOf(j, "started_utc");
+    c.clock = textOf(j, "clock");
+    c.samplingHz = numberOf(j, "sampling_hz", 1e-3, 1e6);
+    c.sampleEveryTicks = static_cast<std::uint32_t>(wholeOf(j, "sample_every_ticks", 1, 1'000'000));
+    c.participant = participantFrom(memberOf(j, "participant"));
+    c.notes = textOf(j, "notes");
+    c.table = tableFrom(memberOf(j, "table"));
+    checkConfiguration(c);
     return c;
-  } catch (const json::exception& fault) {
+  } catch (const UsageError& fault) {
     throw UsageError(fmt::format("{}: configuration record cannot be understood: {}", origin, fault.what()));
   }
 }
@@ -169,9 +178,20 @@ experiment::Experiment recordedExperiment(const RunConfiguration& c) {
   return experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
 }
 
+void checkConfiguration(const RunConfiguration& c) {
+  checkLabel(c.subject, "subject");
+  checkLabel(c.session, "session");
+  checkLabel(c.task, "task");
+  const std::size_t columns = rowWidth(c.table.massCount, c.table.parameterCount, c.table.body);
+  if (c.table.size() != columns)
+    throw UsageError(fmt::format("table: has {} channels; allowed: {}, as its masses have", c.table.size(), columns));
+}
+
 void checkLabel(const std::string& label, const std::string& what) {
+  constexpr std::size_t kLongestLabel = 60;  // file names join three of them and may have 255 bytes
   const bool good = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
-  if (!good) throw UsageError(fmt::format("{} \"{}\": not a label; allowed: letters and digits only", what, label));
+  if (!good || label.size() > kLongestLabel)
+    throw UsageError(fmt::format("{} \"{}\": not a label; allowed: up to 60 letters and digits", what, label));
 }
 
 void checkParticipant(const Participant& participant) {

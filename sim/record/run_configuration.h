@@ -55,14 +55,18 @@ struct RunConfiguration {
 };
 
 std::string toJson(const RunConfiguration& configuration);
-/// Throws UsageError naming `origin` when the text is no configuration.
+/// Throws UsageError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws UsageError when its text cannot be understood.
 experiment::Experiment recordedExperiment(const RunConfiguration& configuration);
 
-/// Labels are letters and digits only (BIDS). Throws UsageError otherwise.
+/// What a configuration from a file says of itself holds: labels are labels (they become names of files), every count within its bounds, and
+/// the table has the channels that its counts ask for. Throws UsageError `KEY: …`.
+void checkConfiguration(const RunConfiguration& configuration);
+
+/// Labels are letters and digits only (BIDS), at most 60. Throws UsageError otherwise.
 void checkLabel(const std::string& label, const std::string& what);
 /// An age is 0 to 130 years, so that the record can be written and read. Throws UsageError otherwise.
 void checkParticipant(const Participant& participant);

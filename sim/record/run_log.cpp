@@ -59,15 +59,16 @@ bool readAt(LogReader& reader, std::uint64_t offset, std::uint32_t sequence, Rec
   return reader.next(record) && record.type == type;
 }
 
-std::size_t trialPayloadBytes() {
+std::size_t trialPayloadBytes(std::uint32_t schemaVersion) {
+  constexpr std::size_t kSinceVersion2 = sizeof(double) + sizeof(std::uint64_t);
   ByteWriter bytes;
   encode(RecordedTrial{}, TrialLink{}, bytes);
-  return bytes.size();
+  return bytes.size() - (schemaVersion < 2 ? kSinceVersion2 : 0);
 }
 
 // Looks backwards from the end of a log that was not closed for its last trial record.
 bool findLastTrial(LogReader& reader, TrialLink& link) {
-  const std::size_t length = trialPayloadBytes();
+  const std::size_t length = trialPayloadBytes(reader.schemaVersion());
   const std::uint64_t whole = kRecordFrameBytes + length;
   RecordView record;
   for (std::uint64_t end = reader.fileSize(); end >= kLogHeaderBytes + whole; --end) {
@@ -83,6 +84,15 @@ bool findLastTrial(LogReader& reader, TrialLink& link) {
 
 RunLog RunLog::open(const std::string& path, LogCheck check) {
   LogReader reader(path);
+  try {
+    return open(path, reader, check);
+  } catch (const UsageError& fault) {
+    if (std::string_view(fault.what()).starts_with(path)) throw;
+    throw UsageError(fmt::format("{}: {}", path, fault.what()));
+  }
+}
+
+RunLog RunLog::open(const std::string& path, LogReader& reader, LogCheck check) {
   RecordView record;
   if (!reader.next(record) || record.type != RecordType::Configuration)
     throw UsageError(path + ": the configuration at the start of the log is damaged, so nothing in it can be read");
@@ -169,7 +179,11 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
       throw UsageError(fmt::format("{}: damaged after byte {}; mend it with: reach recover {}", path_, reader.goodEnd(), path_));
-    if (!visit(record)) return;
+    try {
+      if (!visit(record)) return;
+    } catch (const UsageError& fault) {
+      throw UsageError(fmt::format("{}: {}", path_, fault.what()));
+    }
   }
 }
 

@@ -1,20 +1,41 @@
 #include "sim/record/run_writer.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/os.h"
+
 namespace reachlab::record {
 namespace {
 
 constexpr auto kFlushEvery = std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
 constexpr std::uint32_t kTicksPerBlock = 1000;
 constexpr std::uint32_t kTicksPerClockLook = 16;
+constexpr std::uint64_t kBytesPerDiskLook = 1 << 20;
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
 }  // namespace
 
-RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration)
-    : log_(LogWriter::create(path)), samples_(configuration.table.size()), tracker_(configuration.firstTrial) {
+RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve)
+    : diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()), tracker_(configuration.firstTrial) {
   log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
   log_.sync();
+  lookedAt_ = log_.size();
+  keepReserve();
+}
+
+// What a full disk would take with it is more than this recording.
+void RunWriter::keepReserve() {
+  const os::DiskSpace disk = os::diskSpace(log_.path());
+  const std::uint64_t reserve = std::min(diskReserve_, disk.size / 20);
+  if (disk.size == 0 || disk.free >= reserve) return;
+  throw ResourceError(
+      fmt::format("{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free (--disk-reserve); what was "
+                  "recorded is safe: free space or choose another folder",
+                  log_.path(), static_cast<double>(disk.free) * 1e-6, static_cast<double>(reserve) * 1e-6));
 }
 
 void RunWriter::announce(const TrialSetup& setup) {
@@ -53,6 +74,10 @@ void RunWriter::flushIfDue() {
 }
 
 void RunWriter::flush() {
+  if (log_.size() - lookedAt_ > kBytesPerDiskLook) {
+    lookedAt_ = log_.size();
+    keepReserve();
+  }
   if (!ticks_.empty()) {
     log_.append(RecordType::Ticks, ticks_.payload());
     ticks_.clear();

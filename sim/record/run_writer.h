@@ -11,7 +11,8 @@ namespace reachlab::record {
 /// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
 class RunWriter {
  public:
-  RunWriter(const std::string& path, const RunConfiguration& configuration);
+  /// `diskReserve`: see RecorderOptions.
+  RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve = 0);
 
   void announce(const TrialSetup& setup);
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
@@ -26,8 +27,11 @@ class RunWriter {
 
  private:
   void writeEvents();
+  void keepReserve();
   void writeTrial(RecordedTrial trial);
 
+  std::uint64_t diskReserve_;
+  std::uint64_t lookedAt_ = 0;  // size of the log when the disk was last looked at
   LogWriter log_;
   TickBlock ticks_;
   SampleBlock samples_;

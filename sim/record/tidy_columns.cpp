@@ -40,6 +40,8 @@ constexpr ColumnMeaning kTrialMeanings[] = {
     {"mean_force_n", "Mean coupling force over every tick of the movement"},
     {"clamped_ticks", "Ticks of 1 ms in which the force was held to the device's limit"},
     {"missed_ticks", "Ticks of 1 ms that were skipped"},
+    {"dropped_samples", "Ticks that were simulated but not recorded, because the disk was too slow"},
+    {"elapsed_s", "From the go signal to the end by the computer's clock; longer than the ticks say when ticks were missed"},
     {"complete", "0: the log broke off in this trial"},
     {"seed", "Seed of the block; up to 64 bits, read it as text or as an integer, not as a floating-point number"},
     {"device", "Device as it was asked for"},

@@ -44,6 +44,8 @@ const std::vector<std::string> kTrialColumns{"subject",
                                              "mean_force_n",
                                              "clamped_ticks",
                                              "missed_ticks",
+                                             "dropped_samples",
+                                             "elapsed_s",
                                              "complete",
                                              "seed",
                                              "device",
@@ -76,7 +78,8 @@ void addTrial(TableText& table, const RunConfiguration& c, const experiment::Tas
   table.number(task.tolerance.position).number(task.tolerance.velocity).number(task.tolerance.time);
   for (const double time : {times.start, times.armed, times.go, times.onset, times.end, times.reaction}) table.number(time);
   for (const double measure : {t.peakHandSpeed, t.handPathLength, t.peakForce, t.meanForce}) table.number(measure);
-  table.whole(static_cast<long long>(t.clampedTicks)).whole(static_cast<long long>(t.missedTicks)).whole(t.complete ? 1 : 0);
+  table.whole(static_cast<long long>(t.clampedTicks)).whole(static_cast<long long>(t.missedTicks));
+  table.whole(static_cast<long long>(t.droppedTicks)).number(t.elapsed).whole(t.complete ? 1 : 0);
   table.cell(fmt::format("{}", c.seed)).cell(c.device);
   table.number(c.participant.age.value_or(std::numeric_limits<double>::quiet_NaN()));
   table.cell(c.participant.sex).cell(c.participant.handedness).cell(c.notes);

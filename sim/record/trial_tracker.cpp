@@ -16,7 +16,7 @@ void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {
   const auto setup = std::find_if(setups_.rbegin(), setups_.rend(), [&](const TrialSetup& s) { return s.trial == facts.trial; });
   if (setup != setups_.rend()) trial_.planned = setup->planned;
   setups_.clear();
-  trial_.startTick = tick.tick;
+  trial_.startTick = trial_.lastTick = tick.tick;
   underWay_ = true;
   phase_ = trial::Phase::Idle;
   forceSum_ = 0;
@@ -53,6 +53,7 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   status_ = facts.status;
   if (!underWay_) return step;
 
+  if (tick.tick > trial_.lastTick + 1) trial_.droppedTicks += tick.tick - trial_.lastTick - 1;
   trial_.lastTick = tick.tick;
   trial_.missedTicks += tick.missedTicks;
   if (facts.clamped) ++trial_.clampedTicks;
@@ -67,6 +68,7 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   const std::uint64_t wait = static_cast<std::uint64_t>(std::max(0, trial_.planned.foreperiodTicks));
   if (armed && trial_.armedTick > 0 && trial_.goTick == 0 && !trial_.planned.catchTrial && tick.tick >= trial_.armedTick + wait) {
     trial_.goTick = tick.tick;
+    goNs_ = tick.measuredNs;
     tell(EventKind::Go);
   }
   if (facts.phase == trial::Phase::Moving) {
@@ -77,6 +79,7 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   if (facts.phase == trial::Phase::Done) {
     if (trial_.result.onsetTick > 0 && facts.result.onsetTick > 0) measure(facts);
     trial_.result = facts.result;
+    if (trial_.goTick > 0) trial_.elapsed = static_cast<double>(tick.measuredNs - goNs_) * 1e-9;
     tell(EventKind::TrialEnd, static_cast<double>(facts.result.outcome));
     underWay_ = false;
     step.finished = true;

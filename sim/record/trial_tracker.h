@@ -52,6 +52,7 @@ class TrialTracker {
   bool clamped_ = false, valid_ = true;
   dynamics::StepStatus status_ = dynamics::StepStatus::Ok;
   Vec3 lastPosition_;
+  std::int64_t goNs_ = 0;  // clock at the go signal
   double forceSum_ = 0;
   std::uint64_t moving_ = 0;  // ticks of the movement so far
 };

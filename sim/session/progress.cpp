@@ -18,8 +18,7 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
       block->lastRun = configuration.run;
       for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
-        const bool again = trial.result.outcome == trial::Outcome::Interrupted ||
-                           (trial.result.outcome == trial::Outcome::Aborted && configuration.repeatAborted);
+        const bool again = trial::endsRun(trial.result) || (trial::isPutUpAgain(trial.result) && configuration.repeatAborted);
         if (!again) block->done.insert(trial.planned.index);
       }
     } catch (const Error& error) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/json_tree.h"
+#include "sim/record/append_file.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"
@@ -149,6 +150,11 @@ SessionToRun planSession(const SessionRequest& request) {
     throw UsageError(fmt::format("{}: no block for day {}; allowed: a --session or --day that the plan has", plan.name, day));
 
   SessionToRun session;
+  if (request.resume)
+    for (const RecordedRun& recorded : recordedRuns(request.place))
+      if (record::isBeingWritten(recorded.path))
+        throw ResourceError(fmt::format("--resume: run {} is being recorded{} into {}; wait until it has ended", recorded.run,
+                                        record::writerOf(recorded.path), recorded.path));
   std::vector<std::string> faults;
   const std::vector<BlockProgress> progress = readProgress(request.place, faults);
   std::vector<experiment::Experiment> experiments;
@@ -207,6 +213,10 @@ void takeFreeRun(BlockToRun& block, const SessionRequest& request) {
   record::RunConfiguration& c = block.configuration;
   const std::vector<RecordedRun> runs = recordedRuns(request.place);
   if (std::none_of(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == c.run; })) return;
+  if (c.firstRun != c.run)
+    throw ResourceError(
+        fmt::format("run {} of this session was taken by another program that resumes it as well{}; wait until it has ended, then --resume",
+                    c.run, record::writerOf(block.logPath)));
   const bool askedFor = request.run == c.run;
   const int run = chooseRun(request.place, askedFor ? request.run : std::nullopt);
   if (c.firstRun == c.run) c.firstRun = run;

@@ -20,7 +20,8 @@ struct SessionRequest {
   std::optional<std::uint64_t> seed;
   bool resume = false;
   bool fast = false, everyTick = false;
-  std::string device;  // as asked for
+  std::string device;                         // as asked for
+  std::uint64_t diskReserve = 1'000'000'000;  // [bytes] RecorderOptions::diskReserve
   record::Participant participant;
   std::string notes;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 
 #include "base/error.h"
@@ -73,7 +74,14 @@ FolderHold::FolderHold(const std::string& data) {
   const std::string folder = data + "/sourcedata";
   record::makeFolders(folder);
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {}
+  if (descriptor_ < 0) throw ResourceError(fmt::format("{}: cannot be opened: {}", folder, std::strerror(errno)));
+  while (::flock(descriptor_, LOCK_EX) != 0) {
+    if (errno == EINTR) continue;
+    const int fault = errno;
+    ::close(descriptor_);
+    throw ResourceError(fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", folder,
+                                    std::strerror(fault)));
+  }
 }
 
 FolderHold::~FolderHold() {

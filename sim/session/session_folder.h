@@ -26,10 +26,10 @@ std::vector<RecordedRun> recordedRuns(const SessionPlace& place);
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 
 /// Keeps a dataset to itself among the programs that record into it, while a run number is taken or a shared table is rewritten; waits for
-/// another holder. Where the file system has no locks nothing is kept, and a clash is refused when the log is created.
+/// another holder.
 class FolderHold {
  public:
-  /// Makes the folder of the logs if there is none. Throws ResourceError.
+  /// Makes the folder of the logs if there is none. Throws ResourceError, also where a file system has no locks.
   explicit FolderHold(const std::string& data);
   ~FolderHold();
   FolderHold(const FolderHold&) = delete;

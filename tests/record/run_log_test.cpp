@@ -225,8 +225,8 @@ TEST(LogWriter, RefusesToOverwrite) {
 TEST(LogReader, RefusesANewerSchemaAndSaysWhatToDo) {
   const TemporaryFolder folder("newer");
   const std::string path = folder / "a_log.reach";
-  // Schema version 2 with a CRC of its own that is right: "REACHLOG", 2, crc32 of the twelve bytes.
-  const unsigned char newer[16] = {'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G', 2, 0, 0, 0, 0, 0, 0, 0};
+  // Schema version 3 with a CRC of its own that is right: "REACHLOG", 3, crc32 of the twelve bytes.
+  const unsigned char newer[16] = {'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G', 3, 0, 0, 0, 0, 0, 0, 0};
   std::string bytes(reinterpret_cast<const char*>(newer), sizeof newer);
   std::uint32_t crc = 0xffffffffu;  // CRC-32 by its definition, so that the library is held against something
   for (std::size_t i = 0; i < 12; ++i) {
@@ -240,7 +240,7 @@ TEST(LogReader, RefusesANewerSchemaAndSaysWhatToDo) {
     const LogReader reader(path);
     FAIL() << "opened";
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("schema version 2"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("schema version 3"), std::string::npos) << error.what();
   }
 }
 

@@ -1,0 +1,120 @@
+// No number and no file crashes, hangs or fills the memory: every size has a bound, and the refusal names it.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kReach = "time_s,x_m,y_m,z_m\n0,0,0,0\n";
+
+std::string experimentWith(const std::string& duration) {
+  return R"({"schema_version":1,"constraint":{"name":"line"},"object":{"kind":"point","masses_kg":[1]},"coupling":{"stiffness_n_per_m":600},
+    "task":{"start":[0],"target":[6.28],"duration_s":)" +
+         duration + R"(,"tolerance":{"position_m":0.01,"velocity_m_per_s":0.01,"time_s":0.5}}})";
+}
+
+void expectRefusal(const Ended& ended, const std::string& words) {
+  EXPECT_EQ(ended.exitCode, 2) << ended.err;
+  EXPECT_NE(ended.err.find(words), std::string::npos) << ended.err;
+  for (const char* inside : {"json.exception", "filesystem error", "bad_alloc", "std::"})
+    EXPECT_EQ(ended.err.find(inside), std::string::npos) << ended.err;
+}
+
+}  // namespace
+
+TEST(Bounds, OfTimesAndCountsOnTheCommandLine) {
+  const std::string predict = "predict dingwell --criterion min-hand-jerk ";
+  for (const char* duration : {"1e20", "1e8", "3601"}) expectRefusal(reach(predict + "--duration " + duration), "at most 3600 s");
+  expectRefusal(reach(predict + "--samples 2000000000"), "2 to 1000000");
+  expectRefusal(reach("simulate dingwell --hand hold --until 1e9"), "--until: 1000000000 s are too many rows");
+  expectRefusal(reach("simulate dingwell --hand hold --every 1e-300"), "too many rows");
+}
+
+TEST(Bounds, OfAnExperimentsTimes) {
+  const Folder folder;
+  for (const char* duration : {"1e308", "3601", "0", "-1"}) {
+    const std::string file = folder.write("e.json", experimentWith(duration));
+    for (const std::string command : {"validate " + file, "run " + file + " --device simulated --fast --data " + (folder / "data").string(),
+                                      "predict " + file + " --criterion min-hand-jerk"})
+      expectRefusal(reach(command), "task.duration_s: is");
+  }
+  EXPECT_EQ(reach("validate " + folder.write("e.json", experimentWith("3600"))).exitCode, 0);
+}
+
+TEST(Bounds, OfAReplayedReach) {
+  const Folder folder;
+  const std::string file = folder.write("far.csv", kReach + "1000000,0.1,0,0\n");
+  expectRefusal(reach("run dingwell --fast --device replay:" + file + " --data " + (folder / "data").string()), "at most 600 s");
+}
+
+TEST(Bounds, OfSeeds) {
+  const Folder folder;
+  for (const char* seed : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "+1"}) {
+    const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.string() + " --seed=" + seed);
+    EXPECT_EQ(ended.exitCode, 2) << seed;
+    EXPECT_NE(ended.err.find("18446744073709551615"), std::string::npos) << ended.err;
+  }
+  const Ended largest = reach("run dingwell --device simulated --fast --seed 18446744073709551615 --data " + folder.string());
+  EXPECT_EQ(largest.exitCode, 0) << largest.err;
+}
+
+TEST(Bounds, AFileThatNeverEndsOrNeverBeginsIsRefused) {
+  const Folder folder;
+  const std::string pipe = (folder / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& file : {pipe, std::string("/dev/zero")}) {
+    for (const std::string& command :
+         std::vector<std::string>{"validate ", "simulate dingwell --hand ", "constraint check ", "export --format csv ", "replay ",
+                                  "recover ", "run dingwell --fast --data " + (folder / "data").string() + " --device replay:"}) {
+      const Ended ended = shell("timeout 60 \"$REACH\" " + command + file);
+      EXPECT_TRUE(ended.exitCode == 2 || ended.exitCode == 3) << command << file << " " << ended.exitCode;
+      EXPECT_NE(ended.err, "") << command << file;
+    }
+  }
+}
+
+// Were the cost not in proportion to the size, two million numbers would take days, and the test its time-out.
+TEST(Bounds, ALargeFileIsReadInTimeInProportionToItsSize) {
+  const Folder folder;
+  std::string numbers = "{\"schema_version\": [", keys = "{";
+  for (int i = 0; i < 2'000'000; ++i) numbers += i == 0 ? "1.25" : ",1.25";
+  for (int i = 0; i < 500'000; ++i) keys += (i == 0 ? "\"k" : ",\n\"k") + std::to_string(i) + "\": 1";
+  expectRefusal(reach("validate " + folder.write("numbers.json", numbers + "]}")), "schema_version: is an array");
+  const Ended many = reach("validate " + folder.write("keys.json", keys + "}"));
+  expectRefusal(many, "more faults");
+  EXPECT_LT(many.err.size(), 200'000u) << "nobody reads half a million faults";
+  expectRefusal(reach("validate " + folder.write("large.json", "{\"a\": \"" + std::string(17'000'000, 'x') + "\"}")),
+                "allowed: up to 16777216");
+}
+
+TEST(Tables, ATextThatASpreadsheetWouldCarryOutIsGuarded) {
+  const Folder folder, csv;
+  ASSERT_EQ(reach("run dingwell --device simulated --seed 1 --fast --notes \"=cmd|' /C calc'!A0\" --data " + folder.string()).exitCode, 0);
+  ASSERT_EQ(reach("export " + folder.string() + " --format csv --out " + csv.string()).exitCode, 0);
+  const std::string table = contentOf(csv / "trials.csv");
+  EXPECT_NE(table.find("\"'=cmd|' /C calc'!A0\""), std::string::npos) << table;
+}
+
+TEST(Resume, IsRefusedWhileTheRunIsBeingRecordedAndNamesItsProcess) {
+  const Folder data;
+  const std::string log = (data / "sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach").string();
+  const Ended ended = shell("\"$REACH\" run chain-moderate --device simulated --seed 1 --trials 30 --data " + data.string() +
+                            " > /dev/null 2>&1 &\nrecording=$!\nfor i in $(seq 500); do [ -s " + log + " ] && break; sleep 0.02; done\n" +
+                            "echo process $recording\n\"$REACH\" run chain-moderate --device simulated --resume --fast --data " +
+                            data.string() + "\ncode=$?\nkill -INT $recording\nwait $recording\nexit $code");
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("is being recorded (" + ended.out.substr(0, ended.out.find('\n')) + ")"), std::string::npos)
+      << ended.out << ended.err;
+}
+
+TEST(Run, OfAHandThatIsNeverAtTheStartEnds) {
+  const Folder data;
+  const Ended ended =
+      reach("run chain-fast --device simulated:criterion=min-hand-force,hand-mass=0 --trials 3 --seed 1 --fast --data " + data.string());
+  EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4) << ended.err;
+  for (const auto& trial : trialLines(ended.out)) EXPECT_NE(trial.at("outcome"), "interrupted");
+}

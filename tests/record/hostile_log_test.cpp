@@ -1,0 +1,232 @@
+// What is in a log is the word of whoever made the file: every record here has its right CRC and says something that no recording of ours does.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/os.h"
+#include "sim/record/records.h"
+#include "sim/record/recover.h"
+#include "sim/record/replay.h"
+#include "sim/record/tidy_csv.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+namespace {
+
+using nlohmann::json;
+
+// A log whose configuration is `edit`ed; the other records are those of a good one.
+template <typename Edit>
+std::string logWith(const TemporaryFolder& folder, Edit&& edit) {
+  const std::string good = folder / "good_log.reach", path = folder / "edited_log.reach";
+  std::filesystem::remove(good);
+  std::filesystem::remove(path);
+  writeMadeRun(good, 2);
+  LogReader reader(good);
+  LogWriter writer = LogWriter::create(path);
+  for (RecordView record; reader.next(record);) {
+    if (record.type != RecordType::Configuration) {
+      writer.append(record.type, record.payload);
+      continue;
+    }
+    json j = json::parse(record.payload.begin(), record.payload.end());
+    edit(j);
+    const std::string text = j.dump();
+    writer.append(record.type, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  }
+  return path;
+}
+
+void expectRefusal(const std::string& path, const std::string& key) {
+  try {
+    RunLog::open(path);
+    FAIL() << key << ": opened";
+  } catch (const UsageError& refusal) {
+    EXPECT_TRUE(std::string(refusal.what()).starts_with(path)) << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find(key), std::string::npos) << refusal.what();
+    EXPECT_EQ(std::string(refusal.what()).find("json.exception"), std::string::npos) << refusal.what();
+  }
+}
+
+TEST(HostileLog, AnEditedButHonestConfigurationIsRead) {
+  const TemporaryFolder folder("hostile");
+  EXPECT_EQ(RunLog::open(logWith(folder, [](json& j) { j["run"] = 7; })).configuration().run, 7);
+}
+
+TEST(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
+  const TemporaryFolder folder("hostile");
+  for (const char* key : {"subject", "session", "task"})
+    for (const char* label : {"x/../../escaped", "", "..", "a b", "a\nb", "\x1b[31m", "/etc"})
+      expectRefusal(logWith(folder, [&](json& j) { j[key] = label; }), key);
+  expectRefusal(logWith(folder, [](json& j) { j["subject"] = std::string(300, 'a'); }), "subject");
+}
+
+TEST(HostileLog, EveryNumberIsWithinItsBounds) {
+  const TemporaryFolder folder("hostile");
+  const std::vector<std::pair<const char*, json>> cases{{"run", 0},
+                                                        {"run", -3},
+                                                        {"run", 10000},
+                                                        {"run", 1e300},
+                                                        {"run", 2.5},
+                                                        {"run", "1"},
+                                                        {"run", nullptr},
+                                                        {"first_run", -1},
+                                                        {"first_trial", 0},
+                                                        {"first_trial", 5e9},
+                                                        {"block", -1},
+                                                        {"day", -1},
+                                                        {"pause_s", -1},
+                                                        {"seed", -1},
+                                                        {"seed", 1e30},
+                                                        {"sampling_hz", 0},
+                                                        {"sampling_hz", -1},
+                                                        {"device_max_force_n", -1},
+                                                        {"sample_every_ticks", 0},
+                                                        {"sample_every_ticks", 4294967297},
+                                                        {"practice", 1},
+                                                        {"notes", 3},
+                                                        {"trials", 7},
+                                                        {"participant", "F"}};
+  for (const auto& [key, value] : cases) expectRefusal(logWith(folder, [&, k = key, v = value](json& j) { j[k] = v; }), key);
+  expectRefusal(logWith(folder, [](json& j) { j["trials"] = {{{"index", -1}, {"foreperiod_ms", 0}, {"catch", false}}}; }), "index");
+  for (const char* key : {"table"}) expectRefusal(logWith(folder, [&](json& j) { j[key] = 3; }), "stands in no object");
+  expectRefusal(logWith(folder, [](json& j) { j.erase("clock"); }), "clock: is missing");
+}
+
+TEST(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
+  const TemporaryFolder folder("hostile");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 2'000'000'000; }), "mass_count");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = -1; }), "mass_count");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 3; }), "channels");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 50; }), "parameter_count");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 2; }), "channels");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["body"] = true; }), "channels");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["channels"] = json::array(); }), "channels");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["channels"][0]["name"] = 5; }), "name");
+}
+
+TEST(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {
+  const TemporaryFolder folder("hostile");
+  for (const std::string text : {"", "[1]", "{\"run\": ", "\"run\"", "\xff\xfe"}) {
+    const std::string path = folder / "text_log.reach";
+    std::filesystem::remove(path);
+    LogWriter::create(path).append(RecordType::Configuration, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    expectRefusal(path, "configuration");
+  }
+}
+
+// A record of this type with these bytes after the configuration of a good log.
+std::string logWithRecord(const TemporaryFolder& folder, RecordType type, const ByteWriter& payload) {
+  const std::string path = folder / "record_log.reach";
+  std::filesystem::remove(path);
+  const std::string text = toJson(madeConfiguration());
+  LogWriter writer = LogWriter::create(path);
+  writer.append(RecordType::Configuration, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  writer.append(type, payload.bytes());
+  return path;
+}
+
+TEST(HostileLog, CountsOfSamplesThatOverflowTheirProductAreRefused) {
+  const TemporaryFolder folder("hostile");
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> cases{
+      {0x80000000u, 0x1fffffffu}, {0xffffffffu, 0xffffffffu}, {1u << 31, (1u << 30) - 1}, {1, 0}, {0xffffffffu, 0}, {3, 46}};
+  for (const auto& [count, columns] : cases) {
+    ByteWriter payload;
+    payload.put(count);
+    payload.put(columns);
+    const RunLog log = RunLog::open(logWithRecord(folder, RecordType::Samples, payload));
+    EXPECT_THROW(log.allRows(), UsageError) << count << " x " << columns;
+  }
+}
+
+TEST(HostileLog, RecordsOfUnknownKindsOrLengthsAreRefused) {
+  const TemporaryFolder folder("hostile");
+  ByteWriter trial;
+  encode(RecordedTrial{}, {}, trial);
+  for (const std::size_t outcomeAt : {std::size_t{13}, std::size_t{14}}) {  // outcome, reason: behind the trial's setup of 13 bytes
+    ByteWriter bad;
+    bad.putBytes(trial.bytes().data(), trial.size());
+    bad.overwrite(outcomeAt, std::uint8_t{200});
+    EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bad)), UsageError);
+  }
+  ByteWriter shorter;
+  shorter.putBytes(trial.bytes().data(), trial.size() - 3);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, shorter)), UsageError);
+  RecordedTrial backwards;
+  backwards.startTick = 100;
+  backwards.lastTick = 5;
+  ByteWriter bytes;
+  encode(backwards, {}, bytes);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bytes)), UsageError);
+  ByteWriter event;
+  event.put(std::uint64_t{1});
+  event.put(std::uint8_t{99});
+  event.put(std::int32_t{1});
+  event.put(0.0);
+  event.putText("x");
+  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Event, event)), UsageError);
+}
+
+TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
+  const TemporaryFolder folder("hostile");
+  const std::string path = folder / "cut_log.reach";
+  writeMadeRun(path, 40);
+  const RunLog log = RunLog::open(path);
+  LogReader reader(path);
+  RecordView record;
+  ASSERT_TRUE(reader.next(record));
+  ASSERT_EQ(::truncate(path.c_str(), 20'000), 0);
+  while (reader.next(record)) {}
+  EXPECT_LE(reader.goodEnd(), 1u << 20) << "what had been read before may still be given";
+  EXPECT_THROW(log.allRows(), UsageError);
+}
+
+TEST(HostileLog, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
+  const TemporaryFolder folder("hostile");
+  const std::string pipe = folder / "pipe_log.reach";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(RunLog::open(pipe), UsageError);
+  EXPECT_THROW(RunLog::open("/dev/zero"), UsageError);
+  EXPECT_THROW(readWholeFile(pipe), ResourceError);
+  EXPECT_THROW(readWholeFile("/dev/zero"), ResourceError);
+}
+
+TEST(AtomicFile, IsNotWrittenThroughALinkThatSomebodyPlanted) {
+  const TemporaryFolder folder("planted");
+  const std::string outside = folder / "outside", target = folder / "table.tsv";
+  writeFileAtomically(outside, "precious");
+  // The name that was guessable, and the target itself.
+  std::filesystem::create_symlink(outside, target + "." + std::to_string(::getpid()) + ".tmp");
+  std::filesystem::create_symlink(outside, target);
+  writeFileAtomically(target, "new");
+  EXPECT_EQ(readWholeFile(outside), "precious");
+  EXPECT_EQ(readWholeFile(target), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(target));
+}
+
+TEST(AtomicFile, LeftoversOfAKilledProgramAreRemovedAndNothingElse) {
+  const TemporaryFolder folder("leftover");
+  const std::string old = folder / "sub/.0123456789abcdef.reachlab-tmp", young = folder / "sub/.1123456789abcdef.reachlab-tmp";
+  const std::string mine = folder / "sub/notes.reachlab-tmp";
+  for (const std::string& file : {old, young, mine}) writeFileAtomically(file, "part");
+  const auto anHourAgo = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+  for (const std::string& file : {old, mine}) std::filesystem::last_write_time(file, anHourAgo);
+  removeLeftovers(folder / "");
+  EXPECT_FALSE(std::filesystem::exists(old));
+  EXPECT_TRUE(std::filesystem::exists(young)) << "another program may be writing it this moment";
+  EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+TEST(Recorder, StopsBeforeTheDiskIsFull) {
+  const TemporaryFolder folder("reserve");
+  const os::DiskSpace disk = os::diskSpace(folder / "");
+  if (disk.free >= disk.size / 20) GTEST_SKIP() << "the disk has more than 5 % left; tests/long/disk.sh has a small one";
+  EXPECT_THROW(Recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false}), ResourceError);
+}
+
+}  // namespace
+}  // namespace reachlab::record
