@@ -38,7 +38,20 @@ std::string labelIn(const std::string& name, const std::string& key) {
   return name.substr(begin, name.find_first_of("_.", begin) - begin);
 }
 
-std::uint64_t tickOf(double seconds) { return std::isfinite(seconds) ? static_cast<std::uint64_t>(std::llround(seconds * 1000)) : 0; }
+constexpr double kLongestRun = 1e6;  // [s]
+
+std::uint64_t tickOf(double seconds) {
+  if (!std::isfinite(seconds)) return 0;
+  if (!(seconds >= 0 && seconds <= kLongestRun)) throw UsageError(fmt::format("time {} s: allowed: 0 to {:.0f} s", seconds, kLongestRun));
+  return static_cast<std::uint64_t>(std::llround(seconds * 1000));
+}
+
+// A whole number of a cell; 0 where there is none.
+int countOf(const std::string& text) {
+  const double number = numberOf(text);
+  constexpr double kMost = 1e9;
+  return std::isfinite(number) && number >= 0 && number <= kMost ? static_cast<int>(number) : 0;
+}
 
 record::ChannelTable readChannels(const fs::path& path) {
   const TsvTable text = parseTsv(record::readWholeFile(path.string()));
@@ -94,8 +107,7 @@ trial::Reason reasonFrom(const std::string& text) {
 std::uint64_t armedTickOf(const record::SampleRows& rows, const record::ChannelTable& table, int trial) {
   const std::size_t trialColumn = table.indexOf("trial"), phase = table.indexOf("phase");
   for (std::size_t row = 0; row < rows.size(); ++row)
-    if (static_cast<int>(rows.at(row, trialColumn)) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3)
-      return rows.ticks[row];
+    if (rows.at(row, trialColumn) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3) return rows.ticks[row];
   return 0;
 }
 
@@ -109,17 +121,23 @@ RunSource readRun(const fs::path& motion) {
   c.subject = labelIn(name, "sub");
   c.session = labelIn(name, "ses");
   c.task = labelIn(name, "task");
-  c.run = static_cast<int>(numberOf(labelIn(name, "run")));
+  c.run = countOf(labelIn(name, "run"));
   c.table = readChannels(sibling("channels.tsv"));
   c.device = "n/a";
   const auto about = nlohmann::json::parse(record::readWholeFile(sibling("motion.json").string()), nullptr, false);
-  if (about.is_object()) c.experimentName = record::experimentNameIn(about.value("TaskDescription", ""));
+  if (about.is_object() && about.contains("TaskDescription") && about["TaskDescription"].is_string())
+    c.experimentName = record::experimentNameIn(about.value("TaskDescription", ""));
 
   auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table.size()));
-  double frequency = about.is_object() ? about.value("SamplingFrequency", 0.0) : 0.0;
+  for (std::size_t row = 1; row < rows->size(); ++row)
+    if (rows->ticks[row] <= rows->ticks[row - 1])
+      throw UsageError(fmt::format("{}: row {}: time does not increase", motion.string(), row + 1));
+  double frequency = about.is_object() && about.contains("SamplingFrequency") && about["SamplingFrequency"].is_number()
+                         ? about["SamplingFrequency"].get<double>()
+                         : 0.0;
   if (!(frequency > 0) && rows->size() > 1) frequency = 1000.0 / static_cast<double>(rows->ticks[1] - rows->ticks[0]);
   if (!(frequency > 0)) frequency = 100;
-  c.sampleEveryTicks = static_cast<std::uint32_t>(std::max<long long>(1, std::llround(1000.0 / frequency)));
+  c.sampleEveryTicks = static_cast<std::uint32_t>(std::clamp<double>(std::round(1000.0 / frequency), 1, 1e6));
   c.samplingHz = 1000.0 / c.sampleEveryTicks;
 
   const fs::path eventsFile = sibling("events.tsv");
@@ -133,11 +151,11 @@ RunSource readRun(const fs::path& motion) {
     const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
     const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };
     record::RecordedTrial trial;
-    trial.trial = static_cast<int>(number("trial"));
+    trial.trial = countOf(row.at(column("trial")));
     trial.planned.catchTrial = row.at(column("trial_type")) == "catch";
     trial.result.outcome = outcomeFrom(row.at(column("outcome")));
     trial.result.reason = reasonFrom(row.at(column("reason")));
-    trial.result.mass = static_cast<int>(number("mass"));
+    trial.result.mass = countOf(row.at(column("mass")));
     trial.result.by = number("by");
     const double movement = number("movement_time");
     trial.result.movementTime = std::isfinite(movement) ? movement : 0;
@@ -149,8 +167,8 @@ RunSource readRun(const fs::path& motion) {
     trial.lastTick = trial.result.endTick;
     trial.peakForce = number("peak_force");
     trial.meanForce = has("mean_force") ? number("mean_force") : kNotMeasured;
-    if (has("day")) c.day = std::isfinite(number("day")) ? static_cast<int>(number("day")) : 0;
-    c.block = static_cast<int>(number("block"));
+    if (has("day")) c.day = countOf(row.at(column("day")));
+    c.block = countOf(row.at(column("block")));
     c.practice = row.at(column("phase")) == "practice";
     c.condition = row.at(column("condition"));
     run.trials.push_back(trial);

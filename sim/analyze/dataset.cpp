@@ -11,6 +11,7 @@
 
 #include "constraints/constraint.h"
 #include "base/error.h"
+#include "sim/analyze/equal_runs.h"
 #include "sim/analyze/experiment_difference.h"
 #include "sim/analyze/tables.h"
 #include "sim/record/append_file.h"
@@ -214,6 +215,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
     // No logs: the exported files may still be there.
   }
   std::map<std::pair<std::string, std::string>, experiment::Experiment> parsed;
+  EqualRuns equalRuns;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
     try {
@@ -223,6 +225,15 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
       if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
       experiment::Experiment experiment = known->second;
       experiment.text = c.experimentText;
+      if (const std::string twin = equalRuns.twinOf(logs[i], c, log.trials()); !twin.empty()) {
+        dataset.notes.push_back(fmt::format(
+            "{}: left out: it is {} recorded again (same experiment, seed and movements); two equal runs count once", logs[i], twin));
+        continue;
+      }
+      if (const int repeats = countRepeats(log.trials()); repeats > 0)
+        dataset.notes.push_back(
+            fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
+                        logs[i], repeats, log.trials().size()));
       addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset, sink);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
