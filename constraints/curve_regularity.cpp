@@ -62,7 +62,8 @@ class Examiner {
     hi_ = hi;
     stillPlaces_ = stillPlaces;
     if (provedWithin(lo, hi)) {
-      const auto [from, to] = window(lo, hi, 1);
+      const bool bounded = std::isfinite(lo) && std::isfinite(hi);
+      const auto [from, to] = window(lo, hi, bounded ? 1 : 1.0 / 16);  // still places are met in the motion anyway
       result_.lo = lo;
       result_.hi = hi;
       result_.whole = true;

@@ -15,7 +15,6 @@ constexpr double kMultistepReach = 0.3;  // |eigenvalue| times step up to which 
 constexpr double kExplicitReach = 100;   // up to which sub-steps of an explicit pair keep well below the cap of a tick
 constexpr double kRefusedReach = 450;    // beyond which they exceed it
 constexpr int kMostStiff = 24;           // masses of the L-stable method's dense systems
-constexpr double kAccurate = 1e-6;       // [m] a predicted error above it is worth a warning
 
 void requireRk4(const std::vector<std::complex<double>>& eigenvalues, MethodChoice& choice, const SceneFacts& facts) {
   choice.predictedError = predictRk4Error(eigenvalues, facts.step, facts.length, facts.duration);
@@ -32,10 +31,6 @@ void requireRk4(const std::vector<std::complex<double>>& eigenvalues, MethodChoi
                     std::abs(z), real ? kRk4RealLimit : kRk4ImaginaryLimit,
                     real ? "a real mode: light mass, strong damper" : "an undamped mode", worst, findRk4StepLimit(eigenvalues)));
   }
-  if (choice.predictedError > kAccurate)
-    choice.warnings.push_back(fmt::format(
-        "rk4 is stable but not accurate here: fastest mode times step {:.3g}, predicted error {:.2g} m; use method auto, or a smaller step",
-        choice.fastestMode * facts.step, choice.predictedError));
   if (facts.hardCurve)
     choice.warnings.push_back("rk4 at a fixed step cannot follow a curve through places where |r_phi| is small; use method auto");
 }

@@ -9,6 +9,7 @@
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/plant.h"
+#include "sim/dynamics/rk4_error.h"
 
 namespace reachlab::dynamics {
 
@@ -116,6 +117,18 @@ void requireStart(const constraints::Constraint& c, const std::vector<double>& s
   }
 }
 
+/// The modes' estimate knows nothing of a curve's or a surface's bends: where there is a task its reach is measured.
+void estimateRk4(Scene& scene, const experiment::Experiment& experiment, double step) {
+  constexpr double kAccurate = 1e-6;  // [m] a predicted error above it is worth a warning
+  MethodChoice& choice = scene.choice;
+  if (experiment.task)
+    if (const auto measured = measureRk4Error(*scene.plant, *experiment.task, scene.constraint, step)) choice.predictedError = *measured;
+  if (choice.predictedError > kAccurate)
+    choice.warnings.push_back(fmt::format(
+        "rk4 is stable but not accurate here: fastest mode times step {:.3g}, predicted error {:.2g} m; use method auto, or a smaller step",
+        choice.fastestMode * step, choice.predictedError));
+}
+
 }  // namespace
 
 Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options) {
@@ -194,6 +207,7 @@ Scene compileScene(const experiment::Experiment& experiment, const SceneOptions&
       scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
     }
   }
+  if (choice.method == "rk4") estimateRk4(scene, experiment, options.step);
   if (experiment.task) scene.plant->placeAtRest(start);
   return scene;
 }

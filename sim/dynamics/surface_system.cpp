@@ -5,7 +5,7 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kMargin = 3e-7;              // of the argument's size
+constexpr double kMargin = 1e-5;              // of the argument's size
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
 constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
 constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart

@@ -110,3 +110,64 @@ TEST(Simulate, WritesTheSameBytesUnderAGermanLocale) {
   EXPECT_EQ(plain.out, german.out);
   EXPECT_FALSE(plain.out.empty());
 }
+
+// A cubic through not-a-knot samples is the cubic itself, so that its velocity is known everywhere, at the first and last instant too.
+TEST(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
+  const Folder folder;
+  std::string csv = "time_s,x_m,y_m,z_m\n";
+  const auto x = [](double t) { return 0.1 + 0.2 * t - 0.3 * t * t + 0.4 * t * t * t; };
+  for (int i = 0; i <= 10; ++i) {
+    std::ostringstream row;
+    row.precision(17);
+    row << 0.1 * i << ',' << x(0.1 * i) << ",0,0\n";
+    csv += row.str();
+  }
+  const std::string hand = folder.write("hand.csv", csv);
+  const std::string file = folder.write("free.json", onePoint(R"({"name": "free"})", "", ""));
+  const auto forces = [&](const std::string& more) {
+    return parseCsv(reach("simulate " + file + " --hand " + hand + " --until 1.2 --every 0.1 --at 0.1,0,0" + more).out);
+  };
+  const Table table = forces("");
+  // At t = 0 the mass is on the hand and at rest: the force is b v_HIP alone, 5 N s/m times 0.2 m/s.
+  EXPECT_NEAR(table.at(0, "force_x_n"), 5 * 0.2, 1e-12);
+  const double last = 600 * (x(1) - table.at(10, "mass1_x_m")) + 5 * (0.2 - 0.6 + 1.2 - table.at(10, "mass1_vx_m_per_s"));
+  EXPECT_NEAR(table.at(10, "force_x_n"), last, 1e-11);
+  EXPECT_EQ(table.at(12, "hand_x_m"), table.at(10, "hand_x_m"));
+  // No tick is spoilt by an end: ten times finer steps change nothing.
+  const Table fine = forces(" --step 0.0001");
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    EXPECT_NEAR(table.at(row, "mass1_x_m"), fine.at(row, "mass1_x_m"), 1e-12) << row;
+}
+
+TEST(Simulate, AFreeBodyTurnsAsItWasLetGo) {
+  const Ended ended = reach("simulate free-body --hand none --angular-rate 0,0,0.5 --until 1 --every 1");
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Table table = parseCsv(ended.out);
+  EXPECT_EQ(table.at(0, "body_qw"), 1);
+  EXPECT_EQ(table.at(0, "body_wz_rad_per_s"), 0.5);
+  double squares = 0;
+  for (const char* part : {"w", "x", "y", "z"}) squares += std::pow(table.at(1, std::string("body_q") + part), 2);
+  EXPECT_NEAR(squares, 1, 1e-14);
+  EXPECT_LT(table.at(1, "body_qw"), std::cos(0.2));
+  EXPECT_EQ(reach("simulate chain-slow --hand none --angular-rate 0,0,1").exitCode, 2);
+}
+
+TEST(Simulate, ATaskWhoseWayRoundingDecidesIsToldSo) {
+  const Folder folder;
+  const std::string ellipse = R"j({"curve": ["0", "0.1*cos(phi)", "0.06*sin(phi)"]})j";
+  const auto task = [](const std::string& from, const std::string& to) {
+    return R"(, "task": {"start": [)" + from + R"(], "target": [)" + to +
+           R"(], "duration_s": 1.35, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
+  };
+  const Ended tie = reach("validate " + folder.write("tie.json", onePoint(ellipse, "", task("0", "3.141592653589793"))));
+  EXPECT_EQ(tie.exitCode, 0);
+  EXPECT_NE(tie.err.find("rounding decides which way"), std::string::npos) << tie.err;
+  EXPECT_EQ(reach("validate " + folder.write("none.json", onePoint(ellipse, "", task("0.3", "3.4")))).err, "");
+  const Ended kink =
+      reach("validate " + folder.write("kink.json", onePoint(R"({"curve": ["phi/10", "abs(phi)/20", "0"]})", "", task("-1", "1"))));
+  EXPECT_NE(kink.err.find("between start and target: kink at phi = 0: abs(phi) (passed"), std::string::npos) << kink.err;
+  const Ended jump =
+      reach("validate " + folder.write("jump.json", onePoint(R"({"curve": ["phi/10", "sign(phi)/20", "0"]})", "", task("-1", "1"))));
+  EXPECT_EQ(jump.exitCode, 2);
+  EXPECT_NE(jump.err.find("jump at phi = 0: sign(phi)"), std::string::npos) << jump.err;
+}

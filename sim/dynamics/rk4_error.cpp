@@ -1,0 +1,54 @@
+#include "sim/dynamics/rk4_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/dynamics/hand_function.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+constexpr double kMostSteps = 1e5;
+
+Vec3 placeAt(const constraints::Constraint& c, const std::vector<double>& q) {
+  if (c.kind == constraints::ConstraintKind::Free) return {q[0], q[1], q[2]};
+  return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
+                                                      : constraints::evaluate(c.surface, q[0], q[1]).r;
+}
+
+/// Places of all masses at every `per`-th step, up to the first that fails.
+std::vector<Vec3> drive(Plant& plant, const experiment::Task& task, const HandFunction& hand, double dt, int steps, int per) {
+  plant.placeAtRest(task.start);
+  std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));
+  std::vector<Vec3> places;
+  for (int i = 0; i < steps; ++i) {
+    if (plant.step(makeSegment(hand, i * dt, dt), dt) != StepStatus::Ok) break;
+    if ((i + 1) % per != 0) continue;
+    plant.observe(hand((i + 1) * dt), masses);
+    for (const MassState& mass : masses) places.push_back(mass.r);
+  }
+  return places;
+}
+
+}  // namespace
+
+std::optional<double> measureRk4Error(Plant& plant, const experiment::Task& task, const constraints::Constraint& constraint, double step) {
+  const std::size_t wanted =
+      constraint.kind == constraints::ConstraintKind::Free ? 3 : static_cast<std::size_t>(constraint.parameterCount());
+  if (task.start.size() != wanted || task.target.size() != wanted || !(task.duration > 0) || task.duration / step > kMostSteps) return {};
+  const Vec3 start = placeAt(constraint, task.start), chord = placeAt(constraint, task.target) - start;
+  if (!isFinite(chord) || !(norm(chord) > 0)) return {};
+  const HandFunction hand = [&](double t) {
+    const MinJerk law = minJerk(t / task.duration);
+    return HandSample{start + law.s * chord, (law.rate / task.duration) * chord, true};
+  };
+  const int steps = std::max(1, static_cast<int>(std::ceil(task.duration / step)));
+  const std::vector<Vec3> whole = drive(plant, task, hand, step, steps, 1), halves = drive(plant, task, hand, step / 2, 2 * steps, 2);
+  plant.placeAtRest(task.start);
+  if (whole.empty() || halves.empty()) return {};
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(whole.size(), halves.size()); ++i) most = std::max(most, norm(whole[i] - halves[i]));
+  return most * 16 / 15;
+}
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "constraints/definition.h"
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+constexpr double kTooLow = 3;        // times: how far the estimate may fall short of the truth
+constexpr double kStep = 0.01;       // [s] long enough for errors far above rounding
+constexpr double kRounding = 1e-10;  // [m]
+
+/// Largest distance from the adaptive method's places over the reach along the chord.
+double trueError(const experiment::Experiment& e) {
+  const experiment::Task& task = *e.task;
+  Scene rk4 = compileScene(e, {"rk4", kStep, 0}), exact = compileScene(e, {"adaptive", kStep, 0});
+  const constraints::Constraint& c = rk4.constraint;
+  const auto at = [&](const std::vector<double>& q) {
+    return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
+                                                        : constraints::evaluate(c.surface, q[0], q[1]).r;
+  };
+  const Vec3 start = at(task.start), chord = at(task.target) - start;
+  const HandFunction hand = [&](double t) {
+    const MinJerk law = minJerk(t / task.duration);
+    return HandSample{start + law.s * chord, (law.rate / task.duration) * chord, true};
+  };
+  double most = 0;
+  std::vector<MassState> a(1), b(1);
+  for (int i = 0; i < static_cast<int>(task.duration / kStep); ++i) {
+    const HandSegment segment = makeSegment(hand, i * kStep, kStep);
+    if (rk4.plant->step(segment, kStep) != StepStatus::Ok || exact.plant->step(segment, kStep) != StepStatus::Ok) break;
+    rk4.plant->observe({}, a);
+    exact.plant->observe({}, b);
+    most = std::max(most, norm(a[0].r - b[0].r));
+  }
+  return most;
+}
+
+TEST(Rk4Error, IsForetoldToAFactorOfThreeOnTheCatalogue) {
+  int judged = 0;
+  for (const constraints::Definition& d : constraints::catalogue()) {
+    experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {}, {600, 5});
+    e.constraint.name = d.name;
+    experiment::Task task;
+    task.start = d.start;
+    task.target = d.target;
+    e.task = task;
+    double foretold = 0;
+    try {
+      foretold = compileScene(e, {"rk4", kStep, 0}).choice.predictedError;
+    } catch (const std::exception&) {
+      continue;  // refused in words: a start on a cusp, say
+    }
+    const double error = trueError(e);
+    if (error < kRounding) continue;
+    ++judged;
+    EXPECT_GT(foretold * kTooLow, error) << d.name;
+  }
+  EXPECT_GT(judged, 20);
+}
+
+}  // namespace
+}  // namespace reachlab::dynamics
