@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/fused.h"
+
 namespace reachlab::constraints {
 
-/// Sine and cosine together, inlined; every fused operation is written out, so that generated code and typed formulas of one build give
-/// the same bits. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; libm beyond (and for what is not finite).
+/// Sine and cosine together, inlined; every fused operation is written out, so that generated code and typed formulas give the same
+/// bits, in every build. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; libm beyond (and for what is not finite).
 /// Reduction to |y| <= pi/4 after Cody and Waite (Software Manual for the Elementary Functions, 1980, ch. 8): pi/2 in three parts, the
 /// first two short enough that their products with the quadrant number are exact. Polynomials: minimax fits on [0, (pi/4)^2],
 /// `constraints/generate/sincos_coefficients.py` prints them.
@@ -23,15 +25,6 @@ inline constexpr double kSin[6] = {-0x1.5555555555549p-3, 0x1.111111110f8b8p-7, 
                                    0x1.71de357f00e11p-19, -0x1.ae5e6c2316079p-26, 0x1.5d94c4e881cb6p-33};
 inline constexpr double kCos[6] = {0x1.555555555554cp-5,   -0x1.6c16c16c1524bp-10, 0x1.a01a019cc6d12p-16,
                                    -0x1.27e4f819dbc9cp-22, 0x1.1ee9f72c95fbap-29,  -0x1.8fb4a8dd0ba2dp-37};
-
-/// a b + c, rounded once where the build's processor can do that as fast as a product.
-[[gnu::always_inline]] inline double mulAdd(double a, double b, double c) noexcept {
-#ifdef __FP_FAST_FMA
-  return __builtin_fma(a, b, c);
-#else
-  return a * b + c;
-#endif
-}
 }  // namespace sincosDetail
 
 /// Without a branch, for loops over lanes: 1 where x is beyond the limit and the result of no use, else 0. (g++ 12 keeps no bool in lanes.)

@@ -39,13 +39,13 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
     for (int i = 0; i < n(); ++i) curve.function(curve.program, curve.shape.data(), y[i], points.value[i]);
     for (int i = 0; i < n(); ++i) {
       const constraints::CurvePoint& p = points.value[i];
-      const double square = dot(p.rPhi, p.rPhi);
+      const double square = fusedDot(p.rPhi, p.rPhi);
       if constexpr (Tangential) {
         measure[i] = 1 / std::fmax(std::sqrt(square), 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it
         tangent.set(i, measure[i] * p.rPhi);
       } else {
         measure[i] = 1 / square;
-        bend[i] = dot(p.rPhi, p.rPhiPhi);
+        bend[i] = fusedDot(p.rPhi, p.rPhiPhi);
         tangent.set(i, p.rPhi);
       }
       r.set(i, p.r);
@@ -55,14 +55,14 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
     force[0] += springs.extraForce;
     for (int i = 0; i < n(); ++i) {
       const double w = y[n() + i];
-      const double drive = springs.inverseMass[i] * dot(tangent[i], force[i]) + dot(tangent[i], springs.gravity);
+      const double drive = mulAdd(springs.inverseMass[i], fusedDot(tangent[i], force[i]), fusedDot(tangent[i], springs.gravity));
       const double drag = springs.inverseMass[i] * springs.viscosity * w;
       if constexpr (Tangential) {
         dy[i] = w * measure[i];
         dy[n() + i] = drive - drag;
       } else {
         dy[i] = w;
-        dy[n() + i] = measure[i] * (drive - bend[i] * w * w) - drag;
+        dy[n() + i] = mulAdd(measure[i], mulAdd(-bend[i], w * w, drive), -drag);
       }
     }
   }

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "base/lanes.h"
 #include "sim/dynamics/axis_hand.h"
-#include "sim/dynamics/lanes.h"
 #include "sim/dynamics/propagator.h"
 
 namespace reachlab::dynamics {
@@ -13,7 +13,8 @@ namespace reachlab::dynamics {
 template <int N>
 class DenseCore {
  public:
-  static constexpr int kGroups = lanesFor(2 * N);
+  using Lanes = reachlab::Lanes<4>;
+  static constexpr int kGroups = lanesFor<4>(2 * N);
   static constexpr bool kFixed = N > 0;
   using Column = std::conditional_t<kFixed, std::array<Lanes, kFixed ? kGroups : 1>, std::vector<Lanes>>;
   struct State {
@@ -57,38 +58,38 @@ class DenseCore {
     for (int k = 1; k <= Degree; ++k) f[k] = stiffness_ * hand.r(k);
     if (damping_ != 0)
       for (int k = 0; k <= Degree; ++k) f[k] += damping_ * hand.v(k);
-    const int groups = kFixed ? kGroups : lanesFor(2 * n_);
+    const int groups = kFixed ? kGroups : lanesFor<4>(2 * n_);
     if constexpr (kFixed) {
       std::array<Lanes, kFixed ? kGroups : 1> even = state.z, odd, push;
       for (int g = 0; g < kGroups; ++g) {
-        push[g] = force_[0][g] * f[0] + gravity_[g] * hand.gravity;
-        odd[g] = broadcast(0);
+        push[g] = mulAdd(f[0], force_[0][g], gravity_[g] * hand.gravity);
+        odd[g] = Lanes{};
       }
       for (int k = 1; k <= Degree; ++k)
-        for (int g = 0; g < kGroups; ++g) push[g] += force_[k][g] * f[k];
+        for (int g = 0; g < kGroups; ++g) push[g] = mulAdd(f[k], force_[k][g], push[g]);
 #pragma GCC unroll 16
       for (int j = 0; j < 2 * N; j += 2)
         for (int g = 0; g < kGroups; ++g) {
-          even[g] += fixed_[j][g] * (j == 0 ? at(state.z, 0) - hand.origin : at(state.z, j));
-          odd[g] += fixed_[j + 1][g] * at(state.z, j + 1);
+          even[g] = mulAdd(j == 0 ? at(state.z, 0) - hand.origin : at(state.z, j), fixed_[j][g], even[g]);
+          odd[g] = mulAdd(at(state.z, j + 1), fixed_[j + 1][g], odd[g]);
         }
-      Lanes check = broadcast(0);
+      Lanes check{};
       for (int g = 0; g < kGroups; ++g) {
         next.z[g] = even[g] + (odd[g] + push[g]);
         check += next.z[g] * 0.0;
       }
-      return allFinite(check);
+      return allZero(check);
     } else {
-      for (int g = 0; g < groups; ++g) next.z[g] = state.z[g] + force_[0][g] * f[0] + gravity_[g] * hand.gravity;
+      for (int g = 0; g < groups; ++g) next.z[g] = mulAdd(f[0], force_[0][g], mulAdd(hand.gravity, gravity_[g], state.z[g]));
       for (int k = 1; k <= Degree; ++k)
-        for (int g = 0; g < groups; ++g) next.z[g] += force_[k][g] * f[k];
+        for (int g = 0; g < groups; ++g) next.z[g] = mulAdd(f[k], force_[k][g], next.z[g]);
       for (int j = 0; j < 2 * n_; ++j) {
         const double zj = at(state.z, j) - (j == 0 ? hand.origin : 0);
-        for (int g = 0; g < groups; ++g) next.z[g] += columns_[j][g] * zj;
+        for (int g = 0; g < groups; ++g) next.z[g] = mulAdd(zj, columns_[j][g], next.z[g]);
       }
-      Lanes check = broadcast(0);
+      Lanes check{};
       for (int g = 0; g < groups; ++g) check += next.z[g] * 0.0;
-      return allFinite(check);
+      return allZero(check);
     }
   }
 
@@ -96,7 +97,7 @@ class DenseCore {
   static double at(const Column& c, int i) noexcept { return reinterpret_cast<const double*>(c.data())[i]; }
   Column column(std::span<const double> values) const {
     Column c{};
-    if constexpr (!kFixed) c.assign(lanesFor(2 * n_), broadcast(0));
+    if constexpr (!kFixed) c.assign(lanesFor<4>(2 * n_), Lanes{});
     for (std::size_t i = 0; i < values.size(); ++i) at(c, static_cast<int>(i)) = values[i];
     return c;
   }

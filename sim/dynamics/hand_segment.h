@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "base/vec3.h"
+#include "base/fused.h"
 
 namespace reachlab::dynamics {
 
@@ -19,7 +19,7 @@ struct HandSegment {
 /// Value at s of a segment's polynomial [m] or [m/s].
 inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int degree, double s) noexcept {
   Vec3 value = c[degree];
-  for (int k = degree - 1; k >= 0; --k) value = s * value + c[k];
+  for (int k = degree - 1; k >= 0; --k) value = mulAdd(s, value, c[k]);
   return value;
 }
 /// The part of a segment between s0 and s1, as a segment of its own.

@@ -1,22 +1,21 @@
 #pragma once
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
+#include "base/lanes.h"
 #include "sim/dynamics/system.h"
 
 namespace reachlab::dynamics {
 
-/// Eight numbers that the compiler keeps in a vector register (split where the processor has narrower ones).
-using Octet = double __attribute__((vector_size(8 * constraints::kOctet)));
-using OctetIndex = std::int64_t __attribute__((vector_size(8 * constraints::kOctet)));
+using Octet = Lanes<constraints::kOctet>;
+using OctetIndex = LaneMarks<constraints::kOctet>;
 
-constexpr int octetsFor(int masses) noexcept { return (masses + constraints::kOctet - 1) / constraints::kOctet; }
+constexpr int octetsFor(int masses) noexcept { return lanesFor<constraints::kOctet>(masses); }
 template <int Octets>
 inline constexpr int kMostOctets = Octets > 0 ? Octets : octetsFor(experiment::kMaxMasses);
 
-inline Octet atLeast(const Octet& x, double least) noexcept { return x > least ? x : Octet{} + least; }
+inline Octet atLeast(const Octet& x, double least) noexcept { return x > least ? x : broadcast<Octet>(least); }
 inline Octet squareRoot(const Octet& x) noexcept {
   Octet root;
   for (int lane = 0; lane < constraints::kOctet; ++lane) root[lane] = std::sqrt(x[lane]);
@@ -74,14 +73,14 @@ struct OctetSprings {
     const Octet x = motions[o].r[k], v = motions[o].v[k];
     Octet force = s.first * component(extraForce, k);
     if (Parallel || o == 0)
-      force += s.handStiffness * (component(hand.position, k) - x) + s.handDamping * (component(hand.velocity, k) - v);
+      force = mulAdd(s.handStiffness, component(hand.position, k) - x, mulAdd(s.handDamping, component(hand.velocity, k) - v, force));
     if constexpr (!Parallel) {
       const OctetMotion& after = motions[o + 1 < octets() ? o + 1 : o];
-      const Octet own = s.stiffness * (next(x, after.r[k]) - x) + s.damping * (next(v, after.v[k]) - v);
+      const Octet own = mulAdd(s.stiffness, next(x, after.r[k]) - x, s.damping * (next(v, after.v[k]) - v));
       force += own - previous(tension, own);
       tension = own;
     }
-    return s.inverseMass * force + component(gravity, k);
+    return mulAdd(s.inverseMass, force, broadcast<Octet>(component(gravity, k)));
   }
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cstring>
 #include <vector>
 
 #include "sim/dynamics/curve_places.h"
@@ -33,7 +32,7 @@ struct OctetSystem : CurvePlaces<0, Octets * constraints::kOctet, Tangential> {
       constraints::CurveOctet& p = points.value[o];
       curve.octet(curve.program, curve.shape.data(), &y[o * constraints::kOctet], p);
       OctetMotion& m = motions.value[o];
-      const Octet tx = load(p.rPhi[0]), ty = load(p.rPhi[1]), tz = load(p.rPhi[2]), square = tx * tx + ty * ty + tz * tz;
+      const Octet tx = load(p.rPhi[0]), ty = load(p.rPhi[1]), tz = load(p.rPhi[2]), square = mulAdd(tx, tx, mulAdd(ty, ty, tz * tz));
       if constexpr (Tangential)
         m.measure = 1.0 / atLeast(squareRoot(square), 1e-290);  // on a cusp T is nothing, and nothing is asked of it
       else m.measure = 1.0 / square;
@@ -49,29 +48,25 @@ struct OctetSystem : CurvePlaces<0, Octets * constraints::kOctet, Tangential> {
       Octet drive{}, bend{};
       for (int k = 0; k < 3; ++k) {
         const Octet t = load(p.rPhi[k]);
-        drive += t * springs.acceleration(hand, motions.value.data(), o, k, tension[k]);
-        if constexpr (!Tangential) bend += t * load(p.rPhiPhi[k]);
+        drive = mulAdd(t, springs.acceleration(hand, motions.value.data(), o, k, tension[k]), drive);
+        if constexpr (!Tangential) bend = mulAdd(t, load(p.rPhiPhi[k]), bend);
       }
       const Octet drag = springs.row[o].drag * w;
       Octet slope;
       if constexpr (Tangential) {
         store(w * m.measure, dy, o * constraints::kOctet);
-        slope = m.measure * drive - drag;
+        slope = mulAdd(m.measure, drive, -drag);
       } else {
         store(w, dy, o * constraints::kOctet);
-        slope = m.measure * (drive - bend * w * w) - drag;
+        slope = mulAdd(m.measure, mulAdd(-bend, w * w, drive), -drag);
       }
       store(springs.row[o].used ? slope : Octet{}, dy, rates() + o * constraints::kOctet);
     }
   }
 
  private:
-  static Octet load(const double* from) noexcept {
-    Octet x;
-    std::memcpy(&x, from, sizeof(Octet));
-    return x;
-  }
-  static void store(const Octet& x, State& to, int first) noexcept { std::memcpy(&to[first], &x, sizeof(Octet)); }
+  static Octet load(const double* from) noexcept { return loadLanes<Octet>(from); }
+  static void store(const Octet& x, State& to, int first) noexcept { storeLanes(x, &to[first]); }
 };
 
 }  // namespace reachlab::dynamics

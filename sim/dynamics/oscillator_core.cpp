@@ -38,7 +38,7 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
       oscillators.push_back({single(modes.squaredFrequency[j], modes.damping[j], 1.0), k * share, b * share, share, rest, rest});
     }
   }
-  groups_.resize(lanesFor(n_), Group{});
+  groups_.resize(lanesFor<kLanes>(n_), Group{});
   for (int j = 0; j < n_; ++j) {
     const Oscillator& o = oscillators[j];
     const Propagator p = computePropagator(o.model, true, dt);
@@ -64,7 +64,7 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
 }
 
 OscillatorCore::State OscillatorCore::makeState() const {
-  return {std::vector<Lanes>(groups_.size(), broadcast(0)), std::vector<Lanes>(groups_.size(), broadcast(0))};
+  return {std::vector<Lanes>(groups_.size(), Lanes{}), std::vector<Lanes>(groups_.size(), Lanes{})};
 }
 
 void OscillatorCore::place(State& state, std::span<const double> x, std::span<const double> v) const noexcept {
@@ -115,7 +115,7 @@ bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& ne
 
 template <int Degree, bool Full>
 bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
-  Lanes check = broadcast(0);
+  Lanes check{};
   const Group* group = groups_.data();
   const Lanes *x = state.x.data(), *v = state.v.data();
   Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
@@ -123,28 +123,28 @@ bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& ne
   for (std::size_t i = 0; i < count; ++i) {
     const Group& g = group[i];
     // What comes from outside does not wait for the state.
-    Lanes pushX = broadcast(0), pushV = broadcast(0);
+    Lanes pushX{}, pushV{};
     if constexpr (Full) {
-      pushX = g.extraX * hand.extraForce + g.gravityX * hand.gravity;
-      pushV = g.extraV * hand.extraForce + g.gravityV * hand.gravity;
+      pushX = mulAdd(hand.extraForce, g.extraX, g.gravityX * hand.gravity);
+      pushV = mulAdd(hand.extraForce, g.extraV, g.gravityV * hand.gravity);
       if (damped_)
         for (int k = 0; k <= Degree; ++k) {
-          pushX += g.rateX[k] * hand.v(k);
-          pushV += g.rateV[k] * hand.v(k);
+          pushX = mulAdd(hand.v(k), g.rateX[k], pushX);
+          pushV = mulAdd(hand.v(k), g.rateV[k], pushV);
         }
     }
     for (int k = 1; k <= Degree; ++k) {
-      pushX += g.handX[k] * hand.r(k);
-      pushV += g.handV[k] * hand.r(k);
+      pushX = mulAdd(hand.r(k), g.handX[k], pushX);
+      pushV = mulAdd(hand.r(k), g.handV[k], pushV);
     }
-    const Lanes e = x[i] - g.rest * hand.origin, rate = v[i];
-    const Lanes newX = x[i] + (g.xx * e + (g.xv * rate + pushX));
-    const Lanes newV = rate + (g.vx * e + (g.vv * rate + pushV));
+    const Lanes e = mulAdd(-hand.origin, g.rest, x[i]), rate = v[i];
+    const Lanes newX = x[i] + mulAdd(g.xx, e, mulAdd(g.xv, rate, pushX));
+    const Lanes newV = rate + mulAdd(g.vx, e, mulAdd(g.vv, rate, pushV));
     nextX[i] = newX;
     nextV[i] = newV;
     check += (newX + newV) * 0.0;
   }
-  return allFinite(check);
+  return allZero(check);
 }
 
 }  // namespace reachlab::dynamics

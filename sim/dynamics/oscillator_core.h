@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "base/lanes.h"
 #include "sim/dynamics/dense_core.h"
-#include "sim/dynamics/lanes.h"
 
 namespace reachlab::dynamics {
 
@@ -12,6 +12,8 @@ namespace reachlab::dynamics {
 /// one as it stands; a chain is one in its modes, where N masses cost O(N) a step.
 class OscillatorCore {
  public:
+  static constexpr int kLanes = 4;
+  using Lanes = reachlab::Lanes<kLanes>;
   struct State {
     std::vector<Lanes> x, v;
   };

@@ -2,6 +2,7 @@
 #include <array>
 #include <optional>
 
+#include "base/fused.h"
 #include "constraints/constraint.h"
 
 namespace reachlab::dynamics {
@@ -17,12 +18,12 @@ struct Quadric {
 
   /// A d for any vector [1/m times its unit].
   Vec3 times(const Vec3& d) const noexcept {
-    return {a[0] * d.x + a[3] * d.y + a[4] * d.z, a[3] * d.x + a[1] * d.y + a[5] * d.z, a[4] * d.x + a[5] * d.y + a[2] * d.z};
+    return {fusedDot({a[0], a[3], a[4]}, d), fusedDot({a[3], a[1], a[5]}, d), fusedDot({a[4], a[5], a[2]}, d)};
   }
-  Vec3 gradient(const Vec3& r) const noexcept { return 2.0 * times(r - centre) + b; }
+  Vec3 gradient(const Vec3& r) const noexcept { return mulAdd(2.0, times(r - centre), b); }
   double value(const Vec3& r) const noexcept {
     const Vec3 d = r - centre;
-    return dot(d, times(d) + b) + c;
+    return mulAdd(d, times(d) + b, c);
   }
 };
 

@@ -33,10 +33,11 @@ struct QuadricSystem {
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     const Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
-    const Vec3 force = springs.handStiffness[0] * (hand.position - r) + springs.handDamping[0] * (hand.velocity - v) + springs.extraForce;
-    const Vec3 f = springs.inverseMass[0] * (force - springs.viscosity * v) + springs.gravity;
+    const Vec3 force =
+        mulAdd(springs.handStiffness[0], hand.position - r, mulAdd(springs.handDamping[0], hand.velocity - v, springs.extraForce));
+    const Vec3 f = mulAdd(springs.inverseMass[0], mulAdd(-springs.viscosity, v, force), springs.gravity);
     const Vec3 n = quadric.gradient(r);
-    const Vec3 a = f - ((dot(n, f) + 2 * dot(v, quadric.times(v))) / dot(n, n)) * n;
+    const Vec3 a = mulAdd(-(mulAdd(2, fusedDot(v, quadric.times(v)), fusedDot(n, f)) / fusedDot(n, n)), n, f);
     dy.values = {v.x, v.y, v.z, a.x, a.y, a.z};
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
@@ -49,9 +50,9 @@ struct QuadricSystem {
     if (dot(n, nBefore) < 0 && lost(before)) return Settled::Lost;
     if (++ticks % kProjectEvery != 0) return Settled::Same;
     // The normal's length of the tick before does: what a step drifts is rounding, and waiting for this tick's would cost a division.
-    const double square = 1 / dot(nBefore, nBefore);
-    r -= (quadric.value(r) * square) * n;
-    v -= (dot(n, v) * square) * n;
+    const double square = 1 / fusedDot(nBefore, nBefore);
+    r = mulAdd(-(quadric.value(r) * square), n, r);
+    v = mulAdd(-(fusedDot(n, v) * square), n, v);
     y.values = {r.x, r.y, r.z, v.x, v.y, v.z};
     return Settled::Same;
   }

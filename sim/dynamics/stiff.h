@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,8 +20,10 @@ class Stiff {
  public:
   using State = typename System::State;
   Stiff(const System& system, double tolerance)
-      : n_(system.states()), tolerance_(tolerance > 0 ? tolerance : kStiffTolerance), jacobian_(n_ * n_), matrix_(9 * n_ * n_),
-        pivots_(3 * n_), stages_(3 * n_), right_(3 * n_) {}
+      : n_(system.states()), tolerance_(tolerance > 0 ? tolerance : kStiffTolerance), jacobian_(n_ * n_), stages_(3 * n_),
+        matrix_(Eigen::MatrixXd::Identity(3 * n_, 3 * n_)), factors_(matrix_), right_(3 * n_), sorted_(3 * n_) {}
+  Stiff(const Stiff&) = delete;  // factors_ points into matrix_
+  Stiff& operator=(const Stiff&) = delete;
   void restart() noexcept { last_ = 0; }
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, StepReport& report) noexcept {
@@ -86,40 +89,23 @@ class Stiff {
     return check == 0;
   }
 
-  /// 1 - h A x J, by elimination with row exchanges.
+  /// 1 - h A x J = L U, in place.
   bool factorise(double h) noexcept {
-    const int m = 3 * n_;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        for (int i = 0; i < n_; ++i)
-          for (int j = 0; j < n_; ++j)
-            matrix_[(a * n_ + i) * m + b * n_ + j] = (a == b && i == j ? 1.0 : 0.0) - h * kA[a][b] * jacobian_[i * n_ + j];
-    for (int k = 0; k < m; ++k) {
-      int pivot = k;
-      for (int i = k + 1; i < m; ++i)
-        if (std::abs(matrix_[i * m + k]) > std::abs(matrix_[pivot * m + k])) pivot = i;
-      pivots_[k] = pivot;
-      if (!(std::abs(matrix_[pivot * m + k]) > 0)) return false;
-      if (pivot != k)
-        for (int j = 0; j < m; ++j) std::swap(matrix_[k * m + j], matrix_[pivot * m + j]);
-      for (int i = k + 1; i < m; ++i) {
-        const double factor = matrix_[i * m + k] /= matrix_[k * m + k];
-        if (factor == 0) continue;
-        for (int j = k + 1; j < m; ++j) matrix_[i * m + j] -= factor * matrix_[k * m + j];
-      }
-    }
-    return true;
+        for (int j = 0; j < n_; ++j)
+          for (int i = 0; i < n_; ++i)
+            matrix_(a * n_ + i, b * n_ + j) = (a == b && i == j ? 1.0 : 0.0) - h * kA[a][b] * jacobian_[i * n_ + j];
+    factors_.compute(matrix_);
+    return matrix_.diagonal().cwiseAbs().minCoeff() > 0;
   }
 
+  /// right := (L U)^-1 right, without the temporary that solve() would ask memory for.
   void substitute() noexcept {
-    const int m = 3 * n_;
-    for (int k = 0; k < m; ++k) std::swap(right_[k], right_[pivots_[k]]);
-    for (int k = 0; k < m; ++k)
-      for (int j = 0; j < k; ++j) right_[k] -= matrix_[k * m + j] * right_[j];
-    for (int k = m - 1; k >= 0; --k) {
-      for (int j = k + 1; j < m; ++j) right_[k] -= matrix_[k * m + j] * right_[j];
-      right_[k] /= matrix_[k * m + k];
-    }
+    sorted_.noalias() = factors_.permutationP() * right_;
+    matrix_.template triangularView<Eigen::UnitLower>().solveInPlace(sorted_);
+    matrix_.template triangularView<Eigen::Upper>().solveInPlace(sorted_);
+    right_ = sorted_;
   }
 
   /// Stage increments Z = h A f(y + Z); y + Z_3 is the end.
@@ -156,9 +142,10 @@ class Stiff {
   int n_;
   double tolerance_;
   double last_ = 0;
-  std::vector<double> jacobian_, matrix_;
-  std::vector<int> pivots_;
-  std::vector<double> stages_, right_;
+  std::vector<double> jacobian_, stages_;
+  Eigen::MatrixXd matrix_;
+  Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> factors_;  // of matrix_, in its place
+  Eigen::VectorXd right_, sorted_;
 };
 
 }  // namespace reachlab::dynamics

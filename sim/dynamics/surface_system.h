@@ -55,18 +55,19 @@ struct SurfaceSystem {
     active.function(active.program, active.shape.data(), y[0], y[1], room.value);
     const constraints::SurfacePoint& p = room.value;
     const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
-    const Vec3 velocity = du * p.rU + dv * p.rV;
-    const Vec3 bend = (du * du) * p.rUu + (2 * du * dv) * p.rUv + (dv * dv) * p.rVv;
+    const Vec3 velocity = mulAdd(du, p.rU, dv * p.rV);
+    const Vec3 bend = mulAdd(du * du, p.rUu, mulAdd(2 * du * dv, p.rUv, (dv * dv) * p.rVv));
     const Vec3 force =
-        springs.handStiffness[0] * (hand.position - p.r) + springs.handDamping[0] * (hand.velocity - velocity) + springs.extraForce;
-    const Vec3 drive = springs.inverseMass[0] * force + springs.gravity - bend;
-    const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), determinant = e * g - f * f;
-    const double a = dot(p.rU, drive), b = dot(p.rV, drive), inverse = 1 / determinant;
+        mulAdd(springs.handStiffness[0], hand.position - p.r, mulAdd(springs.handDamping[0], hand.velocity - velocity, springs.extraForce));
+    const Vec3 drive = mulAdd(springs.inverseMass[0], force, springs.gravity - bend);
+    const double e = fusedDot(p.rU, p.rU), f = fusedDot(p.rU, p.rV), g = fusedDot(p.rV, p.rV);
+    const double determinant = mulAdd(e, g, -(f * f));
+    const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
     leastDeterminant = std::fmin(leastDeterminant, determinant);
     dy[0] = du;
     dy[1] = dv;
-    dy[2] = (g * a - f * b) * inverse - drag * du;
-    dy[3] = (e * b - f * a) * inverse - drag * dv;
+    dy[2] = mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du));
+    dy[3] = mulAdd(mulAdd(e, b, -(f * a)), inverse, -(drag * dv));
   }
   double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
 

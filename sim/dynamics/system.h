@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/fused.h"
 #include "sim/dynamics/numbers.h"
 #include "sim/dynamics/object_model.h"
 #include "sim/dynamics/plant.h"
@@ -56,11 +57,11 @@ struct Springs {
   template <class V, class Place>
   void push(const V& hand, const V& handVelocity, const Place& r, const Place& v, Place& force) const noexcept {
     if constexpr (Parallel) {
-      for (int i = 0; i < n(); ++i) force[i] = handStiffness[i] * (hand - r[i]) + handDamping[i] * (handVelocity - v[i]);
+      for (int i = 0; i < n(); ++i) force[i] = mulAdd(handStiffness[i], hand - r[i], handDamping[i] * (handVelocity - v[i]));
     } else {
-      V before = handStiffness[0] * (hand - r[0]) + handDamping[0] * (handVelocity - v[0]);
+      V before = mulAdd(handStiffness[0], hand - r[0], handDamping[0] * (handVelocity - v[0]));
       for (int i = 0; i + 1 < n(); ++i) {
-        const V after = stiffness[i] * (r[i + 1] - r[i]) + damping[i] * (v[i + 1] - v[i]);
+        const V after = mulAdd(stiffness[i], r[i + 1] - r[i], damping[i] * (v[i + 1] - v[i]));
         force[i] = before + after;
         before = V{} - after;
       }
