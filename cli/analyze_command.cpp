@@ -174,6 +174,8 @@ std::string summaryJson(const analyze::StudyResult& study, const analyze::Datase
   for (const analyze::ConditionResult& r : study.results)
     if (masses.empty()) masses = r.candidates.masses;
   j["conclusion"] = jsonOf(study.overall, study.common, masses);
+  j["conclusion"]["conditions"] = Json::array();
+  for (const std::size_t c : study.together) j["conclusion"]["conditions"].push_back(study.conditions[c].name);
   j["conditions"] = Json::array();
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
     const analyze::ConditionResult& r = study.results[c];
@@ -224,6 +226,7 @@ void printSummary(const analyze::StudyResult& study, const analyze::DatasetIndex
   for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
   fmt::print("{}\n", analyze::describeConclusion(study.overall, study.common));
   if (const std::string evidence = analyze::describeEvidence(study.overall, study.common); !evidence.empty()) fmt::print("{}\n", evidence);
+  if (const std::string over = analyze::describeTogether(study); !over.empty()) fmt::print("{}\n", over);
   for (std::size_t c = 0; c < study.conditions.size(); ++c) {
     const analyze::ConditionResult& r = study.results[c];
     fmt::print("{}: {}\n", study.conditions[c].name, analyze::describeCounts(r));

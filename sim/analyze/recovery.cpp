@@ -69,7 +69,8 @@ Recovery recover(const StudyResult& study, int studies, std::uint64_t seed, unsi
   out.candidates = study.common;
   std::vector<const PersonResult*> people;
   for (const PersonResult& p : study.people)
-    if (p.fitted) people.push_back(&p), out.trials += p.trials;
+    if (p.fitted && std::find(study.together.begin(), study.together.end(), p.condition) != study.together.end())
+      people.push_back(&p), out.trials += p.trials;
   const std::size_t truths = study.common.size();
   out.counts.assign(truths, std::vector<std::size_t>(truths + 1, 0));
   if (people.empty() || studies < 1) return out;

@@ -350,9 +350,8 @@ std::string makeReport(const ReportHeader& header, const StudyResult& study, con
   addFigure(html, figures, "scores");
   if (study.overall.best) {
     html.paragraph(describeEvidence(study.overall, study.common));
-    std::vector<std::size_t> every(study.conditions.size());
-    for (std::size_t c = 0; c < every.size(); ++c) every[c] = c;
-    html.paragraph(describeChoices(study, every, study.common[*study.overall.best]));
+    if (const std::string over = describeTogether(study); !over.empty()) html.paragraph(over);
+    html.paragraph(describeChoices(study, study.together, study.common[*study.overall.best]));
     addScores(html, study.overall, study.common);
     addFigure(html, figures, "posterior");
   } else if (std::none_of(study.results.begin(), study.results.end(),

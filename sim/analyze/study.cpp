@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -41,6 +42,27 @@ void useFailuresWhereNothingSucceeded(StudyResult& study) {
     }
     std::erase_if(study.results[c].exclusions, [](const auto& entry) { return entry.second == 0; });
   }
+}
+
+/// Slow, moderate, fast: the longest task first, else as they were first recorded.
+void orderConditions(StudyResult& study) {
+  std::vector<std::size_t> order(study.conditions.size()), place(order.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto durationOf = [&](std::size_t c) {
+    const auto& task = study.conditions[c].experiment.task;
+    return task ? task->duration : 0.0;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return durationOf(a) > durationOf(b); });
+  std::vector<StudyCondition> conditions;
+  std::vector<ConditionResult> results;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    conditions.push_back(std::move(study.conditions[order[i]]));
+    results.push_back(std::move(study.results[order[i]]));
+  }
+  study.conditions = std::move(conditions);
+  study.results = std::move(results);
+  for (StudyTrial& trial : study.trials) trial.condition = place[trial.condition];
 }
 
 /// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order.
@@ -219,9 +241,16 @@ void fitPeople(StudyResult& study, std::size_t condition, const StudyProgress& p
 
 /// Over all conditions: the candidates that every condition with fits has.
 void concludeTogether(StudyResult& study) {
-  std::vector<std::size_t> judged;
+  // A subject who lacks a condition would differ from the others for that alone, so only conditions that all have are averaged.
+  std::set<std::string> anywhere;
+  std::vector<std::size_t> fitted(study.results.size(), 0);
+  for (const PersonResult& person : study.people)
+    if (person.fitted) anywhere.insert(person.subject), ++fitted[person.condition];
+  std::vector<std::size_t>& judged = study.together;
   for (std::size_t c = 0; c < study.results.size(); ++c)
-    if (!study.results[c].candidates.candidates.empty()) judged.push_back(c);
+    if (fitted[c] > 0 && fitted[c] == anywhere.size()) judged.push_back(c);
+  for (std::size_t c = 0; judged.empty() && c < study.results.size(); ++c)  // none: the one that most have
+    if (fitted[c] > 0 && fitted[c] == *std::max_element(fitted.begin(), fitted.end())) judged = {c};
   if (judged.empty()) {
     study.overall.subjects = 0;
     return;
@@ -238,7 +267,7 @@ void concludeTogether(StudyResult& study) {
     PersonScores person;
     person.subject = subject;
     for (const PersonResult& own : study.people) {
-      if (own.subject != subject || !own.fitted) continue;
+      if (own.subject != subject || !own.fitted || std::find(judged.begin(), judged.end(), own.condition) == judged.end()) continue;
       const auto& candidates = study.results[own.condition].candidates.candidates;
       const PersonScores here = scoresOf(own);
       ConditionScores scores = here.conditions.front();
@@ -387,6 +416,7 @@ StudyResult StudyBuilder::finish(std::vector<StudyCondition> conditions, const S
   study.signals = signals_;
   study.conditions = std::move(conditions);
   study.results.resize(study.conditions.size());
+  orderConditions(study);
   numberDays(study.trials);
   useFailuresWhereNothingSucceeded(study);
   std::stable_sort(study.trials.begin(), study.trials.end(),

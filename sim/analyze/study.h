@@ -132,7 +132,8 @@ struct StudyResult {
   std::vector<SeriesResult> series;
   std::vector<PersonResult> people;                     // by condition, then subject
   std::vector<std::vector<predict::Criterion>> common;  // candidates of the overall conclusion; an empty one is the reference
-  Conclusion overall;                                   // over all conditions, indexes `common`
+  std::vector<std::size_t> together;  // conditions of the overall conclusion: those in which every judged subject has enough trials
+  Conclusion overall;                 // over all conditions, indexes `common`
   std::vector<std::string> subjects;
   std::vector<SuccessCell> success;
   std::vector<LearningPoint> learning;

@@ -118,6 +118,16 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
   return text;
 }
 
+std::string describeTogether(const StudyResult& study) {
+  if (study.conditions.size() < 2 || study.together.empty()) return {};
+  std::vector<std::string> in, out;
+  for (std::size_t c = 0; c < study.conditions.size(); ++c)
+    (std::find(study.together.begin(), study.together.end(), c) != study.together.end() ? in : out).push_back(study.conditions[c].name);
+  std::string text = "Over " + joined(in) + ".";
+  if (!out.empty()) text += fmt::format(" Left out: {}, where not every subject has {} successful trials.", joined(out), kFewestTrials);
+  return text;
+}
+
 std::string describeChoices(const StudyResult& study, const std::vector<std::size_t>& conditions,
                             const std::vector<predict::Criterion>& criteria) {
   std::map<std::string, std::size_t> masses, laws;

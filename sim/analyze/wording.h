@@ -18,6 +18,8 @@ std::vector<std::vector<predict::Criterion>> candidatesOf(const ConditionResult&
 std::string describeConclusion(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
 /// What always stands beside it: trials, nearest rival, exceedance, R^2 and its ceiling.
 std::string describeEvidence(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
+/// Which conditions the overall conclusion is over, and which are left out; empty with one condition.
+std::string describeTogether(const StudyResult& study);
 /// Hand masses and time laws that were tried, and how often each was chosen for the candidate that is closest.
 std::string describeChoices(const StudyResult& study, const std::vector<std::size_t>& conditions,
                             const std::vector<predict::Criterion>& criteria);
