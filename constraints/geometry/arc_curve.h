@@ -1,0 +1,76 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "constraints/constraint.h"
+#include "base/legendre_series.h"
+
+namespace reachlab::constraints {
+
+/// What s is: metres of arc length, or the curve's own parameter from the start on, |phi - start|, which passes near a cusp more
+/// smoothly.
+enum class Along { ArcLength, Parameter };
+
+/// Where and why a curve cannot be followed smoothly.
+struct CurveBreak {
+  double phi = 0;
+  std::string what;  // "a kink (its direction turns by 53 degrees)"
+};
+
+/// A curve of the catalogue as a function of its arc length s [m] from the task's start (s = 0) to its target (s = length()), and
+/// as far beyond both ends as the curve goes smoothly, at most half the way. Pieces of high degree through the curvature vector
+/// r_ss = (r_ff - T (T.r_ff)) / |r_f|^2, integrated twice, so that r and its first five derivatives are known to about 1e-12 of
+/// their size; they are held against the formula itself at many places, and against each other where they meet, so that no kink, jump
+/// or narrow bump goes unseen. Beyond the known part it goes on straight, so that an iteration may look there; a result must stay
+/// within [lowest(), highest()]. A value; any thread.
+class ArcCurve {
+ public:
+  /// Throws RefusedError, with the place, where the curve has a kink, a jump, a cusp or a step of its curvature between start and
+  /// target (constraint parameters), stands still or has no value. Such a place at the start or at the target is met at rest: allowed.
+  ArcCurve(const Constraint& curve, double start, double target, Along along = Along::ArcLength);
+
+  /// The first `part` of the way, magnified to the whole length: r(part s)/part, from a straight line (part 0) to the curve
+  /// itself (1). For continuation from a straight line to any curve.
+  ArcCurve magnified(double part) const;
+
+  double length() const { return length_; }
+  /// Largest |r_phi| between start and target, of the smallest.
+  double unevenness() const { return unevenness_; }
+  double lowest() const { return pieces_.front().from; }
+  double highest() const { return pieces_.back().to; }
+
+  /// r and its derivatives with respect to s up to `Order` <= 5: [m], tangent, curvature vector [1/m] …
+  template <int Order>
+  std::array<Vec3, Order + 1> expand(double s) const;
+
+ private:
+  static constexpr int kNodes = 16, kTerms = kNodes + 2;
+  struct Piece {
+    double from = 0, to = 0;                               // [m]
+    double begin = 0;                                      // parameter where it begins
+    bool isShort = false;                                  // a change of pace
+    std::array<std::array<double, 3>, kTerms> position{};  // [m] powers of x = (2 s - from - to) / (to - from)
+  };
+  bool append(double phi, double phiEnd, int depth);
+  bool appendShort(double phi, double phiEnd);
+  bool fits(const Piece& piece, double phi, double phiEnd, const LegendreSeries& arc) const;
+  bool joins(const Piece& before, const Piece& after);
+  size_t countJoined();
+  std::array<Vec3, 3> expand(const Piece& piece, double x) const;
+  bool breakOff(double phi, std::string what);
+  const Piece& pieceAt(double s) const;
+  template <int Order>
+  std::array<Vec3, Order + 1> expandWhole(double s) const;
+
+  Along along_;
+  Curve curve_;
+  double way_ = 0;      // of the parameter, from start to target
+  double fastest_ = 0;  // [m] |r_phi| between them
+  CurveBreak break_;
+  std::vector<Piece> pieces_;
+  double length_ = 0;
+  double unevenness_ = 1, part_ = 1;
+};
+
+}  // namespace reachlab::constraints

@@ -1,0 +1,71 @@
+#include "constraints/geometry/arc_length.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/gauss_legendre.h"
+
+namespace reachlab::constraints {
+namespace {
+
+constexpr int kFirstPieces = 8;
+constexpr int kDeepest = 50;         // halvings
+constexpr double kResolved = 1e-13;  // the last two terms of a piece, of its first
+constexpr double kSmall = 1e-15;     // the same, of the whole length
+constexpr double kNoPart = 1e-16;    // of the whole length: a piece that is no longer halved
+
+}  // namespace
+
+ArcLength::ArcLength(const Constraint& curve, double from, double to) {
+  if (curve.kind != ConstraintKind::Curve) throw RefusedError(curve.name + " is no curve");
+  constexpr int kProbes = 256;
+  for (int i = 0; i < kProbes; ++i)
+    rough_ += norm(evaluate(curve.curve, from + (to - from) * (i + 0.5) / kProbes).rPhi) * std::abs(to - from) / kProbes;
+  for (int i = 0; i < kFirstPieces; ++i)
+    append(curve, from + (to - from) * i / kFirstPieces, from + (to - from) * (i + 1) / kFirstPieces, 0);
+}
+
+void ArcLength::append(const Constraint& curve, double begin, double end, int depth) {
+  const GaussRule& rule = gaussRule16();
+  Piece piece{begin, (end - begin) / 2, length_, {}, {}};
+  std::vector<double> rate;
+  for (const double x : rule.node) rate.push_back(norm(evaluate(curve.curve, begin + piece.half * (x + 1)).rPhi) * std::abs(piece.half));
+  piece.rate = projectOnLegendre(rate, rule.node, rule.weight);
+  const size_t n = piece.rate.size();
+  const double most = std::max(std::abs(piece.rate[n - 1]), std::abs(piece.rate[n - 2])), whole = 2 * piece.rate[0];
+  if (!std::isfinite(whole) && depth == kDeepest)
+    throw RefusedError("the curve has no value, or no end to its length, near phi = " + std::to_string(begin));
+  const bool resolved = std::isfinite(whole) && (most <= std::max(kResolved * piece.rate[0], kSmall * rough_) || whole <= kNoPart * rough_);
+  if (!resolved && depth < kDeepest) {
+    const double middle = (begin + end) / 2;
+    append(curve, begin, middle, depth + 1);
+    append(curve, middle, end, depth + 1);
+    return;
+  }
+  if (static_cast<int>(pieces_.size()) == kMaxPieces)
+    throw RefusedError("the curve bends too often between start and target for its arc length: allowed: a shorter part of it");
+  piece.done = integralOf(piece.rate);
+  length_ += whole;
+  pieces_.push_back(std::move(piece));
+}
+
+double ArcLength::parameterAt(double s) const {
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), s, [](double value, const Piece& piece) { return value < piece.from; });
+  const Piece& piece = next == pieces_.begin() ? pieces_.front() : *(next - 1);
+  double lo = -1, hi = 1, x = 0;
+  constexpr int kPasses = 60;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const double off = piece.from + valueAt(piece.done, x) - s, rate = valueAt(piece.rate, x);
+    (off > 0 ? hi : lo) = x;
+    double better = x - off / rate;
+    if (!(better >= lo && better <= hi)) better = (lo + hi) / 2;
+    const double step = std::abs(better - x);
+    x = better;
+    if (step < 1e-15) break;
+  }
+  return piece.begin + piece.half * (x + 1);
+}
+
+}  // namespace reachlab::constraints

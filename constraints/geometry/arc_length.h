@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+#include "base/legendre_series.h"
+#include "constraints/constraint.h"
+
+namespace reachlab::constraints {
+
+/// The parameter of a curve as a function of the arc length from one place of it, to 1e-12 of the whole: |r_phi| as Legendre series on
+/// pieces that are halved until sixteen terms resolve them, or until what they hold is no longer a part of the length (cusps, kinks,
+/// changes of pace). Made once; asking costs one search and a few steps of Newton's method. A value; any thread.
+class ArcLength {
+ public:
+  /// `from` and `to` are parameters. Throws RefusedError where the curve has no value between them, and for a curve that would need
+  /// more than kMaxPieces pieces.
+  ArcLength(const Constraint& curve, double from, double to);
+  static constexpr int kMaxPieces = 200000;
+
+  double length() const { return length_; }  // [m] >= 0
+  /// The parameter where `s` [m] of the way are done; s in [0, length()], beyond it the end.
+  double parameterAt(double s) const;
+
+ private:
+  struct Piece {
+    double begin = 0, half = 0;  // parameter at its beginning; half of what it covers, with sign
+    double from = 0;             // [m] done before it
+    LegendreSeries rate, done;   // ds/dx and s - from over x in [-1, 1]
+  };
+  void append(const Constraint& curve, double begin, double end, int depth);
+
+  std::vector<Piece> pieces_;
+  double length_ = 0, rough_ = 0;
+};
+
+}  // namespace reachlab::constraints

@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "constraints/constraint.h"
+#include "constraints/formula.h"
+
+namespace reachlab::constraints {
+
+/// All partial derivatives of r(u, v) at one point: d[a][b] = r_(u^a v^b) [m], a + b up to the order that was asked for; 0 beyond.
+inline constexpr int kMaxExpansion = 5;
+using SurfaceExpansion = std::array<std::array<Vec3, kMaxExpansion + 1>, kMaxExpansion + 1>;
+
+/// A surface's formula, made ready to be expanded in Taylor series: the same graph as the compiled forms, every operation done on
+/// polynomials in (du, dv) instead of numbers (Griewank and Walther, Evaluating Derivatives, ch. 13). Exact but for rounding, at any
+/// scale of the parameters. Immutable; any thread; allocates: not for the haptic thread.
+class SurfaceFormula {
+ public:
+  /// Throws RefusedError on a constraint that is no surface.
+  explicit SurfaceFormula(const Constraint& surface);
+  /// Order 0 … kMaxExpansion. Outside the formula's domain, and where a derivative has no value, the result is not finite.
+  SurfaceExpansion expand(double u, double v, int order) const;
+
+ private:
+  struct Operation {
+    Op op = Op::Constant;
+    int a = -1, b = -1;  // earlier operations; Variable: which; PowInt: b is the exponent
+    double value = 0;    // Constant
+  };
+  std::vector<Operation> operations_;  // operands before what uses them
+  std::array<int, 3> roots_{};
+};
+
+}  // namespace reachlab::constraints
