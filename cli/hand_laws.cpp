@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "cli/spline.h"
-#include "constraints/analysis.h"
+#include "constraints/geometry/arc_length.h"
 #include "base/error.h"
 #include "base/json_tree.h"
 
@@ -49,7 +49,7 @@ HandLaw straightReach(const experiment::Experiment& experiment, const constraint
           {0, duration}};
 }
 
-/// Along the curve the arc length follows the law; phi is found from it by Newton, starting where the last answer was.
+/// Along the curve the arc length follows the law.
 HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::Constraint& c) {
   const experiment::Task& task = requireTask(experiment, "min-jerk-along");
   placeOf(c, task.start, "start");
@@ -58,41 +58,14 @@ HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::
     throw RefusedError("--hand min-jerk-along follows a curve; on a surface use min-jerk");
   if (c.kind == constraints::ConstraintKind::Free) return straightReach(experiment, c);
   const double from = task.start[0], to = task.target[0], duration = task.duration;
-  const double length = constraints::computeArcLength(c, from, to);
-  if (!(std::abs(length) > 1e-12)) throw RefusedError("--hand min-jerk-along: start and target are the same place on the curve");
-  struct Table {
-    std::vector<double> phi, s;
-  };
-  constexpr int kPieces = 256;
-  const auto table = std::make_shared<Table>();
-  for (int i = 0; i <= kPieces; ++i) {
-    const double phi = from + (to - from) * i / kPieces;
-    table->s.push_back(i == 0 ? 0 : table->s.back() + constraints::computeArcLength(c, table->phi.back(), phi));
-    table->phi.push_back(phi);
-  }
-  return {[c, table, length, duration](double t) {
+  const auto way = std::make_shared<const constraints::ArcLength>(c, from, to);
+  if (!(way->length() > 1e-12)) throw RefusedError("--hand min-jerk-along: start and target are the same place on the curve");
+  const double direction = to < from ? -1 : 1;
+  return {[c, way, direction, duration](double t) {
             const dynamics::MinJerk law = dynamics::minJerk(t / duration);
-            const double total = table->s.back(), s = law.s * total;
-            const double sign = total < 0 ? -1 : 1;
-            std::size_t low = 0, high = table->s.size() - 1;
-            while (high - low > 1) {
-              const std::size_t middle = (low + high) / 2;
-              (sign * table->s[middle] <= sign * s ? low : high) = middle;
-            }
-            double a = table->phi[low], b = table->phi[high], sa = table->s[low];
-            double phi = a + (b - a) * (s - sa) / (table->s[high] - sa);
-            for (int round = 0; round < 60; ++round) {
-              const double error = sa + constraints::computeArcLength(c, table->phi[low], phi) - s;
-              (sign * error > 0 ? b : a) = phi;
-              const double speed = norm(constraints::evaluate(c.curve, phi).rPhi);
-              double next = speed > 0 ? phi - error / speed : 0.5 * (a + b);
-              if (!((next - a) * (next - b) <= 0)) next = 0.5 * (a + b);
-              if (std::abs(next - phi) <= 1e-16 * (1 + std::abs(phi)) || error == 0) break;
-              phi = next;
-            }
-            const constraints::CurvePoint p = constraints::evaluate(c.curve, phi);
+            const constraints::CurvePoint p = constraints::evaluate(c.curve, way->parameterAt(law.s * way->length()));
             const double speed = norm(p.rPhi);
-            const Vec3 v = speed > 0 ? (law.rate / duration * total / speed) * p.rPhi : Vec3{};
+            const Vec3 v = speed > 0 ? (direction * law.rate / duration * way->length() / speed) * p.rPhi : Vec3{};
             return dynamics::HandSample{p.r, v, true};
           },
           {},
