@@ -20,7 +20,7 @@ constexpr int kMostSamples = 1'000'000;
 constexpr double kLongestDuration = 3600;  // [s]
 
 struct PredictArguments {
-  std::string experiment, criterion, sweep, out, figure;
+  std::string experiment, criterion, point, sweep, out, figure;
   double duration = 0, handMass = -1, handDamping = 0;
   int samples = 201, unknowns = 0;
   bool json = false, time = false;
@@ -71,16 +71,16 @@ void runSweep(const PredictArguments& arguments, const experiment::Experiment& e
   const predict::Sweep sweep = predict::parseSweep(arguments.sweep);
   const auto begin = std::chrono::steady_clock::now();
   double shown = 0;
-  const auto rows = predict::computeFamily(experiment, criterion, options, sweep, [&](int done, int total) {
+  const auto rows = predict::computeSweep(experiment, criterion, options, sweep, [&](int done, int total) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (seconds < shown + 1) return;
     shown = seconds;
     std::cerr << fmt::format("{} of {}\n", done, total);
   });
-  for (const predict::FamilyRow& row : rows)
+  for (const predict::SweepRow& row : rows)
     if (!row.prediction) std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
-  writeText(writeFamilyCsv(sweep, rows), arguments.out);
-  if (!arguments.figure.empty()) figure::writeFigure(drawFamily(sweep, rows, criterion), arguments.figure);
+  writeText(writeSweepCsv(sweep, rows), arguments.out);
+  if (!arguments.figure.empty()) figure::writeFigure(drawSweep(sweep, rows, criterion), arguments.figure);
 }
 
 void runPredict(const PredictArguments& arguments) {
@@ -95,6 +95,8 @@ void runPredict(const PredictArguments& arguments) {
   options.duration = arguments.duration;
   options.handDamping = arguments.handDamping;
   options.unknowns = arguments.unknowns;
+  for (const predict::PointIs point : {predict::PointIs::BehindSpring, predict::PointIs::Hand})
+    if (arguments.point == nameOf(point)) options.point = point;
   if (arguments.handMass >= 0) options.handMass = arguments.handMass;
   if (!arguments.sweep.empty()) return runSweep(arguments, experiment, criterion, options);
 
@@ -133,6 +135,10 @@ void addPredictCommand(CLI::App& app, int&) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", arguments->handDamping, "Damping of the hand itself [N s/m]; default 0")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--point", arguments->point,
+                   "What an object of kind point is: behind-spring (default on a line) or hand, one with the hand (default elsewhere)")
+      ->check(CLI::IsMember({"behind-spring", "hand"}));
   command->add_option("--samples", arguments->samples, "Rows from 0 to T; default 201");
   command->add_option("--unknowns", arguments->unknowns, "Unknowns of arm and curve predictions; default: chosen for 1e-8")
       ->check(CLI::NonNegativeNumber);

@@ -43,7 +43,7 @@ std::string labelOf(const std::string& key) {
 }
 
 // Where the number of peaks changes along the sweep, and where the hand begins or ceases to move backwards: half way between two values.
-std::vector<figure::Rule> findTurns(const std::vector<predict::FamilyRow>& rows) {
+std::vector<figure::Rule> findTurns(const std::vector<predict::SweepRow>& rows) {
   std::vector<figure::Rule> turns;
   for (size_t i = 1; i < rows.size(); ++i) {
     if (!rows[i - 1].prediction || !rows[i].prediction) continue;
@@ -90,16 +90,18 @@ std::string writePredictionJson(const predict::Prediction& p) {
   line("hand_jump_m", orNull(p.handJump));
   line("hand_jump_m_per_s", orNull(p.handVelocityJump));
   line("condition", number(p.condition));
+  line("profile_error", orNull(p.profileError));
+  line("point", p.point ? asJsonText(nameOf(*p.point)) : "null");
   line("travel_time_s", orNull(p.travelTime));
   out += fmt::format("  \"warnings\": [{}]\n}}\n", warnings);
   return out;
 }
 
-std::string writeFamilyCsv(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows) {
+std::string writeSweepCsv(const predict::Sweep& sweep, const std::vector<predict::SweepRow>& rows) {
   std::string out = sweep.key +
                     ",cost,hand_peak_m_per_s,hand_peak_s,object_peak_m_per_s,hand_jump_m,hand_jump_m_per_s,condition,travel_time_s,"
                     "hand_velocity_peaks,hand_reverses,refused\n";
-  for (const predict::FamilyRow& row : rows) {
+  for (const predict::SweepRow& row : rows) {
     out += number(row.value);
     if (row.prediction) {
       const predict::Prediction& p = *row.prediction;
@@ -134,14 +136,14 @@ figure::Figure drawPrediction(const predict::Prediction& prediction, int samples
   return figure;
 }
 
-figure::Figure drawFamily(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows, predict::Criterion criterion) {
+figure::Figure drawSweep(const predict::Sweep& sweep, const std::vector<predict::SweepRow>& rows, predict::Criterion criterion) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   figure::Series hand = makeSeries("hand"), object = makeSeries("object", figure::palette::kBlue, figure::Dash::Dashed),
                  cost = makeSeries("");
   figure::Series count = makeSeries("peaks of the hand"),
                  reversal = makeSeries("hand reverses", figure::palette::kVermilion, figure::Dash::Solid, 0);
   reversal.marker = figure::Marker::Cross;
-  for (const predict::FamilyRow& row : rows) {
+  for (const predict::SweepRow& row : rows) {
     const predict::Prediction* p = row.prediction.get();
     for (figure::Series* s : {&hand, &object, &cost, &count, &reversal}) s->x.push_back(row.value);
     hand.y.push_back(p ? std::abs(p->handPeak) : none);
@@ -166,7 +168,7 @@ figure::Figure drawFamily(const predict::Sweep& sweep, const std::vector<predict
   figure::Panel peaks = panel("Peaks of the hand's velocity", figure::Scale::Linear, {count, reversal, change, turn});
   peaks.legend = figure::LegendPlace::Below;
   int most = 1;
-  for (const predict::FamilyRow& row : rows) most = std::max(most, row.shape.velocityPeaks);
+  for (const predict::SweepRow& row : rows) most = std::max(most, row.shape.velocityPeaks);
   peaks.y.from = 0;
   peaks.y.to = most + 0.5;
   for (int i = 0; i <= most; ++i) peaks.y.ticks.emplace_back(i, std::to_string(i));

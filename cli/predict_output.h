@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sim/figure/figure.h"
-#include "sim/predict/family.h"
+#include "sim/predict/sweep/parameter_sweep.h"
 
 namespace reachlab::cli {
 
@@ -11,10 +11,10 @@ namespace reachlab::cli {
 std::string writePredictionCsv(const predict::Prediction& prediction, int samples);
 std::string writePredictionJson(const predict::Prediction& prediction);
 /// One row a value of the sweep; what was refused leaves its numbers empty.
-std::string writeFamilyCsv(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows);
+std::string writeSweepCsv(const predict::Sweep& sweep, const std::vector<predict::SweepRow>& rows);
 
 figure::Figure drawPrediction(const predict::Prediction& prediction, int samples);
 /// Peaks, their number and the cost against the swept parameter.
-figure::Figure drawFamily(const predict::Sweep& sweep, const std::vector<predict::FamilyRow>& rows, predict::Criterion criterion);
+figure::Figure drawSweep(const predict::Sweep& sweep, const std::vector<predict::SweepRow>& rows, predict::Criterion criterion);
 
 }  // namespace reachlab::cli

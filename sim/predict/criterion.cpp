@@ -1,4 +1,6 @@
-#include "sim/predict/predict.h"
+#include "sim/predict/criterion.h"
+
+#include <array>
 
 namespace reachlab::predict {
 namespace {

@@ -73,21 +73,6 @@ Peak largest(const std::vector<double>& samples, double duration, const Refine& 
 
 }  // namespace
 
-double Prediction::objectVelocityAt(double t) const {
-  std::vector<double> x(massCount_), v(massCount_);
-  massesAt(t, x, v);
-  return v.back();
-}
-
-void Prediction::sampleVelocities(std::span<double> hand, std::span<double> object) const {
-  const auto last = static_cast<double>(hand.size() - 1);
-  for (size_t i = 0; i < hand.size(); ++i) {
-    const double t = duration * static_cast<double>(i) / last;
-    hand[i] = handAt(t).velocity;
-    object[i] = objectVelocityAt(t);
-  }
-}
-
 void findPeaks(Prediction& prediction) {
   const double T = prediction.duration;
   const int count = prediction.scanCount();

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/predict/predict.h"
+#include "sim/predict/prediction.h"
 
 namespace reachlab::predict {
 

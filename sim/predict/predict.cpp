@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sim/predict/arm_prediction.h"
+#include "sim/predict/arm/arm_prediction.h"
 #include "sim/predict/condition.h"
-#include "sim/predict/crackle_prediction.h"
-#include "sim/predict/curve_object_prediction.h"
-#include "sim/predict/curve_prediction.h"
-#include "sim/predict/line_object.h"
-#include "sim/predict/parity_prediction.h"
+#include "sim/predict/line/crackle_prediction.h"
+#include "sim/predict/curve/curve_object_prediction.h"
+#include "sim/predict/curve/curve_prediction.h"
+#include "sim/predict/line/line_object.h"
+#include "sim/predict/line/symmetric_prediction.h"
 #include "sim/predict/peaks.h"
-#include "sim/predict/series_prediction.h"
-#include "sim/predict/surface_prediction.h"
+#include "sim/predict/line/minimum_energy_prediction.h"
+#include "sim/predict/curve/surface_prediction.h"
 
 namespace reachlab::predict {
 namespace {
@@ -25,16 +25,28 @@ struct StraightTask {
   double distance = 0;
 };
 
-StraightTask computeStraightTask(const constraints::Constraint& constraint, const experiment::Task& task) {
+// Nothing when the curve leaves the line or its pace changes: r_phiphi = 0 wherever it has a value tells nothing of kinks and jumps.
+std::optional<StraightTask> findStraightTask(const constraints::Constraint& constraint, const experiment::Task& task) {
   StraightTask straight;
-  const auto place = [&](const std::vector<double>& q) {
-    if (constraint.kind == constraints::ConstraintKind::Free) return Vec3{q.at(0), q.at(1), q.at(2)};
-    return constraints::evaluate(constraint.curve, q.at(0)).r;
-  };
-  straight.start = place(task.start);
-  straight.target = place(task.target);
-  if (constraint.kind == constraints::ConstraintKind::Free) straight.distance = norm(straight.target - straight.start);
-  else straight.distance = norm(constraints::evaluate(constraint.curve, task.start[0]).rPhi) * std::abs(task.target[0] - task.start[0]);
+  if (constraint.kind == constraints::ConstraintKind::Free) {
+    const auto place = [](const std::vector<double>& q) { return Vec3{q.at(0), q.at(1), q.at(2)}; };
+    straight.start = place(task.start);
+    straight.target = place(task.target);
+    straight.distance = norm(straight.target - straight.start);
+    return straight;
+  }
+  if (constraint.kind != constraints::ConstraintKind::Curve || !constraint.straight) return std::nullopt;
+  constexpr int kChecks = 1001;
+  constexpr double kOnTheLine = 1e-12;
+  const double from = task.start.at(0), way = task.target.at(0) - from;
+  const Vec3 direction = evaluate(constraint.curve, from + way / 2).rPhi;
+  straight.start = evaluate(constraint.curve, from).r;
+  straight.target = evaluate(constraint.curve, task.target[0]).r;
+  straight.distance = norm(direction) * std::abs(way);
+  for (int i = 1; i <= kChecks; ++i) {
+    const Vec3 r = evaluate(constraint.curve, from + way * i / kChecks).r, expected = straight.start + (way * i / kChecks) * direction;
+    if (!(norm(r - expected) <= kOnTheLine * (straight.distance + norm(r)))) return std::nullopt;
+  }
   return straight;
 }
 
@@ -50,15 +62,28 @@ std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& expe
   return makeLineArmPrediction(experiment.arm, task, object, unknowns);
 }
 
+// A point that is the hand itself, along a line.
+std::unique_ptr<Prediction> makeStraightHandPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
+  if (criterion == Criterion::MinTorqueChange)
+    throw RefusedError("min-torque-change: on a line it is computed for a point behind its spring; allowed: a point behind its spring");
+  const bool byForce = criterion == Criterion::MinHandForce || criterion == Criterion::MinHandForceChange;
+  if (byForce && (object.handDamping > 0 || object.viscosity.at(0) > 0))
+    throw RefusedError(
+        fmt::format("{}: a point that is the hand itself is computed without damping; allowed: no viscosity and no damping of "
+                    "the hand, or a point behind its spring",
+                    nameOf(criterion)));
+  return makeRigidPrediction(object.totalMass(), criterion, distance, duration);
+}
+
 std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
   if (criterion == Criterion::MinCrackle) return makeCracklePrediction(object, distance, duration);
   const bool byHand = criterion == Criterion::MinHandJerk || criterion == Criterion::MinHandCrackle;
   const bool handDampingMatters = !byHand && !(criterion == Criterion::MinComAcceleration && object.handMass == 0);
-  if (object.damped(handDampingMatters)) return makeSeriesPrediction(object, criterion, distance, duration);
-  std::unique_ptr<Prediction> prediction = makeParityPrediction(object, criterion, distance, duration);
+  if (object.damped(handDampingMatters)) return makeMinimumEnergyPrediction(object, criterion, distance, duration);
+  std::unique_ptr<Prediction> prediction = makeSymmetricPrediction(object, criterion, distance, duration);
   if (!(prediction->condition > kClosedFormCondition && prediction->condition <= kRefuseCondition)) return prediction;
   const double condition = prediction->condition;
-  prediction = makeSeriesPrediction(object, criterion, distance, duration);
+  prediction = makeMinimumEnergyPrediction(object, criterion, distance, duration);
   prediction->condition = condition;
   return prediction;
 }
@@ -81,7 +106,7 @@ void judge(Prediction& prediction, const LineObject* object) {
 }
 
 // Gravity that pulls along the way would let the masses hang at other places than start and target.
-void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
+void requireNoGravityAlong(const constraints::ArcCurve& curve, const Vec3& gravity) {
   constexpr int kProbes = 64;
   for (int i = 0; i <= kProbes; ++i) {
     const double along = dot(curve.expand<2>(curve.length() * i / kProbes)[1], gravity);
@@ -93,7 +118,7 @@ void requireNoGravityAlong(const ArcCurve& curve, const Vec3& gravity) {
   }
 }
 
-// A point on a curve or surface moves with the hand; chain and parallel objects follow it by their springs.
+// The hand alone, or with its object, on a curve or a surface.
 std::unique_ptr<Prediction> makeBentPrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
                                                Criterion criterion, double duration, const std::optional<LineObject>& object,
                                                int unknowns) {
@@ -103,12 +128,13 @@ std::unique_ptr<Prediction> makeBentPrediction(const experiment::Experiment& exp
   const experiment::Task& task = *experiment.task;
   if (constraint.kind == constraints::ConstraintKind::Curve) {
     if (!object) return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, unknowns);
-    const ArcCurve curve(constraint, task.start.at(0), task.target.at(0));
+    const constraints::ArcCurve curve(constraint, task.start.at(0), task.target.at(0));
     requireNoGravityAlong(curve, experiment.object.gravity);
     return makeCurveObjectPrediction(curve, *object, duration, unknowns);
   }
   if (object)
-    throw RefusedError("min-hand-jerk: on surfaces it is computed for a single mass that moves with the hand; chains need a curve");
+    throw RefusedError(
+        "min-hand-jerk: on surfaces it is computed for a point that is the hand itself; what hangs behind a spring needs a curve");
   return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, 1, unknowns);
 }
 
@@ -128,32 +154,42 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Cr
   std::unique_ptr<Prediction> prediction;
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
+  std::optional<PointIs> point;
+  const bool isPoint = experiment.object.kind == experiment::ObjectKind::Point;
+  if (options.point && !isPoint) throw UsageError("point: the object is none; allowed: only with an object of kind point");
   if (experiment.object.kind == experiment::ObjectKind::Body)
     throw UsageError("object: the criteria are not defined for a body that turns");
   const auto makeObject = [&] {
     return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
                                  warnings);
   };
-  const bool straight = constraint.kind == constraints::ConstraintKind::Free ||
-                        (constraint.kind == constraints::ConstraintKind::Curve && constraint.straight);
-  if (straight) {
-    const StraightTask way = computeStraightTask(constraint, task);
+  if (const std::optional<StraightTask> straight = findStraightTask(constraint, task)) {
+    const StraightTask& way = *straight;
     if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");
     object = makeObject();
     if (std::abs(dot(experiment.object.gravity, way.target - way.start)) > 0)
       warnings.push_back(
           "gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the "
           "weight");
-    prediction = criterion == Criterion::MinTorqueChange
-                     ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
-                     : makeLinearPrediction(*object, criterion, way.distance, duration);
+    const bool freeArm = constraint.kind == constraints::ConstraintKind::Free && criterion == Criterion::MinTorqueChange;
+    if (isPoint) point = freeArm ? PointIs::Hand : options.point.value_or(PointIs::BehindSpring);
+    if (point == PointIs::Hand && !freeArm) {
+      prediction = makeStraightHandPrediction(*object, criterion, way.distance, duration);
+      object.reset();
+    } else {
+      prediction = criterion == Criterion::MinTorqueChange
+                       ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
+                       : makeLinearPrediction(*object, criterion, way.distance, duration);
+    }
     prediction->distance = way.distance;
   } else {
-    if (experiment.object.kind != experiment::ObjectKind::Point) object = makeObject();
+    if (isPoint) point = options.point.value_or(PointIs::Hand);
+    if (point != PointIs::Hand) object = makeObject();
     prediction = makeBentPrediction(experiment, constraint, criterion, duration, object, options.unknowns);
   }
   prediction->criterion = criterion;
   prediction->duration = duration;
+  prediction->point = point;
   prediction->warnings.insert(prediction->warnings.begin(), warnings.begin(), warnings.end());
   judge(*prediction, object ? &*object : nullptr);
   findPeaks(*prediction);

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
-#include "sim/predict/arc_curve.h"
+#include "constraints/geometry/arc_curve.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
@@ -71,7 +71,7 @@ struct Arrival {
 
 Arrival simulate(const experiment::Experiment& e, const Prediction& p) {
   const dynamics::Scene scene = dynamics::compileScene(e, {"adaptive", 0.001, 1e-13});
-  const ArcCurve curve(scene.constraint, e.task->start[0], e.task->target[0]);
+  const constraints::ArcCurve curve(scene.constraint, e.task->start[0], e.task->target[0]);
   scene.plant->placeAtRest(e.task->start);
   const double T = p.duration;
   const dynamics::HandFunction hand = [&](double t) {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "base/error.h"
-#include "sim/predict/modes.h"
+#include "sim/predict/line/modes.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 

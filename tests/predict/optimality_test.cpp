@@ -7,9 +7,9 @@
 
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
-#include "sim/predict/flat_output.h"
-#include "sim/predict/gauss_legendre.h"
-#include "sim/predict/legendre.h"
+#include "sim/predict/line/flat_output.h"
+#include "base/gauss_legendre.h"
+#include "sim/predict/transcription/rest_to_rest_basis.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
@@ -79,7 +79,7 @@ TEST_P(Optimality, NoAdmissibleMotionCostsLess) {
   const auto prediction = predict(c.experiment, c.criterion, options);
   const Control control = controlOf(c.experiment, c.criterion, c.handMass);
   const RestToRestBasis basis(control.conditions, kUnknowns);
-  const GaussRule<double> rule = makeGaussRule<double>(kUnknowns + control.conditions + 10);
+  const GaussRule rule = makeGaussRule(kUnknowns + control.conditions + 10);
   const double T = prediction->duration;
   const auto rows = static_cast<Eigen::Index>(rule.node.size());
   Eigen::MatrixXd u(rows, kUnknowns + 1);
@@ -89,7 +89,7 @@ TEST_P(Optimality, NoAdmissibleMotionCostsLess) {
       for (size_t k = 0; k < control.polynomial.size(); ++k)
         if (control.polynomial[k] != 0)
           sum += static_cast<double>(control.polynomial[k]) * std::pow(2 / T, static_cast<double>(k)) *
-                 evaluate(basis.derivative(column, static_cast<int>(k)), rule.node[i]);
+                 valueAt(basis.derivative(column, static_cast<int>(k)), rule.node[i]);
       u(i, column) = sum * std::sqrt(rule.weight[i] * T / 2);
     }
   const Eigen::VectorXd straight = u.col(0) * 0.2;

@@ -1,0 +1,23 @@
+#pragma once
+#include <memory>
+
+#include "sim/predict/line/line_object.h"
+#include "sim/predict/prediction.h"
+
+namespace reachlab::predict {
+
+/// Where the hand of the arm goes, in the task plane: along the line and across it [m].
+struct ArmTask {
+  std::array<double, 2> start{}, target{};
+  double duration = 0;  // [s]
+};
+
+/// Criterion 2: least integral of the squared rates of both joint torques of a planar two-link arm, tau = M(q) q'' + C + B q' (+
+/// J^T f of the object), from rest to rest; model and symbols of criteria.md 6, after Uno, Kawato and Suzuki 1989. The problem is
+/// not convex: the lowest of the minima found from several starts is given. `unknowns` 0: chosen for 1e-8 of the peak. Free arm:
+/// positions are those along the chord from start to target; the masses go with the hand and load nothing.
+std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, const ArmTask& task, int massCount, int unknowns);
+/// Along the straight line of the task with the object (and the hand's own mass and damping); no force across the line.
+std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns);
+
+}  // namespace reachlab::predict

@@ -1,0 +1,318 @@
+#include "sim/predict/line/control_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reachlab::predict {
+namespace {
+
+using std::sqrt;
+using Real = DoubleDouble;
+
+// A linear combination of the states and, last, of the control.
+using Row = std::vector<Real>;
+
+void add(Row& to, const Row& row, Real factor) {
+  for (size_t i = 0; i < to.size(); ++i) to[i] += factor * row[i];
+}
+
+/// Collects the equations of one object, state by state.
+class Builder {
+ public:
+  Builder(const LineObject& line, Criterion criterion) : o(line), n(line.count()), kind(criterion) {}
+
+  ControlProblem byHand(int order, double distance) {
+    const int rest = 2 * n;  // h, h', … after elongations and relative velocities
+    begin(n, n, order);
+    s.controlled = s.size;
+    const Row speed = state(rest + 1), acceleration = state(rest + 2);
+    for (int i = 0; i < n; ++i) {
+      const int from = fromOf(i);
+      const Row stretching = difference(from < 0 ? zero() : velocity(from), velocity(i));
+      setRate(i, stretching, sqrt(Real(o.springs[i])));
+      applySpring(i, from, i, stretching);
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
+      add(force[i], speed, Real(-o.viscosity[i]));
+      add(force[i], acceleration, Real(-o.masses[i]));
+    }
+    finishVelocities(o.masses);
+    for (int k = 0; k + 1 < order; ++k) setRate(rest + k, state(rest + k + 1), Real(1));
+    setRate(rest + order - 1, control(), Real(1));
+    s.target[rest] = distance;
+    Row hand = state(rest);
+    s.output = positions(hand);
+    return finish();
+  }
+
+  ControlProblem byForce(double distance) {
+    const double hubDamping = hubDampers() + o.handDamping;
+    const bool heavyHand = o.handMass > 0;
+    // A massless hand that meets a damper has its own rate; it must come to rest only if the masses would feel it afterwards.
+    const bool slowHand = !heavyHand && hubDamping > 0 && (o.handDamping > 0 || (o.parallel && n > 1));
+    const bool follower = !heavyHand && !slowHand && hubDamping > 0;
+    if (heavyHand) return withHeavyHand(distance);
+    if (slowHand) return withSlowHand(hubDamping, distance);
+    if (o.parallel && n > 1) return withHub(distance);
+    return withFreeEnd(follower, hubDamping, distance);
+  }
+
+ private:
+  // The hand is node 0 of N+1.
+  ControlProblem withHeavyHand(double distance) {
+    begin(n, n + 1, 1 + forceStates());
+    s.controlled = s.size;
+    std::vector<double> masses{o.handMass};
+    masses.insert(masses.end(), o.masses.begin(), o.masses.end());
+    nodeMass = masses;
+    for (int i = 0; i < n; ++i) {
+      const int from = fromOf(i) + 1, to = i + 1;
+      const Row stretching = difference(velocity(from), velocity(to));
+      setRate(i, stretching, sqrt(Real(o.springs[i])));
+      applySpring(i, from, to, stretching);
+      add(force[to], velocity(to), Real(-o.viscosity[i]));
+    }
+    add(force[0], velocity(0), Real(-o.handDamping));
+    const Row drive = drivingForce(velocity(0), 1);
+    add(force[0], drive, Real(1));
+    finishByForce(masses, distance);
+    Row hand = centre();
+    for (int i = 0; i < n; ++i) subtractMassOffset(hand, i + 1);
+    s.output = positions(hand);
+    return finish();
+  }
+
+  // Hand without mass behind a damper: (sum b + b_hand) h' = F - sum k e + sum b v.
+  ControlProblem withSlowHand(double hubDamping, double distance) {
+    begin(n, n, 1 + forceStates());
+    s.controlled = s.size;
+    nodeMass = o.masses;
+    Row speed = drivingForce(zero(), 0);
+    for (int i = 0; i < n; ++i)
+      if (fromOf(i) < 0) {
+        add(speed, state(i), -sqrt(Real(o.springs[i])));
+        add(speed, velocity(i), Real(o.dampers[i]));
+      }
+    for (Real& c : speed) c /= Real(hubDamping);
+    for (int i = 0; i < n; ++i) {
+      const int from = fromOf(i);
+      const Row stretching = difference(from < 0 ? speed : velocity(from), velocity(i));
+      setRate(i, stretching, sqrt(Real(o.springs[i])));
+      applySpring(i, from, i, stretching);
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
+    }
+    s.handVelocityJumps = kind != Criterion::MinHandForceChange;
+    finishByForce(o.masses, distance);
+    Row hand = centre();
+    for (int i = 0; i < n; ++i) subtractMassOffset(hand, i);
+    s.output = positions(hand);
+    return finish();
+  }
+
+  // Massless hand, no damper at it: the force acts on mass 1 of the chain at once, and h = x1 + F/k. A damper in the coupling
+  // makes the hand follow the force instead, without a say in the problem.
+  ControlProblem withFreeEnd(bool follower, double hubDamping, double distance) {
+    begin(n - 1, n, 1 + forceStates() + (follower ? 1 : 0));
+    s.controlled = s.size - (follower ? 1 : 0);
+    nodeMass = o.masses;
+    const Row drive = drivingForce(zero(), 0);
+    for (int i = 0; i < n; ++i) {
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
+      if (i == 0) continue;
+      const Row stretching = difference(velocity(i - 1), velocity(i));
+      setRate(i - 1, stretching, sqrt(Real(o.springs[i])));
+      applySpring(i, i - 1, i, stretching, i - 1);
+    }
+    add(force[0], drive, Real(1));
+    finishByForce(o.masses, distance);
+
+    Row first = centre();  // x1 = Xc + sum of what lies behind it
+    for (int i = 1; i < n; ++i) {
+      double behind = 0;
+      for (int j = i; j < n; ++j) behind += o.masses[j];
+      add(first, state(i - 1), Real(behind) / Real(o.totalMass()) / sqrt(Real(o.springs[i])));
+    }
+    Row hand = first;
+    const Real k = o.springs[0];
+    if (follower) {
+      const int last = s.size - 1;  // its stretch h - x1 [m]: b e' = F - k e
+      Row rate = drive;
+      add(rate, state(last), -k);
+      setRate(last, rate, Real(1) / Real(hubDamping));
+      add(hand, state(last), Real(1));
+      s.handVelocityJumps = kind != Criterion::MinHandForceChange;
+    } else {
+      add(hand, drive, Real(1) / k);
+      s.handVelocityJumps = true;
+      s.handJumps = kind != Criterion::MinHandForceChange;
+    }
+    s.output = {hand, first};
+    for (int i = 1; i < n; ++i) {
+      Row mass = s.output.back();
+      add(mass, state(i - 1), Real(-1) / sqrt(Real(o.springs[i])));
+      s.output.push_back(mass);
+    }
+    return finish();
+  }
+
+  // Massless hub of parallel springs: sum k e = F always, so that the scaled elongations are q F / sqrt(sum k) + B y with q =
+  // sqrt(k) of unit length and B an orthonormal basis of what is perpendicular to it (columns of a Householder reflection).
+  ControlProblem withHub(double distance) {
+    begin(n - 1, n, 1 + forceStates());
+    s.controlled = s.size;
+    nodeMass = o.masses;
+    Real total = 0;
+    for (const double k : o.springs) total += Real(k);
+    std::vector<Real> q, axis;
+    for (const double k : o.springs) q.push_back(sqrt(Real(k) / total));
+    axis = q;
+    axis[0] += Real(1);
+    const auto basis = [&](int i, int j) {  // i-th spring, j-th column after q
+      const Real reflected = axis[i] * axis[j + 1] / axis[0];
+      return i == j + 1 ? Real(1) - reflected : -reflected;
+    };
+    const Row drive = drivingForce(zero(), 0);
+    std::vector<Row> stretch(n, zero());  // sqrt(k) e
+    for (int i = 0; i < n; ++i) {
+      add(stretch[i], drive, q[i] / sqrt(total));
+      for (int j = 0; j + 1 < n; ++j) add(stretch[i], state(j), basis(i, j));
+      add(force[i], stretch[i], sqrt(Real(o.springs[i])));
+      add(force[i], velocity(i), Real(-o.viscosity[i]));
+    }
+    for (int j = 0; j + 1 < n; ++j) {
+      Row rate = zero();
+      for (int i = 0; i < n; ++i) add(rate, velocity(i), -sqrt(Real(o.springs[i])) * basis(i, j));
+      setRate(j, rate, Real(1));
+    }
+    finishByForce(o.masses, distance);
+    Row hand = centre();
+    for (int i = 0; i < n; ++i) add(hand, stretch[i], Real(o.masses[i]) / Real(o.totalMass()) / sqrt(Real(o.springs[i])));
+    s.output = {hand};
+    for (int i = 0; i < n; ++i) {
+      Row mass = hand;
+      add(mass, stretch[i], Real(-1) / sqrt(Real(o.springs[i])));
+      s.output.push_back(mass);
+    }
+    s.handVelocityJumps = true;
+    s.handJumps = kind != Criterion::MinHandForceChange;
+    return finish();
+  }
+
+  void begin(int elongations, int velocities, int others) {
+    s.elongations = elongations;
+    s.velocities = velocities;
+    s.size = elongations + velocities + others;
+    s.a.assign(static_cast<size_t>(s.size) * s.size, Real(0));
+    s.b.assign(s.size, Real(0));
+    s.target.assign(s.size, Real(0));
+    force.assign(velocities, zero());
+    if (!nodeMass.empty()) return;
+    nodeMass = o.masses;
+    if (o.handMass > 0) nodeMass.insert(nodeMass.begin(), o.handMass);
+  }
+
+  int forceStates() const { return kind == Criterion::MinHandForceChange ? 1 : 0; }
+  int centreIndex() const { return s.elongations + s.velocities; }
+  int forceIndex() const { return centreIndex() + 1; }
+  int fromOf(int spring) const { return o.parallel ? -1 : spring - 1; }
+  double hubDampers() const {
+    double sum = o.dampers[0];
+    for (int i = 1; o.parallel && i < n; ++i) sum += o.dampers[i];
+    return sum;
+  }
+
+  Row zero() const { return Row(s.size + 1, Real(0)); }
+  Row state(int i) const {
+    Row row = zero();
+    row[i] = Real(1);
+    return row;
+  }
+  Row control() const { return state(s.size); }
+  Row centre() const { return state(centreIndex()); }
+  Row velocity(int node) const {
+    Row row = zero();
+    row[s.elongations + node] = Real(1) / sqrt(Real(nodeMass[node]));
+    return row;
+  }
+  static Row difference(Row a, const Row& b) {
+    add(a, b, Real(-1));
+    return a;
+  }
+
+  // F in terms of states and control; for criterion 6 the control is the acceleration of the centre of mass.
+  Row drivingForce(const Row& handVelocity, int firstMass) {
+    if (kind == Criterion::MinHandForceChange) return state(forceIndex());
+    if (kind == Criterion::MinHandForce) return control();
+    Row row = control();
+    for (Real& c : row) c *= Real(o.totalMass());
+    add(row, handVelocity, Real(o.handDamping));
+    for (int i = 0; i < n; ++i) add(row, velocity(firstMass + i), Real(o.viscosity[i]));
+    return row;
+  }
+
+  void setRate(int i, const Row& rate, Real factor) {
+    for (int j = 0; j < s.size; ++j) s.a[static_cast<size_t>(i) * s.size + j] = factor * rate[j];
+    s.b[i] = factor * rate[s.size];
+  }
+
+  void applySpring(int spring, int from, int to, const Row& stretching, int stateIndex = -1) {
+    Row pull = zero();
+    add(pull, state(stateIndex < 0 ? spring : stateIndex), sqrt(Real(o.springs[spring])));
+    add(pull, stretching, Real(o.dampers[spring]));
+    add(force[to], pull, Real(1));
+    if (from >= 0) add(force[from], pull, Real(-1));
+  }
+
+  void finishVelocities(const std::vector<double>& masses) {
+    for (int i = 0; i < s.velocities; ++i) setRate(s.elongations + i, force[i], Real(1) / sqrt(Real(masses[i])));
+  }
+
+  void finishByForce(const std::vector<double>& masses, double distance) {
+    finishVelocities(masses);
+    Row momentum = zero();
+    for (int i = 0; i < s.velocities; ++i) add(momentum, velocity(i), Real(masses[i]));
+    setRate(centreIndex(), momentum, Real(1) / Real(o.totalMass()));
+    if (forceStates() > 0) setRate(forceIndex(), control(), Real(1));
+    s.target[centreIndex()] = distance;
+  }
+
+  // Mass `node - (heavy hand)` lies behind springs; its share of the distance from the hand to the centre of mass.
+  void subtractMassOffset(Row& hand, int node) {
+    const int mass = s.velocities == n ? node : node - 1;
+    const Real share = Real(o.masses[mass]) / Real(o.totalMass());
+    for (int i = o.parallel ? mass : 0; i <= mass; ++i) add(hand, state(i), share / sqrt(Real(o.springs[i])));
+  }
+
+  // Hand and masses from the hand's row when every spring has its elongation state.
+  std::vector<Row> positions(const Row& hand) const {
+    std::vector<Row> rows{hand};
+    for (int i = 0; i < n; ++i) {
+      Row mass = o.parallel ? hand : rows.back();
+      add(mass, state(i), Real(-1) / sqrt(Real(o.springs[i])));
+      rows.push_back(mass);
+    }
+    return rows;
+  }
+
+  ControlProblem finish() { return std::move(s); }
+
+  const LineObject& o;
+  int n;
+  Criterion kind;
+  ControlProblem s;
+  std::vector<double> nodeMass;
+  std::vector<Row> force;  // on each node [N]
+};
+
+}  // namespace
+
+ControlProblem makeControlProblem(const LineObject& object, Criterion criterion, double distance) {
+  LineObject line = object;
+  const bool byHand = criterion == Criterion::MinHandJerk || criterion == Criterion::MinHandCrackle;
+  if (byHand) line.handMass = line.handDamping = 0;  // the hand's motion is given: what it takes to move it does not matter
+  // The centre of mass does not feel what a massless hand loses to its own damping.
+  if (criterion == Criterion::MinComAcceleration && line.handMass == 0) line.handDamping = 0;
+  Builder builder(line, criterion);
+  return byHand ? builder.byHand(criterion == Criterion::MinHandJerk ? 3 : 5, distance) : builder.byForce(distance);
+}
+
+}  // namespace reachlab::predict

@@ -1,0 +1,100 @@
+#include "sim/predict/line/line_object.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace reachlab::predict {
+namespace {
+
+constexpr double kEqualPhase = 1e-9;  // |w_i - w_j| T below which two frequencies are one
+
+void requirePositive(const std::vector<double>& values, const char* what, const char* unit) {
+  for (size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0) || !std::isfinite(values[i]))
+      throw RefusedError(fmt::format("{} {} is {} {}: the masses behind it cannot be brought to rest by the hand; give it a value above 0",
+                                     what, i + 1, values[i], unit));
+}
+
+}  // namespace
+
+bool LineObject::damped(bool withHand) const {
+  const auto any = [](const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [](double b) { return b > 0; });
+  };
+  return any(viscosity) || any(dampers) || (withHand && handDamping > 0);
+}
+
+double LineObject::totalMass() const { return std::accumulate(masses.begin(), masses.end(), handMass); }
+
+LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping) {
+  const experiment::Object& object = experiment.object;
+  if (object.kind == experiment::ObjectKind::Body)
+    throw UsageError("object: the criteria are defined for point, chain and parallel objects, not for a body that turns");
+  LineObject line;
+  line.parallel = object.kind == experiment::ObjectKind::Parallel;
+  line.masses = object.masses;
+  line.viscosity.assign(object.masses.size(), object.viscosity);
+  line.handMass = handMass;
+  line.handDamping = handDamping;
+  const size_t n = line.masses.size();
+  if (!line.parallel) {
+    if (!experiment.coupling) throw UsageError("coupling: missing; the prediction needs the spring between hand and object");
+    line.springs.push_back(experiment.coupling->stiffness);
+    line.dampers.push_back(experiment.coupling->damping);
+  }
+  line.springs.insert(line.springs.end(), object.stiffness.begin(), object.stiffness.end());
+  line.dampers.insert(line.dampers.end(), object.damping.begin(), object.damping.end());
+  line.dampers.resize(n, 0.0);
+  if (n == 0 || line.springs.size() != n) throw UsageError("object: as many springs to the hand as masses are needed");
+  requirePositive(line.masses, "mass", "kg");
+  requirePositive(line.springs, line.parallel ? "spring" : "spring (the coupling is number 1)", "N/m");
+  if (!(handMass >= 0) || !(handDamping >= 0)) throw UsageError("hand mass and hand damping: 0 or more");
+  line.source.resize(n);
+  std::iota(line.source.begin(), line.source.end(), 0);
+  return line;
+}
+
+LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings) {
+  if (!object.parallel) return object;
+  LineObject merged = object;
+  merged.masses.clear(), merged.springs.clear(), merged.dampers.clear(), merged.viscosity.clear();
+  const auto frequency = [](const LineObject& o, int i) { return std::sqrt(o.springs[i] / o.masses[i]); };
+  const auto decay = [](const LineObject& o, int i) { return o.dampers[i] / o.masses[i]; };
+  const auto drag = [](const LineObject& o, int i) { return o.viscosity[i] / o.masses[i]; };
+  for (int i = 0; i < object.count(); ++i) {
+    int place = 0;
+    while (place < merged.count() && !(std::abs(frequency(merged, place) - frequency(object, i)) * duration < kEqualPhase &&
+                                       std::abs(decay(merged, place) - decay(object, i)) * duration < kEqualPhase &&
+                                       std::abs(drag(merged, place) - drag(object, i)) * duration < kEqualPhase))
+      ++place;
+    if (place == merged.count()) {
+      merged.masses.push_back(object.masses[i]);
+      merged.springs.push_back(object.springs[i]);
+      merged.dampers.push_back(object.dampers[i]);
+      merged.viscosity.push_back(object.viscosity[i]);
+    } else {
+      warnings.push_back(fmt::format("masses {} and {} have equal frequencies ({:.6g} rad/s): they move as one mass",
+                                     std::find(merged.source.begin(), merged.source.begin() + i, place) - merged.source.begin() + 1, i + 1,
+                                     frequency(object, i)));
+      merged.masses[place] += object.masses[i];
+      merged.springs[place] += object.springs[i];
+      merged.dampers[place] += object.dampers[i];
+      merged.viscosity[place] += object.viscosity[i];
+    }
+    merged.source[i] = place;
+  }
+  return merged;
+}
+
+double computeTravelTime(const LineObject& object) {
+  double sum = 0;
+  for (int i = 0; i < object.count(); ++i) sum += std::sqrt(object.masses[i] / object.springs[i]);
+  return 2 * sum;
+}
+
+}  // namespace reachlab::predict

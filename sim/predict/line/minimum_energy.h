@@ -1,0 +1,25 @@
+#pragma once
+#include "sim/predict/line/control_problem.h"
+#include "sim/predict/numerics/piecewise_series.h"
+
+namespace reachlab::predict {
+
+/// The movement of least integral of u^2 from rest to the target (minimum-energy control).
+struct MinimumEnergyMotion {
+  PiecewiseSeries profile;
+  double cost = 0;       // int u^2
+  double condition = 0;  // of the root of the Gramian, its states turned to the object's modes and scaled to one; infinite: singular
+  double fastest = 0;    // [1/s] bound of the object's rates
+  double miss = 0;       // how far the states end from the target, in their own units: the computation checks itself
+};
+
+/// u(t) = b^T e^{A^T (T-t)} W^-1 x_T with the Gramian W = int_0^T e^{A s} b b^T e^{A^T s} ds (criteria.md 5; Kailath, Linear Systems, 9.2).
+/// e^{A s} and W of a time so short that their Taylor series are short too, then of twice the time and again:
+/// W(2s) = W(s) + e^{A s} W(s) e^{A^T s} (Van Loan, IEEE Trans. Automat. Contr. 23 (1978) 395), in 32 digits, of which W takes the
+/// square of the condition; the movement that follows says what is missing, which is corrected once or twice. Nothing is diagonalised,
+/// so that double eigenvalues and strong damping need no special case. Throws RefusedError when the object's fastest rate times
+/// `duration` is above kFastestTimesDuration.
+MinimumEnergyMotion solveMinimumEnergy(const ControlProblem& system, double duration);
+inline constexpr double kFastestTimesDuration = 32768;
+
+}  // namespace reachlab::predict

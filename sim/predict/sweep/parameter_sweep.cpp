@@ -1,0 +1,191 @@
+#include "sim/predict/sweep/parameter_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "base/error.h"
+
+namespace reachlab::predict {
+namespace {
+
+constexpr double kRipple = 1e-9;  // of the peak
+constexpr int kMaxValues = 100000;
+
+constexpr std::array<SweepKey, 12> kKeys{{
+    {"duration_s", "movement time"},
+    {"stiffness_n_per_m", "every spring, the coupling too"},
+    {"object.stiffness_n_per_m", "every spring of the object"},
+    {"coupling.stiffness_n_per_m", "the coupling"},
+    {"damping_n_s_per_m", "every damper, the coupling's too"},
+    {"viscosity_n_s_per_m", "viscosity of the surroundings"},
+    {"mass_kg", "every mass"},
+    {"total_mass_kg", "the object's mass, shared as it is"},
+    {"n", "number of masses, the total mass kept, springs like the first"},
+    {"n_each", "number of masses, each like the first, springs like the first"},
+    {"hand_mass_kg", "mass of the hand"},
+    {"hand_damping_n_s_per_m", "damping of the hand itself"},
+}};
+
+double parseNumber(std::string_view text, const std::string& whole) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw UsageError(fmt::format("--sweep {}: '{}' is not a number; allowed: KEY=FROM:TO:STEP", whole, text));
+  return value;
+}
+
+void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {
+  experiment::Object& object = experiment.object;
+  if (value != std::floor(value) || value < 1 || value > experiment::kMaxMasses)
+    throw UsageError(fmt::format("n = {}: the number of masses is a whole number from 1 to {}", value, experiment::kMaxMasses));
+  const auto n = static_cast<size_t>(value);
+  const double total = std::accumulate(object.masses.begin(), object.masses.end(), 0.0);
+  const bool parallel = object.kind == experiment::ObjectKind::Parallel;
+  const double spring = !object.stiffness.empty() ? object.stiffness[0] : experiment.coupling ? experiment.coupling->stiffness : 0;
+  const double damper = object.damping.empty() ? 0 : object.damping[0];
+  object.masses.assign(n, keepTotal ? total / value : object.masses.at(0));
+  object.stiffness.assign(parallel ? n : n - 1, spring);
+  object.damping.assign(object.stiffness.size(), damper);
+  if (!parallel) object.kind = n == 1 ? experiment::ObjectKind::Point : experiment::ObjectKind::Chain;
+}
+
+}  // namespace
+
+ProfileShape computeShape(const Prediction& prediction) {
+  const int count = 4 * prediction.scanCount();
+  const double ripple = kRipple * std::abs(prediction.handPeak);
+  ProfileShape shape;
+  // A maximum counts once the velocity has fallen from it by more than a ripple, after having risen to it by as much.
+  double low = prediction.handAt(0).velocity, high = low;
+  bool rising = false;
+  for (int i = 1; i <= count; ++i) {
+    const double v = prediction.handAt(prediction.duration * i / count).velocity;
+    if (v < -ripple) shape.reverses = true;
+    if (rising) {
+      high = std::max(high, v);
+      if (v < high - ripple) ++shape.velocityPeaks, rising = false, low = v;
+    } else {
+      low = std::min(low, v);
+      if (v > low + ripple) rising = true, high = v;
+    }
+  }
+  if (prediction.handAt(0).velocity < -ripple) shape.reverses = true;
+  return shape;
+}
+
+std::span<const SweepKey> sweepKeys() { return kKeys; }
+
+std::vector<double> Sweep::values() const {
+  std::vector<double> all;
+  const auto count = static_cast<long>(std::floor((to - from) / step + 0.5));
+  for (long i = 0; i <= count; ++i) all.push_back(from + static_cast<double>(i) * step);
+  return all;
+}
+
+Sweep parseSweep(const std::string& text) {
+  const std::string_view all = text;
+  const size_t equal = all.find('='), first = all.find(':', equal), second = first == all.npos ? all.npos : all.find(':', first + 1);
+  if (equal == all.npos || second == all.npos) throw UsageError(fmt::format("--sweep {}: allowed: KEY=FROM:TO:STEP", text));
+  Sweep sweep;
+  sweep.key = all.substr(0, equal);
+  if (std::none_of(kKeys.begin(), kKeys.end(), [&](const SweepKey& k) { return k.name == sweep.key; })) {
+    std::string names;
+    for (const SweepKey& k : kKeys) names += (names.empty() ? "" : ", ") + std::string(k.name);
+    throw UsageError(fmt::format("--sweep: '{}' is not a key; allowed: {}", sweep.key, names));
+  }
+  sweep.from = parseNumber(all.substr(equal + 1, first - equal - 1), text);
+  sweep.to = parseNumber(all.substr(first + 1, second - first - 1), text);
+  sweep.step = parseNumber(all.substr(second + 1), text);
+  if (!(sweep.step > 0) || sweep.to < sweep.from || (sweep.to - sweep.from) / sweep.step > kMaxValues)
+    throw UsageError(fmt::format("--sweep {}: allowed: FROM <= TO, STEP > 0, at most {} values", text, kMaxValues));
+  return sweep;
+}
+
+void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options) {
+  experiment::Object& object = experiment.object;
+  const auto coupling = [&]() -> experiment::Coupling& {
+    if (!experiment.coupling) throw UsageError(fmt::format("{}: this object has no coupling", key));
+    return *experiment.coupling;
+  };
+  const bool zeroAllowed = key == "damping_n_s_per_m" || key == "viscosity_n_s_per_m" || key.starts_with("hand_");
+  if (!(value > 0) && !(zeroAllowed && value == 0)) throw UsageError(fmt::format("{} = {}: allowed: above 0", key, value));
+  if (key == "duration_s" && value > 3600) throw UsageError(fmt::format("{} = {}: allowed: at most 3600 s", key, value));
+  if (key == "duration_s") {
+    options.duration = value;
+  } else if (key == "stiffness_n_per_m") {
+    std::fill(object.stiffness.begin(), object.stiffness.end(), value);
+    if (experiment.coupling) experiment.coupling->stiffness = value;
+  } else if (key == "object.stiffness_n_per_m") {
+    std::fill(object.stiffness.begin(), object.stiffness.end(), value);
+  } else if (key == "coupling.stiffness_n_per_m") {
+    coupling().stiffness = value;
+  } else if (key == "damping_n_s_per_m") {
+    object.damping.assign(object.stiffness.size(), value);
+    if (experiment.coupling) experiment.coupling->damping = value;
+  } else if (key == "viscosity_n_s_per_m") {
+    object.viscosity = value;
+  } else if (key == "mass_kg") {
+    std::fill(object.masses.begin(), object.masses.end(), value);
+  } else if (key == "total_mass_kg") {
+    const double total = std::accumulate(object.masses.begin(), object.masses.end(), 0.0);
+    for (double& m : object.masses) m *= value / total;
+  } else if (key == "n" || key == "n_each") {
+    resizeObject(experiment, value, key == "n");
+  } else if (key == "hand_mass_kg") {
+    options.handMass = value;
+  } else if (key == "hand_damping_n_s_per_m") {
+    options.handDamping = value;
+  } else {
+    throw UsageError(fmt::format("{}: not a key that can be swept", key));
+  }
+}
+
+std::vector<SweepRow> computeSweep(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options,
+                                   const Sweep& sweep, const std::function<void(int, int)>& progress) {
+  const std::vector<double> values = sweep.values();
+  const int total = static_cast<int>(values.size());
+  std::vector<SweepRow> rows(values.size());
+  std::atomic<int> next{0};
+  std::mutex reporting;
+  std::exception_ptr fault;
+  int done = 0;
+  const auto work = [&] {
+    for (int i = next++; i < total; i = next++) {
+      SweepRow& row = rows[i];
+      row.value = values[i];
+      try {
+        experiment::Experiment changed = experiment;
+        PredictOptions changedOptions = options;
+        applySweepValue(sweep.key, row.value, changed, changedOptions);
+        row.prediction = predict(changed, criterion, changedOptions);
+        row.shape = computeShape(*row.prediction);
+      } catch (const RefusedError& refused) {
+        row.refusal = refused.what();
+      } catch (...) {
+        const std::lock_guard lock(reporting);
+        if (!fault) fault = std::current_exception();
+        next = total;
+      }
+      const std::lock_guard lock(reporting);
+      ++done;
+      if (progress) progress(done, total);
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (unsigned w = 1; w < std::max(1u, std::thread::hardware_concurrency()) && static_cast<int>(w) < total; ++w)
+      workers.emplace_back(work);
+    work();
+  }
+  if (fault) std::rethrow_exception(fault);
+  return rows;
+}
+
+}  // namespace reachlab::predict

@@ -1,0 +1,44 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/predict/predict.h"
+
+namespace reachlab::predict {
+
+/// How a hand profile looks: interior maxima of the velocity, and whether the hand moves backwards somewhere. Ripples below 1e-9
+/// of the peak do not count.
+struct ProfileShape {
+  int velocityPeaks = 0;
+  bool reverses = false;
+};
+ProfileShape computeShape(const Prediction& prediction);
+
+/// One parameter from `from` to `to` in steps, both ends included (to half a step).
+struct Sweep {
+  std::string key;
+  double from = 0, to = 0, step = 0;
+  std::vector<double> values() const;
+};
+/// Parses KEY=FROM:TO:STEP. Throws UsageError that names the keys.
+Sweep parseSweep(const std::string& text);
+struct SweepKey {
+  std::string_view name, meaning;
+};
+std::span<const SweepKey> sweepKeys();
+/// Sets one key of experiment or options. Throws UsageError for a value that makes no sense for this object.
+void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options);
+
+struct SweepRow {
+  double value = 0;
+  std::unique_ptr<Prediction> prediction;  // null when refused
+  ProfileShape shape;
+  std::string refusal;
+};
+/// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the
+/// threads, one at a time, with how many are done.
+std::vector<SweepRow> computeSweep(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options,
+                                   const Sweep& sweep, const std::function<void(int done, int total)>& progress = {});
+
+}  // namespace reachlab::predict
