@@ -1,0 +1,29 @@
+#include "base/fault.h"
+
+namespace reachlab {
+
+std::string toText(const Fault& fault) {
+  std::string text;
+  if (fault.place) {
+    text += fault.place->file;
+    if (fault.place->line > 0) text += ":" + std::to_string(fault.place->line) + ":" + std::to_string(fault.place->column);
+    text += ": ";
+  }
+  if (!fault.key.empty()) text += fault.key + ": ";
+  text += fault.what;
+  if (!fault.allowed.empty()) text += "; allowed: " + fault.allowed;
+  return text;
+}
+
+std::string toText(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + toText(fault);
+  return text;
+}
+
+std::vector<Fault> faultsOf(const UsageError& error) {
+  if (const auto* told = dynamic_cast<const FaultError*>(&error)) return told->faults;
+  return {Fault{.what = error.what()}};
+}
+
+}  // namespace reachlab

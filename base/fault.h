@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace reachlab {
+
+/// Where something stands in a file; lines and columns count from 1, 0: not known.
+struct FilePlace {
+  std::string file;
+  int line = 0, column = 0;
+  bool operator==(const FilePlace&) const = default;
+};
+
+/// What is wrong with something that was given: the one currency of wrong input. It speaks of keys and values, never of an option or a
+/// widget: the file's reader adds the place, and each front end the words of its own door.
+struct Fault {
+  std::string key = {};                           // "object.masses_kg[1]" as in the files, or a request's "trials"; empty: the whole
+  std::string what = {};                          // "is -1"
+  std::string allowed = {};                       // "more than 0 kg"; empty where `what` says it all
+  std::optional<FilePlace> place = std::nullopt;  // in the file, where there is one
+  bool operator==(const Fault&) const = default;
+};
+
+/// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`, without what is not there.
+std::string toText(const Fault& fault);
+/// A line each.
+std::string toText(const std::vector<Fault>& faults);
+
+/// Wrong input, fault by fault.
+struct FaultError : UsageError {
+  explicit FaultError(std::vector<Fault> all) : UsageError(toText(all)), faults(std::move(all)) {}
+  explicit FaultError(Fault fault) : FaultError(std::vector<Fault>{std::move(fault)}) {}
+  std::vector<Fault> faults;
+};
+
+/// What is wrong, as far as it was told fault by fault; else one fault with the whole sentence.
+std::vector<Fault> faultsOf(const UsageError& error);
+
+}  // namespace reachlab
