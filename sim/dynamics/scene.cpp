@@ -8,7 +8,7 @@
 #include "constraints/places.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/rk4_error.h"
 
 namespace reachlab::dynamics {
@@ -129,12 +129,9 @@ void estimateRk4(Scene& scene, const experiment::Experiment& experiment, double 
         choice.fastestMode * step, choice.predictedError));
 }
 
-}  // namespace
-
-Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options) {
+Scene compile(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
   Scene scene;
-  scene.constraint = constraints::makeConstraint(experiment.constraint);
-  const constraints::Constraint& constraint = scene.constraint;
+  scene.constraint = constraint;
   const ObjectModel model = makeObjectModel(experiment);
   if (!(options.step > 0) || !std::isfinite(options.step))
     throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
@@ -210,6 +207,16 @@ Scene compileScene(const experiment::Experiment& experiment, const SceneOptions&
   if (choice.method == "rk4") estimateRk4(scene, experiment, options.step);
   if (experiment.task) scene.plant->placeAtRest(start);
   return scene;
+}
+
+}  // namespace
+
+Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options) {
+  return compile(experiment.experiment(), experiment.constraint(), options);
+}
+
+Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options) {
+  return compile(experiment, constraints::makeConstraint(experiment.constraint), options);
 }
 
 }  // namespace reachlab::dynamics

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/json_reader.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -216,7 +216,7 @@ void readVelocityEstimator(ObjectReader& root, Experiment& experiment) {
 
 }  // namespace
 
-Experiment parseExperiment(const std::string& text, const std::string& file, const std::string& definition) {
+CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition) {
   FaultList faults(file);
   const JsonNode tree = parseJson(text, file);
   ObjectReader root(faults, tree, "");
@@ -259,7 +259,18 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
       faults.add(object, "object.kind", "is parallel on a surface", "parallel on curves or free");
   }
   faults.throwIfAny();
-  return experiment;
+  return {std::move(experiment), std::move(*constraint)};
+}
+
+Experiment parseExperiment(const std::string& text, const std::string& file, const std::string& definition) {
+  return openExperimentText(text, file, definition).experiment();
+}
+
+CompiledExperiment::CompiledExperiment(const Experiment& experiment)
+    : CompiledExperiment(openExperimentText(toJson(experiment), experiment.name, experiment.constraint.definition)) {
+  auto own = std::make_shared<Experiment>(*experiment_);  // with its own text, where it has one
+  if (!experiment.text.empty()) own->text = experiment.text;
+  experiment_ = std::move(own);
 }
 
 }  // namespace reachlab::experiment

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/json_reader.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::experiment {
 namespace fs = std::filesystem;
@@ -32,14 +32,14 @@ std::vector<std::string> shippedExperiments() {
   return names;
 }
 
-Experiment readExperiment(const std::string& fileOrName) {
+CompiledExperiment openExperiment(const std::string& fileOrName) {
   std::error_code ignored;
-  if (fs::is_regular_file(fileOrName, ignored)) return parseExperiment(readTextFile(fileOrName), fileOrName);
+  if (fs::is_regular_file(fileOrName, ignored)) return openExperimentText(readTextFile(fileOrName), fileOrName);
   const bool looksLikeFile = fileOrName.find('/') != std::string::npos || fs::path(fileOrName).has_extension();
   const std::vector<std::string> names = shippedExperiments();
   if (std::find(names.begin(), names.end(), fileOrName) != names.end()) {
     const std::string file = (fs::path(resourceFolder()) / "experiments" / (fileOrName + ".json")).string();
-    return parseExperiment(readTextFile(file), file);
+    return openExperimentText(readTextFile(file), file);
   }
   if (fs::is_directory(fileOrName, ignored))
     throw UsageError(fmt::format("{}: is a folder; allowed: an experiment file or name", fileOrName));
@@ -49,5 +49,7 @@ Experiment readExperiment(const std::string& fileOrName) {
   throw UsageError(fmt::format("{}: is neither a file nor a shipped experiment{}; allowed: a file, or one of {}", fileOrName,
                                nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), listOf(names)));
 }
+
+Experiment readExperiment(const std::string& fileOrName) { return openExperiment(fileOrName).experiment(); }
 
 }  // namespace reachlab::experiment

@@ -58,35 +58,37 @@ TEST(ExperimentReader, EveryShippedExperimentReadsAndWritesBackEqual) {
   }
 }
 
-struct Fault {
+struct WrongText {
   const char *from, *to, *message;
 };
-class ExperimentReaderFaults : public testing::TestWithParam<Fault> {};
+class ExperimentReaderFaults : public testing::TestWithParam<WrongText> {};
 
 TEST_P(ExperimentReaderFaults, AreNamedWithPlaceKeyAndWhatIsAllowed) {
-  const Fault& fault = GetParam();
+  const WrongText& fault = GetParam();
   const std::string message = faultOf(replaced(kGood, fault.from, fault.to));
   EXPECT_NE(message.find(fault.message), std::string::npos) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Each, ExperimentReaderFaults,
-    testing::Values(
-        Fault{"\"duration_s\"", "\"duration\"", "x.json:7:58: task.duration: is not known here; did you mean duration_s?"},
-        Fault{"\"duration_s\": 1.35", "\"duration_s\": \"long\"", "x.json:7:72: task.duration_s: is a string; allowed: more than 0 s"},
-        Fault{"[0.6, 0.6]", "[0.6, -1]", "x.json:5:51: object.masses_kg[1]: is -1; allowed: more than 0 kg"},
-        Fault{"[600]", "[600, 600]", "object.stiffness_n_per_m: has 2 elements; allowed: an array of 1 number"},
-        Fault{"\"stiffness_n_per_m\": [600]", "\"viscosity_n_s_per_m\": 0", "object.stiffness_n_per_m: is missing"},
-        Fault{"1.35", "1e999", "x.json:7:72: this number is beyond the range of a double"}, Fault{"1.35", "NaN", "x.json:7:"},
-        Fault{"\"schema_version\": 1", "\"schema_version\": 2", "x.json:2:21: schema_version: is 2; allowed: 1"},
-        Fault{"\"schema_version\": 1,", "", "schema_version: is missing"},
-        Fault{"\"time_s\": 0.5", "\"time_s\": 0.5, \"time_s\": 0.6", "time_s: stands here twice"},
-        Fault{"\"start\": [0]", "\"start\": [0, 1]", "task.start: has 2 elements; allowed: an array of 1 number"},
-        Fault{"\"chain\"", "\"chian\"", "object.kind: is \"chian\"; allowed: point, chain, parallel or body"},
-        Fault{"\"name\": \"line\"", "\"name\": \"lime\"", "x.json:3:17: constraint"},
-        Fault{"\"damping_n_s_per_m\": 0 }", "\"damping_n_s_per_m\": -1 }", "coupling.damping_n_s_per_m: is -1"},
-        Fault{"\"chain\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600]",
-              "\"parallel\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600, 60]", "coupling: stands beside a parallel object"}));
+    testing::Values(WrongText{"\"duration_s\"", "\"duration\"", "x.json:7:58: task.duration: is not known here; did you mean duration_s?"},
+                    WrongText{"\"duration_s\": 1.35", "\"duration_s\": \"long\"",
+                              "x.json:7:72: task.duration_s: is a string; allowed: more than 0 s"},
+                    WrongText{"[0.6, 0.6]", "[0.6, -1]", "x.json:5:51: object.masses_kg[1]: is -1; allowed: more than 0 kg"},
+                    WrongText{"[600]", "[600, 600]", "object.stiffness_n_per_m: has 2 elements; allowed: an array of 1 number"},
+                    WrongText{"\"stiffness_n_per_m\": [600]", "\"viscosity_n_s_per_m\": 0", "object.stiffness_n_per_m: is missing"},
+                    WrongText{"1.35", "1e999", "x.json:7:72: this number is beyond the range of a double"},
+                    WrongText{"1.35", "NaN", "x.json:7:"},
+                    WrongText{"\"schema_version\": 1", "\"schema_version\": 2", "x.json:2:21: schema_version: is 2; allowed: 1"},
+                    WrongText{"\"schema_version\": 1,", "", "schema_version: is missing"},
+                    WrongText{"\"time_s\": 0.5", "\"time_s\": 0.5, \"time_s\": 0.6", "time_s: stands here twice"},
+                    WrongText{"\"start\": [0]", "\"start\": [0, 1]", "task.start: has 2 elements; allowed: an array of 1 number"},
+                    WrongText{"\"chain\"", "\"chian\"", "object.kind: is \"chian\"; allowed: point, chain, parallel or body"},
+                    WrongText{"\"name\": \"line\"", "\"name\": \"lime\"", "x.json:3:17: constraint"},
+                    WrongText{"\"damping_n_s_per_m\": 0 }", "\"damping_n_s_per_m\": -1 }", "coupling.damping_n_s_per_m: is -1"},
+                    WrongText{"\"chain\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600]",
+                              "\"parallel\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600, 60]",
+                              "coupling: stands beside a parallel object"}));
 
 TEST(ExperimentReader, NamesEveryFaultAtOnce) {
   std::string text = replaced(kGood, "[0.6, 0.6]", "[0.6, -1]");

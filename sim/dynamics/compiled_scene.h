@@ -1,0 +1,10 @@
+#pragma once
+#include "sim/dynamics/plant.h"
+#include "sim/experiment/compiled_experiment.h"
+
+namespace reachlab::dynamics {
+
+/// compileScene of an experiment that is valid, with the constraint it has already.
+Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options = {});
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+
+#include "sim/experiment/equality.h"
+
+namespace reachlab::experiment {
+
+/// An experiment without a fault, its constraint compiled once: what protocol, scene, prediction, device and picture are made from.
+/// A value, cheap to copy: window, haptic engine and predictions in the background share the two parts, which never change. Any thread.
+class CompiledExperiment {
+ public:
+  /// Throws UsageError with every fault, each under its key.
+  explicit CompiledExperiment(const Experiment& experiment);
+
+  const Experiment& experiment() const { return *experiment_; }
+  const constraints::Constraint& constraint() const { return *constraint_; }
+
+ private:
+  CompiledExperiment(Experiment experiment, constraints::Constraint constraint)
+      : experiment_(std::make_shared<const Experiment>(std::move(experiment))),
+        constraint_(std::make_shared<const constraints::Constraint>(std::move(constraint))) {}
+  friend CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition);
+
+  std::shared_ptr<const Experiment> experiment_;
+  std::shared_ptr<const constraints::Constraint> constraint_;
+};
+
+/// Reads and compiles an experiment file, or a shipped one by name. Throws UsageError with every fault, each with its place.
+CompiledExperiment openExperiment(const std::string& fileOrName);
+/// The same from text; `file` is only named in messages. `definition`: see parseExperiment.
+CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition = {});
+
+}  // namespace reachlab::experiment

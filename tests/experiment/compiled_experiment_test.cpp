@@ -1,0 +1,70 @@
+#include "sim/experiment/compiled_experiment.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace reachlab::experiment {
+namespace {
+
+TEST(CompiledExperiment, OfAShippedFileIsTheExperimentWithItsConstraint) {
+  for (const std::string& name : shippedExperiments()) {
+    const CompiledExperiment compiled = openExperiment(name);
+    EXPECT_EQ(compiled.experiment(), readExperiment(name));
+    const constraints::Constraint own = constraints::makeConstraint(compiled.experiment().constraint);
+    EXPECT_EQ(compiled.constraint().kind, own.kind) << name;
+    EXPECT_EQ(compiled.constraint().name, own.name);
+    EXPECT_EQ(compiled.constraint().straight, own.straight);
+  }
+}
+
+TEST(CompiledExperiment, OfAValueIsEqualToTheOneFromItsFile) {
+  for (const std::string& name : shippedExperiments()) {
+    const Experiment value = readExperiment(name);
+    EXPECT_EQ(CompiledExperiment(value).experiment(), value) << name;
+  }
+}
+
+TEST(CompiledExperiment, RefusesAValueWithAFault) {
+  Experiment e = readExperiment("chain-moderate");
+  e.object.masses[2] = -1;
+  try {
+    const CompiledExperiment compiled(e);
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("object.masses_kg[2]: is -1; allowed: more than 0 kg"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CompiledExperiment, ACopySharesBothParts) {
+  const CompiledExperiment one = openExperiment("epitrochoid");
+  const CompiledExperiment other = one;
+  EXPECT_EQ(&one.experiment(), &other.experiment());
+  EXPECT_EQ(&one.constraint(), &other.constraint());
+}
+
+TEST(Experiment, IsEqualToItselfAndToNothingThatDiffersInOneKey) {
+  const Experiment e = readExperiment("chain-moderate");
+  EXPECT_EQ(e, readExperiment("chain-moderate"));
+  const auto differs = [&](auto change) {
+    Experiment other = e;
+    change(other);
+    return other != e;
+  };
+  EXPECT_TRUE(differs([](Experiment& o) { o.name = "x"; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.object.masses[4] = 0.7; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.object.gravity.y = -9.81; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.coupling.reset(); }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.coupling->damping = 1; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.task->tolerance.time = 0.4; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.task->target[0] = 6; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.constraint.shape["length_m"] = 0.3; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.arm.elbowLeft = true; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.forceLimit = 3; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.method = "rk4"; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.velocityEstimator.cutoff = 41; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.text += " "; }));
+}
+
+}  // namespace
+}  // namespace reachlab::experiment
