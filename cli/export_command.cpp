@@ -5,9 +5,8 @@
 #include "cli/at_option.h"
 #include "cli/commands.h"
 #include "base/error.h"
-#include "sim/record/bids.h"
+#include "sim/record/exporters.h"
 #include "sim/record/run_log.h"
-#include "sim/record/tidy_csv.h"
 
 namespace reachlab::cli {
 namespace {
@@ -48,8 +47,8 @@ void exportLogs(const Options& options) {
   const fs::path dataset = datasetOf(runs.front().path());
   std::vector<std::string> written;
   atOption("--out", [&] {
-    if (options.format == "bids") written = record::writeBids(runs, options.out.empty() ? dataset.string() : options.out);
-    else written = record::writeTidyCsv(runs, options.out.empty() ? (dataset / "derivatives" / "csv").string() : options.out);
+    const record::Exporter& exporter = *record::findExporter(options.format);
+    written = exporter.write(runs, options.out.empty() ? record::folderIn(dataset.string(), exporter) : options.out);
   });
   for (const std::string& path : written) fmt::print("{}\n", path);
 }
@@ -59,10 +58,14 @@ void exportLogs(const Options& options) {
 void addExportCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("export", "Writes recorded runs as Motion-BIDS or tidy CSV");
   const auto options = std::make_shared<Options>();
+  std::string formats;
+  std::vector<std::string> names;
+  for (const record::Exporter& exporter : record::exporters()) {
+    names.emplace_back(exporter.name);
+    formats += fmt::format("{}{}: {}", formats.empty() ? "" : "; ", exporter.name, exporter.description);
+  }
   command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")->required();
-  command->add_option("--format", options->format, "bids: the dataset's motion, channels and events files; csv: trials.csv and samples")
-      ->required()
-      ->check(CLI::IsMember({"bids", "csv"}));
+  command->add_option("--format", options->format, formats)->required()->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "Folder to write into; default: the dataset itself (bids), its derivatives/csv (csv)");
   command->footer(
       "Columns carry their units (movement_time_s, mass1_x_m, …); docs/recording.md lists them. A damaged log is read up to the "

@@ -62,7 +62,7 @@ StopRequest::~StopRequest() {
   tablesUnderWay = false;
 }
 
-const std::atomic<bool>& StopRequest::asked() const { return stopAsked; }
+const std::atomic<bool>& StopRequest::asked() { return stopAsked; }
 
 void StopRequest::allInOrder() {
   tablesUnderWay = true;

@@ -16,7 +16,7 @@ class StopRequest {
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
-  const std::atomic<bool>& asked() const;
+  static const std::atomic<bool>& asked();
   /// All is in order: what is still to be done (the dataset's tables, which can be written again at any time) may take until 0.8 s after
   /// the signal, and the program then ends.
   void allInOrder();

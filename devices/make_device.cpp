@@ -28,6 +28,11 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
   throw UsageError("device " + spec + ": unknown; allowed: " + known);
 }
 
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                  std::uint64_t seed) {
+  return makeDevice(spec, experiment.experiment(), seed);
+}
+
 int trialsOnOffer(const std::string& spec) {
   const Spec asked = parse(spec);
   return asked.name == "replay" && !asked.argument.empty() ? static_cast<int>(reachFiles(asked.argument).size()) : 1;

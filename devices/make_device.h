@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
@@ -12,6 +12,9 @@ namespace reachlab::devices {
 /// hand, trial i depends on (seed, i) alone. Throws UsageError (unknown name, key or value, a file that cannot be understood),
 /// ResourceError (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
+/// The same for an experiment that is compiled already.
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                  std::uint64_t seed);
 
 /// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws
 /// ResourceError when there is nothing to replay.

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "gui/constraint_chooser.h"
 #include "gui/constraint_dock.h"
 #include "gui/coupling_dock.h"
 #include "gui/criterion_style.h"
+#include "gui/fault_words.h"
 #include "gui/main_window_impl.h"
 #include "gui/object_dock.h"
 #include "gui/prediction_dock.h"
@@ -28,15 +30,15 @@ constexpr int kFrameMs = 16;          // 60 Hz
 constexpr int kSoftwareFrameMs = 33;  // 30 Hz where the processor draws
 constexpr int kStatusEvery = 12;      // frames
 
-// One edit of the experiment as a whole: small, and undone without a special case.
+// One change of what is to be done, as a whole: compiled already, so that it is undone without a word.
 class EditCommand : public QUndoCommand {
  public:
-  EditCommand(SessionController& session, experiment::Experiment before, experiment::Experiment after, const QString& what)
+  EditCommand(SessionController& session, session::Programme before, session::Programme after, const QString& what)
       : QUndoCommand(what), session_(session), before_(std::move(before)), after_(std::move(after)) {}
   void redo() override {
-    if (!std::exchange(fresh_, false)) session_.tryEdit(after_);  // what is pushed has been done already
+    if (!std::exchange(fresh_, false)) session_.setProgramme(after_);  // what is pushed has been done already
   }
-  void undo() override { session_.tryEdit(before_); }
+  void undo() override { session_.setProgramme(before_); }
   // A slider's way is one edit.
   int id() const override { return text() == QLatin1String("shape") ? 1 : -1; }
   bool mergeWith(const QUndoCommand* other) override {
@@ -47,7 +49,7 @@ class EditCommand : public QUndoCommand {
  private:
   bool fresh_ = true;
   SessionController& session_;
-  experiment::Experiment before_, after_;
+  session::Programme before_, after_;
 };
 
 }  // namespace
@@ -64,11 +66,22 @@ void MainWindow::Impl::say(const QString& sentence) {
 
 void MainWindow::Impl::edit(const experiment::Experiment& changed, const QString& what,
                             const std::function<void(const QStringList&)>& showFaults) {
-  const experiment::Experiment before = session.experiment();
-  if (experiment::toJson(changed) == experiment::toJson(before)) return showFaults({});  // back to what holds: the run goes on
-  const QStringList faults = session.tryEdit(changed);
+  experiment::Experiment same = changed;
+  same.text = session.experiment().text;
+  if (same == session.experiment()) return showFaults({});  // back to what holds: the run goes on
+  const session::Programme before = session.programme();
+  QStringList faults;
+  try {
+    faults = inWords(session.tryEdit(changed));
+  } catch (const Error& e) {
+    faults << QString::fromUtf8(e.what());
+  }
   showFaults(faults);
-  if (faults.isEmpty()) edits->push(new EditCommand(session, before, changed, what));
+  if (faults.isEmpty()) pushEdit(before, what);
+}
+
+void MainWindow::Impl::pushEdit(const session::Programme& before, const QString& what) {
+  edits->push(new EditCommand(session, before, session.programme(), what));
 }
 
 void MainWindow::Impl::showExperiment() {
@@ -79,6 +92,7 @@ void MainWindow::Impl::showExperiment() {
   constraint->setConstraint(e.constraint, session.constraint());
   for (QDockWidget* d : std::initializer_list<QDockWidget*>{object, task, constraint}) d->widget()->setEnabled(!session.isPlan());
   if (session.isPlan()) coupling->widget()->setEnabled(false);
+  dock->setPlan(session.isPlan());
   plot->setTask(currentTask().duration, currentTask().tolerance.time);
   path = PathDirection(e, session.constraint());
   rebuildScene();
@@ -96,12 +110,13 @@ void MainWindow::Impl::rebuildScene() {
 
 void MainWindow::Impl::showOverlay() {
   const bool mouse = dock->device() == "mouse";
-  if (WindowRun* run = session.run()) overlay = overlayOf(run->latest(), currentTask(), static_cast<int>(run->trialCount()), mouse);
+  if (session::RecordedRun* run = session.run())
+    overlay = overlayOf(run->latest(), currentTask(), static_cast<int>(run->trialCount()), mouse);
   else overlay = restingOverlay(QString::fromStdString(session.experiment().name), mouse);
   if (session.run() && !session.underWay() && session.run()->latest().trial == 0)
     overlay.instruction = QStringLiteral("Press Space to begin");
   if (session.run() && session.run()->trialsLeft() == 0 && !session.underWay()) overlay.detail = QStringLiteral("the run is complete");
-  const WindowRun* open = session.run();
+  const session::RecordedRun* open = session.run();
   if (open == nullptr ||
       (open->latest().trial <= 1 && (open->latest().phase == trial::Phase::Idle || open->latest().phase == trial::Phase::Waiting))) {
     const std::vector<Vec3>& shifts = view->plan().massShift;
@@ -114,7 +129,7 @@ void MainWindow::Impl::showOverlay() {
 
 void MainWindow::Impl::showStage() {
   using Stage = SessionDock::Stage;
-  WindowRun* run = session.run();
+  session::RecordedRun* run = session.run();
   dock->setStage(run == nullptr          ? Stage::Closed
                  : run->underWay()       ? Stage::UnderWay
                  : run->trialsLeft() > 0 ? Stage::BetweenTrials
@@ -134,10 +149,8 @@ void MainWindow::Impl::next() {
 }
 
 void MainWindow::Impl::drain() {
-  WindowRun* run = session.run();
-  if (run == nullptr) return;
   TracePoint p;
-  while (run->tryTake(p)) {
+  while (session.tryTake(p)) {
     if (p.trial != traceTrial) {
       traceTrial = p.trial;
       trace.clear();
@@ -193,7 +206,7 @@ void MainWindow::Impl::trialEnded() {
   dock->count(trial.result);
   if (trial.result.outcome == trial::Outcome::Success) sound.play();
   errorsDue = trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure;
-  WindowRun* run = session.run();
+  session::RecordedRun* run = session.run();
   const double planned = run ? run->configuration().pauseSeconds : 0;
   if (run && run->trialsLeft() > 0 && (dock->repeatsByItself() || planned > 0)) {
     nextPlanned = true;
@@ -204,7 +217,7 @@ void MainWindow::Impl::trialEnded() {
 }
 
 void MainWindow::Impl::showStatus() {
-  WindowRun* run = session.run();
+  session::RecordedRun* run = session.run();
   if (run == nullptr) return;
   const haptics::LoopReport report = run->report();
   const haptics::TickState& s = run->latest();
@@ -222,7 +235,7 @@ void MainWindow::Impl::showStatus() {
 }
 
 void MainWindow::Impl::runOpened() {
-  WindowRun* run = session.run();
+  session::RecordedRun* run = session.run();
   dock->clearTally();
   predictions->clearErrors();
   traceTrial = 0;
@@ -245,7 +258,7 @@ void MainWindow::Impl::oneFrame() {
   drain();
   tendForecasts();
   if (nextPlanned && std::chrono::steady_clock::now() >= nextAt) next();
-  if (WindowRun* run = session.run()) {
+  if (session::RecordedRun* run = session.run()) {
     copyToFrame(run->latest(), frame);
     view->showFrame(frame);
     if (subject != nullptr) subject->view().showFrame(frame);
@@ -265,11 +278,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent)
   impl_->makeDocks();
   impl_->makeStatusBar();
   impl_->makeMenus();
-  impl_->dock->setRequest([&] {
-    session::SessionRequest shown = request;
-    if (!impl_->session.isPlan() && !shown.trials) shown.trials = 20;
-    return shown;
-  }());
+  impl_->dock->setRequest(request);
   impl_->wire();
   impl_->showExperiment();
 }
@@ -291,6 +300,7 @@ QString MainWindow::message() const { return impl_->message->isHidden() ? QStrin
 bool MainWindow::predictionsReady() const { return !impl_->forecastsStale && !impl_->computing.valid(); }
 
 void MainWindow::nextTrial() { impl_->next(); }
+void MainWindow::openExperiment(const QString& what) { impl_->openExperiment(what); }
 
 ConstraintChooser& MainWindow::chooser() {
   if (impl_->chooser == nullptr) {

@@ -37,6 +37,8 @@ class MainWindow : public QMainWindow {
 
  public Q_SLOTS:
   void nextTrial();
+  /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
+  void openExperiment(const QString& what);
   void chooseConstraint();
   void toggleSubjectWindow();
 

@@ -61,6 +61,7 @@ struct MainWindow::Impl {
   const experiment::Task& currentTask() const;
   void say(const QString& sentence);
   void edit(const experiment::Experiment& changed, const QString& what, const std::function<void(const QStringList&)>& showFaults);
+  void pushEdit(const session::Programme& before, const QString& what);
   void showExperiment();
   void rebuildScene();
   void showOverlay();

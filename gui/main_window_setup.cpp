@@ -20,6 +20,7 @@
 #include "gui/subject_window.h"
 #include "gui/task_dock.h"
 #include "gui/velocity_plot.h"
+#include "sim/dynamics/compiled_scene.h"
 
 // Docks, menus and status bar of the main window, and what is connected to what.
 namespace reachlab::gui {
@@ -74,8 +75,12 @@ void MainWindow::Impl::makeStatusBar() {
 
 void MainWindow::Impl::openExperiment(const QString& what) {
   try {
-    experiment::Experiment e = experiment::readExperiment(what.toStdString());
-    edit(e, QStringLiteral("open %1").arg(what), [this](const QStringList& faults) { say(faults.join(QLatin1Char('\n'))); });
+    const session::Programme opened = session::readProgramme(what.toStdString());
+    for (const experiment::CompiledExperiment& experiment : opened.experiments) (void)dynamics::compileScene(experiment);
+    const session::Programme before = session.programme();
+    session.setProgramme(opened);
+    pushEdit(before, QStringLiteral("open %1").arg(what));
+    say({});
   } catch (const Error& e) {
     say(QString::fromUtf8(e.what()));
   }
@@ -102,8 +107,8 @@ void MainWindow::Impl::makeMenus() {
   };
   QMenu* file = window.menuBar()->addMenu(QStringLiteral("&Experiment"));
   add(file, QStringLiteral("&Open…"), QKeySequence::Open, [this] {
-    const QString chosen =
-        QFileDialog::getOpenFileName(&window, QStringLiteral("Open experiment"), {}, QStringLiteral("Experiments (*.json)"));
+    const QString chosen = QFileDialog::getOpenFileName(&window, QStringLiteral("Open experiment or plan"), {},
+                                                        QStringLiteral("Experiments and plans (*.json)"));
     if (!chosen.isEmpty()) openExperiment(chosen);
   });
   QMenu* shipped = file->addMenu(QStringLiteral("S&hipped"));
@@ -128,6 +133,10 @@ void MainWindow::Impl::makeMenus() {
   add(trial, QStringLiteral("&Repeat"), Qt::Key_R, [this] {
     if (session.repeat()) showStage(), showOverlay();
   });
+  add(trial, QStringLiteral("Res&ume the session"), {}, [this] {
+    session.resume();
+    next();
+  })->setObjectName(QStringLiteral("resume"));
   add(trial, QStringLiteral("&End run"), QKeySequence(QStringLiteral("Ctrl+E")), [this] { session.endRun(); });
 
   QMenu* show = window.menuBar()->addMenu(QStringLiteral("&View"));
@@ -229,6 +238,7 @@ void MainWindow::Impl::wire() {
   });
   QObject::connect(&session, &SessionController::trialBegun, w, [this] { showStage(); });
   QObject::connect(&session, &SessionController::trialEnded, w, [this] { trialEnded(); });
+  QObject::connect(&session, &SessionController::told, w, [this](const QString& sentence) { say(sentence); });
   QObject::connect(&session, &SessionController::failed, w, [this](const QString& sentence) { say(sentence); });
   timer = new QTimer(w);
   timer->setTimerType(Qt::PreciseTimer);

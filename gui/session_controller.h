@@ -1,17 +1,23 @@
 #pragma once
 #include <QObject>
-#include <QStringList>
+#include <QString>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "gui/window_run.h"
+#include "base/fault.h"
+#include "gui/trial_trace.h"
+#include "sim/session/recorded_session.h"
+
+namespace reachlab::devices {
+class MouseDevice;
+}
 
 namespace reachlab::gui {
 
-/// The session behind the window: the experiment as edited, the blocks still to be done, and the run that is open. Knows no widget.
-/// Changes take effect between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so
-/// that each log holds one configuration.
+/// The session behind the window: what is to be done, as opened or edited, and the run that is open. Knows no widget. Changes take effect
+/// between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so that each log holds one
+/// configuration.
 class SessionController : public QObject {
   Q_OBJECT
  public:
@@ -19,12 +25,20 @@ class SessionController : public QObject {
   explicit SessionController(const session::SessionRequest& request, QObject* parent = nullptr);
   ~SessionController() override;
 
-  const experiment::Experiment& experiment() const { return experiment_; }
-  const constraints::Constraint& constraint() const { return constraint_; }
+  /// What is shown: the experiment, or that of the plan's block that is open or comes first.
+  const experiment::Experiment& experiment() const { return shown_.experiment(); }
+  const constraints::Constraint& constraint() const { return shown_.constraint(); }
+  const experiment::CompiledExperiment& compiled() const { return shown_; }
+  const session::Programme& programme() const { return programme_; }
   /// A plan has its settings in its file: they are shown, not edited.
-  bool isPlan() const { return isPlan_; }
-  /// Every fault of an edited experiment; it is taken over when there is none.
-  QStringList tryEdit(const experiment::Experiment& experiment);
+  bool isPlan() const { return programme_.isPlan(); }
+
+  /// Takes over what is to be done from the next run on: label, condition and log name are its own.
+  void setProgramme(const session::Programme& programme);
+  /// Every fault of an edited experiment; it is taken over when there is none. Throws RefusedError when the scene cannot be computed.
+  std::vector<Fault> tryEdit(const experiment::Experiment& experiment);
+  /// The next session that is opened goes on with what this subject's session has left undone.
+  void resume() { resume_ = true; }
 
   /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error.
   bool next(const session::SessionRequest& request);
@@ -36,9 +50,11 @@ class SessionController : public QObject {
   void pointTo(double x, double y, double z);
   /// Looks at the newest state. From the frame timer.
   void poll();
+  /// The oldest point of the trace not yet taken.
+  bool tryTake(TracePoint& point) { return trace_.tryTake(point); }
 
-  WindowRun* run() { return run_.get(); }  // null: none is open
-  bool underWay() const { return run_ && run_->underWay(); }
+  session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
+  bool underWay() { return run() != nullptr && run()->underWay(); }
   std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
 
  Q_SIGNALS:
@@ -49,17 +65,28 @@ class SessionController : public QObject {
   void trialEnded();
   /// One sentence for the experimenter: the disk, the device, the computation. Finished trials are safe.
   void failed(const QString& sentence);
+  /// Worth a word, and no fault.
+  void told(const QString& sentence);
 
  private:
-  void open(const session::SessionRequest& request);
+  void openRun(const session::SessionRequest& request);
+  void showBlock(const session::SessionRequest& request);
+  std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                        std::uint64_t seed);
   void fail(const std::exception& fault);
 
-  experiment::Experiment experiment_;
-  constraints::Constraint constraint_;
-  bool isPlan_ = false, edited_ = false, endAfterTrial_ = false, resume_ = false;
-  std::vector<session::BlockToRun> blocks_;  // of the plan, still to be done
-  std::unique_ptr<WindowRun> run_;
+  session::Programme programme_;
+  experiment::CompiledExperiment shown_;
+  bool endAfterTrial_ = false, resume_ = false;
+  bool numberUsed_ = false;                // the run number that was asked for holds for one run
+  session::SessionRequest asked_;          // what `recorded_` was planned for
+  devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open
+  TraceSink trace_;                        // outlives the runs
+  std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
 };
+
+/// What is worth a word before a session, as the window says it; empty: nothing.
+QString wordsOf(const session::SessionNotice& notice);
 
 }  // namespace reachlab::gui

@@ -171,8 +171,12 @@ void SessionDock::setRequest(const session::SessionRequest& request) {
   day_->setValue(request.day.value_or(0));
   device_->setCurrentText(QString::fromStdString(request.device));
   trials_->setValue(request.trials.value_or(20));
-  trials_->setEnabled(request.trials.has_value());
   if (request.participant.age) age_->setText(QString::number(*request.participant.age));
+}
+
+void SessionDock::setPlan(bool isPlan) {
+  request_.trials = isPlan ? std::nullopt : std::optional(trials_->value());
+  trials_->setEnabled(!isPlan);
 }
 
 session::SessionRequest SessionDock::request() const {

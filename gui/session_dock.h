@@ -28,6 +28,8 @@ class SessionDock : public QDockWidget {
   void setRequest(const session::SessionRequest& request);
   /// What is typed; `what`, `fast` and the like as they came.
   session::SessionRequest request() const;
+  /// A plan has its own numbers of trials.
+  void setPlan(bool isPlan);
   /// What is wrong with the fields, a line each, as it stands under them; empty: nothing.
   QString fault() const;
   std::string device() const;

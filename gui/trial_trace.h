@@ -19,25 +19,21 @@ struct TracePoint {
   double force = 0;              // [N]
 };
 
-/// A run's ticks go two ways: all of them to the recorder (if there is one), and every fifth to the window's plot. Neither waits.
+/// Watches the runs of a session for the window's plot: every fifth tick, without waiting.
 class TraceSink final : public haptics::RunSink {
  public:
   static constexpr std::uint64_t kEvery = 5;                             // ticks a point
   static constexpr double kRate = 1000.0 / static_cast<double>(kEvery);  // [Hz]
 
-  /// `recorder` may be null and outlives this.
-  explicit TraceSink(haptics::RunSink* recorder) : recorder_(recorder) {}
-
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
-  void announce(std::int32_t trial, const trial::PlannedTrial& planned) override;
-  void awaitTrial(std::int32_t trial) override;
-  void close() override;
+  void announce(std::int32_t, const trial::PlannedTrial&) override {}
+  void awaitTrial(std::int32_t) override {}
+  void close() override {}
 
   /// Window's thread: the oldest point not yet taken. Points that the window was too slow for are lost to the plot, not to the record.
   bool tryTake(TracePoint& point) noexcept { return points_.tryPop(point); }
 
  private:
-  haptics::RunSink* recorder_;
   SpscQueue<TracePoint, 4096> points_;
 };
 

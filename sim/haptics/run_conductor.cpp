@@ -5,18 +5,33 @@
 #include <chrono>
 
 #include "base/error.h"
+#include "sim/dynamics/compiled_scene.h"
 
 namespace reachlab::haptics {
 namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
+std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, const HapticDevice& device) {
+  if (!experiment.experiment().task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
+  return std::make_unique<TickEngine>(experiment.experiment(), dynamics::compileScene(experiment), engineOptions(device.info()));
+}
+
 }  // namespace
+
+RunConductor::RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device,
+                           std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
+    : device_(std::move(device)), engine_(std::move(engine)), options_(options), trials_(std::move(trials)),
+      first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
+
+RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
+                           std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
+    : RunConductor(makeEngine(experiment, *device), std::move(device), std::move(trials), options) {}
 
 RunConductor::RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : device_(std::move(device)), engine_(std::make_unique<TickEngine>(experiment, engineOptions(device_->info()))), options_(options),
-      trials_(std::move(trials)), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
+    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(device->info())), std::move(device), std::move(trials), options) {
+}
 
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();
@@ -43,17 +58,20 @@ bool RunConductor::putUpNext() {
 void RunConductor::advanceUntilDone(const std::atomic<bool>* stop) {
   const TickState& state = loop_->engine().state();
   bool asked = false;
-  do {
+  while (state.trial != trial_ || state.phase != trial::Phase::Done) {
     if (stop != nullptr && *stop && !asked) {
       interrupt();
       asked = true;
     }
     loop_->advance();
-  } while (state.trial != trial_ || state.phase != trial::Phase::Done);
+  }
 }
 
 std::optional<ConductedTrial> RunConductor::poll() {
-  if (options_.virtualClock && underWay_) advanceUntilDone(nullptr);
+  if (options_.virtualClock && underWay_) {
+    advanceUntilDone(nullptr);
+    loop_->advance();  // one tick in Done, whoever conducts: the same recording
+  }
   if (const TickState* newer = loop_->takeLatest()) latest_ = newer;
   if (loop_->hangs()) throw ResourceError(describe(loop_->fault(), device_->info().name));
   if (!underWay_ || latest_->trial != trial_ || latest_->phase != trial::Phase::Done) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/haptic_loop.h"
 
 namespace reachlab::haptics {
@@ -25,6 +26,9 @@ struct ConductedTrial {
 class RunConductor {
  public:
   /// Compiles the scene. Throws UsageError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
+  RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
+               std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
+  /// The same, of a value that nobody has validated.
   RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<trial::PlannedTrial> trials,
                const LoopOptions& options = {});
   ~RunConductor();
@@ -69,6 +73,8 @@ class RunConductor {
   }
 
  private:
+  RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device, std::vector<trial::PlannedTrial> trials,
+               const LoopOptions& options);
   void advanceUntilDone(const std::atomic<bool>* stop);
 
   std::shared_ptr<HapticDevice> device_;  // shared with the loop, which may have to leave a hanging call behind

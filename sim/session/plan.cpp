@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -57,7 +58,10 @@ void readBlock(ObjectReader& plan, const JsonNode& node, std::size_t index, cons
 
 void readOrderSeed(ObjectReader& reader, Plan& plan) {
   double seed = 0;  // a JSON number is read as a double: whole up to 2^53
-  reader.number("order_seed", wholeNumber(0, 9007199254740992.0), seed);
+  const NumberRange range = wholeNumber(0, 9007199254740992.0);
+  reader.number("order_seed", range, seed);
+  if (seed != std::floor(seed))
+    reader.faults().add(*reader.optional("order_seed"), "order_seed", fmt::format("is {}", seed), range.allowed);
   plan.orderSeed = static_cast<std::uint64_t>(seed);
 }
 

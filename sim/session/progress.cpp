@@ -8,7 +8,7 @@ namespace reachlab::session {
 
 std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults) {
   std::vector<BlockProgress> blocks;
-  for (const RecordedRun& run : recordedRuns(place)) {
+  for (const RunOnDisk& run : recordedRuns(place)) {
     try {
       const record::RunLog log = record::RunLog::open(run.path, record::LogCheck::Trials);
       const record::RunConfiguration& configuration = log.configuration();

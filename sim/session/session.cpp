@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <random>
 
-#include "base/error.h"
-#include "base/json_tree.h"
+#include "base/fault.h"
 #include "sim/record/append_file.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"
@@ -17,18 +15,11 @@
 namespace reachlab::session {
 namespace {
 
-// A single experiment is a plan of one block.
-Plan planOf(const SessionRequest& request) {
-  const std::optional<std::string> file = findPlan(request.what);
-  if (file) {
-    const std::string text = readTextFile(*file);
-    if (isPlan(text, *file)) return parsePlan(text, *file);
-  }
-  Plan plan;
-  PlanBlock block;
-  block.experiment = request.what;
-  block.trials = request.trials.value_or(request.trialsOnOffer);
-  plan.blocks.push_back(block);
+// A single experiment has as many trials as are asked for, or on offer.
+Plan planOf(const SessionRequest& request, const Programme& programme) {
+  Plan plan = programme.plan;
+  if (programme.isPlan() && request.trials) throw FaultError(Fault{"trials", "a plan says how many", "none, or an experiment instead"});
+  if (!programme.isPlan()) plan.blocks.at(0).trials = request.trials.value_or(request.trialsOnOffer);
   return plan;
 }
 
@@ -42,14 +33,13 @@ int dayOf(const SessionRequest& request, const Plan& plan) {
   const bool number = fault == std::errc{} && end == label.data() + label.size();
   if (request.day) day = *request.day;
   else if (!number)
-    throw UsageError(
-        fmt::format("{}: the plan has days and session \"{}\" is no number; allowed: --session 01, 02 …, or --day N", plan.name, label));
+    throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
+                           "01, 02 …, or a day asked for beside it"});
   return day;
 }
 
-bool isRunOf(const record::RunConfiguration& c, const experiment::Experiment& experiment) {
-  return c.planText.empty() && c.experimentText == experiment.text &&
-         (c.definitionText.empty() || c.definitionText == experiment::definitionTextOf(experiment));
+bool isOf(const record::RunConfiguration& c, const experiment::Experiment& experiment) {
+  return c.experimentText == experiment.text && (c.definitionText.empty() || c.definitionText == experiment::definitionTextOf(experiment));
 }
 
 const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number,
@@ -57,10 +47,15 @@ const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, co
   const BlockProgress* found = nullptr;
   for (const BlockProgress& block : progress) {
     const record::RunConfiguration& c = block.configuration;
-    const bool same = plan.text.empty() ? isRunOf(c, experiment) : c.planText == plan.text && c.block == number;
+    const bool same = plan.text.empty() ? c.planText.empty() && isOf(c, experiment) : c.planText == plan.text && c.block == number;
     if (same) found = &block;
   }
   return found;
+}
+
+[[noreturn]] void refuseToResume(const std::string& changed, int run) {
+  throw FaultError(Fault{"resume", fmt::format("{} has changed since run {}, so that run cannot be resumed", changed, run),
+                         "the file as it was, or a new run"});
 }
 
 // A changed file under the name of a recorded one is no longer the same block.
@@ -68,22 +63,20 @@ void refuseChanged(const std::vector<BlockProgress>& progress, const Plan& plan,
   for (const BlockProgress& block : progress) {
     const record::RunConfiguration& c = block.configuration;
     const bool sameName = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name : c.planName == plan.name;
-    if (sameName && !block.complete())
-      throw UsageError(
-          fmt::format("{}: has changed since run {}, so that run cannot be resumed; allowed: the file as it was, or a new run "
-                      "without --resume",
-                      plan.text.empty() ? experiment.name : plan.name, c.run));
+    if (sameName && !block.complete()) refuseToResume(plan.text.empty() ? experiment.name : plan.name, c.run);
   }
 }
 
 void checkSameWishes(const SessionRequest& request, const BlockProgress& block) {
   const auto planned = static_cast<int>(block.configuration.trials.size());
   if (request.trials && *request.trials != planned)
-    throw UsageError(fmt::format("--trials {}: run {} was planned with {} trials; allowed with --resume: no --trials, or {}",
-                                 *request.trials, block.configuration.run, planned, planned));
+    throw FaultError(
+        Fault{"trials",
+              fmt::format("are {}, and run {}, which is resumed, was planned with {}", *request.trials, block.configuration.run, planned),
+              fmt::format("none, or {}", planned)});
   if (request.seed && *request.seed != block.configuration.sessionSeed)
-    throw UsageError(fmt::format("--seed {}: run {} has the seed {}; allowed with --resume: no --seed, or {}", *request.seed,
-                                 block.configuration.run, block.configuration.sessionSeed, block.configuration.sessionSeed));
+    throw FaultError(Fault{"seed", fmt::format("is {}, and run {}, which is resumed, has another", *request.seed, block.configuration.run),
+                           fmt::format("none, or {}", block.configuration.sessionSeed)});
 }
 
 record::RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block,
@@ -127,7 +120,7 @@ void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, Ses
   else if (request.seed) session.seed = *request.seed;
   else {
     session.seed = drawSeed();
-    session.seedDrawn = true;
+    session.notice.seedDrawn = true;
   }
 }
 
@@ -138,49 +131,54 @@ std::uint64_t drawSeed() {
   return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
 }
 
-SessionToRun planSession(const SessionRequest& request) {
-  record::checkLabel(request.place.subject, "--subject");
-  record::checkLabel(request.place.session, "--session");
+SessionToRun planSession(const SessionRequest& request) { return planSession(request, readProgramme(request.what)); }
+
+SessionToRun planSession(const SessionRequest& request, const Programme& programme) {
+  record::checkLabel(request.place.subject, "subject");
+  record::checkLabel(request.place.session, "session");
   record::checkParticipant(request.participant);
-  const Plan plan = planOf(request);
-  if (!plan.text.empty() && request.trials) throw UsageError("--trials: a plan says how many; allowed: leave it out, or run an experiment");
+  const Plan plan = planOf(request, programme);
   const int day = dayOf(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
   if (order.empty())
-    throw UsageError(fmt::format("{}: no block for day {}; allowed: a --session or --day that the plan has", plan.name, day));
+    throw FaultError(
+        Fault{"day", fmt::format("is {}, for which the plan {} has no block", day, plan.name), "a day, or a session, that it has"});
 
   SessionToRun session;
   if (request.resume)
-    for (const RecordedRun& recorded : recordedRuns(request.place))
-      if (record::isBeingWritten(recorded.path))
-        throw ResourceError(fmt::format("--resume: run {} is being recorded{} into {}; wait until it has ended", recorded.run,
-                                        record::writerOf(recorded.path), recorded.path));
-  std::vector<std::string> faults;
-  const std::vector<BlockProgress> progress = readProgress(request.place, faults);
-  std::vector<experiment::Experiment> experiments;
+    for (const RunOnDisk& run : recordedRuns(request.place))
+      if (record::isBeingWritten(run.path))
+        throw ResourceError(fmt::format("run {} is being recorded{} into {}; wait until it has ended, then resume", run.run,
+                                        record::writerOf(run.path), run.path));
+  const std::vector<BlockProgress> progress = readProgress(request.place, session.notice.unreadable);
   std::vector<const BlockProgress*> recorded;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const PlanBlock& block = plan.blocks[static_cast<std::size_t>(order[k])];
-    experiments.push_back(experiment::readExperiment(block.experiment));
-    trial::checkTask(experiments.back(), block.experiment);
-    recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiments.back()));
+    const experiment::CompiledExperiment& experiment = programme.experiments.at(static_cast<std::size_t>(order[k]));
+    trial::checkTask(experiment.experiment(), experiment.experiment().name);
+    recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiment.experiment()));
   }
   const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
   const BlockProgress* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
-  if (request.resume && resumed == nullptr) refuseChanged(progress, plan, experiments.front());
+  if (request.resume && resumed == nullptr)
+    refuseChanged(progress, plan, programme.experiments.at(static_cast<std::size_t>(order[0])).experiment());
   if (resumed != nullptr) checkSameWishes(request, *resumed);
+  for (std::size_t k = 0; k < order.size() && request.resume; ++k) {
+    const experiment::Experiment& experiment = programme.experiments[static_cast<std::size_t>(order[k])].experiment();
+    if (recorded[k] != nullptr && !isOf(recorded[k]->configuration, experiment))
+      refuseToResume(experiment.name, recorded[k]->configuration.run);
+  }
   chooseSeed(request, resumed, session);
 
   int run = chooseRun(request.place, request.run);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const PlanBlock& planned = plan.blocks[static_cast<std::size_t>(order[k])];
     const BlockProgress* before = request.resume ? recorded[k] : nullptr;
-    BlockToRun block;
-    block.experiment = experiments[k];
+    BlockToRun block{
+        .experiment = programme.experiments[static_cast<std::size_t>(order[k])], .configuration = {}, .logPath = {}, .trials = {}};
     if (before != nullptr) {
       block.configuration = before->configuration;
     } else {
-      block.configuration = freshConfiguration(request, plan, planned, block.experiment);
+      block.configuration = freshConfiguration(request, plan, planned, block.experiment.experiment());
       block.configuration.block = static_cast<int>(k) + 1;
       block.configuration.sessionSeed = session.seed;
       block.configuration.seed = blockSeed(session.seed, block.configuration.block);
@@ -188,6 +186,7 @@ SessionToRun planSession(const SessionRequest& request) {
     }
     block.trials = remainingTrials(block.configuration, before != nullptr ? before->done : std::set<int>{});
     if (block.trials.empty()) continue;
+    if (!session.blocks.empty()) run = chooseRun(request.place, run + 1);
     block.configuration.run = run;
     block.configuration.firstTrial = firstTrialOf(block.trials, before);
     if (before == nullptr) block.configuration.firstRun = run;
@@ -198,30 +197,25 @@ SessionToRun planSession(const SessionRequest& request) {
     block.configuration.samplingHz = request.everyTick ? 1000 : 100;
     block.logPath = logPath(request.place, block.configuration.task, run);
     session.blocks.push_back(std::move(block));
-    run = chooseRun(request.place, run + 1);
   }
   for (std::size_t k = 0; k < session.blocks.size(); ++k) session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
-  const bool unfinished =
-      std::any_of(recorded.begin(), recorded.end(), [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
-  if (!request.resume && unfinished)
-    session.hint = "an earlier run of this session was not finished; --resume goes on with it, this is a new run";
-  for (const std::string& fault : faults) session.hint += (session.hint.empty() ? "" : "\n") + fault;
+  session.notice.unfinished = !request.resume && std::any_of(recorded.begin(), recorded.end(),
+                                                             [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
   return session;
 }
 
-void takeFreeRun(BlockToRun& block, const SessionRequest& request) {
+void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor) {
   record::RunConfiguration& c = block.configuration;
-  const std::vector<RecordedRun> runs = recordedRuns(request.place);
-  if (std::none_of(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == c.run; })) return;
+  const std::vector<RunOnDisk> runs = recordedRuns(place);
+  if (std::none_of(runs.begin(), runs.end(), [&](const RunOnDisk& run) { return run.run == c.run; })) return;
   if (c.firstRun != c.run)
     throw ResourceError(
-        fmt::format("run {} of this session was taken by another program that resumes it as well{}; wait until it has ended, then --resume",
+        fmt::format("run {} of this session was taken by another program that resumes it as well{}; wait until it has ended, then resume",
                     c.run, record::writerOf(block.logPath)));
-  const bool askedFor = request.run == c.run;
-  const int run = chooseRun(request.place, askedFor ? request.run : std::nullopt);
+  const int run = chooseRun(place, askedFor ? std::optional(c.run) : std::nullopt);
   if (c.firstRun == c.run) c.firstRun = run;
   c.run = run;
-  block.logPath = logPath(request.place, c.task, run);
+  block.logPath = logPath(place, c.task, run);
 }
 
 }  // namespace reachlab::session

@@ -6,12 +6,12 @@
 
 #include "sim/record/run_configuration.h"
 #include "sim/record/run_log.h"
-#include "sim/session/plan.h"
+#include "sim/session/programme.h"
 #include "sim/session/session_folder.h"
 
 namespace reachlab::session {
 
-/// What was asked for on the command line or in the window.
+/// What was asked for, by whatever front end.
 struct SessionRequest {
   std::string what;  // experiment or plan, a file or a shipped name
   SessionPlace place;
@@ -26,9 +26,16 @@ struct SessionRequest {
   std::string notes;
 };
 
+/// What is worth a word before a session begins; each front end has its own.
+struct SessionNotice {
+  bool seedDrawn = false;               // by us, because none was given
+  bool unfinished = false;              // an earlier run of this very session broke off, and this one does not resume it
+  std::vector<std::string> unreadable;  // logs that are left out, a sentence each
+};
+
 /// One run to be done: the configuration lacks only what the scene, the device and the clock add.
 struct BlockToRun {
-  experiment::Experiment experiment;
+  experiment::CompiledExperiment experiment;
   record::RunConfiguration configuration;
   std::string logPath;
   std::vector<trial::PlannedTrial> trials;  // still to be done, in order; numbered from configuration.firstTrial
@@ -38,17 +45,18 @@ struct BlockToRun {
 struct SessionToRun {
   std::vector<BlockToRun> blocks;  // empty: a resumed session has nothing left to do
   std::uint64_t seed = 0;
-  bool seedDrawn = false;  // by us, because none was given: to be printed
-  std::string hint;        // one sentence for the experimenter, or empty
+  SessionNotice notice;
 };
 
-/// Works out what is to be done: reads plan and experiments, draws the order, chooses run numbers, and with `resume` leaves out
-/// what is on disk already. Throws UsageError with every fault.
+/// Works out what is to be done: draws the order, chooses run numbers, and with `resume` leaves out what is on disk already. Throws
+/// UsageError with every fault; those of the request have its member's name as key.
+SessionToRun planSession(const SessionRequest& request, const Programme& programme);
+/// The same for what `request.what` names.
 SessionToRun planSession(const SessionRequest& request);
 
-/// Gives the block the next free run number where another program has taken its own since it was planned; one that was asked for is refused
-/// then (UsageError). Call it under a FolderHold that lasts until the log is created.
-void takeFreeRun(BlockToRun& block, const SessionRequest& request);
+/// Gives the block the next free run number where another program has taken its own since it was planned; one that was `askedFor` is
+/// refused then (UsageError). Call it under a FolderHold that lasts until the log is created.
+void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);
 
 /// A seed for a session that was given none, from the system's entropy.
 std::uint64_t drawSeed();

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/record/append_file.h"
 
 namespace reachlab::session {
@@ -41,32 +41,32 @@ std::string labelOf(const std::string& name) {
   return label.empty() ? "reach" : label;
 }
 
-std::vector<RecordedRun> recordedRuns(const SessionPlace& place) {
-  std::vector<RecordedRun> runs;
+std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
+  std::vector<RunOnDisk> runs;
   std::error_code error;
   const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(place.data) / "sourcedata", error)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix) || !name.ends_with(kEnding)) continue;
     const std::string number = partOf(name, "run");
-    RecordedRun run{0, partOf(name, "task"), entry.path().string()};
+    RunOnDisk run{0, partOf(name, "task"), entry.path().string()};
     const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), run.run);
     if (fault == std::errc{} && end == number.data() + number.size()) runs.push_back(run);
   }
-  std::sort(runs.begin(), runs.end(), [](const RecordedRun& a, const RecordedRun& b) { return a.run < b.run; });
+  std::sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
   return runs;
 }
 
 int chooseRun(const SessionPlace& place, std::optional<int> asked) {
-  const std::vector<RecordedRun> runs = recordedRuns(place);
+  const std::vector<RunOnDisk> runs = recordedRuns(place);
   const int free = runs.empty() ? 1 : runs.back().run + 1;
   if (!asked) return free;
-  const auto taken = std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) { return run.run == *asked; });
+  const auto taken = std::find_if(runs.begin(), runs.end(), [&](const RunOnDisk& run) { return run.run == *asked; });
   if (taken != runs.end())
-    throw UsageError(
-        fmt::format("--run {}: subject {}, session {} has this run already ({}), and nothing is overwritten; allowed: --run {}, the "
-                    "next free one, or no --run",
-                    *asked, place.subject, place.session, taken->path, free));
+    throw FaultError(Fault{"run",
+                           fmt::format("is {}, which subject {}, session {} has already ({}), and nothing is overwritten", *asked,
+                                       place.subject, place.session, taken->path),
+                           fmt::format("{}, the next free one, or none", free)});
   return *asked;
 }
 

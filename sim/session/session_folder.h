@@ -9,9 +9,11 @@ namespace reachlab::session {
 struct SessionPlace {
   std::string data = "./data";
   std::string subject = "01", session = "01";
+  bool operator==(const SessionPlace&) const = default;
 };
 
-struct RecordedRun {
+/// A log of a session.
+struct RunOnDisk {
   int run = 0;
   std::string task, path;
 };
@@ -21,7 +23,7 @@ std::string logPath(const SessionPlace& place, const std::string& task, int run)
 /// A BIDS label of a name: its letters and digits ("chain-moderate" gives "chainmoderate").
 std::string labelOf(const std::string& name);
 /// The session's logs, by run number. Empty when there are none.
-std::vector<RecordedRun> recordedRuns(const SessionPlace& place);
+std::vector<RunOnDisk> recordedRuns(const SessionPlace& place);
 /// The next free run number, or the one asked for. Throws UsageError with a proposal when that is taken: nothing is overwritten.
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 

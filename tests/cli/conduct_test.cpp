@@ -17,7 +17,7 @@ using test::trialLines;
 
 std::vector<record::RunLog> logsOf(const Folder& folder) {
   std::vector<record::RunLog> logs;
-  for (const session::RecordedRun& run : session::recordedRuns({.data = folder.string()})) logs.push_back(record::RunLog::open(run.path));
+  for (const session::RunOnDisk& run : session::recordedRuns({.data = folder.string()})) logs.push_back(record::RunLog::open(run.path));
   return logs;
 }
 

@@ -117,7 +117,7 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     const double moment = static_cast<double>(random() % 8000) * 1e-6;  // a trial takes a few milliseconds on the virtual clock
     const Ending killed = runAndKill(runArguments(data, false), moment, after);
     const auto lines = announced(killed.out);
-    const std::vector<session::RecordedRun> runs = session::recordedRuns({data});
+    const std::vector<session::RunOnDisk> runs = session::recordedRuns({data});
     if (runs.empty()) {
       EXPECT_TRUE(lines.empty());
       continue;
@@ -150,7 +150,7 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     // What is left of the order is done by --resume, with the results that the unbroken run has.
     ASSERT_EQ(runAndKill(runArguments(data, true), -1).status, 0);
     std::map<int, trial::TrialResult> done;
-    for (const session::RecordedRun& run : session::recordedRuns({data})) {
+    for (const session::RunOnDisk& run : session::recordedRuns({data})) {
       const record::RunLog part = record::RunLog::open(run.path);
       for (const record::RecordedTrial& trial : part.trials())
         if (trial.result.outcome != trial::Outcome::Interrupted) {

@@ -41,7 +41,7 @@ TEST(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
   const std::string data = folder / "data";
   ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data), 0);
   ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data), 0);
-  for (const session::RecordedRun& run : session::recordedRuns({data})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
+  for (const session::RunOnDisk& run : session::recordedRuns({data})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
 }
 
 // Years later, on another computer: the definition's file is gone, or says something else under the same name.

@@ -57,6 +57,35 @@ TEST(Plan, RefusesWhatIsNoPlan) {
   EXPECT_NE(faultsOf("{ \"blocks\": [ { \"experiment\": \"chain-slow\", \"trials\": 1 } ] }"), "");
 }
 
+TEST(Plan, KnowsTheEdgesOfWhatItTakes) {
+  const auto with = [](const std::string& settings) {
+    return "{ \"schema_version\": 1, \"trials\": 1, " + settings + ", \"blocks\": [ { \"experiment\": \"chain-slow\" } ] }";
+  };
+  for (const char* fine : {"\"foreperiod_s\": [0, 60]", "\"foreperiod_s\": [2, 2]", "\"catch_share\": 0.5", "\"catch_share\": 0",
+                           "\"order_seed\": 0", "\"pause_s\": 0", "\"counterbalance\": \"none\""})
+    EXPECT_EQ(faultsOf(with(fine)), "") << fine;
+  for (const char* wrong : {"\"foreperiod_s\": [0, 60.5]", "\"foreperiod_s\": [2, 1.9]", "\"foreperiod_s\": [-0.1, 1]",
+                            "\"foreperiod_s\": [1]", "\"catch_share\": 0.51", "\"catch_share\": -0.1", "\"order_seed\": -1",
+                            "\"order_seed\": 9007199254740994", "\"order_seed\": 0.5", "\"counterbalance\": \"latin\"", "\"day\": 1"})
+    EXPECT_NE(faultsOf(with(wrong)), "") << wrong;
+  const auto block = [](const std::string& settings) {
+    return "{ \"schema_version\": 1, \"blocks\": [ { \"experiment\": \"chain-slow\", " + settings + " } ] }";
+  };
+  EXPECT_EQ(faultsOf(block("\"trials\": 1000000, \"day\": 10000")), "");
+  EXPECT_NE(faultsOf(block("\"trials\": 1000001")), "");
+  EXPECT_NE(faultsOf(block("\"trials\": 1, \"day\": 0")), "");
+  EXPECT_NE(faultsOf(block("\"trials\": 1, \"day\": 10001")), "");
+  const Plan plain = parsePlan(block("\"trials\": 2"), "folder/mine.json");
+  EXPECT_EQ(plain.name, "mine");
+  EXPECT_EQ(plain.orderSeed, 0u);
+  EXPECT_EQ(plain.counterbalance, Counterbalance::None);
+  EXPECT_FALSE(plain.blocks[0].practice);
+  EXPECT_FALSE(plain.blocks[0].repeatAborted);
+  EXPECT_EQ(plain.blocks[0].day, 0);
+  EXPECT_EQ(plain.blocks[0].experiment, "chain-slow");
+  EXPECT_EQ(plain.blocks[0].condition, "");
+}
+
 TEST(Plan, ThePapersProtocolIsThreePacesOnTwoDaysWithAHundredTrialsEach) {
   const std::string file = std::string(REACHLAB_SOURCE_DIR) + "/resources/plans/paper.json";
   EXPECT_EQ(planProblems(file), std::vector<std::string>{});
@@ -92,6 +121,35 @@ TEST(BlockOrder, LeavesPracticeBlocksWhereTheyStand) {
     EXPECT_EQ(order[0], 0);
     EXPECT_EQ(std::set<int>(order.begin(), order.end()), (std::set<int>{0, 1, 2, 3}));
   }
+}
+
+TEST(BlockOrder, OfMoreThanFourConditionsIsALatinSquare) {
+  std::string text = "{ \"schema_version\": 1, \"order_seed\": 2, \"counterbalance\": \"permute\", \"trials\": 1, \"blocks\": [";
+  for (int i = 0; i < 5; ++i) text += std::string(i == 0 ? "" : ",") + "{ \"experiment\": \"chain-slow\" }";
+  const Plan plan = parsePlan(text + "] }", "p.json");
+  std::set<std::pair<int, std::size_t>> places;
+  for (const char* subject : {"1", "2", "3", "4", "5"}) {
+    const std::vector<int> order = blockOrder(plan, subject, 0);
+    ASSERT_EQ(order.size(), 5u);
+    EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), 5u);
+    for (std::size_t at = 0; at < 5; ++at) places.insert({order[at], at});
+  }
+  EXPECT_EQ(places.size(), 25u) << "every condition once at every place";
+  EXPECT_EQ(blockOrder(plan, "6", 0), blockOrder(plan, "1", 0)) << "the rows come in turn";
+  EXPECT_EQ(blockOrder(plan, "anna", 0), blockOrder(plan, "anna", 0));
+  std::set<std::vector<int>> named;
+  for (const char* subject : {"anna", "bert", "cora", "dora", "emil", "fred", "gina", "hugo"}) named.insert(blockOrder(plan, subject, 0));
+  EXPECT_GT(named.size(), 2u) << "names are spread over the rows";
+}
+
+TEST(BlockOrder, OfADayHasTheBlocksOfEveryDayToo) {
+  const Plan plan = parsePlan(R"({ "schema_version": 1, "trials": 1, "blocks": [ { "experiment": "chain-slow", "day": 1 },
+      { "experiment": "chain-slow" }, { "experiment": "chain-slow", "day": 2 } ] })",
+                              "p.json");
+  EXPECT_EQ(blockOrder(plan, "01", 1), (std::vector<int>{0, 1}));
+  EXPECT_EQ(blockOrder(plan, "01", 2), (std::vector<int>{1, 2}));
+  EXPECT_EQ(blockOrder(plan, "01", 3), (std::vector<int>{1}));
+  EXPECT_EQ(blockOrder(plan, "01", 0), (std::vector<int>{0, 1, 2}));
 }
 
 TEST(PlanTrials, DrawsForeperiodsInTheirRangeFromSeedAndIndexAlone) {
@@ -132,6 +190,7 @@ TEST(PlanTrials, PutsTheAskedShareOfCatchTrialsAtSeededPlacesAndNeverFirst) {
 
 TEST(BlockSeed, OfTheFirstBlockIsTheRunsOwn) {
   EXPECT_EQ(blockSeed(42, 1), 42u);
+  EXPECT_NE(blockSeed(42, 2), 42u);
   EXPECT_NE(blockSeed(42, 2), blockSeed(42, 3));
 }
 

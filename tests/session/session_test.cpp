@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/json_tree.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
@@ -24,7 +24,7 @@ std::vector<int> indicesOf(const BlockToRun& block) {
 // Records the block's trials with these outcomes, and closes the log.
 void recordOutcomes(const BlockToRun& block, const std::vector<trial::Outcome>& outcomes) {
   record::RunConfiguration configuration = block.configuration;
-  configuration.table = record::makeChannelTable(block.experiment, 1);
+  configuration.table = record::makeChannelTable(block.experiment.experiment(), 1);
   record::Recorder recorder(block.logPath, configuration, {.threaded = false});
   record::MadeRun run(configuration.table.massCount);
   for (std::uint64_t tick = 0; tick < record::MadeRun::kTicksPerTrial * outcomes.size(); ++tick) {
@@ -45,7 +45,7 @@ void recordOutcomes(const BlockToRun& block, const std::vector<trial::Outcome>& 
 // Does the first `count` trials of the block and half of one more, and breaks off without closing, as a killed program does.
 void recordAndBreakOff(const BlockToRun& block, int count) {
   record::RunConfiguration configuration = block.configuration;
-  configuration.table = record::makeChannelTable(block.experiment, 1);
+  configuration.table = record::makeChannelTable(block.experiment.experiment(), 1);
   const std::string whole = block.logPath + ".whole";
   {
     record::Recorder recorder(whole, configuration, {.threaded = false});
@@ -91,17 +91,17 @@ TEST_F(PlannedSession, RefusesAnAgeThatTheRecordCouldNotHold) {
 TEST_F(PlannedSession, TakesTheNextNumberWhenAnotherProgramHasTakenItsOwn) {
   SessionRequest r = request("chain-moderate");
   BlockToRun first = planSession(r).blocks.at(0), second = first;
-  takeFreeRun(first, r);
+  takeFreeRun(first, r.place, false);
   EXPECT_EQ(first.configuration.run, 1);
   record::writeMadeRun(first.logPath, 1, record::madeConfiguration());
-  takeFreeRun(second, r);
+  takeFreeRun(second, r.place, false);
   EXPECT_EQ(second.configuration.run, 2);
   EXPECT_EQ(second.configuration.firstRun, 2);
   EXPECT_NE(second.logPath, first.logPath);
   r.run = 2;
   BlockToRun asked = planSession(r).blocks.at(0);
   record::writeMadeRun(second.logPath, 1, record::madeConfiguration());
-  EXPECT_THROW(takeFreeRun(asked, r), UsageError) << "a number that was asked for is not exchanged";
+  EXPECT_THROW(takeFreeRun(asked, r.place, true), UsageError) << "a number that was asked for is not exchanged";
 }
 
 TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
@@ -115,12 +115,12 @@ TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
   EXPECT_EQ(session.blocks[0].configuration.run, 1);
   EXPECT_TRUE(session.blocks[0].logPath.ends_with("sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"))
       << session.blocks[0].logPath;
-  EXPECT_FALSE(session.seedDrawn);
+  EXPECT_FALSE(session.notice.seedDrawn);
 }
 
 TEST_F(PlannedSession, DrawsASeedWhenNoneIsGiven) {
   const SessionToRun a = planSession(request("chain-moderate")), b = planSession(request("chain-moderate"));
-  EXPECT_TRUE(a.seedDrawn);
+  EXPECT_TRUE(a.notice.seedDrawn);
   EXPECT_NE(a.seed, b.seed);
 }
 
@@ -137,7 +137,7 @@ TEST_F(PlannedSession, GoesOnWithTheTrialThatWasBrokenOffAndWithTheSameOrder) {
   const SessionToRun second = planSession(r);
   ASSERT_EQ(second.blocks.size(), 2u);
   EXPECT_EQ(second.seed, first.seed);
-  EXPECT_FALSE(second.seedDrawn);
+  EXPECT_FALSE(second.notice.seedDrawn);
   EXPECT_EQ(indicesOf(second.blocks[0]), (std::vector<int>{2, 3, 4, 5}));
   EXPECT_EQ(second.blocks[0].configuration.run, 2);
   EXPECT_EQ(second.blocks[0].configuration.firstRun, 1);
@@ -198,13 +198,14 @@ TEST_F(PlannedSession, RefusesATakenRunNumberAndProposesAFreeOne) {
   r.trials = 3;
   recordAndBreakOff(planSession(r).blocks[0], 1);
   EXPECT_EQ(planSession(r).blocks[0].configuration.run, 2) << "the next free number is taken";
-  EXPECT_NE(planSession(r).hint, "") << "an unfinished run is worth a word";
+  EXPECT_TRUE(planSession(r).notice.unfinished) << "an unfinished run is worth a word";
   r.run = 1;
   try {
     planSession(r);
     FAIL() << "took run 1 twice";
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("--run 2"), std::string::npos) << error.what();
+    EXPECT_EQ(faultsOf(error).at(0).key, "run");
+    EXPECT_EQ(faultsOf(error).at(0).allowed, "2, the next free one, or none");
   }
   r.what = "chain-fast";  // another task of the same session has the same run numbers
   EXPECT_THROW(planSession(r), UsageError);
@@ -301,6 +302,34 @@ TEST_F(PlannedSession, RefusesToResumeAnExperimentThatWasChangedUnderItsName) {
   EXPECT_THROW(planSession(r), UsageError);
 }
 
+TEST_F(PlannedSession, RefusesToResumeAPlanWhoseExperimentWasChanged) {
+  const std::string text = contentOf(experiment::resourceFolder() + "/experiments/chain-slow.json");
+  write("mine.json", text);
+  SessionRequest r = request(write("p.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
+      { "experiment": "chain-fast" }, { "experiment": "mine.json" }, { "experiment": "mine.json" } ] })"));
+  const SessionToRun first = planSession(r);
+  recordOutcomes(first.blocks[0], {trial::Outcome::Success, trial::Outcome::Success});
+  recordAndBreakOff(first.blocks[1], 1);
+  r.resume = true;
+  EXPECT_EQ(planSession(r).blocks.size(), 2u);
+  write("mine.json", text + "\n");
+  try {
+    planSession(r);
+    FAIL() << "the rest would be recorded under the text of the old file";
+  } catch (const UsageError& error) {
+    EXPECT_EQ(faultsOf(error).at(0).key, "resume");
+    EXPECT_NE(faultsOf(error).at(0).what.find("mine"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(PlannedSession, OfOneRunMayTakeAFreeNumberBeforeATakenOne) {
+  SessionRequest r = request("chain-moderate");
+  r.run = 2;
+  recordAndBreakOff(planSession(r).blocks[0], 1);
+  r.run = 1;
+  EXPECT_EQ(planSession(r).blocks[0].configuration.run, 1);
+}
+
 TEST_F(PlannedSession, RepeatsWhatWasInterruptedAndWhatWasAbortedOnlyIfThePlanSaysSo) {
   const std::vector<trial::Outcome> outcomes{trial::Outcome::Success, trial::Outcome::Aborted, trial::Outcome::Failure,
                                              trial::Outcome::Interrupted};
@@ -354,9 +383,9 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
     EXPECT_EQ(c.planName, "mine");
     EXPECT_EQ(c.orderSeed, 12u);
     EXPECT_EQ(c.sessionSeed, session.seed);
-    EXPECT_EQ(c.experimentName, block.experiment.name);
+    EXPECT_EQ(c.experimentName, block.experiment.experiment().name);
     EXPECT_EQ(c.experimentText, contentOf(experiment::resourceFolder() + "/experiments/" + c.experimentName + ".json"));
-    EXPECT_EQ(c.definitionText, experiment::definitionTextOf(block.experiment));
+    EXPECT_EQ(c.definitionText, experiment::definitionTextOf(block.experiment.experiment()));
     EXPECT_NE(c.definitionText, "");
     EXPECT_EQ(c.sampleEveryTicks, 1u);
     EXPECT_EQ(c.samplingHz, 1000);
@@ -391,7 +420,8 @@ TEST_F(PlannedSession, LeavesALogThatCannotBeReadOutAndSaysSo) {
   write("data/sourcedata/sub-01_ses-01_task-chainslow_run-02_log.reach", "no log");
   r.resume = true;
   const SessionToRun session = planSession(r);
-  EXPECT_NE(session.hint.find("run-02"), std::string::npos) << session.hint;
+  ASSERT_EQ(session.notice.unreadable.size(), 1u);
+  EXPECT_NE(session.notice.unreadable[0].find("run-02"), std::string::npos) << session.notice.unreadable[0];
   EXPECT_EQ(session.blocks[0].configuration.run, 3);
   EXPECT_EQ(indicesOf(session.blocks[0]), (std::vector<int>{1, 2}));
 }
@@ -419,7 +449,7 @@ TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
        {"sub-1_ses-2_task-a_run-10_log.reach", "sub-1_ses-2_task-b_run-9_log.reach", "sub-1_ses-21_task-a_run-50_log.reach",
         "sub-11_ses-2_task-a_run-60_log.reach", "sub-1_ses-2_task-a_run-70_log.reach.damaged", "sub-1_ses-2_task-a_run-8x_log.reach"})
     record::writeFileAtomically(folder / (std::string("data/sourcedata/") + name), "");
-  const std::vector<RecordedRun> runs = recordedRuns(place);
+  const std::vector<RunOnDisk> runs = recordedRuns(place);
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].run, 9);
   EXPECT_EQ(runs[0].task, "b");

@@ -1,0 +1,30 @@
+#include "sim/session/programme.h"
+
+#include <map>
+
+#include "base/json_tree.h"
+
+namespace reachlab::session {
+
+Programme programmeOf(const experiment::CompiledExperiment& experiment) {
+  Programme programme;
+  programme.plan.blocks.emplace_back().experiment = experiment.experiment().name;
+  programme.experiments.push_back(experiment);
+  return programme;
+}
+
+Programme readProgramme(const std::string& fileOrName) {
+  const std::optional<std::string> file = findPlan(fileOrName);
+  const std::string text = file ? readTextFile(*file) : std::string();
+  if (!file || !isPlan(text, *file)) return programmeOf(experiment::openExperiment(fileOrName));
+  Programme programme{parsePlan(text, *file), {}};
+  std::map<std::string, experiment::CompiledExperiment> opened;  // many blocks do one experiment
+  for (const PlanBlock& block : programme.plan.blocks) {
+    auto known = opened.find(block.experiment);
+    if (known == opened.end()) known = opened.emplace(block.experiment, experiment::openExperiment(block.experiment)).first;
+    programme.experiments.push_back(known->second);
+  }
+  return programme;
+}
+
+}  // namespace reachlab::session

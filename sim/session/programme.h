@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/session/plan.h"
+
+namespace reachlab::session {
+
+/// What is to be done in a session: one experiment, or a plan with the experiments of its blocks. A value; it is read once, and nothing is
+/// looked up in files again however often it is recorded.
+struct Programme {
+  Plan plan;                                                // of a single experiment: one block and no text
+  std::vector<experiment::CompiledExperiment> experiments;  // one for each of plan.blocks
+  bool isPlan() const { return !plan.text.empty(); }
+};
+
+/// Reads a plan or an experiment: a file, or the name of a shipped one. Throws UsageError with every fault.
+Programme readProgramme(const std::string& fileOrName);
+/// A single experiment, as it is edited in a window or made by a program.
+Programme programmeOf(const experiment::CompiledExperiment& experiment);
+
+}  // namespace reachlab::session

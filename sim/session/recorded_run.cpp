@@ -1,0 +1,180 @@
+#include "sim/session/recorded_run.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "base/utc.h"
+#include "sim/record/append_file.h"
+#include "sim/record/exporters.h"
+
+namespace reachlab::session {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(2);
+constexpr int kLooks = 50;  // the loop takes a command within a tick
+
+std::string computerName() {
+  utsname system{};
+  ::uname(&system);
+  return fmt::format("{} {} {}", system.sysname, system.release, system.machine);
+}
+
+std::string describe(const haptics::LoopReport& report) {
+  return fmt::format(
+      "loop: {:.2f} ticks/s over {:.2f} s ({}); lateness p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; late {}, missed {}, "
+      "longest gap {:.3f} ms; dropped {}, clamped {}",
+      report.rate, report.seconds, report.mode, report.latenessP50, report.latenessP99, report.latenessMax, report.faults.lateTicks,
+      report.faults.missedTicks, static_cast<double>(report.faults.longestGapNs) * 1e-6, report.faults.droppedRecords,
+      report.faults.clampedTicks);
+}
+
+/// What writes into the dataset; a fault of the disk is then known to be one of that folder.
+template <class Work>
+void inDataset(Work&& work) {
+  try {
+    work();
+  } catch (const ResourceError& fault) {
+    throw DatasetError(fault.what());
+  }
+}
+
+/// Ticks go to the recorder, which may count one as lost, and to who watches.
+class WatchedSink final : public haptics::RunSink {
+ public:
+  WatchedSink(haptics::RunSink& recorder, haptics::RunSink& watcher) : recorder_(recorder), watcher_(watcher) {}
+  bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override {
+    watcher_.onTick(state, command, missedTicks);
+    return recorder_.onTick(state, command, missedTicks);
+  }
+  void announce(std::int32_t trial, const trial::PlannedTrial& planned) override {
+    recorder_.announce(trial, planned);
+    watcher_.announce(trial, planned);
+  }
+  void awaitTrial(std::int32_t trial) override { recorder_.awaitTrial(trial); }
+  void close() override { recorder_.close(); }
+
+ private:
+  haptics::RunSink &recorder_, &watcher_;
+};
+
+}  // namespace
+
+RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice> device, const RecordedRunOptions& options)
+    : block_(std::move(block)), options_(options), trialCount_(block_.trials.size()) {
+  if (options.virtualClock && !device->info().virtualHand)
+    throw FaultError(Fault{"fast", fmt::format("device {} moves in real time", block_.configuration.device), "simulated, replay"});
+  conductor_ = std::make_unique<haptics::RunConductor>(block_.experiment, std::move(device), block_.trials,
+                                                       haptics::LoopOptions{.virtualClock = options.virtualClock});
+  choice_ = conductor_->engine().choice();
+  inDataset([this] { openLog(); });
+}
+
+RecordedRun::~RecordedRun() {
+  try {
+    finish();
+  } catch (const std::exception&) {  // the disk is gone: that was said when the trial ended, and nothing can be said here
+  }
+}
+
+void RecordedRun::completeConfiguration() {
+  record::RunConfiguration& c = block_.configuration;
+  const haptics::DeviceInfo device = conductor_->device();
+  c.deviceName = device.name;
+  c.deviceVersion = device.version;
+  c.deviceMaxForce = device.maxForce;
+  c.virtualHand = device.virtualHand;
+  c.rendersForce = device.rendersForce;
+  c.deviceContinuousForce = device.maxContinuousForce;
+  c.deviceThermalSeconds = device.thermalSeconds;
+  c.method = choice_.method;
+  c.methodReason = choice_.reason;
+  c.softwareVersion = "reachlab " REACHLAB_VERSION;
+  c.buildDescription = "g++ " __VERSION__;
+  c.computer = computerName();
+  c.startedUtc = utcText(std::chrono::system_clock::now());
+  c.clock = options_.virtualClock ? "virtual" : "monotonic";
+  c.table = record::makeChannelTable(block_.experiment.experiment(), block_.experiment.constraint().parameterCount());
+}
+
+// The number is free when the log is created: nobody else takes one meanwhile.
+void RecordedRun::openLog() {
+  const FolderHold hold(options_.place.data);
+  record::removeLeftovers(options_.place.data);
+  takeFreeRun(block_, options_.place, options_.numberAskedFor);
+  completeConfiguration();
+  recorder_ =
+      std::make_unique<record::Recorder>(block_.logPath, block_.configuration,
+                                         record::RecorderOptions{.threaded = !options_.virtualClock, .diskReserve = options_.diskReserve});
+}
+
+// A repeat is not repeated.
+void RecordedRun::repeatIfAborted(const haptics::ConductedTrial& trial) {
+  const bool isRepeat = ++conducted_ > block_.trials.size();
+  if (block_.configuration.repeatAborted && trial::isPutUpAgain(trial.result) && !isRepeat) repeat(trial.planned);
+}
+
+void RecordedRun::start() {
+  if (std::exchange(started_, true)) return;
+  if (options_.watcher != nullptr) sink_ = std::make_unique<WatchedSink>(*recorder_, *options_.watcher);
+  conductor_->start(sink_ ? sink_.get() : recorder_.get());
+}
+
+bool RecordedRun::putUpNext() {
+  start();
+  return conductor_->putUpNext();
+}
+
+std::optional<haptics::ConductedTrial> RecordedRun::poll() {
+  if (!started_) return std::nullopt;
+  const std::optional<haptics::ConductedTrial> trial = conductor_->poll();
+  if (trial) repeatIfAborted(*trial);
+  return trial;
+}
+
+std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop) {
+  start();
+  const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop);
+  if (trial) repeatIfAborted(*trial);
+  return trial;
+}
+
+void RecordedRun::repeat(const trial::PlannedTrial& trial) {
+  conductor_->append(trial);
+  ++trialCount_;
+}
+
+void RecordedRun::abort() {
+  if (underWay()) conductor_->abort();
+}
+
+void RecordedRun::closeLog() {
+  if (std::exchange(closed_, true)) return;
+  if (underWay()) conductor_->interrupt();
+  for (int looks = 0; looks < kLooks && underWay(); ++looks) {
+    (void)conductor_->poll();
+    std::this_thread::sleep_for(kLook);
+  }
+  if (started_ && !options_.virtualClock) {
+    timing_ = describe(report());
+    note(timing_);
+  }
+  conductor_->finish();
+  recorder_->close();
+}
+
+void RecordedRun::finish() {
+  closeLog();
+  if (std::exchange(finished_, true)) return;
+  inDataset([this] {
+    const std::vector<record::RunLog> run{record::RunLog::open(block_.logPath)};
+    const FolderHold hold(options_.place.data);  // the tables are of all runs
+    for (const record::Exporter& exporter : record::exporters())
+      if (exporter.withEachRun) exporter.write(run, record::folderIn(options_.place.data, exporter));
+  });
+}
+
+}  // namespace reachlab::session

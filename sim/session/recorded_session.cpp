@@ -1,0 +1,72 @@
+#include "sim/session/recorded_session.h"
+
+#include <chrono>
+#include <thread>
+
+namespace reachlab::session {
+namespace {
+
+// The pause between trials; the haptic loop goes on meanwhile.
+void pauseFor(double seconds, const std::atomic<bool>& stop) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!stop && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+// True when it was done to its end.
+bool conduct(RecordedRun& run, bool virtualClock, const std::atomic<bool>& stop, const SessionWords& words) {
+  while (const std::optional<haptics::ConductedTrial> trial = run.runTrial(stop)) {
+    words.ended(run, *trial);
+    if (trial::endsRun(trial->result) || run.fault()) return false;
+    if (!virtualClock && run.trialsLeft() > 0) pauseFor(run.configuration().pauseSeconds, stop);
+    if (stop) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RecordedSession::RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice,
+                                 haptics::RunSink* watcher)
+    : request_(request), makeDevice_(std::move(makeDevice)), watcher_(watcher) {
+  SessionToRun session = planSession(request, programme);
+  notice_ = session.notice;
+  seed_ = session.seed;
+  blocks_.assign(std::make_move_iterator(session.blocks.begin()), std::make_move_iterator(session.blocks.end()));
+}
+
+bool RecordedSession::openNext() {
+  closeRun();
+  if (blocks_.empty()) return false;
+  const BlockToRun& block = blocks_.front();
+  RecordedRunOptions options;
+  options.place = request_.place;
+  options.numberAskedFor = request_.run == block.configuration.run;
+  options.virtualClock = request_.fast;
+  options.diskReserve = request_.diskReserve;
+  options.watcher = watcher_;
+  run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.experiment, block.configuration.seed), options);
+  blocks_.pop_front();
+  return true;
+}
+
+void RecordedSession::closeRun() {
+  if (const std::unique_ptr<RecordedRun> ending = std::move(run_)) ending->finish();
+}
+
+bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const SessionWords& words) {
+  while (session.openNext()) {
+    RecordedRun& run = *session.run();
+    words.opened(run);
+    const bool toItsEnd = conduct(run, run.configuration().clock == "virtual", stop, words);
+    run.closeLog();
+    words.logClosed(run);
+    const std::optional<std::string> fault = run.fault();
+    run.finish();
+    words.closed(run);
+    if (fault) throw ResourceError(*fault);
+    if (!toItsEnd) return false;
+  }
+  return true;
+}
+
+}  // namespace reachlab::session

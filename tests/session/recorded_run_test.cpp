@@ -1,0 +1,389 @@
+#include "sim/session/recorded_session.h"
+
+#include <gtest/gtest.h>
+
+#include "base/fault.h"
+#include "base/json_tree.h"
+#include "tests/haptics/scripted_device.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::session {
+namespace {
+
+using haptics::test::MemorySink;
+using haptics::test::ScriptedDevice;
+using record::TemporaryFolder;
+
+constexpr const char* kEasy = R"({ "schema_version": 1, "name": "easy", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  "object": { "kind": "point", "masses_kg": [0.5], "stiffness_n_per_m": [] },
+  "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 40 },
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 0.4, "timeout_s": 0.1,
+            "tolerance": { "position_m": 0.05, "velocity_m_per_s": 5, "time_s": 0.3 } } })";
+
+const std::atomic<bool> kNeverStop{false};
+
+// A hand that moves in real time, or by tick count.
+class Hand final : public haptics::HapticDevice {
+ public:
+  Hand(double to, bool isVirtual) : reach_(-0.1, to, 300), isVirtual_(isVirtual) {}
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info = reach_.info();
+    info.virtualHand = isVirtual_;
+    info.version = "7";
+    info.maxForce = 9;
+    return info;
+  }
+  void cue(haptics::Cue cue) noexcept override { reach_.cue(cue); }
+  haptics::DeviceSample read() noexcept override { return reach_.read(); }
+  void write(const Vec3& force) noexcept override { reach_.write(force); }
+
+ private:
+  ScriptedDevice reach_;
+  bool isVirtual_;
+};
+
+std::unique_ptr<haptics::HapticDevice> goodHand() { return std::make_unique<Hand>(0.1, true); }
+std::unique_ptr<haptics::HapticDevice> stillHand() { return std::make_unique<Hand>(-0.1, true); }  // every trial is aborted: no onset
+
+class Recorded : public testing::Test {
+ protected:
+  Recorded() {
+    request_.place.data = folder_ / "data";
+    request_.device = "scripted";
+    request_.trials = 3;
+    request_.seed = 1;
+    request_.fast = true;
+  }
+  BlockToRun block() const { return planSession(request_, easy_).blocks.at(0); }
+  RecordedRunOptions options() const {
+    return {.place = request_.place, .numberAskedFor = request_.run.has_value(), .virtualClock = request_.fast};
+  }
+  Programme plan(const std::string& text) const {
+    record::writeFileAtomically(folder_ / "easy.json", kEasy);
+    record::writeFileAtomically(folder_ / "plan.json", text);
+    return readProgramme(folder_ / "plan.json");
+  }
+  std::vector<record::RunLog> logs() const {
+    std::vector<record::RunLog> logs;
+    for (const RunOnDisk& run : recordedRuns(request_.place)) logs.push_back(record::RunLog::open(run.path));
+    return logs;
+  }
+
+  TemporaryFolder folder_{"recorded"};
+  SessionRequest request_;
+  Programme easy_ = programmeOf(experiment::openExperimentText(kEasy, "easy.json"));
+};
+
+TEST_F(Recorded, EveryTrialIsInTheLogAndTheRunInTheDataset) {
+  RecordedRun run(block(), goodHand(), options());
+  EXPECT_EQ(run.trialCount(), 3u);
+  EXPECT_FALSE(run.underWay());
+  for (int trial = 1; trial <= 3; ++trial) {
+    const auto ended = run.runTrial(kNeverStop);
+    ASSERT_TRUE(ended);
+    EXPECT_EQ(ended->result.outcome, trial::Outcome::Success) << nameOf(ended->result.reason);
+    EXPECT_EQ(run.numberOf(*ended), trial);
+    EXPECT_EQ(record::RunLog::open(run.logPath()).trials().size(), static_cast<std::size_t>(trial)) << "safe on the disk before it is told";
+  }
+  EXPECT_FALSE(run.runTrial(kNeverStop));
+  EXPECT_FALSE(record::RunLog::open(run.logPath()).closed());
+  run.closeLog();
+  EXPECT_TRUE(record::RunLog::open(run.logPath()).closed());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "data/dataset_description.json"));
+  run.finish();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "data/dataset_description.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "data/sub-01/ses-01/motion"));
+  EXPECT_TRUE(run.timing().empty()) << "the virtual clock keeps no time";
+  const record::RunConfiguration c = logs().at(0).configuration();
+  EXPECT_EQ(c.deviceName, "scripted");
+  EXPECT_EQ(c.deviceVersion, "7");
+  EXPECT_EQ(c.deviceMaxForce, 9);
+  EXPECT_TRUE(c.virtualHand);
+  EXPECT_EQ(c.clock, "virtual");
+  EXPECT_EQ(c.experimentName, "easy");
+  EXPECT_EQ(c.table.massCount, 1);
+}
+
+TEST_F(Recorded, ADestroyedRunIsFinishedAndItsTrialUnderWayIsInterrupted) {
+  {
+    RecordedRun run(block(), goodHand(), options());
+    ASSERT_TRUE(run.putUpNext());
+    EXPECT_TRUE(run.underWay());
+    EXPECT_FALSE(run.putUpNext()) << "one is under way";
+  }
+  const std::vector<record::RunLog> found = logs();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].closed());
+  ASSERT_EQ(found[0].trials().size(), 1u);
+  EXPECT_EQ(found[0].trials()[0].result.outcome, trial::Outcome::Interrupted);
+}
+
+TEST_F(Recorded, ARunWithoutATrialLeavesAnOrderlyLog) {
+  RecordedRun run(block(), goodHand(), options());
+  EXPECT_FALSE(run.poll());
+  run.abort();  // there is nothing to abort
+  run.finish();
+  EXPECT_TRUE(logs().at(0).closed());
+  EXPECT_TRUE(logs().at(0).trials().empty());
+}
+
+TEST_F(Recorded, TheVirtualClockIsRefusedToAHandInRealTimeBeforeAnythingIsWritten) {
+  try {
+    RecordedRun run(block(), std::make_unique<Hand>(0.1, false), options());
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(faultsOf(error).at(0).key, "fast");
+    EXPECT_NE(faultsOf(error).at(0).what.find("scripted"), std::string::npos);
+  }
+  EXPECT_TRUE(recordedRuns(request_.place).empty());
+}
+
+TEST_F(Recorded, EachRunTakesTheNumberThatIsFreeWhenItIsOpened) {
+  const BlockToRun planned = block();
+  RecordedRun first(planned, goodHand(), options()), second(planned, goodHand(), options());
+  EXPECT_EQ(first.configuration().run, 1);
+  EXPECT_EQ(second.configuration().run, 2);
+  EXPECT_EQ(second.configuration().firstRun, 2);
+  EXPECT_NE(first.logPath(), second.logPath());
+  request_.run = 7;
+  const BlockToRun asked = block();
+  RecordedRun seventh(asked, goodHand(), options());
+  EXPECT_EQ(seventh.configuration().run, 7);
+  EXPECT_THROW(RecordedRun(asked, goodHand(), options()), UsageError) << "a number that was asked for is not exchanged";
+}
+
+TEST_F(Recorded, AnAbortedTrialIsPutUpOnceMoreIfTheBlockSaysSoAndARepeatIsNot) {
+  for (const bool repeat : {false, true}) {
+    BlockToRun wanted = block();
+    wanted.configuration.repeatAborted = repeat;
+    RecordedRun run(wanted, stillHand(), options());
+    std::vector<int> indices;
+    while (const auto ended = run.runTrial(kNeverStop)) {
+      EXPECT_EQ(ended->result.outcome, trial::Outcome::Aborted);
+      indices.push_back(ended->planned.index);
+    }
+    EXPECT_EQ(indices, (repeat ? std::vector<int>{0, 1, 2, 0, 1, 2} : std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(run.trialCount(), indices.size());
+  }
+  BlockToRun wanted = block();  // from a timer, as a window does
+  wanted.configuration.repeatAborted = true;
+  RecordedRun run(wanted, stillHand(), options());
+  int ended = 0;
+  while (run.putUpNext()) ended += run.poll().has_value();
+  EXPECT_EQ(ended, 6);
+}
+
+TEST_F(Recorded, ATrialIsRepeatedByHandUnderItsOwnIndex) {
+  RecordedRun run(block(), goodHand(), options());
+  const auto first = run.runTrial(kNeverStop);
+  run.repeat(first->planned);
+  EXPECT_EQ(run.trialCount(), 4u);
+  EXPECT_EQ(run.trialsLeft(), 3u);
+  while (run.runTrial(kNeverStop)) {}
+  run.finish();
+  const record::RunLog log = logs().at(0);
+  ASSERT_EQ(log.trials().size(), 4u);
+  EXPECT_EQ(log.trials()[3].trial, 4);
+  EXPECT_EQ(log.trials()[3].planned.index, 0);
+}
+
+TEST_F(Recorded, WhoWatchesSeesEveryTickAndCannotLoseOneForTheRecord) {
+  MemorySink watcher(500);  // soon full
+  RecordedRunOptions watched = options();
+  watched.watcher = &watcher;
+  RecordedRun run(block(), goodHand(), watched);
+  while (run.runTrial(kNeverStop)) {}
+  run.finish();
+  const record::RunLog log = logs().at(0);
+  EXPECT_EQ(run.latest().faults.droppedRecords, 0u);
+  const std::vector<record::RecordedTick> ticks = log.ticks();
+  ASSERT_EQ(watcher.ticks.size(), 500u);
+  ASSERT_GT(ticks.size(), 500u);
+  EXPECT_EQ(watcher.ticks.back().state.tick - watcher.ticks.front().state.tick, 499u);
+  EXPECT_EQ(watcher.announced, (std::vector<std::int32_t>{1, 2, 3}));
+}
+
+TEST_F(Recorded, ANoteIsKept) {
+  RecordedRun run(block(), goodHand(), options());
+  (void)run.runTrial(kNeverStop);
+  run.note("the phone rang");
+  run.finish();
+  bool found = false;
+  for (const record::RecordedEvent& event : logs().at(0).events()) found = found || event.text == "the phone rang";
+  EXPECT_TRUE(found);
+}
+
+TEST_F(Recorded, AFolderThatRefusesIsAFaultOfTheDataset) {
+  request_.place.data = "/dev/null/data";
+  EXPECT_THROW(RecordedRun(block(), goodHand(), options()), DatasetError);
+}
+
+TEST_F(Recorded, InRealTimeTheLogSaysHowWellTheLoopKeptTime) {
+  request_.fast = false;
+  request_.trials = 1;
+  RecordedRun run(block(), stillHand(), options());
+  (void)run.runTrial(kNeverStop);
+  run.closeLog();
+  run.closeLog();
+  run.finish();
+  EXPECT_TRUE(run.timing().starts_with("loop: ")) << run.timing();
+  const record::RunLog log = logs().at(0);
+  EXPECT_EQ(log.configuration().clock, "monotonic");
+  int notes = 0;
+  for (const record::RecordedEvent& event : log.events()) notes += event.kind == record::EventKind::Note;
+  EXPECT_EQ(notes, 1);
+  EXPECT_EQ(log.events().back().text, run.timing());
+}
+
+class Conducted : public Recorded {
+ protected:
+  DeviceMaker maker(bool good = true) {
+    return [this, good](const std::string& device, const experiment::CompiledExperiment& experiment, std::uint64_t seed) {
+      made_.emplace_back(device + " " + experiment.experiment().name, seed);
+      return good ? goodHand() : stillHand();
+    };
+  }
+  SessionWords words() {
+    SessionWords words;
+    words.opened = [this](const RecordedRun& run) { told_.push_back("opened " + std::to_string(run.configuration().run)); };
+    words.ended = [this](const RecordedRun& run, const haptics::ConductedTrial& trial) {
+      told_.push_back(std::to_string(run.numberOf(trial)));
+    };
+    words.logClosed = [this](const RecordedRun& run) {
+      told_.push_back(record::RunLog::open(run.logPath()).closed() ? "in order" : "open");
+    };
+    words.closed = [this](const RecordedRun&) { told_.push_back("closed"); };
+    return words;
+  }
+  std::vector<std::pair<std::string, std::uint64_t>> made_;
+  std::vector<std::string> told_;
+};
+
+constexpr const char* kTwoBlocks = R"({ "schema_version": 1, "trials": 2, "repeat_aborted": true, "blocks": [
+  { "experiment": "easy.json", "condition": "a" }, { "experiment": "easy.json", "trials": 1, "condition": "b" } ] })";
+
+TEST_F(Conducted, ASessionDoesItsBlocksInOrderAndSaysEachStep) {
+  request_.trials.reset();
+  RecordedSession session(plan(kTwoBlocks), request_, maker());
+  EXPECT_EQ(session.blocksLeft(), 2u);
+  EXPECT_EQ(session.seed(), 1u);
+  EXPECT_FALSE(session.notice().seedDrawn);
+  EXPECT_EQ(session.run(), nullptr);
+  EXPECT_TRUE(conduct(session, kNeverStop, words()));
+  EXPECT_EQ(told_, (std::vector<std::string>{"opened 1", "1", "2", "in order", "closed", "opened 2", "1", "in order", "closed"}));
+  ASSERT_EQ(made_.size(), 2u);
+  EXPECT_EQ(made_[0].first, "scripted easy");
+  const std::vector<record::RunLog> found = logs();
+  ASSERT_EQ(found.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(made_[k].second, found[k].configuration().seed);
+    EXPECT_EQ(found[k].configuration().condition, k == 0 ? "a" : "b");
+  }
+  EXPECT_FALSE(session.openNext());
+  EXPECT_EQ(session.run(), nullptr);
+}
+
+TEST_F(Conducted, AStopKeepsTheTrialAsInterruptedAndLeavesTheRestToBeResumed) {
+  request_.trials.reset();
+  const Programme programme = plan(kTwoBlocks);
+  {
+    RecordedSession session(programme, request_, maker());
+    std::atomic<bool> stop{false};
+    SessionWords said = words();
+    said.ended = [&](const RecordedRun&, const haptics::ConductedTrial&) { stop = true; };
+    EXPECT_FALSE(conduct(session, stop, said));
+    EXPECT_EQ(session.blocksLeft(), 1u);
+  }
+  {
+    request_.resume = true;
+    RecordedSession session(programme, request_, maker());
+    EXPECT_EQ(session.blocksLeft(), 2u);
+    const std::atomic<bool> stop{true};
+    EXPECT_FALSE(conduct(session, stop, words()));
+  }
+  std::vector<record::RunLog> found = logs();
+  ASSERT_EQ(found.size(), 2u);
+  ASSERT_EQ(found[1].trials().size(), 1u);
+  EXPECT_EQ(found[1].trials()[0].result.outcome, trial::Outcome::Interrupted);
+  EXPECT_TRUE(found[1].closed());
+  RecordedSession session(programme, request_, maker());
+  EXPECT_TRUE(conduct(session, kNeverStop, words()));
+  found = logs();
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[2].configuration().firstRun, 1);
+  ASSERT_EQ(found[2].trials().size(), 1u);
+  EXPECT_EQ(found[2].trials()[0].trial, 2);
+  EXPECT_EQ(found[2].trials()[0].planned.index, 1);
+  EXPECT_EQ(found[3].configuration().condition, "b");
+  EXPECT_EQ(RecordedSession(programme, request_, maker()).blocksLeft(), 0u);
+}
+
+TEST_F(Conducted, ABlockWhoseDeviceCannotBeHadIsStillLeft) {
+  RecordedSession session(easy_, request_,
+                          [](const std::string&, const experiment::CompiledExperiment&,
+                             std::uint64_t) -> std::unique_ptr<haptics::HapticDevice> { throw ResourceError("not plugged in"); });
+  EXPECT_THROW(session.openNext(), ResourceError);
+  EXPECT_EQ(session.blocksLeft(), 1u);
+  EXPECT_TRUE(recordedRuns(request_.place).empty());
+}
+
+TEST_F(Conducted, OpeningTheNextRunFinishesTheOneBefore) {
+  request_.trials.reset();
+  RecordedSession session(plan(kTwoBlocks), request_, maker());
+  ASSERT_TRUE(session.openNext());
+  ASSERT_TRUE(session.run()->putUpNext());
+  ASSERT_TRUE(session.openNext());
+  EXPECT_EQ(session.run()->configuration().condition, "b");
+  EXPECT_TRUE(record::RunLog::open(recordedRuns(request_.place).at(0).path).closed());
+  session.closeRun();
+  EXPECT_EQ(session.run(), nullptr);
+}
+
+TEST_F(Conducted, TheSessionSaysWhatIsWorthAWord) {
+  request_.seed.reset();
+  {
+    RecordedSession session(easy_, request_, maker());
+    EXPECT_TRUE(session.notice().seedDrawn);
+    EXPECT_FALSE(session.notice().unfinished);
+    session.openNext();
+    (void)session.run()->runTrial(kNeverStop);
+  }
+  EXPECT_TRUE(RecordedSession(easy_, request_, maker()).notice().unfinished);
+  request_.resume = true;
+  const RecordedSession resumed(easy_, request_, maker());
+  EXPECT_FALSE(resumed.notice().unfinished);
+  EXPECT_FALSE(resumed.notice().seedDrawn);
+}
+
+// Lower bounds alone: however slow the machine is, the pause is not shorter.
+TEST_F(Conducted, ThePlansPauseLiesBetweenTrialsInRealTime) {
+  request_.fast = false;
+  request_.trials.reset();
+  RecordedSession session(plan(R"({ "schema_version": 1, "trials": 2, "pause_s": 0.3, "blocks": [ { "experiment": "easy.json" } ] })"),
+                          request_, maker(false));
+  EXPECT_TRUE(conduct(session, kNeverStop, words()));
+  const record::RunLog log = logs().at(0);
+  ASSERT_EQ(log.trials().size(), 2u);
+  std::int64_t ended = 0, begun = 0;
+  for (const record::RecordedTick& tick : log.ticks()) {
+    if (tick.tick == log.trials()[0].result.endTick) ended = tick.measuredNs;
+    if (tick.tick == log.trials()[1].startTick) begun = tick.measuredNs;
+  }
+  EXPECT_GE(begun - ended, 300'000'000);
+}
+
+TEST(ProgrammeOfASession, CompilesEachExperimentOfAPlanOnce) {
+  const TemporaryFolder folder("programme");
+  record::writeFileAtomically(folder / "p.json", R"({ "schema_version": 1, "trials": 1, "blocks": [
+      { "experiment": "chain-slow" }, { "experiment": "epitrochoid" }, { "experiment": "chain-slow" } ] })");
+  const Programme programme = readProgramme(folder / "p.json");
+  EXPECT_TRUE(programme.isPlan());
+  ASSERT_EQ(programme.experiments.size(), 3u);
+  EXPECT_EQ(&programme.experiments[0].experiment(), &programme.experiments[2].experiment());
+  EXPECT_EQ(programme.experiments[1].experiment().name, "epitrochoid");
+  EXPECT_FALSE(readProgramme("chain-slow").isPlan());
+  EXPECT_THROW(readProgramme("chain-slo"), UsageError);
+}
+
+}  // namespace
+}  // namespace reachlab::session
