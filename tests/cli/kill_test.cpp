@@ -197,7 +197,7 @@ TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
     if (!std::filesystem::exists(out)) continue;
     for (const auto& entry : std::filesystem::directory_iterator(out)) {
       const std::string name = entry.path().filename().string();
-      if (name.ends_with(".tmp")) continue;  // under its own name a file is whole or not there
+      if (name.ends_with(".reachlab-tmp")) continue;  // under its own name a file is whole or not there
       EXPECT_EQ(record::readWholeFile(entry.path().string()), whole[name]) << name;
     }
   }

@@ -394,8 +394,8 @@ TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWord
   EXPECT_FALSE(faults->isVisible());
   const struct {
     const char *field, *wrong, *says, *right;
-  } entries[] = {{"subject", "anna-b", "subject \"anna-b\": not a label; allowed: letters and digits only", "annab"},
-                 {"session", "", "session \"\": not a label; allowed: letters and digits only", "2"},
+  } entries[] = {{"subject", "anna-b", "subject \"anna-b\": not a label; allowed: up to 60 letters and digits", "annab"},
+                 {"session", "", "session \"\": not a label; allowed: up to 60 letters and digits", "2"},
                  {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
                  {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
                  {"data", "", "data in: nothing; allowed: a folder", nullptr}};

@@ -139,7 +139,8 @@ TEST_F(ArmOverHidraw, UnpluggedItIsLostAndPluggedInAgainItComesBack) {
 TEST_F(ArmOverHidraw, TheProgramReachesWithIt) {
   Firmware firmware(bed.wire());
   const test::Folder folder;
-  const test::Ended run = test::reach("run chain-slow --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  const test::Ended run = test::reach("run chain-slow --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string(),
+                                      "timeout -s INT 60");  // the run waits for a hand as long as it takes
   // How well the machine keeps time is not judged here: a trial may be lost to it, but then in words.
   if (run.exitCode != 0) {
     EXPECT_EQ(run.exitCode, 3) << run.err;
