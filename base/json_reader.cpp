@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab {
 namespace {
@@ -17,19 +17,19 @@ std::string FaultList::place(const JsonNode& where) const { return fmt::format("
 
 void FaultList::add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed) {
   if (isFull()) return static_cast<void>(++more_);
-  faults_.push_back(fmt::format("{}: {}{}{}", place(where), key.empty() ? "" : key + ": ", what,
-                                allowed.empty() ? std::string() : "; allowed: " + allowed));
+  faults_.push_back({key, what, allowed, FilePlace{file_, where.line, where.column}});
 }
 
 void FaultList::addLine(std::string line) {
   if (isFull()) return static_cast<void>(++more_);
-  faults_.push_back(std::move(line));
+  faults_.push_back({.what = std::move(line)});
 }
 
 void FaultList::throwIfAny() const {
   if (faults_.empty()) return;
-  const std::string more = more_ == 0 ? "" : fmt::format("\n{}: and {} more faults", file_, more_);
-  throw UsageError(fmt::format("{}{}", fmt::join(faults_, "\n"), more));
+  std::vector<Fault> all = faults_;
+  if (more_ > 0) all.push_back({.what = fmt::format("and {} more faults", more_), .place = FilePlace{file_}});
+  throw FaultError(std::move(all));
 }
 
 NumberRange anyNumber() { return {-kInfinity, kInfinity, true, "any finite number"}; }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/fault.h"
 #include "base/json_tree.h"
 #include "base/names.h"
 
@@ -20,15 +21,15 @@ class FaultList {
   bool isFull() const { return faults_.size() >= kMostFaults; }
   /// `FILE:LINE:COLUMN` of a node.
   std::string place(const JsonNode& where) const;
-  const std::vector<std::string>& faults() const { return faults_; }
+  const std::vector<Fault>& faults() const { return faults_; }
   bool empty() const { return faults_.empty(); }
-  /// Throws UsageError with all faults, a line each, when there are any.
+  /// Throws FaultError with all faults when there are any.
   void throwIfAny() const;
 
  private:
   static constexpr std::size_t kMostFaults = 100;
   std::string file_;
-  std::vector<std::string> faults_;
+  std::vector<Fault> faults_;
   std::size_t more_ = 0;
 };
 
