@@ -154,7 +154,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   std::vector<const BlockProgress*> recorded;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const experiment::CompiledExperiment& experiment = programme.experiments.at(static_cast<std::size_t>(order[k]));
-    trial::checkTask(experiment.experiment(), experiment.experiment().name);
+    trial::checkTask(experiment.experiment(),
+                     programme.isPlan() ? plan.blocks[static_cast<std::size_t>(order[k])].experiment : request.what);
     recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiment.experiment()));
   }
   const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
