@@ -30,8 +30,8 @@ quietly apt-get install -qq --no-install-recommends /packages/reachlab-cli_*.deb
 echo "packages: reachlab-cli installed in $((SECONDS - begin)) s"
 if inside sh -c "dpkg-query -W -f '\${Package}\\n' | grep -E 'qt|vtk'"; then echo "packages: reachlab-cli draws in Qt or VTK"; exit 1; fi
 quietly reach --version
-quietly sh -c "cd /root && reach run dingwell --device replay:/usr/share/reachlab/reaches --fast && reach analyze data"
-inside test -s /root/data/derivatives/reachlab/report.html
+quietly sh -c "cd /var/tmp && reach run dingwell --device replay:/usr/share/reachlab/reaches --fast && reach analyze data"
+inside test -s /var/tmp/data/derivatives/reachlab/report.html
 inside getent group reachlab > /dev/null
 inside test -s /etc/security/limits.d/reachlab.conf
 begin=$SECONDS
