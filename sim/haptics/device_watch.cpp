@@ -86,9 +86,10 @@ DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& c
   reports_ = sample.reports;
   last_ = sample.position;
   const double speed = std::max(speedOver(sample.position, context.nowNs), sample.hasVelocity ? norm(sample.velocity) : 0);
-  if (!context.engaged) seen_ = 0;  // where the hand was before the object was put up is no part of its speed
+  const bool jumped = step > kJumpMetres + speedLimit_ * passed * trial::kTickSeconds;
+  if (!context.engaged && jumped) seen_ = 0;  // carried to the next start: what it did before says nothing of its speed from there
   if (!context.engaged || first) return DeviceFault::None;
-  if (step > kJumpMetres + speedLimit_ * passed * trial::kTickSeconds) return DeviceFault::Jump;
+  if (jumped) return DeviceFault::Jump;
   if (speed > speedLimit_) return DeviceFault::Speed;
   if (context.force > kFeltForce && context.nowNs - reportNs_ > silenceNs_) return DeviceFault::Silent;
   return DeviceFault::None;

@@ -96,6 +96,17 @@ TEST_F(Watch, WhileTheObjectIsPutUpTheHandMayJump) {
   EXPECT_EQ(watch.fault(), DeviceFault::None);
 }
 
+// A virtual hand is carried from the target back to the start in one tick, and is engaged there at once.
+TEST_F(Watch, AHandThatWasCarriedToTheStartIsNotFastThere) {
+  settle({0.3, 0, 0});
+  context.engaged = false;
+  look({0.3, 0, 0});
+  look({});
+  context.engaged = true;
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE(look({}).valid) << i;
+  EXPECT_EQ(watch.fault(), DeviceFault::None);
+}
+
 TEST_F(Watch, AMissedTickIsNoJump) {
   settle({});
   double x = 0;
