@@ -1,0 +1,81 @@
+// `reach show`: what was recorded is told again as it was, and a trial's samples are those of the export.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Recorded {
+  Folder folder;
+  std::string data = (folder / "data").string();
+  std::string log = data + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach";
+  Ended run = reach("run chain-moderate --device simulated --trials 3 --seed 1 --fast --data " + data);
+};
+
+std::size_t countOf(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST(Show, NamesEveryRunOfADataset) {
+  const Recorded recorded;
+  ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --subject 02 --data " + recorded.data).exitCode, 0);
+  const Ended shown = reach("show " + recorded.data);
+  EXPECT_EQ(shown.exitCode, 0) << shown.err;
+  EXPECT_EQ(countOf(shown.out, "\n"), 3u) << shown.out;  // the head and a line a run
+  EXPECT_NE(shown.out.find("chain-moderate"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("dingwell"), std::string::npos) << shown.out;
+}
+
+TEST(Show, TellsTheTrialsAsTheyWereJudged) {
+  const Recorded recorded;
+  const Json runs = Json::parse(reach("show --json " + recorded.log).out);
+  ASSERT_EQ(runs.size(), 1u);
+  ASSERT_EQ(runs[0]["trials"].size(), 3u);
+  for (const Json& trial : runs[0]["trials"]) {
+    const std::string line = "trial=" + std::to_string(trial["trial"].get<int>()) + " outcome=" + trial["outcome"].get<std::string>();
+    EXPECT_NE(recorded.run.out.find(line), std::string::npos) << recorded.run.out;
+    EXPECT_GT(trial["peak_hand_speed_m_per_s"].get<double>(), 0);
+  }
+  EXPECT_EQ(runs[0]["state"], "whole");
+}
+
+TEST(Show, GivesATrialSampleBySample) {
+  const Recorded recorded;
+  const Json trial = Json::parse(reach("show --json --trial 2 " + recorded.log).out);
+  EXPECT_EQ(trial["trial"], 2);
+  const auto time = trial["samples"]["since_onset_s"].get<std::vector<double>>();
+  const auto speed = trial["samples"]["hand_speed_m_per_s"].get<std::vector<double>>();
+  ASSERT_EQ(time.size(), speed.size());
+  ASSERT_GT(time.size(), 50u);
+  for (std::size_t i = 1; i < time.size(); ++i) EXPECT_NEAR(time[i] - time[i - 1], 0.01, 1e-12);  // 100 Hz
+  // The samples are every tenth of the ticks that the peak was taken over.
+  const double peak = *std::max_element(speed.begin(), speed.end());
+  EXPECT_LE(peak, trial["peak_hand_speed_m_per_s"].get<double>());
+  EXPECT_GT(peak, 0.9 * trial["peak_hand_speed_m_per_s"].get<double>());
+}
+
+TEST(Show, DrawsATrial) {
+  const Recorded recorded;
+  const std::string figure = (recorded.folder / "trial.svg").string();
+  const Ended drawn = reach("show " + recorded.log + " --trial 1 --figure " + figure);
+  EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
+  EXPECT_NE(contentOf(figure).find("<svg"), std::string::npos);
+}
+
+TEST(Show, RefusesWhatIsNotThere) {
+  const Recorded recorded;
+  const Ended number = reach("show --trial 4 " + recorded.log);
+  EXPECT_EQ(number.exitCode, 2);
+  EXPECT_NE(number.err.find("allowed: 1 to 3"), std::string::npos) << number.err;
+  EXPECT_EQ(reach("show " + recorded.log + " --figure x.svg").exitCode, 2);
+  EXPECT_EQ(reach("show /nowhere").exitCode, 2);
+}
