@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/success_table.h"
 #include "cli/trial_profile.h"
+#include "sim/record/tidy_csv.h"
 #include "sim/record/run_log.h"
 #include "sim/record/trial_measures.h"
 
@@ -56,16 +57,6 @@ std::string alignedTable(const std::vector<std::vector<std::string>>& rows) {
 
 std::string rounded(double value, int digits) { return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string(); }
 
-const char* unitOfBy(trial::Reason reason) {
-  switch (reason) {
-    case trial::Reason::Position: return "m";
-    case trial::Reason::Velocity: return "m/s";
-    case trial::Reason::TimeShort:
-    case trial::Reason::TimeLong: return "s";
-    default: return "";
-  }
-}
-
 std::string runsTable(const std::vector<record::RunLog>& logs) {
   std::vector<std::vector<std::string>> rows{{"subject", "session", "run", "block", "condition", "phase", "trials", "success", "failure",
                                               "aborted", "interrupted", "device", "started_utc", "log"}};
@@ -87,7 +78,7 @@ std::string trialsTable(const record::RunLog& log) {
     const bool success = t.result.outcome == trial::Outcome::Success;
     rows.push_back({std::to_string(t.trial), std::string(trial::nameOf(t.result.outcome)),
                     success ? "" : std::string(trial::nameOf(t.result.reason)), t.result.mass > 0 ? std::to_string(t.result.mass) : "",
-                    t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? unitOfBy(t.result.reason) : "",
+                    t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? record::unitOf(t.result.reason) : "",
                     rounded(record::movementTimeOf(t), 3), rounded(record::timesOf(t).reaction, 3), rounded(t.peakHandSpeed, 3),
                     rounded(t.peakForce, 2), std::to_string(t.clampedTicks)});
   }
@@ -101,7 +92,7 @@ Json trialJson(const record::RecordedTrial& t) {
           {"reason", trial::nameOf(t.result.reason)},
           {"mass", t.result.mass},
           {"by", t.result.by},
-          {"by_unit", unitOfBy(t.result.reason)},
+          {"by_unit", record::unitOf(t.result.reason)},
           {"movement_time_s", record::movementTimeOf(t)},
           {"start_s", times.start},
           {"armed_s", times.armed},
