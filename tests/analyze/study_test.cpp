@@ -148,9 +148,7 @@ TEST(Study, RefusesOptionsOutOfRange) {
 
 TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
   StudyInput input = simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
-  for (int i = 0; i < 64; ++i)
-    if (trial::nameOf(static_cast<trial::Reason>(i)) == "timing") input.trials[0].result.reason = static_cast<trial::Reason>(i);
-  if (input.trials[0].result.reason == trial::Reason::None) GTEST_SKIP() << "no such reason is recorded yet";
+  input.trials[0].result.reason = trial::Reason::Timing;
   input.trials[0].result.outcome = trial::Outcome::Interrupted;
   input.trials[1].goTime = 1.0;  // the hand leaves at 0.4 s
   const StudyResult study = analyzeStudy(std::move(input), quickOptions());
