@@ -3,8 +3,8 @@
 #include <QApplication>
 #include <QTemporaryDir>
 
-#include "gui/scene_view.h"
-#include "gui/theme.h"
+#include "gui/scene/scene_view.h"
+#include "gui/widgets/theme.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // Libraries stay loaded to the end, so that what a graphics driver never frees is reported under the driver's name.

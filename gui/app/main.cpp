@@ -1,0 +1,90 @@
+#include <CLI/CLI.hpp>
+#include <QApplication>
+#include <QIcon>
+#include <QSurfaceFormat>
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "gui/app/main_window.h"
+#include "gui/scene/picture_sheet.h"
+#include "gui/scene/scene_view.h"
+#include "gui/widgets/theme.h"
+
+namespace {
+
+struct Arguments {
+  reachlab::session::SessionRequest request;
+  std::string pictures;
+};
+
+Arguments parse(CLI::App& app, int argc, char** argv) {
+  Arguments a;
+  reachlab::session::SessionRequest& r = a.request;
+  r.what = "chain-moderate";
+  r.device = "mouse";
+  app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
+  app.add_option("experiment", r.what, "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]");
+  app.add_option("--device", r.device, "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER [mouse]");
+  app.add_option("--trials", r.trials, "Trials of an experiment [20]; a plan has its own")->check(CLI::Range(1, 1000000));
+  app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
+  app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [01]");
+  app.add_option("--session", r.place.session, "Session's label, letters and digits [01]");
+  app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
+  app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
+  app.add_option("--seed", r.seed, "Seed of noise and order; default: one is drawn and stored");
+  app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
+  app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
+  app.footer(
+      "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab parallel --device simulated --trials "
+      "5");
+  app.parse(argc, argv);
+  return a;
+}
+
+int run(const Arguments& arguments, int argc, char** argv) {
+  // The scene is drawn over GLX; on Wayland desktops XWayland serves it.
+  if (std::getenv("QT_QPA_PLATFORM") == nullptr) {
+    if (std::getenv("DISPLAY") == nullptr)
+      throw reachlab::ResourceError("reachlab: there is no display (DISPLAY is not set); `reach run` does without a window");
+    setenv("QT_QPA_PLATFORM", "xcb", 0);
+  }
+  QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+  reachlab::gui::applySurfaceFormat();
+  QApplication application(argc, argv);
+  QApplication::setApplicationName(QStringLiteral("reachlab"));
+  reachlab::gui::applyTheme(application);
+  if (!arguments.pictures.empty()) {
+    const int drawn = reachlab::gui::drawPictures(QString::fromStdString(arguments.pictures));
+    std::printf("%d pictures in %s\n", drawn, arguments.pictures.c_str());
+    return 0;
+  }
+  reachlab::gui::MainWindow window(arguments.request);
+  window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
+  window.show();
+  return QApplication::exec();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"reachlab: the window of Reachlab", "reachlab"};
+  try {
+    return run(parse(app, argc, argv), argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "reachlab: %s\n", e.what());
+    return 2;
+  } catch (const reachlab::UsageError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  } catch (const reachlab::RefusedError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 4;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 3;
+  }
+}

@@ -1,0 +1,179 @@
+#include "gui/app/session_controller.h"
+#include "sim/dynamics/compiled_scene.h"
+
+#include <QStringList>
+
+#include "base/fault.h"
+#include "devices/make_device.h"
+#include "devices/mouse/mouse_device.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab::gui {
+namespace {
+
+// The experiment that is shown before anything is run: of a plan that of the block that this subject does first.
+experiment::CompiledExperiment firstExperiment(const session::Programme& programme, const session::SessionRequest& request) {
+  if (!programme.isPlan()) return programme.experiments.front();
+  const session::SessionToRun session = session::planSession(request, programme);
+  return session.blocks.empty() ? programme.experiments.front() : session.blocks.front().experiment;
+}
+
+// Another subject, session, day or folder is another session.
+bool isSameSession(const session::SessionRequest& a, const session::SessionRequest& b) { return a.place == b.place && a.day == b.day; }
+
+}  // namespace
+
+QString wordsOf(const session::SessionNotice& notice) {
+  QStringList sentences;
+  if (notice.unfinished)
+    sentences << QStringLiteral("An earlier run of this session was not finished: Trial, Resume goes on with it. This is a new run.");
+  for (const std::string& sentence : notice.unreadable) sentences << QString::fromStdString(sentence);
+  return sentences.join(QLatin1Char('\n'));
+}
+
+SessionController::SessionController(const session::SessionRequest& request, QObject* parent)
+    : QObject(parent), programme_(session::readProgramme(request.what)), shown_(firstExperiment(programme_, request)),
+      resume_(request.resume), asked_(request) {}
+
+SessionController::~SessionController() = default;
+
+void SessionController::setProgramme(const session::Programme& programme) {
+  programme_ = programme;
+  try {
+    shown_ = firstExperiment(programme, asked_);
+  } catch (const Error&) {  // the plan has nothing for this subject and day: that is said when a run is to be opened
+    shown_ = programme.experiments.front();
+  }
+  if (underWay()) {
+    endAfterTrial_ = true;
+  } else {
+    endRun();
+    recorded_.reset();
+  }
+  Q_EMIT experimentChanged();
+}
+
+std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& experiment) {
+  experiment::Experiment edited = experiment;
+  edited.text = toJson(edited);
+  try {
+    const experiment::CompiledExperiment compiled(edited);
+    (void)dynamics::compileScene(compiled);  // refused now, with the reason, and not when the subject sits there
+    setProgramme(session::programmeOf(compiled));
+    return {};
+  } catch (const UsageError& error) {
+    return faultsOf(error);
+  }
+}
+
+std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const std::string& spec,
+                                                                         const experiment::CompiledExperiment& experiment,
+                                                                         std::uint64_t seed) {
+  mouse_ = nullptr;
+  if (spec != "mouse") return devices::makeDevice(spec, experiment, seed);
+  auto mouse = std::make_unique<devices::MouseDevice>(trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start);
+  mouse_ = mouse.get();
+  return mouse;
+}
+
+void SessionController::openRun(const session::SessionRequest& request) {
+  if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) {
+    session::SessionRequest asked = request;
+    asked.resume = resume_;
+    if (numberUsed_) asked.run.reset();
+    auto planned = std::make_unique<session::RecordedSession>(
+        programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
+        &trace_);
+    if (planned->blocksLeft() == 0)
+      throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
+    recorded_ = std::move(planned);
+    asked_ = request;
+    resume_ = false;
+    if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) Q_EMIT told(words);
+  }
+  if (!recorded_->openNext()) return;
+  numberUsed_ = true;
+  for (TracePoint left; trace_.tryTake(left);) {}  // of the run before
+  last_.reset();
+  if (isPlan()) {
+    shown_ = run()->experiment();
+    Q_EMIT experimentChanged();
+  }
+  Q_EMIT runOpened();
+}
+
+bool SessionController::next(const session::SessionRequest& request) {
+  if (underWay()) return false;
+  if (run() != nullptr && run()->trialsLeft() == 0) {
+    endRun();
+    if (isPlan() && recorded_->blocksLeft() == 0) return false;
+  }
+  if (run() == nullptr) openRun(request);
+  if (run() == nullptr || !run()->putUpNext()) return false;
+  Q_EMIT trialBegun();
+  return true;
+}
+
+void SessionController::abort() {
+  if (run() != nullptr) run()->abort();
+}
+
+bool SessionController::repeat() {
+  if (run() == nullptr || !last_) return false;
+  run()->repeat(last_->planned);
+  return true;
+}
+
+void SessionController::note(const QString& text) {
+  if (run() == nullptr) return;
+  try {
+    run()->note(text.toStdString());
+  } catch (const Error& e) {
+    fail(e);
+  }
+}
+
+void SessionController::endRun() {
+  if (run() == nullptr) return;
+  endAfterTrial_ = false;
+  mouse_ = nullptr;
+  try {
+    recorded_->closeRun();
+  } catch (const std::exception& e) {
+    Q_EMIT failed(QString::fromUtf8(e.what()));
+  }
+  Q_EMIT runClosed();
+}
+
+void SessionController::pointTo(double x, double y, double z) {
+  if (mouse_ != nullptr) mouse_->setTarget({x, y, z});
+}
+
+void SessionController::poll() {
+  if (run() == nullptr) return;
+  try {
+    const auto ended = run()->poll();
+    if (!ended) return;
+    last_ = *ended;
+    Q_EMIT trialEnded();
+    if (run() == nullptr) return;
+    if (const auto fault = run()->fault()) throw ResourceError(*fault);
+    if (!endAfterTrial_) return;
+    endRun();
+    recorded_.reset();  // what is to be done next is another
+  } catch (const std::exception& e) {
+    fail(e);
+  }
+}
+
+// The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
+void SessionController::fail(const std::exception& fault) {
+  const QString sentence = QString::fromUtf8(fault.what());
+  mouse_ = nullptr;
+  recorded_.reset();
+  resume_ = isPlan();  // its other blocks are still to be done
+  Q_EMIT failed(sentence);
+  Q_EMIT runClosed();
+}
+
+}  // namespace reachlab::gui

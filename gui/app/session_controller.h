@@ -1,0 +1,92 @@
+#pragma once
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/fault.h"
+#include "gui/plot/trial_trace.h"
+#include "sim/session/recorded_session.h"
+
+namespace reachlab::devices {
+class MouseDevice;
+}
+
+namespace reachlab::gui {
+
+/// The session behind the window: what is to be done, as opened or edited, and the run that is open. Knows no widget. Changes take effect
+/// between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so that each log holds one
+/// configuration.
+class SessionController : public QObject {
+  Q_OBJECT
+ public:
+  /// Reads the experiment, or the plan and its first block. Throws UsageError.
+  explicit SessionController(const session::SessionRequest& request, QObject* parent = nullptr);
+  ~SessionController() override;
+
+  /// What is shown: the experiment, or that of the plan's block that is open or comes first.
+  const experiment::Experiment& experiment() const { return shown_.experiment(); }
+  const constraints::Constraint& constraint() const { return shown_.constraint(); }
+  const experiment::CompiledExperiment& compiled() const { return shown_; }
+  const session::Programme& programme() const { return programme_; }
+  /// A plan has its settings in its file: they are shown, not edited.
+  bool isPlan() const { return programme_.isPlan(); }
+
+  /// Takes over what is to be done from the next run on: label, condition and log name are its own.
+  void setProgramme(const session::Programme& programme);
+  /// Every fault of an edited experiment; it is taken over when there is none. Throws RefusedError when the scene cannot be computed.
+  std::vector<Fault> tryEdit(const experiment::Experiment& experiment);
+  /// The next session that is opened goes on with what this subject's session has left undone.
+  void resume() { resume_ = true; }
+
+  /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error.
+  bool next(const session::SessionRequest& request);
+  void abort();
+  /// The last trial once more, at the end of the run. False when there was none.
+  bool repeat();
+  void note(const QString& text);
+  void endRun();
+  void pointTo(double x, double y, double z);
+  /// Looks at the newest state. From the frame timer.
+  void poll();
+  /// The oldest point of the trace not yet taken.
+  bool tryTake(TracePoint& point) { return trace_.tryTake(point); }
+
+  session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
+  bool underWay() { return run() != nullptr && run()->underWay(); }
+  std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
+
+ Q_SIGNALS:
+  void experimentChanged();
+  void runOpened();
+  void runClosed();
+  void trialBegun();
+  void trialEnded();
+  /// One sentence for the experimenter: the disk, the device, the computation. Finished trials are safe.
+  void failed(const QString& sentence);
+  /// Worth a word, and no fault.
+  void told(const QString& sentence);
+
+ private:
+  void openRun(const session::SessionRequest& request);
+  void showBlock(const session::SessionRequest& request);
+  std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                        std::uint64_t seed);
+  void fail(const std::exception& fault);
+
+  session::Programme programme_;
+  experiment::CompiledExperiment shown_;
+  bool endAfterTrial_ = false, resume_ = false;
+  bool numberUsed_ = false;                // the run number that was asked for holds for one run
+  session::SessionRequest asked_;          // what `recorded_` was planned for
+  devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open
+  TraceSink trace_;                        // outlives the runs
+  std::unique_ptr<session::RecordedSession> recorded_;
+  std::optional<haptics::ConductedTrial> last_;
+};
+
+/// What is worth a word before a session, as the window says it; empty: nothing.
+QString wordsOf(const session::SessionNotice& notice);
+
+}  // namespace reachlab::gui

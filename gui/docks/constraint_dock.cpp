@@ -1,0 +1,98 @@
+#include "gui/docks/constraint_dock.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <QVariant>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "constraints/definition.h"
+#include "base/error.h"
+#include "gui/widgets/fault_label.h"
+#include "gui/widgets/shape_sliders.h"
+
+namespace reachlab::gui {
+namespace {
+
+// Of the catalogue or the user's own folder; none while a file of it cannot be read.
+std::optional<constraints::Definition> definitionOf(const constraints::ConstraintSpec& spec) {
+  if (!spec.curve.empty() || !spec.surface.empty() || spec.name == "free") return {};
+  try {
+    return constraints::findDefinition(spec.name, "constraint");
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// A typed formula's own names: a slider from minus twice to twice what they are.
+std::vector<constraints::ShapeParameter> parametersOf(const constraints::ConstraintSpec& spec) {
+  if (spec.curve.empty() && spec.surface.empty()) {
+    const std::optional<constraints::Definition> definition = definitionOf(spec);
+    return definition ? definition->shape : std::vector<constraints::ShapeParameter>{};
+  }
+  std::vector<constraints::ShapeParameter> parameters;
+  for (const auto& [name, value] : spec.shape) {
+    const double reach = std::max(2 * std::abs(value), 0.1);
+    parameters.push_back({name, value, -reach, reach, "1", "typed"});
+  }
+  return parameters;
+}
+
+bool sameFormula(const constraints::ConstraintSpec& a, const constraints::ConstraintSpec& b) {
+  return a.name == b.name && a.curve == b.curve && a.surface == b.surface;
+}
+
+}  // namespace
+
+ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Constraint"), parent) {
+  setObjectName(QStringLiteral("constraintDock"));
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  name_ = new QLabel;
+  formula_ = new QLabel;
+  formula_->setProperty("role", "quiet");
+  formula_->setWordWrap(true);
+  sliders_ = new ShapeSliders;
+  faults_ = new FaultLabel;
+  auto* choose = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
+  choose->setObjectName(QStringLiteral("choose"));
+  choose->setFocusPolicy(Qt::NoFocus);
+  layout->addWidget(name_);
+  layout->addWidget(formula_);
+  layout->addWidget(sliders_);
+  layout->addWidget(faults_);
+  layout->addWidget(choose);
+  layout->addStretch();
+  setWidget(body);
+  connect(sliders_, &ShapeSliders::moved, this, [this] {
+    shown_.shape = sliders_->values();
+    Q_EMIT shapeMoved(shown_.shape);
+  });
+  connect(choose, &QPushButton::clicked, this, &ConstraintDock::chooseRequested);
+}
+
+void ConstraintDock::setConstraint(const constraints::ConstraintSpec& spec, const constraints::Constraint& constraint) {
+  const char* kind = constraint.kind == constraints::ConstraintKind::Surface ? "surface"
+                     : constraint.kind == constraints::ConstraintKind::Curve ? "curve"
+                                                                             : "no constraint";
+  name_->setText(QStringLiteral("<b>%1</b>  (%2)").arg(QString::fromStdString(spec.name), QLatin1String(kind)));
+  QString formula;
+  for (const auto& line : spec.curve.empty() ? spec.surface : spec.curve) formula += QString::fromStdString(line) + QLatin1Char('\n');
+  if (const std::optional<constraints::Definition> d = definitionOf(spec)) {
+    formula = QString::fromStdString(d->sentence);
+    if (formula.isEmpty())  // the user's own often have none
+      for (const std::string& line : d->coordinates) formula += QString::fromStdString(line) + QLatin1Char('\n');
+  }
+  formula_->setText(formula.trimmed());
+  formula_->setVisible(!formula.isEmpty());
+  // While a slider is being moved its row must stand still.
+  if (!sameFormula(spec, shown_) || spec.shape != sliders_->values()) sliders_->setParameters(parametersOf(spec), spec.shape);
+  shown_ = spec;
+  faults_->hide();
+}
+
+void ConstraintDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
+
+}  // namespace reachlab::gui

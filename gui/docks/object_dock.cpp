@@ -1,0 +1,127 @@
+#include "gui/docks/object_dock.h"
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+
+#include "gui/widgets/fault_label.h"
+#include "gui/widgets/number_list_edit.h"
+#include "gui/widgets/unit_spin_box.h"
+
+namespace reachlab::gui {
+namespace {
+
+// As many springs as the kind needs; new ones like the last.
+void fitSprings(experiment::Object& object) {
+  const std::size_t masses = object.masses.size();
+  const std::size_t wanted = object.kind == experiment::ObjectKind::Parallel              ? masses
+                             : object.kind == experiment::ObjectKind::Chain && masses > 0 ? masses - 1
+                                                                                          : 0;
+  object.stiffness.resize(wanted, object.stiffness.empty() ? 600 : object.stiffness.back());
+  object.damping.resize(wanted, object.damping.empty() ? 0 : object.damping.back());
+}
+
+}  // namespace
+
+ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), parent) {
+  setObjectName(QStringLiteral("objectDock"));
+  auto* body = new QWidget;
+  auto* form = new QFormLayout(body);
+  kind_ = new QComboBox;
+  kind_->setObjectName(QStringLiteral("objectKind"));
+  kind_->addItems({QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body")});
+  masses_ = new NumberListEdit;
+  masses_->setObjectName(QStringLiteral("masses"));
+  stiffness_ = new NumberListEdit;
+  stiffness_->setObjectName(QStringLiteral("stiffness"));
+  stiffness_->setObjectName(QStringLiteral("stiffness"));
+  damping_ = new NumberListEdit;
+  viscosity_ = new UnitSpinBox(0, 1e4, QStringLiteral("N s/m"));
+  auto* gravity = new QHBoxLayout;
+  for (auto& g : gravity_) {
+    g = new UnitSpinBox(-100, 100, {});
+    g->setMinimumWidth(54);
+    g->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    gravity->addWidget(g);
+  }
+  form->addRow(QStringLiteral("kind"), kind_);
+  form->addRow(QStringLiteral("masses [kg]"), masses_);
+  form->addRow(QStringLiteral("springs [N/m]"), stiffness_);
+  form->addRow(QStringLiteral("dampers [N s/m]"), damping_);
+  form->addRow(QStringLiteral("viscosity"), viscosity_);
+  form->addRow(QStringLiteral("gravity [m/s²]"), gravity);
+  faults_ = new FaultLabel;
+  faults_->setObjectName(QStringLiteral("objectFaults"));
+  form->addRow(faults_);
+  viscosity_->setName(QStringLiteral("viscosity"));
+  for (std::size_t i = 0; i < 3; ++i) gravity_[i]->setName(QStringLiteral("gravity %1").arg(QLatin1Char("xyz"[i])));
+  for (auto* list : {masses_, stiffness_, damping_}) faults_->watch(list);
+  for (auto* number : {viscosity_, gravity_[0], gravity_[1], gravity_[2]}) faults_->watch(number);
+  masses_->setToolTip(QStringLiteral("first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6"));
+  stiffness_->setToolTip(QStringLiteral("chain: between neighbours, one fewer than masses; parallel: each mass to the hand"));
+  setWidget(body);
+
+  connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] {
+    object_ = accepted_;  // a kind that was refused leaves nothing behind
+    object_.kind = static_cast<experiment::ObjectKind>(kind_->currentIndex());
+    if (object_.kind == experiment::ObjectKind::Point || object_.kind == experiment::ObjectKind::Body) object_.masses.resize(1, 1.0);
+    if (object_.kind == experiment::ObjectKind::Parallel)
+      object_.masses.resize(std::max<std::size_t>(2, object_.masses.size()), object_.masses.empty() ? 1.0 : object_.masses.back());
+    if (object_.kind == experiment::ObjectKind::Body && object_.inertia[0][0] == 0)
+      for (std::size_t i = 0; i < 3; ++i) object_.inertia[i][i] = 4e-4 * object_.masses[0];
+    fitSprings(object_);
+    tell();
+  });
+  connect(masses_, &NumberListEdit::numbersEdited, this, [this] {
+    object_.masses = *masses_->numbers();
+    fitSprings(object_);
+    tell();
+  });
+  connect(stiffness_, &NumberListEdit::numbersEdited, this, [this] {
+    object_.stiffness = *stiffness_->numbers();
+    object_.damping.resize(object_.stiffness.size(), 0);
+    tell();
+  });
+  connect(damping_, &NumberListEdit::numbersEdited, this, [this] { object_.damping = *damping_->numbers(), tell(); });
+  connect(viscosity_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double v) { object_.viscosity = v, tell(); });
+  double Vec3::*const parts[] = {&Vec3::x, &Vec3::y, &Vec3::z};
+  for (std::size_t i = 0; i < 3; ++i)
+    connect(gravity_[i], qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+            [this, part = parts[i]](double v) { object_.gravity.*part = v, tell(); });
+}
+
+void ObjectDock::setObject(const experiment::Object& object) {
+  object_ = accepted_ = object;
+  kind_->setCurrentIndex(static_cast<int>(object.kind));
+  const bool springs = object.kind == experiment::ObjectKind::Chain || object.kind == experiment::ObjectKind::Parallel;
+  stiffness_->setEnabled(springs);
+  damping_->setEnabled(springs);
+  setRules();
+  masses_->setNumbers(object.masses);
+  stiffness_->setNumbers(object.stiffness);
+  damping_->setNumbers(object.damping);
+  viscosity_->show(object.viscosity);
+  const double g[] = {object.gravity.x, object.gravity.y, object.gravity.z};
+  for (std::size_t i = 0; i < 3; ++i) gravity_[i]->show(g[i]);
+}
+
+void ObjectDock::setRules() {
+  const bool springs = object_.kind == experiment::ObjectKind::Chain || object_.kind == experiment::ObjectKind::Parallel;
+  NumberListRule rule{
+      QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, 1, springs ? experiment::kMaxMasses : 1u};
+  masses_->setRule(rule);
+  rule = {QStringLiteral("springs"), QStringLiteral("spring"), {}, QStringLiteral("N/m"), 0};
+  rule.fewest = rule.most = object_.stiffness.size();
+  stiffness_->setRule(rule);
+  rule.list = QStringLiteral("dampers");
+  rule.item = QStringLiteral("damper");
+  rule.unit = QStringLiteral("N s/m");
+  damping_->setRule(rule);
+}
+
+void ObjectDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
+
+void ObjectDock::tell() { Q_EMIT edited(object_); }
+
+}  // namespace reachlab::gui

@@ -1,0 +1,142 @@
+#include "gui/docks/prediction_dock.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/plot/criterion_style.h"
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui {
+namespace {
+
+enum Column { kName, kPeak, kLast, kAll, kColumns };
+
+QString speed(double metresPerSecond) { return QString::number(metresPerSecond, 'f', 4); }
+
+QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
+
+}  // namespace
+
+PredictionDock::PredictionDock(QWidget* parent)
+    : QDockWidget(QStringLiteral("Predictions"), parent), latest_(predict::kCriterionCount), sums_(predict::kCriterionCount),
+      counts_(predict::kCriterionCount) {
+  setObjectName(QStringLiteral("predictionDock"));
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  table_ = new QTableWidget(predict::kCriterionCount, kColumns);
+  table_->setObjectName(QStringLiteral("criteria"));
+  table_->setHorizontalHeaderLabels(
+      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
+  table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [m/s]"));
+  table_->horizontalHeaderItem(kLast)->setToolTip(QStringLiteral("RMS difference of the last trial's hand velocity [m/s]"));
+  table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral("the same over all trials of this run [m/s]"));
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(23);
+  table_->setSelectionMode(QAbstractItemView::NoSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setShowGrid(false);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(kName, QHeaderView::Stretch);
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
+    auto* name = new QTableWidgetItem(titleOf(criterion));
+    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+    name->setCheckState(criterion == predict::Criterion::MinHandJerk ? Qt::Checked : Qt::Unchecked);
+    name->setForeground(colourOf(criterion));
+    name->setToolTip(text(predict::describe(criterion)));
+    table_->setItem(i, kName, name);
+    for (const int column : {kPeak, kLast, kAll}) {
+      auto* item = new QTableWidgetItem;
+      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      table_->setItem(i, column, item);
+    }
+  }
+  table_->setFixedHeight(predict::kCriterionCount * 23 + 30);
+  layout->addWidget(table_);
+  note_ = new QLabel(QStringLiteral("m/s; dashed on the plot where ticked"));
+  note_->setProperty("role", "quiet");
+  note_->setWordWrap(true);
+  layout->addWidget(note_);
+  layout->addStretch();
+  setWidget(body);
+  connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
+    if (item->column() == kName) Q_EMIT chosenChanged();
+  });
+}
+
+void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecasts) {
+  const QSignalBlocker quiet(table_);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    QTableWidgetItem* peak = table_->item(i, kPeak);
+    peak->setText(forecasts.empty() ? QStringLiteral("…") : QStringLiteral("–"));
+    for (const CriterionForecast& forecast : forecasts) {
+      if (static_cast<int>(forecast.criterion) != i) continue;
+      if (forecast.prediction) peak->setText(speed(forecast.prediction->handPeak));
+      QString why = QString::fromStdString(forecast.refusal);
+      if (forecast.prediction)
+        for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
+      table_->item(i, kName)->setToolTip(text(predict::describe(forecast.criterion)) +
+                                         (why.isEmpty() ? QString() : QStringLiteral("\n\n") + why.trimmed()));
+      table_->item(i, kName)->setForeground(forecast.prediction ? colourOf(forecast.criterion) : toQColor(colours::kNeutral));
+    }
+  }
+}
+
+void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors) {
+  latest_.assign(predict::kCriterionCount, std::nullopt);
+  for (std::size_t i = 0; i < errors.size() && i < latest_.size(); ++i) {
+    latest_[i] = errors[i];
+    if (!errors[i]) continue;
+    sums_[i] += *errors[i] * *errors[i];
+    ++counts_[i];
+  }
+  fillErrors();
+}
+
+void PredictionDock::clearErrors() {
+  latest_.assign(predict::kCriterionCount, std::nullopt);
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  std::fill(counts_.begin(), counts_.end(), 0);
+  fillErrors();
+}
+
+void PredictionDock::fillErrors() {
+  const QSignalBlocker quiet(table_);
+  std::optional<double> best;
+  for (const auto& error : latest_)
+    if (error && (!best || *error < *best)) best = error;
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    QTableWidgetItem* last = table_->item(i, kLast);
+    last->setText(latest_[k] ? speed(*latest_[k]) : QString());
+    QFont font = table_->font();
+    font.setBold(latest_[k] && latest_[k] == best);
+    last->setFont(font);
+    table_->item(i, kAll)->setText(counts_[k] > 0 ? speed(std::sqrt(sums_[k] / counts_[k])) : QString());
+  }
+}
+
+std::vector<predict::Criterion> PredictionDock::chosen() const {
+  std::vector<predict::Criterion> criteria;
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    if (table_->item(i, kName)->checkState() == Qt::Checked) criteria.push_back(static_cast<predict::Criterion>(i));
+  return criteria;
+}
+
+void PredictionDock::setChosen(const std::vector<predict::Criterion>& criteria) {
+  {
+    const QSignalBlocker quiet(table_);
+    for (int i = 0; i < predict::kCriterionCount; ++i)
+      table_->item(i, kName)->setCheckState(
+          std::find(criteria.begin(), criteria.end(), static_cast<predict::Criterion>(i)) != criteria.end() ? Qt::Checked : Qt::Unchecked);
+  }
+  Q_EMIT chosenChanged();
+}
+
+}  // namespace reachlab::gui

@@ -1,0 +1,39 @@
+#pragma once
+#include <QDockWidget>
+#include <optional>
+#include <vector>
+
+#include "gui/plot/trial_errors.h"
+
+class QTableWidget;
+class QLabel;
+
+namespace reachlab::gui {
+
+/// The criteria: which are drawn on the plot, and how far the last trial and all trials of the run were from each. Knows no simulator.
+class PredictionDock : public QDockWidget {
+  Q_OBJECT
+ public:
+  explicit PredictionDock(QWidget* parent = nullptr);
+  /// While they are being computed: an empty list.
+  void setForecasts(const std::vector<CriterionForecast>& forecasts);
+  /// One a criterion, in the forecasts' order. [m/s]
+  void addErrors(const std::vector<std::optional<double>>& errors);
+  void clearErrors();
+  std::vector<predict::Criterion> chosen() const;
+  void setChosen(const std::vector<predict::Criterion>& criteria);
+
+ Q_SIGNALS:
+  void chosenChanged();
+
+ private:
+  void fillErrors();
+
+  QTableWidget* table_;
+  QLabel* note_;
+  std::vector<std::optional<double>> latest_;
+  std::vector<double> sums_;  // of squares, so that the mean is the paper's error of the series
+  std::vector<int> counts_;
+};
+
+}  // namespace reachlab::gui

@@ -1,0 +1,239 @@
+#include "gui/docks/session_dock.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QLocale>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "base/error.h"
+#include "devices/registry.h"
+#include "gui/widgets/fault_label.h"
+#include "gui/scene/trial_texts.h"
+#include "gui/widgets/unit_spin_box.h"
+#include "sim/record/run_configuration.h"
+
+namespace reachlab::gui {
+
+SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"), parent) {
+  setObjectName(QStringLiteral("sessionDock"));
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+
+  who_ = new QWidget;
+  auto* form = new QFormLayout(who_);
+  form->setContentsMargins(0, 0, 0, 0);
+  subject_ = new QLineEdit;
+  subject_->setObjectName(QStringLiteral("subject"));
+  session_ = new QLineEdit;
+  session_->setObjectName(QStringLiteral("session"));
+  day_ = new QSpinBox;
+  day_->setRange(0, 999);
+  day_->setSpecialValueText(QStringLiteral("–"));
+  auto* ids = new QHBoxLayout;
+  ids->addWidget(subject_);
+  ids->addWidget(new QLabel(QStringLiteral("session")));
+  ids->addWidget(session_);
+  ids->addWidget(new QLabel(QStringLiteral("day")));
+  ids->addWidget(day_);
+  form->addRow(QStringLiteral("subject"), ids);
+  age_ = new QLineEdit;
+  age_->setObjectName(QStringLiteral("age"));
+  age_->setPlaceholderText(QStringLiteral("age"));
+  age_->setMaximumWidth(54);
+  sex_ = new QComboBox;
+  sex_->addItems({QStringLiteral("sex"), QStringLiteral("F"), QStringLiteral("M"), QStringLiteral("O")});
+  hand_ = new QComboBox;
+  hand_->addItems({QStringLiteral("hand"), QStringLiteral("R"), QStringLiteral("L"), QStringLiteral("A")});
+  auto* person = new QHBoxLayout;
+  person->addWidget(age_);
+  person->addWidget(sex_);
+  person->addWidget(hand_);
+  form->addRow(QStringLiteral("person"), person);
+  device_ = new QComboBox;
+  device_->setObjectName(QStringLiteral("device"));
+  device_->setEditable(true);
+  device_->addItems({QStringLiteral("mouse"), QStringLiteral("simulated"), QStringLiteral("simulated:noise=0"), QStringLiteral("replay:")});
+  trials_ = new QSpinBox;
+  trials_->setRange(1, 100000);
+  auto* hands = new QHBoxLayout;
+  hands->addWidget(device_, 1);
+  hands->addWidget(new QLabel(QStringLiteral("trials")));
+  hands->addWidget(trials_);
+  form->addRow(QStringLiteral("device"), hands);
+  data_ = new QLineEdit;
+  data_->setObjectName(QStringLiteral("data"));
+  form->addRow(QStringLiteral("data in"), data_);
+  QString devices;
+  for (const devices::DeviceDriver& d : devices::deviceDrivers()) devices += QString::fromStdString(d.usage + ": " + d.description + "\n");
+  device_->setToolTip(devices.trimmed());
+  layout->addWidget(who_);
+  faults_ = new FaultLabel;
+  faults_->setObjectName(QStringLiteral("sessionFaults"));
+  layout->addWidget(faults_);
+
+  run_ = new QLabel;
+  run_->setProperty("role", "quiet");
+  run_->setWordWrap(true);
+  layout->addWidget(run_);
+
+  next_ = new QPushButton(QStringLiteral("Start  (Space)"));
+  next_->setObjectName(QStringLiteral("next"));
+  next_->setProperty("role", "go");
+  abort_ = new QPushButton(QStringLiteral("Abort  (Esc)"));
+  abort_->setObjectName(QStringLiteral("abort"));
+  repeat_ = new QPushButton(QStringLiteral("Repeat  (R)"));
+  repeat_->setObjectName(QStringLiteral("repeat"));
+  repeat_->setToolTip(QStringLiteral("puts the last trial up once more, at the end of the run"));
+  end_ = new QPushButton(QStringLiteral("End run  (Ctrl+E)"));
+  end_->setObjectName(QStringLiteral("end"));
+  auto* buttons = new QGridLayout;
+  buttons->addWidget(next_, 0, 0);
+  buttons->addWidget(abort_, 0, 1);
+  buttons->addWidget(repeat_, 1, 0);
+  buttons->addWidget(end_, 1, 1);
+  layout->addLayout(buttons);
+  for (auto* button : {next_, abort_, repeat_, end_}) button->setFocusPolicy(Qt::NoFocus);
+
+  automatic_ = new QCheckBox(QStringLiteral("next trial by itself after"));
+  pause_ = new UnitSpinBox(0, 600, QStringLiteral("s"));
+  pause_->show(1);
+  auto* pausing = new QHBoxLayout;
+  pausing->addWidget(automatic_);
+  pausing->addWidget(pause_);
+  pausing->addStretch();
+  layout->addLayout(pausing);
+
+  tally_ = new QLabel;
+  tally_->setObjectName(QStringLiteral("tally"));
+  tally_->setWordWrap(true);
+  layout->addWidget(tally_);
+  note_ = new QLineEdit;
+  note_->setObjectName(QStringLiteral("note"));
+  note_->setPlaceholderText(QStringLiteral("note for the record, Enter to keep it"));
+  layout->addWidget(note_);
+  layout->addStretch();
+  setWidget(body);
+
+  connect(next_, &QPushButton::clicked, this, &SessionDock::nextRequested);
+  connect(abort_, &QPushButton::clicked, this, &SessionDock::abortRequested);
+  connect(repeat_, &QPushButton::clicked, this, &SessionDock::repeatRequested);
+  connect(end_, &QPushButton::clicked, this, &SessionDock::endRequested);
+  connect(device_, &QComboBox::currentTextChanged, this, &SessionDock::deviceChanged);
+  connect(note_, &QLineEdit::returnPressed, this, [this] {
+    if (note_->text().trimmed().isEmpty()) return;
+    Q_EMIT noteWritten(note_->text().trimmed());
+    note_->clear();
+  });
+  for (QLineEdit* field : {subject_, session_, age_, data_}) connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
+  clearTally();
+  setStage(Stage::Closed);
+}
+
+void SessionDock::check() {
+  const auto mark = [](QLineEdit* field, const QString& fault) {
+    field->setStyleSheet(fault.isEmpty() ? QString() : QStringLiteral("color: #ff9d8c; border: 1px solid #c0564a;"));
+    field->setToolTip(fault);
+    return fault;
+  };
+  const auto labelFault = [](QLineEdit* field, const char* name) {
+    try {
+      record::checkLabel(field->text().trimmed().toStdString(), name);
+    } catch (const UsageError& e) {
+      return QString::fromUtf8(e.what());
+    }
+    return QString();
+  };
+  bool isNumber = false;
+  const QString age = age_->text().trimmed();
+  const double years = QLocale::c().toDouble(age, &isNumber);
+  const bool fineAge = age.isEmpty() || (isNumber && years >= 0 && years <= 130);
+  QStringList faults{mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
+                     mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to 130 years, or nothing").arg(age)),
+                     mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
+  faults.removeAll({});
+  faults_->setFaults(faults);
+}
+
+QString SessionDock::fault() const { return faults_->text(); }
+
+void SessionDock::setRequest(const session::SessionRequest& request) {
+  request_ = request;
+  subject_->setText(QString::fromStdString(request.place.subject));
+  session_->setText(QString::fromStdString(request.place.session));
+  data_->setText(QString::fromStdString(request.place.data));
+  day_->setValue(request.day.value_or(0));
+  device_->setCurrentText(QString::fromStdString(request.device));
+  trials_->setValue(request.trials.value_or(20));
+  if (request.participant.age) age_->setText(QString::number(*request.participant.age));
+}
+
+void SessionDock::setPlan(bool isPlan) {
+  request_.trials = isPlan ? std::nullopt : std::optional(trials_->value());
+  trials_->setEnabled(!isPlan);
+}
+
+session::SessionRequest SessionDock::request() const {
+  session::SessionRequest r = request_;
+  r.place.subject = subject_->text().trimmed().toStdString();
+  r.place.session = session_->text().trimmed().toStdString();
+  r.place.data = data_->text().trimmed().toStdString();
+  if (day_->value() > 0) r.day = day_->value();
+  if (request_.trials) r.trials = trials_->value();
+  r.device = device();
+  bool fine = false;
+  const double age = QLocale::c().toDouble(age_->text(), &fine);
+  r.participant.age = fine ? std::optional(age) : std::nullopt;
+  if (sex_->currentIndex() > 0) r.participant.sex = sex_->currentText().toStdString();
+  if (hand_->currentIndex() > 0) r.participant.handedness = hand_->currentText().toStdString();
+  return r;
+}
+
+std::string SessionDock::device() const { return device_->currentText().trimmed().toStdString(); }
+bool SessionDock::repeatsByItself() const { return automatic_->isChecked(); }
+double SessionDock::pauseSeconds() const { return pause_->value(); }
+
+void SessionDock::setStage(Stage stage) {
+  who_->setEnabled(stage == Stage::Closed);
+  next_->setText(stage == Stage::Closed ? QStringLiteral("Start  (Space)") : QStringLiteral("Next trial  (Space)"));
+  next_->setEnabled(stage == Stage::Closed || stage == Stage::BetweenTrials);
+  abort_->setEnabled(stage == Stage::UnderWay);
+  repeat_->setEnabled(stage == Stage::BetweenTrials || stage == Stage::Finished);
+  end_->setEnabled(stage == Stage::BetweenTrials || stage == Stage::Finished);
+  note_->setEnabled(stage != Stage::Closed);
+}
+
+void SessionDock::setRun(const QString& text) { run_->setText(text); }
+
+void SessionDock::clearTally() {
+  successes_ = failures_ = others_ = 0;
+  reasons_.clear();
+  tally_->setText(QStringLiteral("no trials yet"));
+}
+
+void SessionDock::count(const trial::TrialResult& result) {
+  if (result.outcome == trial::Outcome::Success) ++successes_;
+  else if (result.outcome == trial::Outcome::Failure) ++failures_;
+  else ++others_;
+  if (result.outcome != trial::Outcome::Success) ++reasons_[result.reason];
+  const int judged = successes_ + failures_;
+  QString text =
+      judged > 0
+          ? QStringLiteral("<b>%1 of %2 succeeded (%3 %)</b>").arg(successes_).arg(judged).arg(100.0 * successes_ / judged, 0, 'f', 0)
+          : QStringLiteral("<b>none judged yet</b>");
+  if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
+  QStringList why;
+  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(reasonText(reason));
+  if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
+  tally_->setText(text);
+}
+
+QString SessionDock::tallyText() const { return tally_->text(); }
+
+}  // namespace reachlab::gui

@@ -1,0 +1,97 @@
+#include "gui/docks/task_dock.h"
+
+#include <QFormLayout>
+#include <QLabel>
+
+#include "constraints/formula.h"
+#include "gui/widgets/fault_label.h"
+#include "gui/widgets/number_list_edit.h"
+#include "gui/widgets/unit_spin_box.h"
+
+namespace reachlab::gui {
+
+TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent) {
+  setObjectName(QStringLiteral("taskDock"));
+  auto* body = new QWidget;
+  auto* form = new QFormLayout(body);
+  start_ = new NumberListEdit;
+  target_ = new NumberListEdit;
+  duration_ = new UnitSpinBox(0.05, 60, QStringLiteral("s"));
+  duration_->setObjectName(QStringLiteral("taskDuration"));
+  time_ = new UnitSpinBox(0.001, 30, QStringLiteral("s"));
+  position_ = new UnitSpinBox(1e-5, 1, QStringLiteral("m"));
+  velocity_ = new UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
+  start_->setObjectName(QStringLiteral("taskStart"));
+  startLabel_ = new QLabel;
+  targetLabel_ = new QLabel;
+  form->addRow(startLabel_, start_);
+  form->addRow(targetLabel_, target_);
+  form->addRow(QStringLiteral("time T"), duration_);
+  form->addRow(QStringLiteral("± ΔT"), time_);
+  form->addRow(QStringLiteral("± Δx"), position_);
+  form->addRow(QStringLiteral("± Δv"), velocity_);
+  faults_ = new FaultLabel;
+  faults_->setObjectName(QStringLiteral("taskFaults"));
+  form->addRow(faults_);
+  duration_->setName(QStringLiteral("time T"));
+  time_->setName(QStringLiteral("ΔT"));
+  position_->setName(QStringLiteral("Δx"));
+  velocity_->setName(QStringLiteral("Δv"));
+  for (auto* list : {start_, target_}) faults_->watch(list);
+  for (auto* number : {duration_, time_, position_, velocity_}) faults_->watch(number);
+  setWidget(body);
+
+  const auto bind = [this](UnitSpinBox* box, auto set) {
+    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, set](double v) {
+      set(task_, v);
+      Q_EMIT edited(task_);
+    });
+  };
+  bind(duration_, [](experiment::Task& t, double v) { t.duration = v; });
+  bind(time_, [](experiment::Task& t, double v) { t.tolerance.time = v; });
+  bind(position_, [](experiment::Task& t, double v) { t.tolerance.position = v; });
+  bind(velocity_, [](experiment::Task& t, double v) { t.tolerance.velocity = v; });
+  connect(start_, &NumberListEdit::numbersEdited, this, [this] {
+    task_.start = *start_->numbers();
+    Q_EMIT edited(task_);
+  });
+  connect(target_, &NumberListEdit::numbersEdited, this, [this] {
+    task_.target = *target_->numbers();
+    Q_EMIT edited(task_);
+  });
+}
+
+void TaskDock::setTask(const experiment::Task& task, constraints::ConstraintKind kind) {
+  task_ = task;
+  NumberListRule rule;
+  QString unit;
+  if (kind == constraints::ConstraintKind::Free) {
+    rule.names = QStringList{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
+    unit = QStringLiteral("x y z [m]");
+  } else {
+    for (const std::string& name : constraints::variablesOf(kind)) rule.names << QString::fromStdString(name);
+    unit = rule.names.join(QLatin1Char(' ')) + QStringLiteral(" [1]");  // a formula's own measure, rad where it is an angle
+  }
+  rule.fewest = rule.most = static_cast<std::size_t>(rule.names.size());
+  rule.list = QStringLiteral("start");
+  start_->setRule(rule);
+  startLabel_->setText(QStringLiteral("start ") + unit);
+  rule.list = QStringLiteral("target");
+  target_->setRule(rule);
+  targetLabel_->setText(QStringLiteral("target ") + unit);
+  const QString places = kind == constraints::ConstraintKind::Free
+                             ? QStringLiteral("three coordinates in metres")
+                             : QStringLiteral("the place on the constraint, by its own parameters (rad where one is an angle): ") + unit;
+  start_->setToolTip(places);
+  target_->setToolTip(places);
+  start_->setNumbers(task.start);
+  target_->setNumbers(task.target);
+  duration_->show(task.duration);
+  time_->show(task.tolerance.time);
+  position_->show(task.tolerance.position);
+  velocity_->show(task.tolerance.velocity);
+}
+
+void TaskDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
+
+}  // namespace reachlab::gui

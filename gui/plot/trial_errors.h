@@ -1,0 +1,52 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "gui/plot/trial_trace.h"
+#include "sim/experiment/experiment.h"
+#include "sim/predict/predict.h"
+
+/// Theory beside the trial: each criterion's prediction for an experiment, and how far a hand was from it. No widget here.
+namespace reachlab::gui {
+
+/// One criterion's prediction, or why there is none.
+struct CriterionForecast {
+  predict::Criterion criterion{};
+  std::shared_ptr<const predict::Prediction> prediction;  // shared: computed on another thread, looked at by plot and list
+  std::string refusal;
+};
+/// All seven, in Table 1's order; may take a second on curved constraints: not for the window's thread. Asked to stop, it leaves out the
+/// rest.
+std::vector<CriterionForecast> forecastAll(const experiment::Experiment& experiment, const std::stop_token& stop = {});
+
+/// Direction of positive velocity: along the chord when straight, along rising phi towards the target on a curve; on a surface or in free
+/// space there is none, and speed is taken. World frame.
+class PathDirection {
+ public:
+  PathDirection() = default;
+  PathDirection(const experiment::Experiment& experiment, const constraints::Constraint& constraint);
+  /// Signed velocity along the path of something at parameter `q`. [m/s]
+  double along(const Vec3& velocity, double q) const;
+  /// Unit direction; zero where only speed makes sense.
+  Vec3 at(double q) const;
+  bool straight() const { return straight_; }
+  const Vec3& start() const { return start_; }
+  const Vec3& target() const { return target_; }
+
+ private:
+  constraints::Constraint constraint_;
+  Vec3 chord_, start_, target_;
+  double sign_ = 1;
+  bool straight_ = false;
+};
+
+/// RMS difference between the measured hand velocity and each forecast, both from onset to end by the rule of the analysis and time-scaled to the
+/// measured duration: the paper's error for one trial. nullopt where there is no prediction or no movement. [m/s]
+std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
+                                                     const std::vector<CriterionForecast>& forecasts, const experiment::Task& task);
+
+}  // namespace reachlab::gui

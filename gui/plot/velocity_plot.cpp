@@ -1,0 +1,196 @@
+#include "gui/plot/velocity_plot.h"
+
+#include <qwt_legend.h>
+#include <qwt_plot.h>
+#include <qwt_plot_canvas.h>
+#include <qwt_plot_curve.h>
+#include <qwt_plot_grid.h>
+#include <qwt_plot_layout.h>
+#include <qwt_plot_marker.h>
+#include <qwt_plot_zoneitem.h>
+#include <qwt_scale_widget.h>
+#include <qwt_text.h>
+
+#include <QVBoxLayout>
+#include <QVector>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui {
+namespace {
+
+QwtText axisTitle(const QString& text) {
+  QwtText title(text);
+  QFont font;
+  font.setPointSizeF(10);
+  title.setFont(font);
+  title.setColor(toQColor(colours::kFaintText));
+  return title;
+}
+
+std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QColor& colour, double width, Qt::PenStyle style,
+                                        double z) {
+  auto curve = std::make_unique<QwtPlotCurve>(title);
+  curve->setPen(QPen(colour, width, style));
+  curve->setRenderHint(QwtPlotItem::RenderAntialiased);
+  curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
+  curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
+  curve->setLegendIconSize({22, 6});
+  curve->setZ(z);
+  curve->attach(&plot);
+  return curve;
+}
+
+}  // namespace
+
+struct VelocityPlot::Impl {
+  QwtPlot* plot = nullptr;
+  std::unique_ptr<QwtPlotZoneItem> band;
+  std::unique_ptr<QwtPlotMarker> goal;
+  std::unique_ptr<QwtPlotGrid> grid;
+  std::unique_ptr<QwtPlotCurve> hand, last, handBefore, lastBefore;
+  std::vector<std::unique_ptr<QwtPlotCurve>> predictions;
+  QVector<double> times, hands, lasts;
+  double duration = 1, tolerance = 0.5, low = 0, high = 0.1, span = 1;
+  bool changed = false;
+
+  void scale() {
+    double least = -0.02, most = 0.1;
+    const auto see = [&](double v) { least = std::min(least, v), most = std::max(most, v); };
+    for (const auto* curve : {hand.get(), last.get(), handBefore.get(), lastBefore.get()}) {
+      const QRectF box = curve->boundingRect();
+      if (box.isValid() && curve->dataSize() > 1) see(box.top()), see(box.bottom());
+    }
+    for (const auto& curve : predictions) {
+      const QRectF box = curve->boundingRect();
+      if (box.isValid()) see(box.top()), see(box.bottom());
+    }
+    // Grows in steps, so that the axis does not creep while a trial runs.
+    const double step = most > 0.6 ? 0.2 : 0.05;
+    low = std::floor(least * 1.04 / step) * step;
+    high = std::ceil(most * 1.06 / step) * step;
+    plot->setAxisScale(QwtPlot::yLeft, low, high);
+    // A window in time that is open at its beginning only says how long to wait: the reach would be a splinter in it.
+    span = std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, times.isEmpty() ? 0.0 : times.back());
+    plot->setAxisScale(QwtPlot::xBottom, 0, span);
+  }
+};
+
+VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 4, 6, 4);
+  auto* plot = impl_->plot = new QwtPlot(this);
+  layout->addWidget(plot);
+  auto* canvas = new QwtPlotCanvas(plot);
+  canvas->setFrameStyle(QFrame::NoFrame);
+  canvas->setAutoFillBackground(true);
+  QPalette palette = canvas->palette();
+  palette.setColor(QPalette::Window, toQColor(colours::kBase));
+  canvas->setPalette(palette);
+  plot->setCanvas(canvas);
+  plot->plotLayout()->setAlignCanvasToScales(true);
+  plot->setAxisTitle(QwtPlot::xBottom, axisTitle(QStringLiteral("time since onset [s]")));
+  plot->setAxisTitle(QwtPlot::yLeft, axisTitle(QStringLiteral("velocity [m/s]")));
+  for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) {
+    QFont font;
+    font.setPointSizeF(9.5);
+    plot->setAxisFont(axis, font);
+  }
+  impl_->grid = std::make_unique<QwtPlotGrid>();
+  impl_->grid->setPen(QPen(QColor(255, 255, 255, 26), 0));
+  impl_->grid->attach(plot);
+  impl_->band = std::make_unique<QwtPlotZoneItem>();
+  impl_->band->setOrientation(Qt::Vertical);
+  QColor green = toQColor(colours::kGreen);
+  green.setAlpha(38);
+  impl_->band->setBrush(green);
+  impl_->band->setPen(QPen(Qt::NoPen));
+  impl_->band->attach(plot);
+  impl_->goal = std::make_unique<QwtPlotMarker>();
+  impl_->goal->setLineStyle(QwtPlotMarker::VLine);
+  green.setAlpha(150);
+  impl_->goal->setLinePen(QPen(green, 1, Qt::DotLine));
+  QwtText label(QStringLiteral("T"));
+  label.setColor(green);
+  impl_->goal->setLabel(label);
+  impl_->goal->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
+  impl_->goal->attach(plot);
+
+  const QColor handInk = toQColor(colours::kDriven).lighter(120), lastInk = toQColor(colours::kLast);
+  QColor handFaint = handInk, lastFaint = lastInk;
+  handFaint.setAlpha(110);
+  lastFaint.setAlpha(110);
+  impl_->handBefore = makeCurve(*plot, {}, handFaint, 1, Qt::SolidLine, 18);
+  impl_->lastBefore = makeCurve(*plot, {}, lastFaint, 1, Qt::SolidLine, 18);
+  for (auto* curve : {impl_->handBefore.get(), impl_->lastBefore.get()}) curve->setItemAttribute(QwtPlotItem::Legend, false);
+  impl_->hand = makeCurve(*plot, QStringLiteral("hand"), handInk, 2.2, Qt::SolidLine, 22);
+  impl_->last = makeCurve(*plot, QStringLiteral("last mass"), lastInk, 2.2, Qt::SolidLine, 21);
+  auto* legend = new QwtLegend;
+  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
+  plot->insertLegend(legend, QwtPlot::RightLegend);
+  impl_->scale();
+}
+
+VelocityPlot::~VelocityPlot() = default;
+
+void VelocityPlot::setTask(double duration, double tolerance) {
+  impl_->duration = duration;
+  impl_->tolerance = tolerance;
+  impl_->band->setInterval(std::max(0.0, duration - tolerance), duration + tolerance);
+  impl_->goal->setXValue(duration);
+  impl_->changed = true;
+  refresh();
+}
+
+void VelocityPlot::beginTrial() {
+  Impl& d = *impl_;
+  if (d.times.size() > 1) {
+    d.handBefore->setSamples(d.times, d.hands);
+    d.lastBefore->setSamples(d.times, d.lasts);
+  }
+  d.times.clear();
+  d.hands.clear();
+  d.lasts.clear();
+  d.times.reserve(4096);
+  d.hands.reserve(4096);
+  d.lasts.reserve(4096);
+  d.changed = true;
+}
+
+void VelocityPlot::add(double time, double hand, double last) {
+  if (!std::isfinite(time) || !std::isfinite(hand) || !std::isfinite(last)) return;
+  impl_->times.push_back(time);
+  impl_->hands.push_back(hand);
+  impl_->lasts.push_back(last);
+  impl_->changed = true;
+}
+
+void VelocityPlot::refresh() {
+  Impl& d = *impl_;
+  if (!d.changed) return;
+  d.changed = false;
+  d.hand->setSamples(d.times, d.hands);
+  d.last->setSamples(d.times, d.lasts);
+  d.scale();
+  d.plot->replot();
+}
+
+void VelocityPlot::setPredictions(const std::vector<Line>& lines) {
+  Impl& d = *impl_;
+  d.predictions.clear();
+  for (const Line& line : lines) {
+    auto curve = makeCurve(*d.plot, line.title, line.colour, 1.8, Qt::DashLine, 24);
+    curve->setSamples(line.time.data(), line.velocity.data(), static_cast<int>(std::min(line.time.size(), line.velocity.size())));
+    d.predictions.push_back(std::move(curve));
+  }
+  d.changed = true;
+  refresh();
+}
+
+double VelocityPlot::timeSpan() const { return impl_->span; }
+
+std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->times.size()); }
+
+}  // namespace reachlab::gui

@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+#include <span>
+
+#include "base/vec3.h"
+#include "gui/scene/constraint_mesh.h"
+
+/// The viewer's eye as a plain value, and what the pointer does to it. Pixels: y down, origin at the top left.
+namespace reachlab::gui {
+
+struct Camera {
+  Vec3 position{0, 0, 1}, focus, up{0, 1, 0};  // [m]
+  double angle = 30;                           // [degrees] of view, vertical
+};
+
+/// Unit directions of a camera.
+struct CameraAxes {
+  Vec3 forward, right, up;
+};
+CameraAxes axesOf(const Camera& camera);
+
+/// Looks from `direction` so that a ball of that diameter fills the height (and, for an upright picture, the width).
+Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double aspect);
+/// Looks from `direction` so that all the points, with `margin` [m] around each, are just seen.
+Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect);
+
+/// Turns about the focus: `right` and `down` pixels of a picture `height` high.
+void turn(Camera& camera, double right, double down, double height);
+/// Moves sideways so that the plane through the focus follows the pointer.
+void pan(Camera& camera, double right, double down, double height);
+/// Nearer for factor > 1.
+void zoom(Camera& camera, double factor);
+
+/// Metres a pixel in the plane through `at` that faces the viewer.
+double metresPerPixel(const Camera& camera, const Vec3& at, double height);
+/// The world point under a pixel in the plane through `at` that faces the viewer.
+Vec3 pointUnder(const Camera& camera, const Vec3& at, double x, double y, double width, double height);
+/// The pixel of a world point.
+std::array<double, 2> pixelOf(const Camera& camera, const Vec3& world, double width, double height);
+
+}  // namespace reachlab::gui

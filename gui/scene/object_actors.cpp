@@ -1,0 +1,143 @@
+#include "gui/scene/object_actors.h"
+
+#include <vtkActor.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+
+#include "gui/scene/scene_actors.h"
+
+namespace reachlab::gui {
+namespace {
+
+using Actor = vtkSmartPointer<vtkActor>;
+
+Colour colourOf(MassRole role) {
+  switch (role) {
+    case MassRole::Driven: return colours::kDriven;
+    case MassRole::Last: return colours::kLast;
+    case MassRole::Middle: break;
+  }
+  return colours::kMiddle;
+}
+
+void place(vtkActor& actor, const Vec3& at) { actor.SetPosition(at.x, at.y, at.z); }
+
+// Columns: the rotation of a unit quaternion, times the edge, and the place.
+void placeBody(vtkActor& actor, const Vec3& at, const std::array<double, 4>& q, double edge) {
+  const auto [w, x, y, z] = q;
+  const double rows[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                             {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                             {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+  if (actor.GetUserMatrix() == nullptr) actor.SetUserMatrix(vtkNew<vtkMatrix4x4>());
+  vtkMatrix4x4* m = actor.GetUserMatrix();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) m->SetElement(i, j, edge * rows[i][j]);
+  m->SetElement(0, 3, at.x);
+  m->SetElement(1, 3, at.y);
+  m->SetElement(2, 3, at.z);
+  m->Modified();
+}
+
+}  // namespace
+
+struct ObjectActors::Impl {
+  vtkRenderer& renderer;
+  ScenePlan plan;  // without its meshes
+  std::vector<Actor> all, masses, springs;
+  Actor hand;
+  bool handWasValid = true;
+
+  Actor add(Actor actor) {
+    renderer.AddActor(actor);
+    all.push_back(actor);
+    return actor;
+  }
+  void addConstraint(const ScenePlan& from, SurfaceStyle style) {
+    if (from.curve.pointCount() > 1) {
+      add(makeRail(from.curve, from.railRadius, {colours::kRail, 1, 0.5}));
+      // Shifted masses run beside the rail: a faint copy for each.
+      for (const Vec3& shift : from.massShift)
+        if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {colours::kRail, 0.30, 0})), shift);
+    }
+    if (!from.surface.quads.empty()) {
+      if (style == SurfaceStyle::Glass) add(makeSkin(from.surface, {colours::kSurface, 0.42, 0.3}))->PickableOff();
+      Actor lines = add(makeParameterLines(from.surface, {colours::kSurfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
+      lines->PickableOff();
+    }
+  }
+  void addMarks(const ScenePlan& from) {
+    if (!from.hasTask) return;
+    const auto mark = [&](const Vec3& at, const Colour& colour, double radius, double opacity) {
+      Actor ball = add(makeBall({colour, opacity, 0.2}));
+      ball->SetScale(radius);
+      place(*ball, at);
+    };
+    bool any = false, onRail = from.massShift.empty();
+    for (const Vec3& shift : from.massShift) {
+      onRail = onRail || norm(shift) == 0;
+      if (norm(shift) == 0) continue;
+      any = true;
+      mark(from.start + shift, colours::kStart, 0.55 * from.markRadius, 0.8);
+      mark(from.target + shift, colours::kTarget, 0.55 * from.markRadius, 0.8);
+    }
+    mark(from.start, colours::kStart, from.markRadius, 1);
+    mark(from.target, colours::kTarget, from.markRadius, 1);
+    if (from.tolerance > from.markRadius && !(any && !onRail)) mark(from.target, colours::kTarget, from.tolerance, 0.13);
+  }
+  void addObject(const ScenePlan& from) {
+    for (const SpringPlan& spring : from.springs)
+      springs.push_back(add(makeCoil({spring.coupling ? colours::kCoupling : colours::kSpring, 1, 0.5}, spring.coupling ? 6 : 9,
+                                     spring.coupling ? 0.16 : 0.2)));
+    for (std::size_t i = 0; i < from.massRadius.size(); ++i) {
+      const Look look{colourOf(from.massRole[i]), 1, 0.55};
+      masses.push_back(add(from.body ? makeBox(look) : makeBall(look)));
+      if (!from.body) masses.back()->SetScale(from.massRadius[i]);
+    }
+    hand = add(makePen({colours::kHand, 1, 0.6}));
+    hand->SetScale(from.handRadius);
+  }
+};
+
+ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
+    : impl_(new Impl{renderer, plan, {}, {}, {}, {}}) {
+  impl_->plan.curve = {};
+  impl_->plan.surface = {};
+  impl_->addConstraint(plan, style);
+  impl_->addMarks(plan);
+  impl_->addObject(plan);
+}
+
+ObjectActors::~ObjectActors() {
+  for (const Actor& actor : impl_->all) impl_->renderer.RemoveActor(actor);
+}
+
+void ObjectActors::show(const SceneFrame& frame) {
+  const ScenePlan& plan = impl_->plan;
+  const std::size_t count = std::min(frame.masses.size(), impl_->masses.size());
+  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan.massShift[i]; };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!isFinite(frame.masses[i])) continue;
+    if (plan.body) placeBody(*impl_->masses[i], drawn(i), frame.body.orientation, 2.2 * plan.massRadius[i]);
+    else place(*impl_->masses[i], drawn(i));
+  }
+  if (isFinite(frame.hand)) place(*impl_->hand, frame.hand);
+  if (frame.handValid != impl_->handWasValid) {
+    impl_->handWasValid = frame.handValid;
+    const Colour c = frame.handValid ? colours::kHand : colours::kHandLost;
+    impl_->hand->GetProperty()->SetColor(c.red, c.green, c.blue);
+  }
+  for (std::size_t i = 0; i < impl_->springs.size(); ++i) {
+    const SpringPlan& spring = plan.springs[i];
+    const auto to = static_cast<std::size_t>(spring.to);
+    if (to >= count || (spring.from >= 0 && static_cast<std::size_t>(spring.from) >= count)) continue;
+    const Vec3 from = spring.from < 0 ? frame.hand : drawn(static_cast<std::size_t>(spring.from));
+    if (isFinite(from) && isFinite(drawn(to))) stretch(*impl_->springs[i], from, drawn(to), (spring.coupling ? 0.011 : 0.016) * plan.unit);
+  }
+}
+
+}  // namespace reachlab::gui

@@ -1,0 +1,27 @@
+#pragma once
+#include <memory>
+
+#include "gui/scene/scene_plan.h"
+
+class vtkRenderer;
+
+namespace reachlab::gui {
+
+enum class SurfaceStyle { Glass, Wire };
+
+/// The actors of one plan in one renderer. Built once; `show` only moves them. Window's thread.
+class ObjectActors {
+ public:
+  ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style);
+  ~ObjectActors();  // takes the actors out again
+  ObjectActors(const ObjectActors&) = delete;
+  ObjectActors& operator=(const ObjectActors&) = delete;
+
+  void show(const SceneFrame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab::gui

@@ -1,0 +1,39 @@
+#pragma once
+#include "gui/widgets/colours.h"
+#include "gui/scene/constraint_mesh.h"
+
+template <class T>
+class vtkSmartPointer;
+class vtkActor;
+class vtkProp;
+class vtkRenderer;
+
+/// Builders of the scene's actors. The caller adds them to a renderer and keeps or drops them. Window's thread.
+namespace reachlab::gui {
+
+struct Look {
+  Colour colour;
+  double opacity = 1;
+  double shine = 0.35;
+};
+
+/// Ball of radius 1 at the origin: to be scaled and moved.
+vtkSmartPointer<vtkActor> makeBall(const Look& look);
+/// Box of edge 1 with a marked side, so that turning is seen.
+vtkSmartPointer<vtkActor> makeBox(const Look& look);
+/// Coil along x from 0 to 1, radius 1 across, with straight ends.
+vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns, double wire);
+/// A pen whose tip is at the origin and whose shaft points up and to the viewer; unit: the tip's ball has radius 1.
+vtkSmartPointer<vtkActor> makePen(const Look& look);
+/// Where the shaft of a pen of tip radius `radius` [m] ends whose tip is at `hand`. [m]
+Vec3 penEnd(const Vec3& hand, double radius);
+/// Tubes along the pieces. [m]
+vtkSmartPointer<vtkActor> makeRail(const CurveMesh& mesh, double radius, const Look& look);
+/// The skin alone, lit from both sides.
+vtkSmartPointer<vtkActor> makeSkin(const SurfaceMesh& mesh, const Look& look);
+vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look& look, double width);
+
+/// Lays a coil between two points. Neither allocates nor rebuilds. [m]
+void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius);
+
+}  // namespace reachlab::gui

@@ -1,0 +1,167 @@
+#include "gui/scene/scene_overlay.h"
+
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui {
+namespace {
+
+QString lengthText(double metres) {
+  if (metres >= 1) return QStringLiteral("%1 m").arg(metres);
+  if (metres >= 0.01) return QStringLiteral("%1 cm").arg(std::round(metres * 100));
+  return QStringLiteral("%1 mm").arg(metres * 1000);
+}
+
+}  // namespace
+
+double roundLength(double most) {
+  if (!(most > 0) || !std::isfinite(most)) return 0;
+  const double decade = std::pow(10.0, std::floor(std::log10(most)));
+  const double share = most / decade;
+  return (share >= 5 ? 5 : share >= 2 ? 2 : 1) * decade;
+}
+
+double pointsToFit(const QString& text, QFont font, double most, double room) {
+  double points = most;  // hinted widths do not grow as sizes do: tried, not computed
+  for (; points > 0.5 * most; points -= 0.025 * most) {
+    font.setPointSizeF(points);
+    if (QFontMetricsF(font).horizontalAdvance(text) <= room) break;
+  }
+  return points;
+}
+
+SceneOverlay::SceneOverlay(QWidget* parent) : QWidget(parent) {
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setAttribute(Qt::WA_NoSystemBackground);
+}
+
+void SceneOverlay::setState(const OverlayState& state) {
+  if (state == state_) return;
+  state_ = state;
+  update();
+}
+
+void SceneOverlay::setView(const std::array<QPointF, 3>& axes, double metresPerPixel) {
+  if (axes == axes_ && metresPerPixel == metresPerPixel_) return;
+  axes_ = axes;
+  metresPerPixel_ = metresPerPixel;
+  update();
+}
+
+void SceneOverlay::setTextScale(double scale) {
+  textScale_ = scale;
+  update();
+}
+
+void SceneOverlay::setLabel(const QString& text, const QPointF& at) {
+  if (text == label_ && (text.isEmpty() || at == labelAt_)) return;
+  label_ = text;
+  labelAt_ = at;
+  update();
+}
+
+QColor SceneOverlay::colourOf(trial::Semaphore semaphore) {
+  switch (semaphore) {
+    case trial::Semaphore::Green: return toQColor(colours::kGreen);
+    case trial::Semaphore::Red: return toQColor(colours::kRed);
+    case trial::Semaphore::Neutral: break;
+  }
+  return toQColor(colours::kNeutral);
+}
+
+void SceneOverlay::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const double s = textScale_;
+  const QRectF square(20 * s, 18 * s, 58 * s, 58 * s);
+  double left = 20 * s;
+  if (state_.semaphoreShown) {
+    const QColor lamp = colourOf(state_.semaphore);
+    painter.setPen(QPen(lamp.lighter(135), 2 * s));
+    painter.setBrush(lamp);
+    painter.drawRoundedRect(square, 6 * s, 6 * s);
+    left = square.right() + 18 * s;
+  }
+  QFont font = painter.font();
+  font.setPointSizeF(10.5 * s);
+  painter.setFont(font);
+  painter.setPen(toQColor(colours::kFaintText));
+  const double room = width() - left - 12;
+  painter.drawText(QRectF(left, 14 * s, room, 20 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.counter);
+  font.setWeight(QFont::DemiBold);
+  font.setPointSizeF(pointsToFit(state_.instruction, font, 19 * s, room));  // why a trial failed is to be read to its end
+  painter.setFont(font);
+  const Colour tone = state_.tone == OverlayState::Tone::Good  ? colours::kGreen
+                      : state_.tone == OverlayState::Tone::Bad ? Colour{1.0, 0.62, 0.55}
+                                                               : colours::kText;
+  painter.setPen(toQColor(tone));
+  const QString line = painter.fontMetrics().elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
+  painter.drawText(QRectF(left, 33 * s, room, 32 * s), Qt::AlignLeft | Qt::AlignVCenter, line);
+  font.setPointSizeF(11 * s);
+  font.setWeight(QFont::Normal);
+  painter.setFont(font);
+  painter.setPen(toQColor(colours::kFaintText));
+  painter.drawText(QRectF(left, 65 * s, room, 22 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.detail);
+  if (!state_.task.isEmpty()) {
+    const QRectF place(left, 97 * s, std::min(room, 560 * s), 140 * s);
+    constexpr int kWrapped = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap;
+    QColor shade = toQColor(colours::kWindow);
+    shade.setAlphaF(0.72);  // to be read over whatever is drawn behind
+    painter.fillRect(painter.boundingRect(place, kWrapped, state_.task).adjusted(-5 * s, -3 * s, 5 * s, 3 * s), shade);
+    painter.setPen(toQColor(colours::kText));
+    painter.drawText(place, kWrapped, state_.task);
+  }
+  paintScale(painter);
+  paintAxes(painter);
+  if (!label_.isEmpty()) paintLabel(painter);
+}
+
+// Below what it speaks of, at the end of a short line.
+void SceneOverlay::paintLabel(QPainter& painter) const {
+  const double s = textScale_;
+  const QPointF end = labelAt_ + QPointF(0, 26 * s);
+  painter.setPen(QPen(toQColor(colours::kFaintText), 1.2 * s));
+  painter.drawLine(labelAt_, end);
+  QFont font = painter.font();
+  font.setPointSizeF(11 * s);
+  painter.setFont(font);
+  painter.setPen(toQColor(colours::kText));
+  painter.drawText(QRectF(end.x() - 100 * s, end.y(), 200 * s, 22 * s), Qt::AlignHCenter | Qt::AlignTop, label_);
+}
+
+void SceneOverlay::paintScale(QPainter& painter) const {
+  const double length = roundLength(0.22 * width() * metresPerPixel_);
+  if (length <= 0) return;
+  const double pixels = length / metresPerPixel_, right = width() - 22, y = height() - 22;
+  painter.setPen(QPen(toQColor(colours::kFaintText), 1.6));
+  painter.drawLine(QPointF(right - pixels, y), QPointF(right, y));
+  painter.drawLine(QPointF(right - pixels, y - 5), QPointF(right - pixels, y + 5));
+  painter.drawLine(QPointF(right, y - 5), QPointF(right, y + 5));
+  QFont font = painter.font();
+  font.setPointSizeF(9.5);
+  painter.setFont(font);
+  painter.drawText(QRectF(right - pixels, y - 24, pixels, 18), Qt::AlignCenter, lengthText(length));
+}
+
+void SceneOverlay::paintAxes(QPainter& painter) const {
+  const QPointF origin(46, height() - 44);
+  const double arm = 26;
+  const std::array<QColor, 3> ink{QColor(235, 110, 100), QColor(120, 210, 120), QColor(110, 165, 250)};
+  const std::array<QString, 3> names{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
+  QFont font = painter.font();
+  font.setPointSizeF(9);
+  painter.setFont(font);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const QPointF tip = origin + arm * axes_[i];
+    painter.setPen(QPen(ink[i], 2));
+    painter.drawLine(origin, tip);
+    painter.drawText(QRectF(origin.x() + 1.36 * arm * axes_[i].x() - 8, origin.y() + 1.36 * arm * axes_[i].y() - 8, 16, 16),
+                     Qt::AlignCenter, names[i]);
+  }
+}
+
+}  // namespace reachlab::gui

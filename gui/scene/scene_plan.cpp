@@ -1,0 +1,154 @@
+#include "gui/scene/scene_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reachlab::gui {
+namespace {
+
+Vec3 placeOnConstraint(const constraints::Constraint& constraint, const std::vector<double>& q) {
+  Vec3 r;
+  if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) r = constraints::evaluate(constraint.curve, q[0]).r;
+  if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2) r = constraints::evaluate(constraint.surface, q[0], q[1]).r;
+  if (constraint.kind == constraints::ConstraintKind::Free && q.size() == 3) r = {q[0], q[1], q[2]};
+  return isFinite(r) ? r : Vec3{};
+}
+
+// Looks at the broadest side of the box, a little from above and from the right.
+Vec3 viewDirection(const Box& box, constraints::ConstraintKind kind) {
+  const Vec3 extent = box.high - box.low;
+  if (kind == constraints::ConstraintKind::Surface)
+    return extent.z < 0.35 * std::max(extent.x, extent.y) ? Vec3{0.45, -0.9, 1.1} : Vec3{0.6, 0.55, 1};
+  const double thin = 0.02 * box.diagonal();
+  if (extent.x <= thin && extent.z > thin) return {1, 0.22, 0.3};  // lies in the y-z plane
+  if (extent.y <= thin && extent.z > thin) return {0.1, 1, 0.55};  // in the x-z plane
+  if (extent.z <= thin) return {0.06, 0.18, 1};
+  return {0.55, 0.45, 1};
+}
+
+std::vector<double> radiiOf(const std::vector<double>& masses, double unit) {
+  double heaviest = 0;
+  for (const double m : masses) heaviest = std::max(heaviest, m);
+  const double most = (masses.size() > 12 ? 0.022 : 0.034) * unit;
+  std::vector<double> radii;
+  for (const double m : masses) radii.push_back(heaviest > 0 ? most * std::clamp(std::cbrt(m / heaviest), 0.45, 1.0) : most);
+  return radii;
+}
+
+bool isSideBySide(const experiment::Object& object, ViewOptions::SideBySide wish) {
+  if (object.masses.size() < 2 || wish == ViewOptions::SideBySide::Never) return false;
+  return wish == ViewOptions::SideBySide::Always || object.kind == experiment::ObjectKind::Parallel;
+}
+
+void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
+  const experiment::Object& object = experiment.object;
+  const std::size_t count = object.masses.size();
+  plan.massRadius = radiiOf(object.masses, std::max(plan.unit, 0.6 * plan.size));
+  plan.massRole.assign(count, MassRole::Middle);
+  plan.massShift.assign(count, Vec3{});
+  if (count == 0) return;
+  plan.massRole.back() = MassRole::Last;
+  plan.massRole.front() = MassRole::Driven;
+  const bool shifted = isSideBySide(object, wish);
+  if (!shifted)  // where all coincide the driven one would hide the rest
+    for (std::size_t i = 1; i + 1 < count; ++i) plan.massRadius[i] *= 0.72;
+  if (shifted) {
+    const Vec3 across = plan.kind == constraints::ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit
+                            ? Vec3{0, -1, 0}
+                            : Vec3{0.7, -0.7, 0};
+    const double step = std::min(0.22, 0.5 / static_cast<double>(count)) * plan.unit;
+    const double middle = object.kind == experiment::ObjectKind::Parallel ? 0.5 * static_cast<double>(count - 1) : 0.0;
+    for (std::size_t i = 0; i < count; ++i) plan.massShift[i] = ((static_cast<double>(i) - middle) * step) * across;
+  }
+  const int last = static_cast<int>(count);
+  if (object.kind == experiment::ObjectKind::Parallel)
+    for (int i = 0; i < last; ++i) plan.springs.push_back({-1, i, false});
+  else if (experiment.coupling) plan.springs.push_back({-1, 0, true});
+  if (object.kind == experiment::ObjectKind::Chain)
+    for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, false});
+}
+
+// Some hundreds of the constraint's points, and the task's places with the shifts of their masses.
+std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
+  std::vector<Vec3> seen;
+  const std::size_t skip = 1 + plan.curve.pointCount() / 400;
+  for (const auto& piece : plan.curve.pieces) {
+    for (std::size_t i = 0; i < piece.size(); i += skip) seen.push_back(piece[i]);
+    seen.push_back(piece.back());
+  }
+  const std::size_t skipQuads = 1 + plan.surface.quads.size() / 800;
+  for (std::size_t i = 0; i < plan.surface.quads.size(); i += skipQuads) seen.push_back(plan.surface.points[plan.surface.quads[i][0]]);
+  if (plan.hasTask)
+    for (const Vec3& place : {plan.start, plan.target}) {
+      seen.push_back(place);
+      for (const Vec3& shift : plan.massShift) seen.push_back(place + shift);
+    }
+  if (seen.empty()) seen = {plan.centre - Vec3{0.5 * plan.size, 0, 0}, plan.centre + Vec3{0.5 * plan.size, 0, 0}};
+  return seen;
+}
+
+}  // namespace
+
+ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options) {
+  ScenePlan plan;
+  plan.kind = constraint.kind;
+  plan.body = experiment.object.kind == experiment::ObjectKind::Body;
+  const std::vector<double> none;
+  const auto& from = experiment.task ? experiment.task->start : none;
+  const auto& to = experiment.task ? experiment.task->target : none;
+  Box box;
+  if (constraint.kind == constraints::ConstraintKind::Curve) {
+    const constraints::Domain domain = drawnDomain(constraint, from, to)[0];
+    plan.curve = sampleCurve(constraint.curve, domain.lo, domain.hi);
+    box = boxOf(plan.curve);
+  } else if (constraint.kind == constraints::ConstraintKind::Surface) {
+    plan.surface = sampleSurface(constraint.surface, drawnDomain(constraint, from, to));
+    box = boxOf(plan.surface);
+  }
+  if (experiment.task) {
+    plan.hasTask = true;
+    plan.start = placeOnConstraint(constraint, from);
+    plan.target = placeOnConstraint(constraint, to);
+    plan.tolerance = experiment.task->tolerance.position;
+    box.add(plan.start);
+    box.add(plan.target);
+  }
+  if (!box.valid() || box.diagonal() <= 0) box.add({-0.1, -0.05, 0}), box.add({0.1, 0.05, 0});
+  plan.centre = box.centre();
+  plan.size = box.diagonal();
+  const double reach = norm(plan.target - plan.start);
+  plan.unit = plan.hasTask && reach > 0.3 * plan.size ? reach : std::max(0.5 * plan.size, reach);
+  plan.viewFrom = viewDirection(box, plan.kind);
+  plan.handRadius = 0.016 * plan.unit;
+  plan.markRadius = 0.014 * plan.unit;
+  plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
+  planMasses(experiment, options.sideBySide, plan);
+  plan.seen = pointsSeen(plan);
+  return plan;
+}
+
+SceneFrame restingFrame(const ScenePlan& plan) {
+  SceneFrame frame;
+  frame.hand = plan.start;
+  frame.masses.assign(plan.massRadius.size(), plan.start);
+  return frame;
+}
+
+void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
+  frame.hand = state.hand.position;
+  frame.handValid = state.hand.valid;
+  frame.body = state.body;
+  frame.masses.resize(static_cast<std::size_t>(state.massCount));
+  for (std::size_t i = 0; i < frame.masses.size(); ++i) frame.masses[i] = state.masses[i].r;
+}
+
+int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
+  const std::size_t count = std::min(frame.masses.size(), plan.massRadius.size());
+  if (count < 2) return 0;
+  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan.massShift[i]; };
+  for (std::size_t i = 1; i < count; ++i)
+    if (!(norm(drawn(i) - drawn(0)) < 0.5 * plan.massRadius[i])) return 0;
+  return static_cast<int>(count);
+}
+
+}  // namespace reachlab::gui

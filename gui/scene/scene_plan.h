@@ -1,0 +1,58 @@
+#pragma once
+#include <vector>
+
+#include "gui/scene/constraint_mesh.h"
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_state.h"
+
+/// What is to be drawn of an experiment, as plain data: sizes, places, colours' roles. Known to no graphics library.
+namespace reachlab::gui {
+
+enum class MassRole { Driven, Middle, Last };
+
+struct SpringPlan {
+  int from = -1, to = 0;  // masses from 0; -1: the hand
+  bool coupling = false;  // the coupling (8): drawn thinner than the object's own springs
+};
+
+struct ScenePlan {
+  constraints::ConstraintKind kind = constraints::ConstraintKind::Free;
+  CurveMesh curve;
+  SurfaceMesh surface;
+  Vec3 start, target;  // [m]
+  bool hasTask = false;
+  double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
+  Vec3 centre{};                   // [m] what the camera looks at
+  double size = 0.2;               // [m] diagonal of what is seen
+  double unit = 0.2;               // [m] what bodies are sized by
+  Vec3 viewFrom{0.1, 0.35, 1};     // direction from the centre to the camera
+  std::vector<Vec3> seen;          // [m] points that a view of the whole must hold
+  std::vector<double> massRadius;  // [m]
+  std::vector<MassRole> massRole;
+  std::vector<Vec3> massShift;  // [m] added for the eye only
+  std::vector<SpringPlan> springs;
+  bool body = false;                                      // drawn as a box that turns
+  double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
+};
+
+struct ViewOptions {
+  enum class SideBySide { Auto, Always, Never };
+  SideBySide sideBySide = SideBySide::Auto;  // Auto: parallel masses only, as in the paper's Fig. 7
+};
+
+ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
+
+/// One instant of it: what actors are moved to.
+struct SceneFrame {
+  Vec3 hand;                 // [m]
+  std::vector<Vec3> masses;  // [m] true places
+  dynamics::BodyState body;
+  bool handValid = true;
+};
+/// At rest at the start.
+SceneFrame restingFrame(const ScenePlan& plan);
+void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
+/// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
+int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
+
+}  // namespace reachlab::gui

@@ -1,0 +1,274 @@
+#include "gui/scene/scene_view.h"
+
+#include <QMouseEvent>
+#include <QSurfaceFormat>
+#include <QVTKOpenGLNativeWidget.h>
+#include <QVBoxLayout>
+#include <QWheelEvent>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gui/widgets/colours.h"
+#include "gui/scene/scene_actors.h"
+
+namespace reachlab::gui {
+namespace {
+
+// Key light from the upper left, a weak fill from the right, both fixed to the viewer.
+void addLights(vtkRenderer& renderer) {
+  renderer.RemoveAllLights();
+  const struct { double x, y, z, intensity; } lights[] = {{-0.6, 0.9, 1.2, 0.85}, {0.9, 0.1, 0.8, 0.32}, {0, -1, 0.4, 0.14}};
+  for (const auto& l : lights) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(l.x, l.y, l.z);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(l.intensity);
+    renderer.AddLight(light);
+  }
+}
+
+}  // namespace
+
+void applySurfaceFormat() { QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); }
+
+struct SceneView::Impl {
+  QVTKOpenGLNativeWidget* widget = nullptr;
+  SceneOverlay* overlay = nullptr;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  std::unique_ptr<ObjectActors> actors;
+  ScenePlan plan;
+  SceneFrame frame;
+  Camera camera;
+  SurfaceStyle style = SurfaceStyle::Glass;
+  QString rendererName;
+  bool placed = false;  // the camera has been put in place for a real size
+  QPoint pressedAt, lastAt;
+  Vec3 handAtPress;
+  bool reaching = false;
+
+  double width() const { return std::max(widget->width(), 1); }
+  double height() const { return std::max(widget->height(), 1); }
+
+  // The whole scene, with the pen as it stands at the start.
+  void lookFrom(const Vec3& direction) {
+    std::vector<Vec3> points = plan.seen;
+    points.push_back(penEnd(plan.start, plan.handRadius));
+    camera = lookAtPoints(points, 0.09 * plan.size, direction, width() / height());
+  }
+
+  void applyCamera() {
+    vtkCamera* c = renderer->GetActiveCamera();
+    c->SetPosition(camera.position.x, camera.position.y, camera.position.z);
+    c->SetFocalPoint(camera.focus.x, camera.focus.y, camera.focus.z);
+    c->SetViewUp(camera.up.x, camera.up.y, camera.up.z);
+    c->SetViewAngle(camera.angle);
+    renderer->ResetCameraClippingRange();
+    const CameraAxes axes = axesOf(camera);
+    std::array<QPointF, 3> directions;
+    const std::array<Vec3, 3> world{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    for (std::size_t i = 0; i < 3; ++i) directions[i] = {dot(world[i], axes.right), -dot(world[i], axes.up)};
+    overlay->setView(directions, metresPerPixel(camera, plan.centre, height()));
+    label();
+  }
+
+  // Masses over one another look like one.
+  void label() {
+    const int count = massesAtOnePlace(plan, frame);
+    if (count == 0) return overlay->setLabel({}, {});
+    const Vec3 at = frame.masses.back() + plan.massShift.back();
+    const auto [x, y] = reachlab::gui::pixelOf(camera, at, width(), height());
+    const double radius = plan.massRadius.back() / metresPerPixel(camera, at, height());
+    overlay->setLabel(QStringLiteral("%1 masses").arg(count), {x, y + radius});
+  }
+
+  // Once a picture has been drawn it is known who draws: true translucency where it is fast, the approximate one in software.
+  void learnRenderer() {
+    if (!rendererName.isEmpty()) return;
+    const QString capabilities = QString::fromUtf8(window->ReportCapabilities());
+    const QString key = QStringLiteral("OpenGL renderer string:");
+    const int at = static_cast<int>(capabilities.indexOf(key));
+    rendererName = at < 0 ? QStringLiteral("unknown") : capabilities.mid(at + key.size()).section(QLatin1Char('\n'), 0, 0).trimmed();
+    if (!rendererName.contains(QLatin1String("llvmpipe")) && !rendererName.contains(QLatin1String("softpipe"))) {
+      renderer->SetUseDepthPeeling(true);
+      renderer->SetMaximumNumberOfPeels(6);
+      renderer->SetOcclusionRatio(0);
+    }
+  }
+
+  void render() {
+    if (!widget->isVisible()) return;
+    window->Render();
+    learnRenderer();
+  }
+};
+
+SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  impl_->widget = new QVTKOpenGLNativeWidget(this);
+  layout->addWidget(impl_->widget);
+  impl_->overlay = new SceneOverlay(this);
+  impl_->window->SetMultiSamples(0);  // translucency needs it so; FXAA smooths the edges
+  impl_->window->SetAlphaBitPlanes(1);
+  impl_->widget->setRenderWindow(impl_->window);
+  impl_->window->AddRenderer(impl_->renderer);
+  impl_->renderer->SetUseFXAA(true);
+  impl_->renderer->GradientBackgroundOn();
+  impl_->renderer->SetBackground(colours::kSkyBottom.red, colours::kSkyBottom.green, colours::kSkyBottom.blue);
+  impl_->renderer->SetBackground2(colours::kSkyTop.red, colours::kSkyTop.green, colours::kSkyTop.blue);
+  impl_->renderer->GetActiveCamera();
+  addLights(*impl_->renderer);
+  impl_->widget->installEventFilter(this);
+  impl_->widget->setFocusPolicy(Qt::NoFocus);
+  setMinimumSize(320, 240);
+}
+
+SceneView::~SceneView() {
+  impl_->actors.reset();  // before the renderer that holds them
+}
+
+void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
+  impl_->plan = plan;
+  impl_->actors.reset();
+  impl_->actors = std::make_unique<ObjectActors>(*impl_->renderer, plan, impl_->style);
+  impl_->frame = restingFrame(plan);
+  impl_->actors->show(impl_->frame);
+  impl_->label();
+  if (resetView) resetCamera();
+  else renderNow();
+}
+
+void SceneView::showFrame(const SceneFrame& frame) {
+  impl_->frame = frame;
+  if (!impl_->actors) return;
+  impl_->actors->show(frame);
+  impl_->label();
+  impl_->render();
+}
+
+void SceneView::setOverlay(const OverlayState& state) { impl_->overlay->setState(state); }
+
+void SceneView::setOverlayVisible(bool visible) { impl_->overlay->setVisible(visible); }
+
+void SceneView::setTextScale(double scale) { impl_->overlay->setTextScale(scale); }
+
+void SceneView::setSurfaceStyle(SurfaceStyle style) {
+  impl_->style = style;
+  if (!impl_->actors) return;
+  const SceneFrame kept = impl_->frame;
+  setPlan(ScenePlan(impl_->plan), false);
+  showFrame(kept);
+}
+
+void SceneView::resetCamera() {
+  impl_->lookFrom(impl_->plan.viewFrom);
+  impl_->applyCamera();
+  renderNow();
+}
+
+void SceneView::fit() {
+  impl_->lookFrom(impl_->camera.position - impl_->camera.focus);
+  impl_->applyCamera();
+  renderNow();
+}
+
+void SceneView::lookAlong(char axis) {
+  const Vec3 from = axis == 'x' ? Vec3{1, 0, 0} : axis == 'y' ? Vec3{0, 1, 0} : axis == 'z' ? Vec3{0, 0, 1} : impl_->plan.viewFrom;
+  impl_->lookFrom(from);
+  impl_->applyCamera();
+  renderNow();
+}
+
+void SceneView::renderNow() { impl_->render(); }
+
+QImage SceneView::grabScene() {
+  renderNow();
+  return grab().toImage();
+}
+
+const Camera& SceneView::camera() const { return impl_->camera; }
+
+void SceneView::setCamera(const Camera& camera) {
+  impl_->camera = camera;
+  impl_->placed = true;
+  impl_->applyCamera();
+  renderNow();
+}
+
+const ScenePlan& SceneView::plan() const { return impl_->plan; }
+SceneFrame SceneView::frame() const { return impl_->frame; }
+QString SceneView::rendererName() const { return impl_->rendererName; }
+
+bool SceneView::drawsInSoftware() const {
+  return impl_->rendererName.contains(QLatin1String("llvmpipe")) || impl_->rendererName.contains(QLatin1String("softpipe"));
+}
+
+QPointF SceneView::pixelOf(const Vec3& world) const {
+  const auto [x, y] = reachlab::gui::pixelOf(impl_->camera, world, impl_->width(), impl_->height());
+  return {x, y};
+}
+
+void SceneView::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  impl_->overlay->setGeometry(rect());
+  impl_->overlay->raise();
+  if (!impl_->placed) resetCamera();
+  else impl_->applyCamera();
+}
+
+bool SceneView::eventFilter(QObject* watched, QEvent* event) {
+  if (watched != impl_->widget) return QWidget::eventFilter(watched, event);
+  Impl& d = *impl_;
+  switch (event->type()) {
+    case QEvent::MouseButtonPress: {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      d.lastAt = d.pressedAt = mouse->pos();
+      if (mouse->button() == Qt::LeftButton && !mouse->modifiers().testFlag(Qt::ShiftModifier)) {
+        d.reaching = true;
+        d.handAtPress = d.frame.hand;
+      }
+      return true;
+    }
+    case QEvent::MouseMove: {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const QPoint now = mouse->pos(), moved = now - d.lastAt;
+      d.lastAt = now;
+      if (d.reaching && mouse->buttons().testFlag(Qt::LeftButton)) {
+        // Relative to where the hand was taken hold of, so that pressing beside it does not make it jump.
+        const Vec3 from = pointUnder(d.camera, d.handAtPress, d.pressedAt.x(), d.pressedAt.y(), d.width(), d.height());
+        const Vec3 to = pointUnder(d.camera, d.handAtPress, now.x(), now.y(), d.width(), d.height());
+        const Vec3 hand = d.handAtPress + (to - from);
+        Q_EMIT handDragged(hand.x, hand.y, hand.z);
+        return true;
+      }
+      if (mouse->buttons() == Qt::NoButton) return true;
+      const bool panning = mouse->buttons().testFlag(Qt::MiddleButton) || mouse->modifiers().testFlag(Qt::ShiftModifier);
+      if (panning) pan(d.camera, moved.x(), moved.y(), d.height());
+      else turn(d.camera, moved.x(), moved.y(), d.height());
+      setCamera(d.camera);
+      return true;
+    }
+    case QEvent::MouseButtonRelease:
+      if (d.reaching && static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
+        d.reaching = false;
+        Q_EMIT handReleased();
+      }
+      return true;
+    case QEvent::MouseButtonDblClick: return true;
+    case QEvent::Wheel:
+      zoom(d.camera, std::pow(1.0015, static_cast<QWheelEvent*>(event)->angleDelta().y()));
+      setCamera(d.camera);
+      return true;
+    default: return QWidget::eventFilter(watched, event);
+  }
+}
+
+}  // namespace reachlab::gui

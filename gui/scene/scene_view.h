@@ -1,0 +1,65 @@
+#pragma once
+#include <QWidget>
+#include <memory>
+
+#include "gui/scene/camera.h"
+#include "gui/scene/object_actors.h"
+#include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_plan.h"
+
+namespace reachlab::gui {
+
+/// The OpenGL format that the scene needs; before the QApplication is made.
+void applySurfaceFormat();
+
+/// The scene in three dimensions. Left drag moves the hand (handDragged), right drag turns, middle drag (or shift) pans, the wheel zooms.
+class SceneView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SceneView(QWidget* parent = nullptr);
+  ~SceneView() override;
+
+  /// Builds the actors anew and, if `resetCamera`, looks at all of it.
+  void setPlan(const ScenePlan& plan, bool resetCamera = true);
+  /// Moves what there is; nothing is built.
+  void showFrame(const SceneFrame& frame);
+  void setOverlay(const OverlayState& state);
+  void setSurfaceStyle(SurfaceStyle style);
+  void setOverlayVisible(bool visible);
+  void setTextScale(double scale);
+  void resetCamera();
+  /// The whole scene from the side that is looked from now.
+  void fit();
+  /// From the side of x, y or z, or 0: the usual view.
+  void lookAlong(char axis);
+  /// Draws now. For screenshots and tests.
+  void renderNow();
+  QImage grabScene();
+
+  const Camera& camera() const;
+  void setCamera(const Camera& camera);
+  const ScenePlan& plan() const;
+  SceneFrame frame() const;
+  /// Software drawing is slow: fewer frames a second, and a cheaper translucency. Known after the first drawing.
+  bool drawsInSoftware() const;
+  /// "llvmpipe (LLVM 15.0.6, 256 bits)"; empty before the first drawing.
+  QString rendererName() const;
+  /// Where a world point is drawn, in this widget's coordinates.
+  QPointF pixelOf(const Vec3& world) const;
+
+ Q_SIGNALS:
+  /// The pointer with the left button down: where the hand is asked to be [m], in the plane through the hand that faces the viewer.
+  void handDragged(double x, double y, double z);
+  void handReleased();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  QSize sizeHint() const override { return {900, 620}; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab::gui

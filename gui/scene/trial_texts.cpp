@@ -1,0 +1,110 @@
+#include "gui/scene/trial_texts.h"
+
+namespace reachlab::gui {
+namespace {
+
+QString number(double value, int digits) { return QString::number(value, 'f', digits); }
+
+QString massName(int mass) { return mass > 0 ? QStringLiteral("mass %1").arg(mass) : QStringLiteral("the object"); }
+
+}  // namespace
+
+QString outcomeText(const trial::TrialResult& result) {
+  switch (result.reason) {
+    case trial::Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
+    case trial::Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
+    case trial::Reason::Position:
+      return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
+    case trial::Reason::Velocity:
+      return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
+    case trial::Reason::ForceLimit: return QStringLiteral("The force went over its limit");
+    case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
+    case trial::Reason::NoOnset: return QStringLiteral("No movement began");
+    case trial::Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");
+    case trial::Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
+    case trial::Reason::Computation: return QStringLiteral("The simulation could not go on");
+    case trial::Reason::Program: return QStringLiteral("Interrupted");
+    case trial::Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
+    case trial::Reason::Timing: return QStringLiteral("The computer was too busy: this trial does not count");
+    case trial::Reason::NoStart: return QStringLiteral("The hand was never at the start");
+    case trial::Reason::None: break;
+  }
+  if (result.outcome == trial::Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
+  return {};
+}
+
+QString reasonText(trial::Reason reason) {
+  switch (reason) {
+    case trial::Reason::TimeShort: return QStringLiteral("too fast");
+    case trial::Reason::TimeLong: return QStringLiteral("too slow");
+    case trial::Reason::Position: return QStringLiteral("too far from the target");
+    case trial::Reason::Velocity: return QStringLiteral("still moving");
+    case trial::Reason::ForceLimit: return QStringLiteral("over the force limit");
+    case trial::Reason::DeviceLost: return QStringLiteral("device lost");
+    case trial::Reason::NoOnset: return QStringLiteral("no movement");
+    case trial::Reason::Experimenter: return QStringLiteral("stopped by the experimenter");
+    case trial::Reason::EndOfConstraint: return QStringLiteral("off the end of the path");
+    case trial::Reason::Computation: return QStringLiteral("not computable");
+    case trial::Reason::Program: return QStringLiteral("interrupted");
+    case trial::Reason::FalseStart: return QStringLiteral("too early");
+    case trial::Reason::Timing: return QStringLiteral("computer too busy");
+    case trial::Reason::NoStart: return QStringLiteral("hand never at the start");
+    case trial::Reason::None: break;
+  }
+  return QStringLiteral("no reason");
+}
+
+OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse) {
+  OverlayState o;
+  o.semaphore = state.semaphore;
+  o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
+                              : QStringLiteral("%1 trials").arg(trialsPlanned);
+  const double latest = task.duration + task.tolerance.time;
+  o.detail = task.duration > task.tolerance.time
+                 ? QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2))
+                 : QStringLiteral("reach in at most %1 s").arg(number(latest, 2));
+  switch (state.phase) {
+    case trial::Phase::Idle: o.instruction = QStringLiteral("Wait"); break;
+    case trial::Phase::Waiting:
+      o.instruction = mouse ? QStringLiteral("Drag the hand to the grey sphere") : QStringLiteral("Move the hand to the grey sphere");
+      break;
+    case trial::Phase::Armed: o.instruction = QStringLiteral("Move to the small yellow sphere, and stop there"); break;
+    case trial::Phase::Moving: o.instruction = QStringLiteral("%1 s").arg(number(state.trialTime, 2)); break;
+    case trial::Phase::Done:
+      o.instruction = outcomeText(state.result);
+      o.tone = state.result.outcome == trial::Outcome::Success ? OverlayState::Tone::Good : OverlayState::Tone::Bad;
+      o.detail = QStringLiteral("Space: next trial");
+      break;
+  }
+  return o;
+}
+
+QString taskText(const experiment::Experiment& experiment, bool hiding) {
+  if (!experiment.task) return {};
+  const experiment::Task& task = *experiment.task;
+  const auto digits = [](double value) { return QString::number(value, 'g', 4); };
+  const std::size_t masses = experiment.object.masses.size();
+  const QString what = experiment.object.kind == experiment::ObjectKind::Body ? QStringLiteral("the body")
+                       : masses == 1                                          ? QStringLiteral("the mass")
+                       : masses == 2                                          ? QStringLiteral("both masses")
+                                                                              : QStringLiteral("all %1 masses").arg(masses);
+  const double earliest = task.duration - task.tolerance.time, latest = task.duration + task.tolerance.time;
+  const QString when = earliest > 0 ? QStringLiteral("%1 to %2 s").arg(digits(earliest), digits(latest))
+                                    : QStringLiteral("at most %1 s").arg(digits(latest));
+  QString text = QStringLiteral(
+                     "Bring %1 to the small yellow sphere (within %2 mm) and to rest there (below %3 mm/s), %4 after your hand "
+                     "starts to move.")
+                     .arg(what, digits(1000 * task.tolerance.position), digits(1000 * task.tolerance.velocity), when);
+  if (hiding) text += QStringLiteral("\nMasses can hide one another: F puts them side by side, right drag turns the view, Home fits it.");
+  return text;
+}
+
+OverlayState restingOverlay(const QString& experiment, bool mouse) {
+  OverlayState o;
+  o.counter = experiment;
+  o.instruction = QStringLiteral("Press Space to begin");
+  o.detail = mouse ? QStringLiteral("then drag with the left button to reach") : QString();
+  return o;
+}
+
+}  // namespace reachlab::gui

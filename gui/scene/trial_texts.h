@@ -1,0 +1,20 @@
+#pragma once
+#include "gui/scene/scene_overlay.h"
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_state.h"
+
+namespace reachlab::gui {
+
+/// What stands over the scene: what the subject is to do now, and how the last trial ended. Pure.
+OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse);
+/// Before a run.
+OverlayState restingOverlay(const QString& experiment, bool mouse);
+/// What the trials of this experiment ask for, in a sentence of its own numbers: what is judged, no more. `hiding`: masses stand at one
+/// place, and a second line says which keys part them. Empty without a task.
+QString taskText(const experiment::Experiment& experiment, bool hiding);
+/// Why a trial did not succeed, for the tally: "too fast", "still moving".
+QString reasonText(trial::Reason reason);
+/// How a trial ended, for the subject: "Too fast by 0.12 s", "Mass 5 still moved too fast: 0.004 m/s over".
+QString outcomeText(const trial::TrialResult& result);
+
+}  // namespace reachlab::gui

@@ -1,0 +1,33 @@
+#include "gui/subject/subject_window.h"
+
+#include <QCloseEvent>
+#include <QGuiApplication>
+#include <QScreen>
+#include <QShortcut>
+#include <QVBoxLayout>
+
+namespace reachlab::gui {
+
+SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
+  setWindowTitle(QStringLiteral("Reachlab – subject"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  view_ = new SceneView;
+  view_->setTextScale(1.5);
+  layout->addWidget(view_);
+  for (const auto& key : {QKeySequence(Qt::Key_F11), QKeySequence(Qt::Key_Escape)})
+    connect(new QShortcut(key, this), &QShortcut::activated, this, &QWidget::close);
+}
+
+void SubjectWindow::showFull() {
+  const QList<QScreen*> screens = QGuiApplication::screens();
+  if (screens.size() > 1) setGeometry(screens[1]->geometry());
+  showFullScreen();
+}
+
+void SubjectWindow::closeEvent(QCloseEvent* event) {
+  QWidget::closeEvent(event);
+  Q_EMIT closed();
+}
+
+}  // namespace reachlab::gui

@@ -1,0 +1,27 @@
+#pragma once
+#include <QWidget>
+
+#include "gui/scene/scene_view.h"
+
+namespace reachlab::gui {
+
+/// What the subject sees: the scene alone, over a whole screen. Esc, F11 or a closed window ends it.
+class SubjectWindow : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SubjectWindow(QWidget* parent = nullptr);
+  /// On the second screen if there is one, else on this.
+  void showFull();
+  SceneView& view() { return *view_; }
+
+ Q_SIGNALS:
+  void closed();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  SceneView* view_;
+};
+
+}  // namespace reachlab::gui

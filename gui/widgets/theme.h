@@ -1,0 +1,14 @@
+#pragma once
+#include <QColor>
+
+#include "gui/widgets/colours.h"
+
+class QApplication;
+
+namespace reachlab::gui {
+
+QColor toQColor(const Colour& colour);
+/// Dark palette and style of the whole program; numbers with a decimal point and no group marks in every locale, as in the files.
+void applyTheme(QApplication& application);
+
+}  // namespace reachlab::gui

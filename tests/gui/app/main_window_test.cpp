@@ -1,0 +1,449 @@
+#include "gui/app/main_window.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QComboBox>
+#include <QWindow>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSet>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QUndoStack>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "gui/docks/prediction_dock.h"
+#include "gui/scene/scene_actors.h"
+#include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_view.h"
+#include "gui/app/session_controller.h"
+#include "gui/docks/session_dock.h"
+#include "gui/scene/trial_texts.h"
+#include "gui/plot/velocity_plot.h"
+#include "sim/record/run_log.h"
+
+namespace reachlab::gui {
+namespace {
+
+// An object that a steady pointer brings to rest: well damped, and a wide window in time, so that a stall of the machine spoils nothing.
+constexpr const char* kEasy = R"({ "schema_version": 1, "name": "easy", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  "object": { "kind": "chain", "masses_kg": [0.2, 0.2], "stiffness_n_per_m": [900], "damping_n_s_per_m": [12] },
+  "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 25 },
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 10.2, "timeout_s": 60,
+            "tolerance": { "position_m": 0.012, "velocity_m_per_s": 0.03, "time_s": 9.9 } } })";
+
+class Window : public ::testing::Test {
+ protected:
+  Window() {
+    request_.what = (folder_.path() + QStringLiteral("/easy.json")).toStdString();
+    std::ofstream(request_.what) << kEasy;
+    request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
+    request_.device = "mouse";
+    request_.trials = 3;
+    request_.seed = 1;
+  }
+  MainWindow& open() {
+    window_ = std::make_unique<MainWindow>(request_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());  // there may be no window manager to do it, and shortcuts ask for it
+    return *window_;
+  }
+  // The pointer goes through the window system's queue, as a real one does; places are the scene's.
+  QPoint inWindow(const QPoint& inScene) const { return window_->view().mapTo(window_.get(), inScene); }
+  void press(Qt::MouseButton button, const QPoint& at) const { QTest::mousePress(window_->windowHandle(), button, {}, inWindow(at)); }
+  void moveTo(const QPoint& at) const { QTest::mouseMove(window_->windowHandle(), inWindow(at)); }
+  void release(Qt::MouseButton button, const QPoint& at) const { QTest::mouseRelease(window_->windowHandle(), button, {}, inWindow(at)); }
+  template <typename T>
+  T* find(const char* name) const {
+    T* found = window_->findChild<T*>(QLatin1String(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  bool waitForPhase(trial::Phase phase) const {
+    return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
+  }
+
+  QTemporaryDir folder_;
+  session::SessionRequest request_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(Window, StartsWithItsDocksAndAPicture) {
+  MainWindow& window = open();
+  std::set<QString> titles;
+  for (const auto* dock : window.findChildren<QDockWidget*>()) {
+    EXPECT_TRUE(dock->isVisible()) << dock->windowTitle().toStdString();
+    titles.insert(dock->windowTitle());
+  }
+  EXPECT_EQ(titles.size(), 7u);
+  const QImage picture = window.view().grabScene();
+  QSet<QRgb> inks;
+  for (int y = 0; y < picture.height(); y += 3)
+    for (int x = 0; x < picture.width(); x += 3) inks.insert(picture.pixel(x, y));
+  EXPECT_GT(inks.size(), 100);  // an empty picture has one, the background alone some dozens
+  EXPECT_FALSE(window.view().rendererName().isEmpty());
+  EXPECT_EQ(window.session().run(), nullptr);
+}
+
+TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
+  MainWindow& window = open();
+  QTest::keyClick(&window, Qt::Key_Space);
+  ASSERT_EQ(window.message().toStdString(), "");
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  SceneView& view = window.view();
+  const QPoint from = view.pixelOf(view.plan().start).toPoint(), to = view.pixelOf(view.plan().target).toPoint();
+  std::set<trial::Semaphore> seen{window.overlay().semaphore};
+  press(Qt::LeftButton, from);
+  constexpr int kMoves = 60;
+  for (int i = 1; i <= kMoves; ++i) {
+    const double s = static_cast<double>(i) / kMoves, share = s * s * s * (10 - 15 * s + 6 * s * s);
+    moveTo(from + (QPointF(to - from) * share).toPoint());
+    QTest::qWait(12);
+    seen.insert(window.overlay().semaphore);
+  }
+  ASSERT_TRUE(waitForPhase(trial::Phase::Done));
+  release(Qt::LeftButton, to);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  const trial::TrialResult result = window.session().lastTrial()->result;
+  EXPECT_EQ(result.outcome, trial::Outcome::Success) << trial::nameOf(result.reason) << " by " << result.by;
+  EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
+  EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
+  EXPECT_GT(window.plot().pointCount(), 20u);
+  EXPECT_TRUE(window.sessionDock().tallyText().contains(QStringLiteral("1 of 1")));
+
+  // What the screen shows is what the record holds.
+  const std::string log = window.session().run()->logPath();
+  window.session().note(QStringLiteral("ärgerlich laut"));
+  window.session().endRun();
+  EXPECT_EQ(window.message().toStdString(), "");
+  const record::RunLog read = record::RunLog::open(log);
+  EXPECT_TRUE(read.healthy());
+  ASSERT_EQ(read.trials().size(), 1u);
+  EXPECT_EQ(read.trials()[0].result.outcome, result.outcome);
+  EXPECT_EQ(read.trials()[0].result.movementTime, result.movementTime);
+  EXPECT_EQ(read.configuration().experimentText, kEasy);
+  bool noted = false;
+  for (const record::RecordedEvent& event : read.events()) noted = noted || event.text == "ärgerlich laut";
+  EXPECT_TRUE(noted);
+}
+
+TEST_F(Window, TheTaskIsToldBeforeTheFirstTrialAndGoesWhenItRuns) {
+  MainWindow& window = open();
+  EXPECT_EQ(window.overlay().task.section(QLatin1Char('\n'), 0, 0).toStdString(),
+            "Bring both masses to the small yellow sphere (within 12 mm) and to rest there (below 30 mm/s), 0.3 to 20.1 s after your hand "
+            "starts to move.");
+  EXPECT_TRUE(window.overlay().task.contains(QStringLiteral("F puts them side by side")));
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_FALSE(window.overlay().task.contains(QStringLiteral("hide")));
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().task.isEmpty(); }, 5000));
+}
+
+TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
+  experiment::Experiment e;
+  e.object.masses = {1};
+  EXPECT_EQ(taskText(e, false), QString());
+  e.task = experiment::Task{};
+  e.task->duration = 1.5;
+  e.task->tolerance = {0.005, 0.02, 8.5};
+  EXPECT_EQ(
+      taskText(e, false).toStdString(),
+      "Bring the mass to the small yellow sphere (within 5 mm) and to rest there (below 20 mm/s), at most 10 s after your hand starts to "
+      "move.");
+  EXPECT_EQ(overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
+}
+
+TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
+  MainWindow& window = open();
+  QStringList labels;
+  for (const auto* label : window.findChildren<QLabel*>()) labels << label->text();
+  for (const char* text : {"length", "start phi [1]", "target phi [1]"}) EXPECT_TRUE(labels.contains(QLatin1String(text))) << text;
+  EXPECT_FALSE(labels.contains(QStringLiteral("length_m")));
+  request_.what = "free-point";
+  MainWindow& free = open();
+  labels.clear();
+  for (const auto* label : free.findChildren<QLabel*>()) labels << label->text();
+  EXPECT_TRUE(labels.contains(QStringLiteral("start x y z [m]")));
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::TimeShort;
+  free.sessionDock().count(result);
+  EXPECT_TRUE(free.sessionDock().tallyText().contains(QStringLiteral("1 × too fast")));
+}
+
+TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
+  EXPECT_NEAR(open().plot().timeSpan(), 20.35, 1e-12);  // T + dT and a quarter of a second
+  request_.what = "ellipse";                            // 1.5 s, at most 10
+  MainWindow& window = open();
+  EXPECT_NEAR(window.plot().timeSpan(), 3, 1e-12);
+  const ScenePlan& plan = window.view().plan();
+  EXPECT_TRUE(window.view().rect().contains(window.view().pixelOf(penEnd(plan.start, plan.handRadius)).toPoint()));
+}
+
+TEST_F(Window, MassesPutSideBySideAreAllInThePictureFromTheSameSide) {
+  request_.what = "chain-moderate";
+  MainWindow& window = open();
+  const SceneView& view = window.view();
+  press(Qt::RightButton, {400, 300});
+  moveTo({430, 290});
+  release(Qt::RightButton, {430, 290});
+  const auto side = [&] { return (view.camera().position - view.camera().focus) / norm(view.camera().position - view.camera().focus); };
+  const Vec3 before = side();
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_LT(norm(side() - before), 1e-9);
+  const QRect inside = view.rect().adjusted(20, 20, -20, -20);
+  for (const Vec3& shift : view.plan().massShift)
+    for (const Vec3& place : {view.plan().start, view.plan().target}) EXPECT_TRUE(inside.contains(view.pixelOf(place + shift).toPoint()));
+}
+
+TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
+  MainWindow& window = open();
+  const Camera before = window.view().camera();
+  const Vec3 hand = window.view().frame().hand;
+  press(Qt::RightButton, {200, 200});
+  moveTo({260, 180});
+  release(Qt::RightButton, {260, 180});
+  EXPECT_GT(norm(window.view().camera().position - before.position), 1e-3);
+  EXPECT_EQ(window.view().frame().hand, hand);
+}
+
+TEST_F(Window, AbortAndRepeatPutTheSameTrialUpAgain) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  QTest::keyClick(&window, Qt::Key_Escape);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Aborted);
+  QTest::keyClick(&window, Qt::Key_R);
+  EXPECT_EQ(window.session().run()->trialCount(), 4u);
+}
+
+TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
+  MainWindow& window = open();
+  auto* masses = find<QLineEdit>("masses");
+  const auto type = [&](const char* text) {
+    masses->setFocus();
+    masses->selectAll();
+    QTest::keyClicks(masses, QLatin1String(text));
+    QTest::keyClick(masses, Qt::Key_Return);
+  };
+  type("0.4 -1");
+  EXPECT_TRUE(find<QLabel>("objectFaults")->isVisible());
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+  type("0.4 0.1 0.1");
+  EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.4, 0.1, 0.1}));
+  EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
+  EXPECT_EQ(masses->text(), QStringLiteral("0.4 0.1 0.1"));  // a point, also for a German user
+  window.findChild<QUndoStack*>()->undo();
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+}
+
+TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
+  MainWindow& window = open();
+  auto* masses = find<QLineEdit>("masses");
+  auto* faults = find<QLabel>("objectFaults");
+  const auto typed = [&](QLineEdit* field, const char* text) {
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, QLatin1String(text));
+  };
+  const struct {
+    const char *text, *says;
+  } entries[] = {{"0.6 x", "masses: \"x\" is no number"},
+                 {"a b", "masses: \"a\" is no number"},
+                 {"0.6 kg", "masses: \"kg\" is no number"},
+                 {"0.6 -0.6", "mass 2: -0.6 kg; allowed: more than 0"},
+                 {"0 x 0.6", "masses: none; allowed: 1 to 512"}};
+  for (const auto& entry : entries) {
+    typed(masses, entry.text);
+    EXPECT_TRUE(faults->isVisible()) << entry.text;
+    EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
+    EXPECT_NE(masses->styleSheet(), QString());
+    QTest::keyClick(masses, Qt::Key_Return);
+    EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
+    EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+  }
+  typed(masses, "0.2 0.2");
+  EXPECT_FALSE(faults->isVisible());
+  EXPECT_EQ(masses->styleSheet(), QString());
+  typed(find<QLineEdit>("stiffness"), "900 900");
+  EXPECT_TRUE(faults->text().startsWith(QStringLiteral("springs: 2 numbers; allowed: 1"))) << faults->text().toStdString();
+  auto* start = find<QLineEdit>("taskStart");
+  typed(start, "0 1");
+  EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "start: 2 numbers; allowed: 1 (phi)");
+  auto* duration = find<QDoubleSpinBox>("taskDuration");
+  duration->setFocus();
+  duration->selectAll();
+  QTest::keyClicks(duration, QStringLiteral("-3"));
+  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("time T: -3 s; allowed: 0.05 to 60 s")));
+  QTest::keyClick(duration, Qt::Key_Return);
+  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("; 10.2 s is kept")));
+  EXPECT_EQ(duration->value(), 10.2);
+  typed(start, "0");
+  EXPECT_FALSE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("start")));
+}
+
+TEST_F(Window, MassesOverOneAnotherAreCountedInTheScene) {
+  MainWindow& window = open();
+  const auto* overlay = window.view().findChild<SceneOverlay*>();
+  ASSERT_NE(overlay, nullptr);
+  EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_EQ(overlay->label(), QString());  // side by side each is seen
+  QTest::keyClick(&window, Qt::Key_F);
+  EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
+}
+
+TEST_F(Window, AKindThatIsRefusedLeavesTheMassesAlone) {
+  MainWindow& window = open();
+  auto* kind = find<QComboBox>("objectKind");
+  const auto choose = [&](const char* name) {
+    kind->setCurrentText(QLatin1String(name));
+    Q_EMIT kind->activated(kind->currentIndex());
+  };
+  choose("body");
+  EXPECT_EQ(find<QLabel>("objectFaults")->text().toStdString(),
+            R"(kind: is body, which moves free; allowed: constraint { "name": "free" })");
+  choose("chain");
+  EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+}
+
+TEST_F(Window, ADecimalCommaInABoxIsToldAndNeverDropped) {
+  MainWindow& window = open();
+  auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
+  auto* faults = find<QLabel>("couplingFaults");
+  for (const char* wrong : {"0,6", "1,000", "6 kg"}) {
+    stiffness->setFocus();
+    stiffness->selectAll();
+    QTest::keyClicks(stiffness, QLatin1String(wrong));
+    EXPECT_TRUE(faults->isVisible()) << wrong;
+    EXPECT_TRUE(faults->text().contains(QLatin1Char('"') + QLatin1String(wrong) + QLatin1Char('"'))) << faults->text().toStdString();
+    QTest::keyClick(stiffness, Qt::Key_Return);
+    EXPECT_EQ(stiffness->value(), 900) << wrong;
+  }
+  EXPECT_EQ(window.session().experiment().coupling->stiffness, 900);
+  stiffness->selectAll();
+  QTest::keyClicks(stiffness, QStringLiteral("5e2"));
+  QTest::keyClick(stiffness, Qt::Key_Return);
+  EXPECT_EQ(window.session().experiment().coupling->stiffness, 500);
+}
+
+TEST_F(Window, ItGoesWithAnEntryUnderWay) {
+  open();
+  auto* springs = find<QLineEdit>("stiffness");
+  springs->setFocus();
+  springs->selectAll();
+  QTest::keyClicks(springs, QStringLiteral("850"));
+  window_.reset();  // the field is left while the window goes
+}
+
+TEST_F(Window, AGermanUsersExperimentHasTheSameBytes) {
+  MainWindow& window = open();
+  auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
+  stiffness->setValue(612.5);
+  EXPECT_TRUE(stiffness->text().startsWith(QStringLiteral("612.5")));
+  const std::string text = experiment::toJson(window.session().experiment());
+  EXPECT_NE(text.find("612.5"), std::string::npos);
+  EXPECT_EQ(experiment::parseExperiment(text, "edited").coupling->stiffness, 612.5);
+}
+
+TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
+  request_.what = "dingwell";
+  request_.device = "simulated:noise=0";
+  MainWindow& window = open();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 20000));
+  window.predictions().setChosen({predict::Criterion::MinHandJerk, predict::Criterion::MinHandForceChange});
+  window.nextTrial();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Success);
+  QTest::qWait(100);
+  auto* table = window.predictions().findChild<QTableWidget*>();
+  ASSERT_NE(table, nullptr);
+  const auto forecasts = forecastAll(window.session().experiment());
+  EXPECT_EQ(table->item(0, 1)->text(), QString::number(forecasts[0].prediction->handPeak, 'f', 4));  // m/s, as everywhere
+  // The simulated subject plans least hand jerk: that row's error is the smallest.
+  const double jerk = table->item(0, 2)->text().toDouble(), forceChange = table->item(4, 2)->text().toDouble();
+  EXPECT_GT(jerk, 0);
+  EXPECT_LT(jerk, forceChange);
+}
+
+TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {
+  request_.place.data = "/dev/null/data";
+  MainWindow& window = open();
+  window.nextTrial();
+  EXPECT_TRUE(window.message().contains(QStringLiteral("/dev/null/data"))) << window.message().toStdString();
+  EXPECT_EQ(window.session().run(), nullptr);
+  find<QLineEdit>("data")->setText(folder_.path() + QStringLiteral("/good"));
+  window.nextTrial();
+  EXPECT_EQ(window.message().toStdString(), "");
+  EXPECT_NE(window.session().run(), nullptr);
+}
+
+TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWords) {
+  MainWindow& window = open();
+  auto* faults = find<QLabel>("sessionFaults");
+  EXPECT_FALSE(faults->isVisible());
+  const struct {
+    const char *field, *wrong, *says, *right;
+  } entries[] = {{"subject", "anna-b", "subject \"anna-b\": not a label; allowed: up to 60 letters and digits", "annab"},
+                 {"session", "", "session \"\": not a label; allowed: up to 60 letters and digits", "2"},
+                 {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
+                 {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
+                 {"data", "", "data in: nothing; allowed: a folder", nullptr}};
+  for (const auto& entry : entries) {
+    auto* field = find<QLineEdit>(entry.field);
+    const QString right = entry.right ? QString::fromLatin1(entry.right) : field->text();
+    field->setText(QString::fromLatin1(entry.wrong));
+    EXPECT_TRUE(faults->isVisible()) << entry.field;
+    EXPECT_EQ(faults->text().toStdString(), entry.says);
+    EXPECT_NE(field->styleSheet(), QString());
+    window.nextTrial();
+    EXPECT_EQ(window.message().toStdString(), entry.says);
+    EXPECT_EQ(window.session().run(), nullptr);
+    EXPECT_EQ(field->text(), QString::fromLatin1(entry.wrong));
+    field->setText(right);
+    EXPECT_FALSE(faults->isVisible()) << entry.field;
+  }
+  window.nextTrial();
+  EXPECT_EQ(window.message().toStdString(), "");
+  ASSERT_NE(window.session().run(), nullptr);
+  EXPECT_NE(window.session().run()->logPath().find("sub-annab_ses-2"), std::string::npos);
+}
+
+TEST_F(Window, ClosedInATrialItKeepsTheTrialAsInterrupted) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  const std::string log = window.session().run()->logPath();
+  window.close();
+  const record::RunLog read = record::RunLog::open(log);
+  ASSERT_EQ(read.trials().size(), 1u);
+  EXPECT_EQ(read.trials()[0].result.outcome, trial::Outcome::Interrupted);
+  EXPECT_TRUE(read.closed());
+}
+
+TEST_F(Window, TheSubjectsScreenShowsTheSceneAlone) {
+  MainWindow& window = open();
+  window.toggleSubjectWindow();
+  QTest::qWait(50);
+  QWidget* subject = nullptr;
+  for (QWidget* top : QApplication::topLevelWidgets())
+    if (top->windowTitle().contains(QStringLiteral("subject"))) subject = top;
+  ASSERT_NE(subject, nullptr);
+  EXPECT_TRUE(subject->isFullScreen());
+  window.toggleSubjectWindow();
+  QTest::qWait(50);
+}
+
+}  // namespace
+}  // namespace reachlab::gui

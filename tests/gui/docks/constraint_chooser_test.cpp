@@ -1,0 +1,168 @@
+#include "gui/docks/constraint_chooser.h"
+
+#include <gtest/gtest.h>
+
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSlider>
+#include <QTest>
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "gui/docks/constraint_dock.h"
+#include "gui/docks/formula_editor.h"
+#include "gui/scene/scene_view.h"
+
+namespace reachlab::gui {
+namespace {
+
+class Chooser : public ::testing::Test {
+ protected:
+  Chooser() {
+    chooser_.QDialog::show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&chooser_));
+    QObject::connect(&chooser_, &ConstraintChooser::used, &chooser_, [this](const ConstraintChoice& choice) { used_ = choice; });
+  }
+  template <typename T>
+  T* find(const char* name) {
+    T* found = chooser_.findChild<T*>(QLatin1String(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  void type(const char* field, const char* text) {
+    auto* line = find<QLineEdit>(field);
+    line->setFocus();
+    line->selectAll();
+    QTest::keyClicks(line, QLatin1String(text));
+    if (*text == 0) line->clear();
+  }
+
+  ConstraintChooser chooser_;
+  std::optional<ConstraintChoice> used_;
+};
+
+TEST_F(Chooser, ListsTheCatalogueWithThumbnailsAndFindsByName) {
+  auto* list = find<QListWidget>("definitions");
+  ASSERT_GE(list->count(), static_cast<int>(constraints::catalogue().size()));
+  for (int i = 0; i < list->count(); ++i) EXPECT_FALSE(list->item(i)->icon().isNull()) << list->item(i)->text().toStdString();
+  type("search", "line");
+  EXPECT_GE(chooser_.shownCount(), 1);
+  EXPECT_LT(chooser_.shownCount(), std::max(2, list->count()));
+  type("search", "no such thing");
+  EXPECT_EQ(chooser_.shownCount(), 0);
+}
+
+TEST_F(Chooser, AFormulasFaultIsToldAtItsCharacter) {
+  type("formula_y", "0.1*cos(phj)+");
+  auto* fault = find<QLabel>("fault_y");
+  EXPECT_TRUE(fault->isVisible());
+  EXPECT_TRUE(fault->text().startsWith(QStringLiteral("character "))) << fault->text().toStdString();
+  EXPECT_FALSE(find<QPushButton>("use")->isEnabled());
+  EXPECT_FALSE(chooser_.choice().has_value());
+  type("formula_y", "0.1*cos(phi)");
+  EXPECT_FALSE(fault->isVisible());
+}
+
+TEST_F(Chooser, ATypedFormulaIsDrawnGetsSlidersAndIsUsed) {
+  type("formula_x", "0");
+  type("formula_y", "a*cos(phi)");
+  type("formula_z", "b*sin(phi)");
+  ASSERT_TRUE(chooser_.choice().has_value());
+  EXPECT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_a")), nullptr);
+  EXPECT_GT(chooser_.preview()->plan().curve.pointCount(), 32u);
+  // The line's places, 0 and 2 pi, are one place here: others are given.
+  EXPECT_GT(norm(chooser_.preview()->plan().target - chooser_.preview()->plan().start), 0.01);
+  const double before = chooser_.preview()->plan().size;
+  find<QSlider>("slider_a")->setValue(500);  // from 0.1 to 1
+  EXPECT_GT(chooser_.preview()->plan().size, 2 * before);
+  QTest::mouseClick(find<QPushButton>("use"), Qt::LeftButton);
+  ASSERT_TRUE(used_.has_value());
+  EXPECT_EQ(used_->spec.curve, (std::vector<std::string>{"0", "a*cos(phi)", "b*sin(phi)"}));
+  EXPECT_EQ(used_->spec.shape.at("a"), 1.0);
+}
+
+TEST_F(Chooser, AFormulaThatDegeneratesEverywhereIsRefusedWithAReason) {
+  type("formula_x", "0.1");
+  type("formula_y", "0.2");
+  type("formula_z", "0.3");
+  EXPECT_FALSE(chooser_.choice().has_value());
+  EXPECT_TRUE(find<QLabel>("fault")->isVisible());
+}
+
+TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
+  type("formula_x", "0");
+  type("formula_y", "0.1*cos(phi)");
+  type("formula_z", "0.05*sin(2*phi)");
+  type("definitionName", "my-eight");
+  QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
+  const auto own = constraints::readDefinitionFolder(constraints::userDefinitionFolder());
+  ASSERT_EQ(own.size(), 1u) << find<QLabel>("saved")->text().toStdString();
+  EXPECT_EQ(own[0].name, "my-eight");
+  EXPECT_EQ(own[0].coordinates[2], "0.05*sin(2*phi)");
+  EXPECT_EQ(find<QListWidget>("definitions")->count(), static_cast<int>(constraints::catalogue().size()) + 1);
+}
+
+TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
+  type("formula_x", "0");
+  type("formula_y", "0.1*cos(phi)");
+  type("formula_z", "depth*sin(2*phi)");
+  type("definitionName", "my-deep-eight");
+  QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
+  constraints::ConstraintSpec spec;
+  spec.name = "my-deep-eight";
+  ConstraintDock dock;
+  dock.setConstraint(spec, constraints::makeConstraint(spec));
+  EXPECT_NE(dock.findChild<QSlider*>(QStringLiteral("slider_depth")), nullptr);
+  std::filesystem::remove(constraints::userDefinitionFolder() + "/my-deep-eight.json");
+}
+
+TEST_F(Chooser, ASliderGoesWithItsName) {
+  type("formula_x", "R*cos(phi)");
+  type("formula_y", "R*sin(phi)");
+  ASSERT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_R")), nullptr);
+  find<QSlider>("slider_R")->setValue(400);
+  const int value = find<QSlider>("slider_R")->value();
+  auto* line = find<QLineEdit>("formula_z");
+  line->clear();
+  for (const char letter : std::string("0.1*sin(phi)")) {
+    QTest::keyClick(line, letter);
+    const auto names = parameterNames(constraints::ConstraintKind::Curve, {line->text().toStdString(), "R", ""});
+    for (const auto* slider : chooser_.findChildren<QSlider*>()) {
+      const std::string name = slider->objectName().mid(7).toStdString();
+      EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name << " in " << line->text().toStdString();
+    }
+  }
+  EXPECT_EQ(find<QSlider>("slider_R")->value(), value);  // the others stand where they stood
+}
+
+TEST_F(Chooser, ANameBesideAVariableIsASliderButAskedAbout) {
+  type("formula_y", "0.1*cos(phj)");
+  type("formula_z", "0.1*phi");
+  auto* fault = find<QLabel>("fault_y");
+  EXPECT_EQ(fault->text().toStdString(), "phj becomes a slider; did you mean phi?");
+  EXPECT_TRUE(chooser_.choice().has_value());
+  type("formula_y", "0.1*cos(phi)");
+  EXPECT_FALSE(fault->isVisible());
+}
+
+TEST(FormulaNames, BesideAVariableAreOneLetterOrTheCaseApart) {
+  for (const char* name : {"phj", "Phi", "ph", "phii", "pih"})
+    EXPECT_EQ(variableMeant(constraints::ConstraintKind::Curve, name), "phi") << name;
+  for (const char* name : {"r", "p", "theta", "u"}) EXPECT_EQ(variableMeant(constraints::ConstraintKind::Curve, name), "") << name;
+  EXPECT_EQ(variableMeant(constraints::ConstraintKind::Surface, "U"), "u");
+  EXPECT_EQ(variableMeant(constraints::ConstraintKind::Surface, "vv"), "v");
+  for (const char* name : {"a", "uv", "u0", "phj"}) EXPECT_EQ(variableMeant(constraints::ConstraintKind::Surface, name), "") << name;
+}
+
+TEST(FormulaNames, AreWhatIsNeitherVariableConstantNorFunction) {
+  EXPECT_EQ(parameterNames(constraints::ConstraintKind::Curve, {"r*cos(phi)+pi", "2e-3*k_1", "exp(-u)"}),
+            (std::vector<std::string>{"r", "k_1", "u"}));
+  EXPECT_EQ(parameterNames(constraints::ConstraintKind::Surface, {"u", "v", "phi"}), (std::vector<std::string>{"phi"}));
+}
+
+}  // namespace
+}  // namespace reachlab::gui

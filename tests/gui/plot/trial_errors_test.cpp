@@ -1,0 +1,59 @@
+#include "gui/plot/trial_errors.h"
+
+#include <gtest/gtest.h>
+
+namespace reachlab::gui {
+namespace {
+
+// A hand that moves just as `plan` says, sampled as the window samples.
+std::vector<TracePoint> traceOf(const predict::Prediction& plan, const PathDirection& path) {
+  std::vector<TracePoint> trace;
+  const Vec3 along = path.at(0);
+  for (double t = -0.3; t < plan.duration + 0.3; t += 1 / TraceSink::kRate) {
+    TracePoint p;
+    const predict::PredictedHand hand = plan.handAt(std::clamp(t, 0.0, plan.duration));
+    const double velocity = t < 0 || t > plan.duration ? 0 : hand.velocity;
+    p.hand = path.start() + hand.position * along;
+    p.handVelocity = velocity * along;
+    trace.push_back(p);
+  }
+  return trace;
+}
+
+TEST(HandErrors, AreLeastForTheCriterionThatTheHandFollows) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  const PathDirection path(experiment, constraints::makeConstraint(experiment.constraint));
+  const auto forecasts = forecastAll(experiment);
+  ASSERT_EQ(forecasts.size(), static_cast<std::size_t>(predict::kCriterionCount));
+  const auto errors = computeHandErrors(traceOf(*forecasts[0].prediction, path), path, forecasts, *experiment.task);
+  ASSERT_TRUE(errors[0].has_value());
+  // What is left is the 10 Hz filter and the 5 ms grid on a profile of 1 Hz: a few thousandths of the peak.
+  EXPECT_LT(*errors[0], 0.02 * forecasts[0].prediction->handPeak);
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    if (!errors[i]) continue;
+    EXPECT_GT(*errors[i], *errors[0]) << predict::nameOf(forecasts[i].criterion);
+  }
+}
+
+TEST(HandErrors, AreNotMadeUpWithoutAMovement) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  const PathDirection path(experiment, constraints::makeConstraint(experiment.constraint));
+  const std::vector<TracePoint> still(200);
+  for (const auto& error : computeHandErrors(still, path, forecastAll(experiment), *experiment.task)) EXPECT_FALSE(error.has_value());
+}
+
+TEST(PathDirection, FollowsACurveTowardsTheTarget) {
+  experiment::Experiment e;
+  e.constraint.name = "curve";
+  e.constraint.curve = {"0", "0.1*cos(phi)", "0.06*sin(phi)"};
+  e.task = experiment::Task{};
+  e.task->start = {3};
+  e.task->target = {1};
+  const PathDirection path(e, constraints::makeConstraint(e.constraint));
+  const Vec3 v{0, 0.1 * std::sin(2.0), -0.06 * std::cos(2.0)};  // towards falling phi
+  EXPECT_NEAR(path.along(v, 2), norm(v), 1e-15);
+  EXPECT_NEAR(path.along(-v, 2), -norm(v), 1e-15);
+}
+
+}  // namespace
+}  // namespace reachlab::gui

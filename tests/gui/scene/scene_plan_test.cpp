@@ -1,0 +1,114 @@
+#include "gui/scene/scene_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QFontMetricsF>
+
+#include "gui/widgets/number_list_edit.h"
+#include "gui/scene/scene_overlay.h"
+#include "gui/scene/trial_texts.h"
+
+namespace reachlab::gui {
+namespace {
+
+ScenePlan planOf(const char* experiment, ViewOptions::SideBySide wish = ViewOptions::SideBySide::Auto) {
+  const experiment::Experiment e = experiment::readExperiment(experiment);
+  return planScene(e, constraints::makeConstraint(e.constraint), {wish});
+}
+
+TEST(ScenePlan, ParallelMassesAreShiftedForTheEyeAndAChainsAreNot) {
+  const ScenePlan parallel = planOf("parallel"), chain = planOf("chain-moderate");
+  Vec3 sum;
+  for (const Vec3& shift : parallel.massShift) {
+    EXPECT_GT(norm(shift), 0);
+    sum += shift;
+  }
+  EXPECT_LT(norm(sum), 1e-15);  // rounding of two halves
+  for (const Vec3& shift : chain.massShift) EXPECT_EQ(norm(shift), 0);
+}
+
+TEST(ScenePlan, TheFirstMassIsDrivenAndEverySpringHasItsCoil) {
+  const ScenePlan plan = planOf("chain-moderate");
+  ASSERT_EQ(plan.massRole.size(), 5u);
+  EXPECT_EQ(plan.massRole.front(), MassRole::Driven);
+  EXPECT_EQ(plan.massRole.back(), MassRole::Last);
+  ASSERT_EQ(plan.springs.size(), 5u);  // the coupling and four of the chain
+  EXPECT_TRUE(plan.springs[0].coupling);
+}
+
+TEST(ScenePlan, MassesOverOneAnotherAreCountedUntilTheyPart) {
+  const ScenePlan chain = planOf("chain-moderate");
+  SceneFrame frame = restingFrame(chain);
+  EXPECT_EQ(massesAtOnePlace(chain, frame), 5);
+  frame.masses[0].x += 2 * chain.massRadius[0];
+  EXPECT_EQ(massesAtOnePlace(chain, frame), 0);
+  const ScenePlan apart = planOf("chain-moderate", ViewOptions::SideBySide::Always);
+  EXPECT_EQ(massesAtOnePlace(apart, restingFrame(apart)), 0);
+  const ScenePlan alone = planOf("dingwell");
+  EXPECT_EQ(massesAtOnePlace(alone, restingFrame(alone)), 0);
+}
+
+TEST(ScenePlan, MarksAreSmallerThanMasses) {
+  const ScenePlan plan = planOf("dingwell");
+  EXPECT_LT(plan.markRadius, plan.massRadius[0]);
+  EXPECT_NEAR(norm(plan.target - plan.start), 0.2, 1e-12);
+}
+
+TEST(TrialTexts, SayWhatTheSubjectCanUse) {
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::TimeShort;
+  result.by = 0.12;
+  EXPECT_EQ(outcomeText(result), QStringLiteral("Too fast by 0.12 s"));
+  result.reason = trial::Reason::Velocity;
+  result.mass = 5;
+  result.by = 0.004;
+  EXPECT_EQ(outcomeText(result), QStringLiteral("Time is up: mass 5 still moves 4.0 mm/s too fast"));
+}
+
+TEST(TrialTexts, TheSemaphoreIsTheStates) {
+  haptics::TickState state;
+  state.phase = trial::Phase::Moving;
+  state.semaphore = trial::Semaphore::Green;
+  EXPECT_EQ(overlayOf(state, experiment::Task{}, 20, true).semaphore, trial::Semaphore::Green);
+  EXPECT_NE(SceneOverlay::colourOf(trial::Semaphore::Green), SceneOverlay::colourOf(trial::Semaphore::Red));
+  EXPECT_NE(SceneOverlay::colourOf(trial::Semaphore::Green), SceneOverlay::colourOf(trial::Semaphore::Neutral));
+}
+
+TEST(NumberList, ReadsBackWhatItShows) {
+  for (const std::vector<double>& numbers : {std::vector<double>{0.6, 0.6, 0.6}, {1, 2.5e-7}, {600}, {}, {0.1 + 0.2, -3}})
+    EXPECT_EQ(numbersOf(textOf(numbers)), numbers);
+  EXPECT_EQ(textOf({0.6, 0.6, 0.6, 0.6, 0.6}), QStringLiteral("5 x 0.6"));
+}
+
+TEST(NumberList, RefusesWhatIsNoNumber) {
+  for (const char* text : {"0,6", "abc", "1 nan", "inf", "3 x", "999999 x 1"})
+    EXPECT_FALSE(numbersOf(QString::fromLatin1(text)).has_value()) << text;
+}
+
+TEST(Overlay, TheLongestSentenceFitsIntoTheSmallestScene) {
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::Position;
+  result.mass = 12;
+  result.by = 0.1279;
+  QFont font = QApplication::font();
+  font.setWeight(QFont::DemiBold);
+  EXPECT_EQ(pointsToFit(QStringLiteral("Wait"), font, 19, 500), 19);
+  for (const double room : {450.0, 600.0}) {  // [px] beside the square
+    font.setPointSizeF(pointsToFit(outcomeText(result), font, 19, room));
+    EXPECT_LE(QFontMetricsF(font).horizontalAdvance(outcomeText(result)), room);
+    EXPECT_GE(font.pointSizeF(), 9.5);
+  }
+}
+
+TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
+  EXPECT_DOUBLE_EQ(roundLength(0.237), 0.2);
+  EXPECT_DOUBLE_EQ(roundLength(0.099), 0.05);
+  EXPECT_DOUBLE_EQ(roundLength(1.0), 1.0);
+  EXPECT_EQ(roundLength(-1), 0);
+}
+
+}  // namespace
+}  // namespace reachlab::gui
