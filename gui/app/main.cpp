@@ -51,16 +51,16 @@ int run(const Arguments& arguments, int argc, char** argv) {
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
-  reachlab::gui::applySurfaceFormat();
+  reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
   QApplication::setApplicationName(QStringLiteral("reachlab"));
-  reachlab::gui::applyTheme(application);
+  reachlab::gui::widgets::applyTheme(application);
   if (!arguments.pictures.empty()) {
-    const int drawn = reachlab::gui::drawPictures(QString::fromStdString(arguments.pictures));
+    const int drawn = reachlab::gui::scene::drawPictures(QString::fromStdString(arguments.pictures));
     std::printf("%d pictures in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
-  reachlab::gui::MainWindow window(arguments.request);
+  reachlab::gui::app::MainWindow window(arguments.request);
   window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
   window.show();
   return QApplication::exec();

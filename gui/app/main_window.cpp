@@ -23,7 +23,7 @@
 #include "gui/scene/trial_texts.h"
 #include "gui/plot/velocity_plot.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 namespace {
 
 constexpr int kFrameMs = 16;          // 60 Hz
@@ -72,7 +72,7 @@ void MainWindow::Impl::edit(const experiment::Experiment& changed, const QString
   const session::Programme before = session.programme();
   QStringList faults;
   try {
-    faults = inWords(session.tryEdit(changed));
+    faults = widgets::inWords(session.tryEdit(changed));
   } catch (const Error& e) {
     faults << QString::fromUtf8(e.what());
   }
@@ -94,16 +94,16 @@ void MainWindow::Impl::showExperiment() {
   if (session.isPlan()) coupling->widget()->setEnabled(false);
   dock->setPlan(session.isPlan());
   plot->setTask(currentTask().duration, currentTask().tolerance.time);
-  path = PathDirection(e, session.constraint());
+  path = plot::PathDirection(e, session.constraint());
   rebuildScene();
   forecastsStale = true;
   window.setWindowTitle(QStringLiteral("%1 – Reachlab").arg(QString::fromStdString(e.name)));
 }
 
 void MainWindow::Impl::rebuildScene() {
-  const ScenePlan plan = planScene(session.experiment(), session.constraint(), viewOptions);
+  const scene::ScenePlan plan = scene::planScene(session.experiment(), session.constraint(), viewOptions);
   view->setPlan(plan);
-  frame = restingFrame(plan);
+  frame = scene::restingFrame(plan);
   if (subject != nullptr) subject->view().setPlan(plan);
   showOverlay();
 }
@@ -111,8 +111,8 @@ void MainWindow::Impl::rebuildScene() {
 void MainWindow::Impl::showOverlay() {
   const bool mouse = dock->device() == "mouse";
   if (session::RecordedRun* run = session.run())
-    overlay = overlayOf(run->latest(), currentTask(), static_cast<int>(run->trialCount()), mouse);
-  else overlay = restingOverlay(QString::fromStdString(session.experiment().name), mouse);
+    overlay = scene::overlayOf(run->latest(), currentTask(), static_cast<int>(run->trialCount()), mouse);
+  else overlay = scene::restingOverlay(QString::fromStdString(session.experiment().name), mouse);
   if (session.run() && !session.underWay() && session.run()->latest().trial == 0)
     overlay.instruction = QStringLiteral("Press Space to begin");
   if (session.run() && session.run()->trialsLeft() == 0 && !session.underWay()) overlay.detail = QStringLiteral("the run is complete");
@@ -120,15 +120,15 @@ void MainWindow::Impl::showOverlay() {
   if (open == nullptr ||
       (open->latest().trial <= 1 && (open->latest().phase == trial::Phase::Idle || open->latest().phase == trial::Phase::Waiting))) {
     const std::vector<Vec3>& shifts = view->plan().massShift;
-    overlay.task = taskText(session.experiment(),
-                            shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; }));
+    overlay.task = scene::taskText(
+        session.experiment(), shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; }));
   }
   view->setOverlay(overlay);
   if (subject != nullptr) subject->view().setOverlay(overlay);
 }
 
 void MainWindow::Impl::showStage() {
-  using Stage = SessionDock::Stage;
+  using Stage = docks::SessionDock::Stage;
   session::RecordedRun* run = session.run();
   dock->setStage(run == nullptr          ? Stage::Closed
                  : run->underWay()       ? Stage::UnderWay
@@ -149,7 +149,7 @@ void MainWindow::Impl::next() {
 }
 
 void MainWindow::Impl::drain() {
-  TracePoint p;
+  plot::TracePoint p;
   while (session.tryTake(p)) {
     if (p.trial != traceTrial) {
       traceTrial = p.trial;
@@ -175,21 +175,22 @@ void MainWindow::Impl::tendForecasts() {
   if (forecastsStale && !computing.valid()) {
     forecastsStale = false;
     predictions->setForecasts({});
-    computing = std::async(std::launch::async,
-                           [experiment = session.experiment(), stop = stopComputing.get_token()] { return forecastAll(experiment, stop); });
+    computing = std::async(std::launch::async, [experiment = session.experiment(), stop = stopComputing.get_token()] {
+      return plot::forecastAll(experiment, stop);
+    });
   }
   if (errorsDue && !computing.valid() && !forecastsStale) {
     errorsDue = false;
-    predictions->addErrors(computeHandErrors(trace, path, forecasts, currentTask()));
+    predictions->addErrors(plot::computeHandErrors(trace, path, forecasts, currentTask()));
   }
 }
 
 void MainWindow::Impl::drawPredictions() {
-  std::vector<VelocityPlot::Line> lines;
+  std::vector<plot::VelocityPlot::Line> lines;
   const std::vector<predict::Criterion> chosen = predictions->chosen();
-  for (const CriterionForecast& forecast : forecasts) {
+  for (const plot::CriterionForecast& forecast : forecasts) {
     if (!forecast.prediction || std::find(chosen.begin(), chosen.end(), forecast.criterion) == chosen.end()) continue;
-    VelocityPlot::Line line{titleOf(forecast.criterion), colourOf(forecast.criterion), {}, {}};
+    plot::VelocityPlot::Line line{plot::titleOf(forecast.criterion), plot::colourOf(forecast.criterion), {}, {}};
     constexpr int kParts = 240;
     for (int i = 0; i <= kParts; ++i) {
       const double t = forecast.prediction->duration * i / kParts;
@@ -259,7 +260,7 @@ void MainWindow::Impl::oneFrame() {
   tendForecasts();
   if (nextPlanned && std::chrono::steady_clock::now() >= nextAt) next();
   if (session::RecordedRun* run = session.run()) {
-    copyToFrame(run->latest(), frame);
+    scene::copyToFrame(run->latest(), frame);
     view->showFrame(frame);
     if (subject != nullptr) subject->view().showFrame(frame);
     showOverlay();
@@ -291,21 +292,21 @@ MainWindow::~MainWindow() {
 }
 
 SessionController& MainWindow::session() { return impl_->session; }
-SceneView& MainWindow::view() { return *impl_->view; }
-VelocityPlot& MainWindow::plot() { return *impl_->plot; }
-PredictionDock& MainWindow::predictions() { return *impl_->predictions; }
-SessionDock& MainWindow::sessionDock() { return *impl_->dock; }
-OverlayState MainWindow::overlay() const { return impl_->overlay; }
+scene::SceneView& MainWindow::view() { return *impl_->view; }
+plot::VelocityPlot& MainWindow::plot() { return *impl_->plot; }
+docks::PredictionDock& MainWindow::predictions() { return *impl_->predictions; }
+docks::SessionDock& MainWindow::sessionDock() { return *impl_->dock; }
+scene::OverlayState MainWindow::overlay() const { return impl_->overlay; }
 QString MainWindow::message() const { return impl_->message->isHidden() ? QString() : impl_->message->text(); }
 bool MainWindow::predictionsReady() const { return !impl_->forecastsStale && !impl_->computing.valid(); }
 
 void MainWindow::nextTrial() { impl_->next(); }
 void MainWindow::openExperiment(const QString& what) { impl_->openExperiment(what); }
 
-ConstraintChooser& MainWindow::chooser() {
+docks::ConstraintChooser& MainWindow::chooser() {
   if (impl_->chooser == nullptr) {
-    impl_->chooser = new ConstraintChooser(this);
-    connect(impl_->chooser, &ConstraintChooser::used, this, [this](const ConstraintChoice& choice) {
+    impl_->chooser = new docks::ConstraintChooser(this);
+    connect(impl_->chooser, &docks::ConstraintChooser::used, this, [this](const docks::ConstraintChoice& choice) {
       experiment::Experiment e = impl_->session.experiment();
       e.constraint = choice.spec;
       if (!e.task) e.task = experiment::Task{};
@@ -329,12 +330,12 @@ void MainWindow::toggleSubjectWindow() {
     impl_->subject->close();
     return;
   }
-  impl_->subject = new SubjectWindow;
+  impl_->subject = new subject::SubjectWindow;
   impl_->subject->setAttribute(Qt::WA_DeleteOnClose);
-  connect(impl_->subject, &SubjectWindow::closed, this, [this] { impl_->subject = nullptr; });
-  SceneView& view = impl_->subject->view();
-  connect(&view, &SceneView::handDragged, this, [this](double x, double y, double z) { impl_->session.pointTo(x, y, z); });
-  view.setPlan(planScene(impl_->session.experiment(), impl_->session.constraint(), impl_->viewOptions));
+  connect(impl_->subject, &subject::SubjectWindow::closed, this, [this] { impl_->subject = nullptr; });
+  scene::SceneView& view = impl_->subject->view();
+  connect(&view, &scene::SceneView::handDragged, this, [this](double x, double y, double z) { impl_->session.pointTo(x, y, z); });
+  view.setPlan(scene::planScene(impl_->session.experiment(), impl_->session.constraint(), impl_->viewOptions));
   view.setOverlay(impl_->overlay);
   impl_->subject->showFull();
 }
@@ -345,4 +346,4 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QMainWindow::closeEvent(event);
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

@@ -4,15 +4,22 @@
 
 #include "sim/session/session.h"
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::docks {
 class ConstraintChooser;
-class SceneView;
-class SessionController;
-class SessionDock;
-class VelocityPlot;
 class PredictionDock;
+class SessionDock;
+}  // namespace reachlab::gui::docks
+namespace reachlab::gui::plot {
+class VelocityPlot;
+}
+namespace reachlab::gui::scene {
+class SceneView;
 struct OverlayState;
+}  // namespace reachlab::gui::scene
+
+namespace reachlab::gui::app {
+
+class SessionController;
 
 /// The window of `reachlab`: the scene in the middle, docks around it, the live plot below. It wires docks to the session and owns no
 /// logic of either.
@@ -24,12 +31,12 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   SessionController& session();
-  SceneView& view();
-  VelocityPlot& plot();
-  PredictionDock& predictions();
-  SessionDock& sessionDock();
-  ConstraintChooser& chooser();  // made when first asked for
-  OverlayState overlay() const;
+  scene::SceneView& view();
+  plot::VelocityPlot& plot();
+  docks::PredictionDock& predictions();
+  docks::SessionDock& sessionDock();
+  docks::ConstraintChooser& chooser();  // made when first asked for
+  scene::OverlayState overlay() const;
   /// The sentence in the bar at the top, empty when there is none.
   QString message() const;
   /// Waits for nothing; true once the criteria have been computed for the experiment as it is.
@@ -50,4 +57,4 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

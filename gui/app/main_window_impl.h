@@ -16,41 +16,45 @@ class QLabel;
 class QTimer;
 class QUndoStack;
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::docks {
 class ConstraintDock;
 class CouplingDock;
 class ObjectDock;
-class SubjectWindow;
 class TaskDock;
+}  // namespace reachlab::gui::docks
+namespace reachlab::gui::subject {
+class SubjectWindow;
+}
+
+namespace reachlab::gui::app {
 
 /// What the main window holds and how it goes from frame to frame. Only the main window's own files include this.
 struct MainWindow::Impl {
   MainWindow& window;
   SessionController session;
-  SceneView* view = nullptr;
-  VelocityPlot* plot = nullptr;
-  ObjectDock* object = nullptr;
-  CouplingDock* coupling = nullptr;
-  TaskDock* task = nullptr;
-  PredictionDock* predictions = nullptr;
-  SessionDock* dock = nullptr;
-  ConstraintDock* constraint = nullptr;
-  ConstraintChooser* chooser = nullptr;
-  SubjectWindow* subject = nullptr;
+  scene::SceneView* view = nullptr;
+  plot::VelocityPlot* plot = nullptr;
+  docks::ObjectDock* object = nullptr;
+  docks::CouplingDock* coupling = nullptr;
+  docks::TaskDock* task = nullptr;
+  docks::PredictionDock* predictions = nullptr;
+  docks::SessionDock* dock = nullptr;
+  docks::ConstraintDock* constraint = nullptr;
+  docks::ConstraintChooser* chooser = nullptr;
+  subject::SubjectWindow* subject = nullptr;
   QLabel *message = nullptr, *rate = nullptr, *ticks = nullptr, *method = nullptr, *recording = nullptr;
   QUndoStack* edits = nullptr;
   QTimer* timer = nullptr;
   SuccessSound sound;
-  ViewOptions viewOptions;
-  SceneFrame frame;
-  OverlayState overlay;
-  PathDirection path;
-  std::vector<TracePoint> trace;  // of the trial under way, or the last
+  scene::ViewOptions viewOptions;
+  scene::SceneFrame frame;
+  scene::OverlayState overlay;
+  plot::PathDirection path;
+  std::vector<plot::TracePoint> trace;  // of the trial under way, or the last
   std::int32_t traceTrial = 0;
-  std::vector<CriterionForecast> forecasts;
+  std::vector<plot::CriterionForecast> forecasts;
   std::stop_source stopComputing;
-  std::future<std::vector<CriterionForecast>> computing;
+  std::future<std::vector<plot::CriterionForecast>> computing;
   bool forecastsStale = true, errorsDue = false;
   int frames = 0;
   std::chrono::steady_clock::time_point nextAt{};
@@ -84,4 +88,4 @@ struct MainWindow::Impl {
   void saveExperiment();
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

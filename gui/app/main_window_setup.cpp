@@ -23,7 +23,7 @@
 #include "sim/dynamics/compiled_scene.h"
 
 // Docks, menus and status bar of the main window, and what is connected to what.
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 
 void MainWindow::Impl::makeDocks() {
   auto* middle = new QWidget;
@@ -36,21 +36,21 @@ void MainWindow::Impl::makeDocks() {
   message->setWordWrap(true);
   message->hide();
   layout->addWidget(message);
-  view = new SceneView;
+  view = new scene::SceneView;
   view->setObjectName(QStringLiteral("scene"));
   layout->addWidget(view, 1);
   window.setCentralWidget(middle);
 
-  plot = new VelocityPlot;
+  plot = new plot::VelocityPlot;
   auto* plotDock = new QDockWidget(QStringLiteral("Velocity"), &window);
   plotDock->setObjectName(QStringLiteral("plotDock"));
   plotDock->setWidget(plot);
-  object = new ObjectDock(&window);
-  coupling = new CouplingDock(&window);
-  task = new TaskDock(&window);
-  predictions = new PredictionDock(&window);
-  dock = new SessionDock(&window);
-  constraint = new ConstraintDock(&window);
+  object = new docks::ObjectDock(&window);
+  coupling = new docks::CouplingDock(&window);
+  task = new docks::TaskDock(&window);
+  predictions = new docks::PredictionDock(&window);
+  dock = new docks::SessionDock(&window);
+  constraint = new docks::ConstraintDock(&window);
   window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   window.addDockWidget(Qt::BottomDockWidgetArea, plotDock);
@@ -149,8 +149,8 @@ void MainWindow::Impl::makeMenus() {
         [this, axis] { view->lookAlong(axis); });
   show->addSeparator();
   QAction* aside = add(show, QStringLiteral("&Masses side by side"), Qt::Key_F, [this](bool on) {
-    viewOptions.sideBySide = on ? ViewOptions::SideBySide::Always : ViewOptions::SideBySide::Never;
-    const Camera kept = view->camera();
+    viewOptions.sideBySide = on ? scene::ViewOptions::SideBySide::Always : scene::ViewOptions::SideBySide::Never;
+    const scene::Camera kept = view->camera();
     rebuildScene();
     view->setCamera(kept);
     view->fit();
@@ -159,7 +159,7 @@ void MainWindow::Impl::makeMenus() {
   aside->setObjectName(QStringLiteral("sideBySide"));
   aside->setChecked(session.experiment().object.kind == experiment::ObjectKind::Parallel);
   QAction* wire = add(show, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
-                      [this](bool on) { view->setSurfaceStyle(on ? SurfaceStyle::Wire : SurfaceStyle::Glass); });
+                      [this](bool on) { view->setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
   wire->setCheckable(true);
   show->addSeparator();
   add(show, QStringLiteral("&Subject's screen"), Qt::Key_F11, [this] { window.toggleSubjectWindow(); });
@@ -195,39 +195,39 @@ void MainWindow::Impl::makeMenus() {
 
 void MainWindow::Impl::wire() {
   MainWindow* w = &window;
-  QObject::connect(object, &ObjectDock::edited, w, [this](const experiment::Object& o) {
+  QObject::connect(object, &docks::ObjectDock::edited, w, [this](const experiment::Object& o) {
     experiment::Experiment e = session.experiment();
     e.object = o;
     if (o.kind == experiment::ObjectKind::Parallel) e.coupling.reset();
     else if (!e.coupling) e.coupling = experiment::Coupling{600, 0};
     edit(e, QStringLiteral("object"), [this](const QStringList& f) { object->setFaults(f); });
   });
-  QObject::connect(coupling, &CouplingDock::edited, w, [this](const experiment::Coupling& c) {
+  QObject::connect(coupling, &docks::CouplingDock::edited, w, [this](const experiment::Coupling& c) {
     experiment::Experiment e = session.experiment();
     e.coupling = c;
     edit(e, QStringLiteral("coupling"), [this](const QStringList& f) { coupling->setFaults(f); });
   });
-  QObject::connect(task, &TaskDock::edited, w, [this](const experiment::Task& t) {
+  QObject::connect(task, &docks::TaskDock::edited, w, [this](const experiment::Task& t) {
     experiment::Experiment e = session.experiment();
     e.task = t;
     edit(e, QStringLiteral("task"), [this](const QStringList& f) { task->setFaults(f); });
   });
-  QObject::connect(constraint, &ConstraintDock::shapeMoved, w, [this](const std::map<std::string, double>& shape) {
+  QObject::connect(constraint, &docks::ConstraintDock::shapeMoved, w, [this](const std::map<std::string, double>& shape) {
     experiment::Experiment e = session.experiment();
     e.constraint.shape = shape;
     edit(e, QStringLiteral("shape"), [this](const QStringList& f) { constraint->setFaults(f); });
   });
-  QObject::connect(constraint, &ConstraintDock::chooseRequested, w, &MainWindow::chooseConstraint);
-  QObject::connect(dock, &SessionDock::nextRequested, w, [this] { next(); });
-  QObject::connect(dock, &SessionDock::abortRequested, w, [this] { session.abort(); });
-  QObject::connect(dock, &SessionDock::repeatRequested, w, [this] {
+  QObject::connect(constraint, &docks::ConstraintDock::chooseRequested, w, &MainWindow::chooseConstraint);
+  QObject::connect(dock, &docks::SessionDock::nextRequested, w, [this] { next(); });
+  QObject::connect(dock, &docks::SessionDock::abortRequested, w, [this] { session.abort(); });
+  QObject::connect(dock, &docks::SessionDock::repeatRequested, w, [this] {
     if (session.repeat()) showStage(), showOverlay();
   });
-  QObject::connect(dock, &SessionDock::endRequested, w, [this] { session.endRun(); });
-  QObject::connect(dock, &SessionDock::noteWritten, w, [this](const QString& text) { session.note(text); });
-  QObject::connect(dock, &SessionDock::deviceChanged, w, [this] { showOverlay(); });
-  QObject::connect(predictions, &PredictionDock::chosenChanged, w, [this] { drawPredictions(); });
-  QObject::connect(view, &SceneView::handDragged, w, [this](double x, double y, double z) { session.pointTo(x, y, z); });
+  QObject::connect(dock, &docks::SessionDock::endRequested, w, [this] { session.endRun(); });
+  QObject::connect(dock, &docks::SessionDock::noteWritten, w, [this](const QString& text) { session.note(text); });
+  QObject::connect(dock, &docks::SessionDock::deviceChanged, w, [this] { showOverlay(); });
+  QObject::connect(predictions, &docks::PredictionDock::chosenChanged, w, [this] { drawPredictions(); });
+  QObject::connect(view, &scene::SceneView::handDragged, w, [this](double x, double y, double z) { session.pointTo(x, y, z); });
   QObject::connect(&session, &SessionController::experimentChanged, w, [this] { showExperiment(); });
   QObject::connect(&session, &SessionController::runOpened, w, [this] { runOpened(); });
   QObject::connect(&session, &SessionController::runClosed, w, [this] {
@@ -246,4 +246,4 @@ void MainWindow::Impl::wire() {
   timer->start(16);  // until it is known who draws
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

@@ -8,7 +8,7 @@
 #include "devices/mouse/mouse_device.h"
 #include "sim/trial/protocol.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 namespace {
 
 // The experiment that is shown before anything is run: of a plan that of the block that this subject does first.
@@ -93,7 +93,7 @@ void SessionController::openRun(const session::SessionRequest& request) {
   }
   if (!recorded_->openNext()) return;
   numberUsed_ = true;
-  for (TracePoint left; trace_.tryTake(left);) {}  // of the run before
+  for (plot::TracePoint left; trace_.tryTake(left);) {}  // of the run before
   last_.reset();
   if (isPlan()) {
     shown_ = run()->experiment();
@@ -176,4 +176,4 @@ void SessionController::fail(const std::exception& fault) {
   Q_EMIT runClosed();
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

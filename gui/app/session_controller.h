@@ -13,7 +13,7 @@ namespace reachlab::devices {
 class MouseDevice;
 }
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 
 /// The session behind the window: what is to be done, as opened or edited, and the run that is open. Knows no widget. Changes take effect
 /// between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so that each log holds one
@@ -51,7 +51,7 @@ class SessionController : public QObject {
   /// Looks at the newest state. From the frame timer.
   void poll();
   /// The oldest point of the trace not yet taken.
-  bool tryTake(TracePoint& point) { return trace_.tryTake(point); }
+  bool tryTake(plot::TracePoint& point) { return trace_.tryTake(point); }
 
   session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
   bool underWay() { return run() != nullptr && run()->underWay(); }
@@ -81,7 +81,7 @@ class SessionController : public QObject {
   bool numberUsed_ = false;                // the run number that was asked for holds for one run
   session::SessionRequest asked_;          // what `recorded_` was planned for
   devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open
-  TraceSink trace_;                        // outlives the runs
+  plot::TraceSink trace_;                  // outlives the runs
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
 };
@@ -89,4 +89,4 @@ class SessionController : public QObject {
 /// What is worth a word before a session, as the window says it; empty: nothing.
 QString wordsOf(const session::SessionNotice& notice);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 
 struct SuccessSound::Impl {
   std::unique_ptr<QSoundEffect> effect;  // none without a sound device
@@ -34,4 +34,4 @@ void SuccessSound::play() {
 
 bool SuccessSound::canBeHeard() const { return impl_->effect != nullptr; }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

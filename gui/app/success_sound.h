@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 
 /// Two rising tones after a successful trial. Without a sound device it does nothing; it never waits.
 class SuccessSound {
@@ -19,4 +19,4 @@ class SuccessSound {
   bool muted_ = false;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

@@ -18,7 +18,7 @@
 #include "gui/widgets/shape_sliders.h"
 #include "gui/scene/thumbnail.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 namespace {
 
 experiment::Experiment onePoint() {
@@ -36,7 +36,7 @@ QImage thumbnailOf(const constraints::Definition& definition, const QSize& size,
   experiment::Experiment probe = onePoint();
   probe.task->start = definition.start;
   probe.task->target = definition.target;
-  return drawThumbnail(planScene(probe, constraints::makeConstraint(definition)), size, ratio);
+  return scene::drawThumbnail(scene::planScene(probe, constraints::makeConstraint(definition)), size, ratio);
 }
 
 // A formula that no file speaks of begins in the middle of what is drawn of it and goes a quarter of the way.
@@ -93,9 +93,9 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   sentence_ = new QLabel;
   sentence_->setProperty("role", "quiet");
   sentence_->setWordWrap(true);
-  preview_ = new SceneView;
+  preview_ = new scene::SceneView;
   preview_->setOverlay([] {
-    OverlayState o;
+    scene::OverlayState o;
     o.semaphoreShown = false;
     return o;
   }());
@@ -114,7 +114,7 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   sideLayout->addWidget(formula_);
   sideLayout->addSpacing(8);
   sideLayout->addWidget(new QLabel(QStringLiteral("<b>Shape</b>")));
-  sliders_ = new ShapeSliders;
+  sliders_ = new widgets::ShapeSliders;
   sideLayout->addWidget(sliders_);
   sideLayout->addStretch();
   auto* saving = new QHBoxLayout;
@@ -145,7 +145,7 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
     if (row >= 0 && static_cast<std::size_t>(row) < definitions_.size()) show(definitions_[static_cast<std::size_t>(row)], {});
   });
   connect(formula_, &FormulaEditor::changed, this, &ConstraintChooser::formulaChanged);
-  connect(sliders_, &ShapeSliders::moved, this, [this] { rebuild(false); });
+  connect(sliders_, &widgets::ShapeSliders::moved, this, [this] { rebuild(false); });
   connect(save_, &QPushButton::clicked, this, &ConstraintChooser::save);
   connect(use_, &QPushButton::clicked, this, [this] {
     if (!choice_) return;
@@ -303,7 +303,7 @@ void ConstraintChooser::rebuild(bool resetCamera) {
     probe_.constraint = choice.spec;
     probe_.task->start = choice.start;
     probe_.task->target = choice.target;
-    preview_->setPlan(planScene(probe_, constraint), resetCamera);
+    preview_->setPlan(scene::planScene(probe_, constraint), resetCamera);
     formula_->setFault({});
     choice_ = choice;
   } catch (const Error& e) {
@@ -340,4 +340,4 @@ void ConstraintChooser::save() {
   }
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

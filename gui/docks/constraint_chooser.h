@@ -11,11 +11,16 @@ class QLineEdit;
 class QListWidget;
 class QPushButton;
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
+class SceneView;
+}
+namespace reachlab::gui::widgets {
+class ShapeSliders;
+}
+
+namespace reachlab::gui::docks {
 
 class FormulaEditor;
-class SceneView;
-class ShapeSliders;
 
 /// A choice made: what an experiment needs to use it.
 struct ConstraintChoice {
@@ -34,11 +39,11 @@ class ConstraintChooser : public QDialog {
   void setCurrent(const experiment::Experiment& experiment);
   /// What would be used now; nullopt while it cannot be.
   std::optional<ConstraintChoice> choice() const { return choice_; }
-  SceneView* preview() { return preview_; }
+  scene::SceneView* preview() { return preview_; }
   int shownCount() const;
 
  Q_SIGNALS:
-  void used(const reachlab::gui::ConstraintChoice& choice);
+  void used(const reachlab::gui::docks::ConstraintChoice& choice);
 
  private:
   void fillList();
@@ -57,11 +62,11 @@ class ConstraintChooser : public QDialog {
   std::optional<ConstraintChoice> choice_;
   QLineEdit *search_, *name_;
   QListWidget* list_;
-  SceneView* preview_;
-  ShapeSliders* sliders_;
+  scene::SceneView* preview_;
+  widgets::ShapeSliders* sliders_;
   FormulaEditor* formula_;
   QLabel *title_, *sentence_, *saved_;
   QPushButton *use_, *save_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

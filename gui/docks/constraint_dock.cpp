@@ -13,7 +13,7 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/shape_sliders.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 namespace {
 
 // Of the catalogue or the user's own folder; none while a file of it cannot be read.
@@ -54,8 +54,8 @@ ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Co
   formula_ = new QLabel;
   formula_->setProperty("role", "quiet");
   formula_->setWordWrap(true);
-  sliders_ = new ShapeSliders;
-  faults_ = new FaultLabel;
+  sliders_ = new widgets::ShapeSliders;
+  faults_ = new widgets::FaultLabel;
   auto* choose = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
   choose->setObjectName(QStringLiteral("choose"));
   choose->setFocusPolicy(Qt::NoFocus);
@@ -66,7 +66,7 @@ ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Co
   layout->addWidget(choose);
   layout->addStretch();
   setWidget(body);
-  connect(sliders_, &ShapeSliders::moved, this, [this] {
+  connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {
     shown_.shape = sliders_->values();
     Q_EMIT shapeMoved(shown_.shape);
   });
@@ -95,4 +95,4 @@ void ConstraintDock::setConstraint(const constraints::ConstraintSpec& spec, cons
 
 void ConstraintDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -7,10 +7,12 @@
 
 class QLabel;
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::widgets {
 class FaultLabel;
 class ShapeSliders;
+}  // namespace reachlab::gui::widgets
+
+namespace reachlab::gui::docks {
 
 /// The constraint in use: its name, its shape's sliders, and the way to another. Knows definitions, not the simulator.
 class ConstraintDock : public QDockWidget {
@@ -26,9 +28,9 @@ class ConstraintDock : public QDockWidget {
 
  private:
   QLabel *name_, *formula_;
-  FaultLabel* faults_;
-  ShapeSliders* sliders_;
+  widgets::FaultLabel* faults_;
+  widgets::ShapeSliders* sliders_;
   constraints::ConstraintSpec shown_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -5,18 +5,18 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/unit_spin_box.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 
 CouplingDock::CouplingDock(QWidget* parent) : QDockWidget(QStringLiteral("Coupling of hand and object"), parent) {
   setObjectName(QStringLiteral("couplingDock"));
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
-  stiffness_ = new UnitSpinBox(0, 1e6, QStringLiteral("N/m"));
+  stiffness_ = new widgets::UnitSpinBox(0, 1e6, QStringLiteral("N/m"));
   stiffness_->setObjectName(QStringLiteral("couplingStiffness"));
-  damping_ = new UnitSpinBox(0, 1e5, QStringLiteral("N s/m"));
+  damping_ = new widgets::UnitSpinBox(0, 1e5, QStringLiteral("N s/m"));
   form->addRow(QStringLiteral("stiffness"), stiffness_);
   form->addRow(QStringLiteral("damping"), damping_);
-  faults_ = new FaultLabel;
+  faults_ = new widgets::FaultLabel;
   faults_->setObjectName(QStringLiteral("couplingFaults"));
   form->addRow(faults_);
   stiffness_->setName(QStringLiteral("stiffness"));
@@ -37,4 +37,4 @@ void CouplingDock::setCoupling(const std::optional<experiment::Coupling>& coupli
 
 void CouplingDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

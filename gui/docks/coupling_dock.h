@@ -4,10 +4,12 @@
 
 #include "sim/experiment/experiment.h"
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::widgets {
 class FaultLabel;
 class UnitSpinBox;
+}  // namespace reachlab::gui::widgets
+
+namespace reachlab::gui::docks {
 
 /// Edits the coupling (8) between hand and driven mass. Knows widgets and Coupling, not the simulator.
 class CouplingDock : public QDockWidget {
@@ -22,8 +24,8 @@ class CouplingDock : public QDockWidget {
   void edited(const reachlab::experiment::Coupling& coupling);
 
  private:
-  UnitSpinBox *stiffness_, *damping_;
-  FaultLabel* faults_;
+  widgets::UnitSpinBox *stiffness_, *damping_;
+  widgets::FaultLabel* faults_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

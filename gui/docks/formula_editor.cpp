@@ -13,7 +13,7 @@
 
 #include "constraints/formula.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 
 namespace {
 
@@ -144,4 +144,4 @@ void FormulaEditor::check() {
   if (!fine_) setFault({});
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -12,7 +12,7 @@ class QComboBox;
 class QLabel;
 class QLineEdit;
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 
 /// Names in the formulas that are neither variables, constants nor functions: the shape parameters, in order of appearance.
 std::vector<std::string> parameterNames(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates);
@@ -46,4 +46,4 @@ class FormulaEditor : public QWidget {
   bool fine_ = true;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -9,7 +9,7 @@
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 namespace {
 
 // As many springs as the kind needs; new ones like the last.
@@ -31,16 +31,16 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   kind_ = new QComboBox;
   kind_->setObjectName(QStringLiteral("objectKind"));
   kind_->addItems({QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body")});
-  masses_ = new NumberListEdit;
+  masses_ = new widgets::NumberListEdit;
   masses_->setObjectName(QStringLiteral("masses"));
-  stiffness_ = new NumberListEdit;
+  stiffness_ = new widgets::NumberListEdit;
   stiffness_->setObjectName(QStringLiteral("stiffness"));
   stiffness_->setObjectName(QStringLiteral("stiffness"));
-  damping_ = new NumberListEdit;
-  viscosity_ = new UnitSpinBox(0, 1e4, QStringLiteral("N s/m"));
+  damping_ = new widgets::NumberListEdit;
+  viscosity_ = new widgets::UnitSpinBox(0, 1e4, QStringLiteral("N s/m"));
   auto* gravity = new QHBoxLayout;
   for (auto& g : gravity_) {
-    g = new UnitSpinBox(-100, 100, {});
+    g = new widgets::UnitSpinBox(-100, 100, {});
     g->setMinimumWidth(54);
     g->setButtonSymbols(QAbstractSpinBox::NoButtons);
     gravity->addWidget(g);
@@ -51,7 +51,7 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   form->addRow(QStringLiteral("dampers [N s/m]"), damping_);
   form->addRow(QStringLiteral("viscosity"), viscosity_);
   form->addRow(QStringLiteral("gravity [m/s²]"), gravity);
-  faults_ = new FaultLabel;
+  faults_ = new widgets::FaultLabel;
   faults_->setObjectName(QStringLiteral("objectFaults"));
   form->addRow(faults_);
   viscosity_->setName(QStringLiteral("viscosity"));
@@ -73,17 +73,17 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
     fitSprings(object_);
     tell();
   });
-  connect(masses_, &NumberListEdit::numbersEdited, this, [this] {
+  connect(masses_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     object_.masses = *masses_->numbers();
     fitSprings(object_);
     tell();
   });
-  connect(stiffness_, &NumberListEdit::numbersEdited, this, [this] {
+  connect(stiffness_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     object_.stiffness = *stiffness_->numbers();
     object_.damping.resize(object_.stiffness.size(), 0);
     tell();
   });
-  connect(damping_, &NumberListEdit::numbersEdited, this, [this] { object_.damping = *damping_->numbers(), tell(); });
+  connect(damping_, &widgets::NumberListEdit::numbersEdited, this, [this] { object_.damping = *damping_->numbers(), tell(); });
   connect(viscosity_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double v) { object_.viscosity = v, tell(); });
   double Vec3::*const parts[] = {&Vec3::x, &Vec3::y, &Vec3::z};
   for (std::size_t i = 0; i < 3; ++i)
@@ -108,7 +108,7 @@ void ObjectDock::setObject(const experiment::Object& object) {
 
 void ObjectDock::setRules() {
   const bool springs = object_.kind == experiment::ObjectKind::Chain || object_.kind == experiment::ObjectKind::Parallel;
-  NumberListRule rule{
+  widgets::NumberListRule rule{
       QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, 1, springs ? experiment::kMaxMasses : 1u};
   masses_->setRule(rule);
   rule = {QStringLiteral("springs"), QStringLiteral("spring"), {}, QStringLiteral("N/m"), 0};
@@ -124,4 +124,4 @@ void ObjectDock::setFaults(const QStringList& faults) { faults_->setFaults(fault
 
 void ObjectDock::tell() { Q_EMIT edited(object_); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -6,11 +6,13 @@
 
 class QComboBox;
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::widgets {
 class FaultLabel;
 class NumberListEdit;
 class UnitSpinBox;
+}  // namespace reachlab::gui::widgets
+
+namespace reachlab::gui::docks {
 
 /// Edits the object: kind, masses, springs, dampers, viscosity, gravity. Knows widgets and Object, not the simulator.
 class ObjectDock : public QDockWidget {
@@ -29,10 +31,10 @@ class ObjectDock : public QDockWidget {
 
   experiment::Object object_, accepted_;  // as entered, which may be refused; as it holds
   QComboBox* kind_;
-  NumberListEdit *masses_, *stiffness_, *damping_;
-  UnitSpinBox* viscosity_;
-  std::array<UnitSpinBox*, 3> gravity_{};
-  FaultLabel* faults_;
+  widgets::NumberListEdit *masses_, *stiffness_, *damping_;
+  widgets::UnitSpinBox* viscosity_;
+  std::array<widgets::UnitSpinBox*, 3> gravity_{};
+  widgets::FaultLabel* faults_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -11,7 +11,7 @@
 #include "gui/plot/criterion_style.h"
 #include "gui/widgets/theme.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 namespace {
 
 enum Column { kName, kPeak, kLast, kAll, kColumns };
@@ -45,10 +45,10 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     const auto criterion = static_cast<predict::Criterion>(i);
-    auto* name = new QTableWidgetItem(titleOf(criterion));
+    auto* name = new QTableWidgetItem(plot::titleOf(criterion));
     name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
     name->setCheckState(criterion == predict::Criterion::MinHandJerk ? Qt::Checked : Qt::Unchecked);
-    name->setForeground(colourOf(criterion));
+    name->setForeground(plot::colourOf(criterion));
     name->setToolTip(text(predict::describe(criterion)));
     table_->setItem(i, kName, name);
     for (const int column : {kPeak, kLast, kAll}) {
@@ -70,12 +70,12 @@ PredictionDock::PredictionDock(QWidget* parent)
   });
 }
 
-void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecasts) {
+void PredictionDock::setForecasts(const std::vector<plot::CriterionForecast>& forecasts) {
   const QSignalBlocker quiet(table_);
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     QTableWidgetItem* peak = table_->item(i, kPeak);
     peak->setText(forecasts.empty() ? QStringLiteral("…") : QStringLiteral("–"));
-    for (const CriterionForecast& forecast : forecasts) {
+    for (const plot::CriterionForecast& forecast : forecasts) {
       if (static_cast<int>(forecast.criterion) != i) continue;
       if (forecast.prediction) peak->setText(speed(forecast.prediction->handPeak));
       QString why = QString::fromStdString(forecast.refusal);
@@ -83,7 +83,8 @@ void PredictionDock::setForecasts(const std::vector<CriterionForecast>& forecast
         for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
       table_->item(i, kName)->setToolTip(text(predict::describe(forecast.criterion)) +
                                          (why.isEmpty() ? QString() : QStringLiteral("\n\n") + why.trimmed()));
-      table_->item(i, kName)->setForeground(forecast.prediction ? colourOf(forecast.criterion) : toQColor(colours::kNeutral));
+      table_->item(i, kName)->setForeground(forecast.prediction ? plot::colourOf(forecast.criterion)
+                                                                : widgets::toQColor(widgets::colours::kNeutral));
     }
   }
 }
@@ -139,4 +140,4 @@ void PredictionDock::setChosen(const std::vector<predict::Criterion>& criteria) 
   Q_EMIT chosenChanged();
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -8,7 +8,7 @@
 class QTableWidget;
 class QLabel;
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 
 /// The criteria: which are drawn on the plot, and how far the last trial and all trials of the run were from each. Knows no simulator.
 class PredictionDock : public QDockWidget {
@@ -16,7 +16,7 @@ class PredictionDock : public QDockWidget {
  public:
   explicit PredictionDock(QWidget* parent = nullptr);
   /// While they are being computed: an empty list.
-  void setForecasts(const std::vector<CriterionForecast>& forecasts);
+  void setForecasts(const std::vector<plot::CriterionForecast>& forecasts);
   /// One a criterion, in the forecasts' order. [m/s]
   void addErrors(const std::vector<std::optional<double>>& errors);
   void clearErrors();
@@ -36,4 +36,4 @@ class PredictionDock : public QDockWidget {
   std::vector<int> counts_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

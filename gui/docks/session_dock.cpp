@@ -19,7 +19,7 @@
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/record/run_configuration.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 
 SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"), parent) {
   setObjectName(QStringLiteral("sessionDock"));
@@ -74,7 +74,7 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   for (const devices::DeviceDriver& d : devices::deviceDrivers()) devices += QString::fromStdString(d.usage + ": " + d.description + "\n");
   device_->setToolTip(devices.trimmed());
   layout->addWidget(who_);
-  faults_ = new FaultLabel;
+  faults_ = new widgets::FaultLabel;
   faults_->setObjectName(QStringLiteral("sessionFaults"));
   layout->addWidget(faults_);
 
@@ -102,7 +102,7 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   for (auto* button : {next_, abort_, repeat_, end_}) button->setFocusPolicy(Qt::NoFocus);
 
   automatic_ = new QCheckBox(QStringLiteral("next trial by itself after"));
-  pause_ = new UnitSpinBox(0, 600, QStringLiteral("s"));
+  pause_ = new widgets::UnitSpinBox(0, 600, QStringLiteral("s"));
   pause_->show(1);
   auto* pausing = new QHBoxLayout;
   pausing->addWidget(automatic_);
@@ -229,11 +229,11 @@ void SessionDock::count(const trial::TrialResult& result) {
           : QStringLiteral("<b>none judged yet</b>");
   if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
   QStringList why;
-  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(reasonText(reason));
+  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(scene::reasonText(reason));
   if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
   tally_->setText(text);
 }
 
 QString SessionDock::tallyText() const { return tally_->text(); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

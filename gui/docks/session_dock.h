@@ -14,10 +14,12 @@ class QPlainTextEdit;
 class QPushButton;
 class QSpinBox;
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::widgets {
 class FaultLabel;
 class UnitSpinBox;
+}  // namespace reachlab::gui::widgets
+
+namespace reachlab::gui::docks {
 
 /// Who, when, with which hand, and how it goes: subject, session, run, day, device, the trial buttons, the tally, notes.
 class SessionDock : public QDockWidget {
@@ -60,13 +62,13 @@ class SessionDock : public QDockWidget {
   QComboBox *device_, *sex_, *hand_;
   QSpinBox *trials_, *day_;
   QCheckBox* automatic_;
-  UnitSpinBox* pause_;
+  widgets::UnitSpinBox* pause_;
   QWidget* who_;
-  FaultLabel* faults_;
+  widgets::FaultLabel* faults_;
   QLabel *run_, *tally_;
   QPushButton *next_, *abort_, *repeat_, *end_;
   int successes_ = 0, failures_ = 0, others_ = 0;
   std::map<trial::Reason, int> reasons_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -8,19 +8,19 @@
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 
 TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent) {
   setObjectName(QStringLiteral("taskDock"));
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
-  start_ = new NumberListEdit;
-  target_ = new NumberListEdit;
-  duration_ = new UnitSpinBox(0.05, 60, QStringLiteral("s"));
+  start_ = new widgets::NumberListEdit;
+  target_ = new widgets::NumberListEdit;
+  duration_ = new widgets::UnitSpinBox(0.05, 60, QStringLiteral("s"));
   duration_->setObjectName(QStringLiteral("taskDuration"));
-  time_ = new UnitSpinBox(0.001, 30, QStringLiteral("s"));
-  position_ = new UnitSpinBox(1e-5, 1, QStringLiteral("m"));
-  velocity_ = new UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
+  time_ = new widgets::UnitSpinBox(0.001, 30, QStringLiteral("s"));
+  position_ = new widgets::UnitSpinBox(1e-5, 1, QStringLiteral("m"));
+  velocity_ = new widgets::UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
   start_->setObjectName(QStringLiteral("taskStart"));
   startLabel_ = new QLabel;
   targetLabel_ = new QLabel;
@@ -30,7 +30,7 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   form->addRow(QStringLiteral("± ΔT"), time_);
   form->addRow(QStringLiteral("± Δx"), position_);
   form->addRow(QStringLiteral("± Δv"), velocity_);
-  faults_ = new FaultLabel;
+  faults_ = new widgets::FaultLabel;
   faults_->setObjectName(QStringLiteral("taskFaults"));
   form->addRow(faults_);
   duration_->setName(QStringLiteral("time T"));
@@ -41,7 +41,7 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   for (auto* number : {duration_, time_, position_, velocity_}) faults_->watch(number);
   setWidget(body);
 
-  const auto bind = [this](UnitSpinBox* box, auto set) {
+  const auto bind = [this](widgets::UnitSpinBox* box, auto set) {
     connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, set](double v) {
       set(task_, v);
       Q_EMIT edited(task_);
@@ -51,11 +51,11 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   bind(time_, [](experiment::Task& t, double v) { t.tolerance.time = v; });
   bind(position_, [](experiment::Task& t, double v) { t.tolerance.position = v; });
   bind(velocity_, [](experiment::Task& t, double v) { t.tolerance.velocity = v; });
-  connect(start_, &NumberListEdit::numbersEdited, this, [this] {
+  connect(start_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     task_.start = *start_->numbers();
     Q_EMIT edited(task_);
   });
-  connect(target_, &NumberListEdit::numbersEdited, this, [this] {
+  connect(target_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     task_.target = *target_->numbers();
     Q_EMIT edited(task_);
   });
@@ -63,7 +63,7 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
 
 void TaskDock::setTask(const experiment::Task& task, constraints::ConstraintKind kind) {
   task_ = task;
-  NumberListRule rule;
+  widgets::NumberListRule rule;
   QString unit;
   if (kind == constraints::ConstraintKind::Free) {
     rule.names = QStringList{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
@@ -94,4 +94,4 @@ void TaskDock::setTask(const experiment::Task& task, constraints::ConstraintKind
 
 void TaskDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -5,11 +5,13 @@
 
 class QLabel;
 
-namespace reachlab::gui {
-
+namespace reachlab::gui::widgets {
 class FaultLabel;
 class NumberListEdit;
 class UnitSpinBox;
+}  // namespace reachlab::gui::widgets
+
+namespace reachlab::gui::docks {
 
 /// Edits the task: where from, where to, how long, how exactly. Knows widgets and Task, not the simulator.
 class TaskDock : public QDockWidget {
@@ -25,10 +27,10 @@ class TaskDock : public QDockWidget {
 
  private:
   experiment::Task task_;
-  NumberListEdit *start_, *target_;
-  UnitSpinBox *duration_, *time_, *position_, *velocity_;
+  widgets::NumberListEdit *start_, *target_;
+  widgets::UnitSpinBox *duration_, *time_, *position_, *velocity_;
   QLabel *startLabel_, *targetLabel_;
-  FaultLabel* faults_;
+  widgets::FaultLabel* faults_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

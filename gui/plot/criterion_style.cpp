@@ -1,6 +1,6 @@
 #include "gui/plot/criterion_style.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 
 QColor colourOf(predict::Criterion criterion) {
   switch (criterion) {
@@ -21,4 +21,4 @@ QString titleOf(predict::Criterion criterion) {
   return title.replace(QStringLiteral("min-"), QStringLiteral("min. ")).replace(QLatin1Char('-'), QLatin1Char(' '));
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

@@ -4,11 +4,11 @@
 
 #include "sim/predict/predict.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 
 /// A criterion's colour in plot and list: legible on dark, and none like the hand's or the object's.
 QColor colourOf(predict::Criterion criterion);
 /// "min. hand jerk" …
 QString titleOf(predict::Criterion criterion);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

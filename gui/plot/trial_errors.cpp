@@ -4,7 +4,7 @@
 #include "sim/analyze/measures.h"
 #include "sim/analyze/paper_error.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 namespace {
 
 Vec3 unitOrZero(const Vec3& v) {
@@ -86,4 +86,4 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
   return errors;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

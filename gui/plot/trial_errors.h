@@ -11,7 +11,7 @@
 #include "sim/predict/predict.h"
 
 /// Theory beside the trial: each criterion's prediction for an experiment, and how far a hand was from it. No widget here.
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 
 /// One criterion's prediction, or why there is none.
 struct CriterionForecast {
@@ -49,4 +49,4 @@ class PathDirection {
 std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
                                                      const std::vector<CriterionForecast>& forecasts, const experiment::Task& task);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

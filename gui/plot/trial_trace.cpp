@@ -1,6 +1,6 @@
 #include "gui/plot/trial_trace.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 
 bool TraceSink::onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept {
   if (state.tick % kEvery == 0 && state.massCount > 0) {
@@ -11,4 +11,4 @@ bool TraceSink::onTick(const haptics::TickState& state, trial::Command, std::uin
   return true;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

@@ -5,7 +5,7 @@
 #include "sim/haptics/run_sink.h"
 #include "base/spsc_queue.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 
 /// What the plot needs of a tick. World frame, SI.
 struct TracePoint {
@@ -37,4 +37,4 @@ class TraceSink final : public haptics::RunSink {
   SpscQueue<TracePoint, 4096> points_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

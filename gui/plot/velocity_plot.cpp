@@ -18,7 +18,7 @@
 
 #include "gui/widgets/theme.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 namespace {
 
 QwtText axisTitle(const QString& text) {
@@ -26,7 +26,7 @@ QwtText axisTitle(const QString& text) {
   QFont font;
   font.setPointSizeF(10);
   title.setFont(font);
-  title.setColor(toQColor(colours::kFaintText));
+  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
   return title;
 }
 
@@ -87,7 +87,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   canvas->setFrameStyle(QFrame::NoFrame);
   canvas->setAutoFillBackground(true);
   QPalette palette = canvas->palette();
-  palette.setColor(QPalette::Window, toQColor(colours::kBase));
+  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
   canvas->setPalette(palette);
   plot->setCanvas(canvas);
   plot->plotLayout()->setAlignCanvasToScales(true);
@@ -103,7 +103,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   impl_->grid->attach(plot);
   impl_->band = std::make_unique<QwtPlotZoneItem>();
   impl_->band->setOrientation(Qt::Vertical);
-  QColor green = toQColor(colours::kGreen);
+  QColor green = widgets::toQColor(widgets::colours::kGreen);
   green.setAlpha(38);
   impl_->band->setBrush(green);
   impl_->band->setPen(QPen(Qt::NoPen));
@@ -118,7 +118,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   impl_->goal->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
   impl_->goal->attach(plot);
 
-  const QColor handInk = toQColor(colours::kDriven).lighter(120), lastInk = toQColor(colours::kLast);
+  const QColor handInk = widgets::toQColor(widgets::colours::kDriven).lighter(120), lastInk = widgets::toQColor(widgets::colours::kLast);
   QColor handFaint = handInk, lastFaint = lastInk;
   handFaint.setAlpha(110);
   lastFaint.setAlpha(110);
@@ -193,4 +193,4 @@ double VelocityPlot::timeSpan() const { return impl_->span; }
 
 std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->times.size()); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 
 /// Velocity against time since onset: hand and last mass of the trial under way, the last trial's faintly behind, the window T ± dT as a
 /// band, chosen predictions dashed. [s], [m/s]
@@ -38,4 +38,4 @@ class VelocityPlot : public QWidget {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 double tanHalf(const Camera& camera) { return std::tan(camera.angle * std::numbers::pi / 360); }
@@ -109,4 +109,4 @@ std::array<double, 2> pixelOf(const Camera& camera, const Vec3& world, double wi
   return {0.5 * width + dot(arm, axes.right) / scale, 0.5 * height - dot(arm, axes.up) / scale};
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -6,7 +6,7 @@
 #include "gui/scene/constraint_mesh.h"
 
 /// The viewer's eye as a plain value, and what the pointer does to it. Pixels: y down, origin at the top left.
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 struct Camera {
   Vec3 position{0, 0, 1}, focus, up{0, 1, 0};  // [m]
@@ -38,4 +38,4 @@ Vec3 pointUnder(const Camera& camera, const Vec3& at, double x, double y, double
 /// The pixel of a world point.
 std::array<double, 2> pixelOf(const Camera& camera, const Vec3& world, double width, double height);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 double angleBetween(const Vec3& a, const Vec3& b) {
@@ -253,4 +253,4 @@ Box boxOf(const SurfaceMesh& mesh) {
   return box;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -8,7 +8,7 @@
 
 /// A constraint as points and lines to draw: computed from the same functions that the simulation moves on, and known to no graphics
 /// library. Sampling follows curvature and is bounded, so a wild formula costs no more than a tame one.
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 struct MeshOptions {
   double chordError = 5e-4;      // of the drawn size: how far a straight piece may leave the curve
@@ -50,4 +50,4 @@ struct Box {
 Box boxOf(const CurveMesh& mesh);
 Box boxOf(const SurfaceMesh& mesh);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

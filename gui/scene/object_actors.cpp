@@ -11,18 +11,18 @@
 
 #include "gui/scene/scene_actors.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 using Actor = vtkSmartPointer<vtkActor>;
 
-Colour colourOf(MassRole role) {
+widgets::Colour colourOf(MassRole role) {
   switch (role) {
-    case MassRole::Driven: return colours::kDriven;
-    case MassRole::Last: return colours::kLast;
+    case MassRole::Driven: return widgets::colours::kDriven;
+    case MassRole::Last: return widgets::colours::kLast;
     case MassRole::Middle: break;
   }
-  return colours::kMiddle;
+  return widgets::colours::kMiddle;
 }
 
 void place(vtkActor& actor, const Vec3& at) { actor.SetPosition(at.x, at.y, at.z); }
@@ -59,20 +59,21 @@ struct ObjectActors::Impl {
   }
   void addConstraint(const ScenePlan& from, SurfaceStyle style) {
     if (from.curve.pointCount() > 1) {
-      add(makeRail(from.curve, from.railRadius, {colours::kRail, 1, 0.5}));
+      add(makeRail(from.curve, from.railRadius, {widgets::colours::kRail, 1, 0.5}));
       // Shifted masses run beside the rail: a faint copy for each.
       for (const Vec3& shift : from.massShift)
-        if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {colours::kRail, 0.30, 0})), shift);
+        if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {widgets::colours::kRail, 0.30, 0})), shift);
     }
     if (!from.surface.quads.empty()) {
-      if (style == SurfaceStyle::Glass) add(makeSkin(from.surface, {colours::kSurface, 0.42, 0.3}))->PickableOff();
-      Actor lines = add(makeParameterLines(from.surface, {colours::kSurfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
+      if (style == SurfaceStyle::Glass) add(makeSkin(from.surface, {widgets::colours::kSurface, 0.42, 0.3}))->PickableOff();
+      Actor lines =
+          add(makeParameterLines(from.surface, {widgets::colours::kSurfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
       lines->PickableOff();
     }
   }
   void addMarks(const ScenePlan& from) {
     if (!from.hasTask) return;
-    const auto mark = [&](const Vec3& at, const Colour& colour, double radius, double opacity) {
+    const auto mark = [&](const Vec3& at, const widgets::Colour& colour, double radius, double opacity) {
       Actor ball = add(makeBall({colour, opacity, 0.2}));
       ball->SetScale(radius);
       place(*ball, at);
@@ -82,23 +83,23 @@ struct ObjectActors::Impl {
       onRail = onRail || norm(shift) == 0;
       if (norm(shift) == 0) continue;
       any = true;
-      mark(from.start + shift, colours::kStart, 0.55 * from.markRadius, 0.8);
-      mark(from.target + shift, colours::kTarget, 0.55 * from.markRadius, 0.8);
+      mark(from.start + shift, widgets::colours::kStart, 0.55 * from.markRadius, 0.8);
+      mark(from.target + shift, widgets::colours::kTarget, 0.55 * from.markRadius, 0.8);
     }
-    mark(from.start, colours::kStart, from.markRadius, 1);
-    mark(from.target, colours::kTarget, from.markRadius, 1);
-    if (from.tolerance > from.markRadius && !(any && !onRail)) mark(from.target, colours::kTarget, from.tolerance, 0.13);
+    mark(from.start, widgets::colours::kStart, from.markRadius, 1);
+    mark(from.target, widgets::colours::kTarget, from.markRadius, 1);
+    if (from.tolerance > from.markRadius && !(any && !onRail)) mark(from.target, widgets::colours::kTarget, from.tolerance, 0.13);
   }
   void addObject(const ScenePlan& from) {
     for (const SpringPlan& spring : from.springs)
-      springs.push_back(add(makeCoil({spring.coupling ? colours::kCoupling : colours::kSpring, 1, 0.5}, spring.coupling ? 6 : 9,
-                                     spring.coupling ? 0.16 : 0.2)));
+      springs.push_back(add(makeCoil({spring.coupling ? widgets::colours::kCoupling : widgets::colours::kSpring, 1, 0.5},
+                                     spring.coupling ? 6 : 9, spring.coupling ? 0.16 : 0.2)));
     for (std::size_t i = 0; i < from.massRadius.size(); ++i) {
       const Look look{colourOf(from.massRole[i]), 1, 0.55};
       masses.push_back(add(from.body ? makeBox(look) : makeBall(look)));
       if (!from.body) masses.back()->SetScale(from.massRadius[i]);
     }
-    hand = add(makePen({colours::kHand, 1, 0.6}));
+    hand = add(makePen({widgets::colours::kHand, 1, 0.6}));
     hand->SetScale(from.handRadius);
   }
 };
@@ -128,7 +129,7 @@ void ObjectActors::show(const SceneFrame& frame) {
   if (isFinite(frame.hand)) place(*impl_->hand, frame.hand);
   if (frame.handValid != impl_->handWasValid) {
     impl_->handWasValid = frame.handValid;
-    const Colour c = frame.handValid ? colours::kHand : colours::kHandLost;
+    const widgets::Colour c = frame.handValid ? widgets::colours::kHand : widgets::colours::kHandLost;
     impl_->hand->GetProperty()->SetColor(c.red, c.green, c.blue);
   }
   for (std::size_t i = 0; i < impl_->springs.size(); ++i) {
@@ -140,4 +141,4 @@ void ObjectActors::show(const SceneFrame& frame) {
   }
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -5,7 +5,7 @@
 
 class vtkRenderer;
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 enum class SurfaceStyle { Glass, Wire };
 
@@ -24,4 +24,4 @@ class ObjectActors {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -10,7 +10,7 @@
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 360, kAcross = 4, kDown = 3;
@@ -56,7 +56,7 @@ int drawPictures(const QString& folder) {
     save(picture, QStringLiteral("%1/%2.png").arg(folder, name));
     if (sheet.isNull()) {
       sheet = QImage(kAcross * kWidth, kDown * kHeight, QImage::Format_RGB32);
-      sheet.fill(toQColor(colours::kBase));
+      sheet.fill(widgets::toQColor(widgets::colours::kBase));
     }
     const int place = drawn % (kAcross * kDown);
     QPainter(&sheet).drawImage(QRect((place % kAcross) * kWidth, (place / kAcross) * kHeight, kWidth, kHeight), picture);
@@ -66,4 +66,4 @@ int drawPictures(const QString& folder) {
   return drawn;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -23,7 +23,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 constexpr double kPenLength = 16;               // in radii of its tip
@@ -205,4 +205,4 @@ void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius) {
   m->Modified();
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -9,10 +9,10 @@ class vtkProp;
 class vtkRenderer;
 
 /// Builders of the scene's actors. The caller adds them to a renderer and keeps or drops them. Window's thread.
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 struct Look {
-  Colour colour;
+  widgets::Colour colour;
   double opacity = 1;
   double shine = 0.35;
 };
@@ -36,4 +36,4 @@ vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look
 /// Lays a coil between two points. Neither allocates nor rebuilds. [m]
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

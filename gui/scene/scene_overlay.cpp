@@ -7,7 +7,7 @@
 
 #include "gui/widgets/theme.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 QString lengthText(double metres) {
@@ -66,11 +66,11 @@ void SceneOverlay::setLabel(const QString& text, const QPointF& at) {
 
 QColor SceneOverlay::colourOf(trial::Semaphore semaphore) {
   switch (semaphore) {
-    case trial::Semaphore::Green: return toQColor(colours::kGreen);
-    case trial::Semaphore::Red: return toQColor(colours::kRed);
+    case trial::Semaphore::Green: return widgets::toQColor(widgets::colours::kGreen);
+    case trial::Semaphore::Red: return widgets::toQColor(widgets::colours::kRed);
     case trial::Semaphore::Neutral: break;
   }
-  return toQColor(colours::kNeutral);
+  return widgets::toQColor(widgets::colours::kNeutral);
 }
 
 void SceneOverlay::paintEvent(QPaintEvent*) {
@@ -89,30 +89,30 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   QFont font = painter.font();
   font.setPointSizeF(10.5 * s);
   painter.setFont(font);
-  painter.setPen(toQColor(colours::kFaintText));
+  painter.setPen(widgets::toQColor(widgets::colours::kFaintText));
   const double room = width() - left - 12;
   painter.drawText(QRectF(left, 14 * s, room, 20 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.counter);
   font.setWeight(QFont::DemiBold);
   font.setPointSizeF(pointsToFit(state_.instruction, font, 19 * s, room));  // why a trial failed is to be read to its end
   painter.setFont(font);
-  const Colour tone = state_.tone == OverlayState::Tone::Good  ? colours::kGreen
-                      : state_.tone == OverlayState::Tone::Bad ? Colour{1.0, 0.62, 0.55}
-                                                               : colours::kText;
-  painter.setPen(toQColor(tone));
+  const widgets::Colour tone = state_.tone == OverlayState::Tone::Good  ? widgets::colours::kGreen
+                               : state_.tone == OverlayState::Tone::Bad ? widgets::Colour{1.0, 0.62, 0.55}
+                                                                        : widgets::colours::kText;
+  painter.setPen(widgets::toQColor(tone));
   const QString line = painter.fontMetrics().elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
   painter.drawText(QRectF(left, 33 * s, room, 32 * s), Qt::AlignLeft | Qt::AlignVCenter, line);
   font.setPointSizeF(11 * s);
   font.setWeight(QFont::Normal);
   painter.setFont(font);
-  painter.setPen(toQColor(colours::kFaintText));
+  painter.setPen(widgets::toQColor(widgets::colours::kFaintText));
   painter.drawText(QRectF(left, 65 * s, room, 22 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.detail);
   if (!state_.task.isEmpty()) {
     const QRectF place(left, 97 * s, std::min(room, 560 * s), 140 * s);
     constexpr int kWrapped = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap;
-    QColor shade = toQColor(colours::kWindow);
+    QColor shade = widgets::toQColor(widgets::colours::kWindow);
     shade.setAlphaF(0.72);  // to be read over whatever is drawn behind
     painter.fillRect(painter.boundingRect(place, kWrapped, state_.task).adjusted(-5 * s, -3 * s, 5 * s, 3 * s), shade);
-    painter.setPen(toQColor(colours::kText));
+    painter.setPen(widgets::toQColor(widgets::colours::kText));
     painter.drawText(place, kWrapped, state_.task);
   }
   paintScale(painter);
@@ -124,12 +124,12 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
 void SceneOverlay::paintLabel(QPainter& painter) const {
   const double s = textScale_;
   const QPointF end = labelAt_ + QPointF(0, 26 * s);
-  painter.setPen(QPen(toQColor(colours::kFaintText), 1.2 * s));
+  painter.setPen(QPen(widgets::toQColor(widgets::colours::kFaintText), 1.2 * s));
   painter.drawLine(labelAt_, end);
   QFont font = painter.font();
   font.setPointSizeF(11 * s);
   painter.setFont(font);
-  painter.setPen(toQColor(colours::kText));
+  painter.setPen(widgets::toQColor(widgets::colours::kText));
   painter.drawText(QRectF(end.x() - 100 * s, end.y(), 200 * s, 22 * s), Qt::AlignHCenter | Qt::AlignTop, label_);
 }
 
@@ -137,7 +137,7 @@ void SceneOverlay::paintScale(QPainter& painter) const {
   const double length = roundLength(0.22 * width() * metresPerPixel_);
   if (length <= 0) return;
   const double pixels = length / metresPerPixel_, right = width() - 22, y = height() - 22;
-  painter.setPen(QPen(toQColor(colours::kFaintText), 1.6));
+  painter.setPen(QPen(widgets::toQColor(widgets::colours::kFaintText), 1.6));
   painter.drawLine(QPointF(right - pixels, y), QPointF(right, y));
   painter.drawLine(QPointF(right - pixels, y - 5), QPointF(right - pixels, y + 5));
   painter.drawLine(QPointF(right, y - 5), QPointF(right, y + 5));
@@ -164,4 +164,4 @@ void SceneOverlay::paintAxes(QPainter& painter) const {
   }
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

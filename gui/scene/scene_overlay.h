@@ -6,7 +6,7 @@
 
 #include "sim/trial/outcome.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 /// What is written over the scene.
 struct OverlayState {
@@ -58,4 +58,4 @@ double pointsToFit(const QString& text, QFont font, double most, double room);
 /// A round length (1, 2 or 5 times a power of ten) not above `most`. [same unit]
 double roundLength(double most);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

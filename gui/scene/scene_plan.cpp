@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 Vec3 placeOnConstraint(const constraints::Constraint& constraint, const std::vector<double>& q) {
@@ -151,4 +151,4 @@ int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
   return static_cast<int>(count);
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -6,7 +6,7 @@
 #include "sim/haptics/tick_state.h"
 
 /// What is to be drawn of an experiment, as plain data: sizes, places, colours' roles. Known to no graphics library.
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 enum class MassRole { Driven, Middle, Last };
 
@@ -55,4 +55,4 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
 /// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -17,7 +17,7 @@
 #include "gui/widgets/colours.h"
 #include "gui/scene/scene_actors.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 // Key light from the upper left, a weak fill from the right, both fixed to the viewer.
@@ -84,7 +84,7 @@ struct SceneView::Impl {
     const int count = massesAtOnePlace(plan, frame);
     if (count == 0) return overlay->setLabel({}, {});
     const Vec3 at = frame.masses.back() + plan.massShift.back();
-    const auto [x, y] = reachlab::gui::pixelOf(camera, at, width(), height());
+    const auto [x, y] = reachlab::gui::scene::pixelOf(camera, at, width(), height());
     const double radius = plan.massRadius.back() / metresPerPixel(camera, at, height());
     overlay->setLabel(QStringLiteral("%1 masses").arg(count), {x, y + radius});
   }
@@ -122,8 +122,8 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
   impl_->window->AddRenderer(impl_->renderer);
   impl_->renderer->SetUseFXAA(true);
   impl_->renderer->GradientBackgroundOn();
-  impl_->renderer->SetBackground(colours::kSkyBottom.red, colours::kSkyBottom.green, colours::kSkyBottom.blue);
-  impl_->renderer->SetBackground2(colours::kSkyTop.red, colours::kSkyTop.green, colours::kSkyTop.blue);
+  impl_->renderer->SetBackground(widgets::colours::kSkyBottom.red, widgets::colours::kSkyBottom.green, widgets::colours::kSkyBottom.blue);
+  impl_->renderer->SetBackground2(widgets::colours::kSkyTop.red, widgets::colours::kSkyTop.green, widgets::colours::kSkyTop.blue);
   impl_->renderer->GetActiveCamera();
   addLights(*impl_->renderer);
   impl_->widget->installEventFilter(this);
@@ -212,7 +212,7 @@ bool SceneView::drawsInSoftware() const {
 }
 
 QPointF SceneView::pixelOf(const Vec3& world) const {
-  const auto [x, y] = reachlab::gui::pixelOf(impl_->camera, world, impl_->width(), impl_->height());
+  const auto [x, y] = reachlab::gui::scene::pixelOf(impl_->camera, world, impl_->width(), impl_->height());
   return {x, y};
 }
 
@@ -271,4 +271,4 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
   }
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

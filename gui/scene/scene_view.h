@@ -7,7 +7,7 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_plan.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 /// The OpenGL format that the scene needs; before the QApplication is made.
 void applySurfaceFormat();
@@ -62,4 +62,4 @@ class SceneView : public QWidget {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -7,7 +7,7 @@
 #include "gui/scene/camera.h"
 #include "gui/widgets/theme.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 struct Projector {
@@ -46,7 +46,8 @@ void drawSkin(QPainter& painter, const Projector& at, const SurfaceMesh& mesh) {
     QPolygonF shape;
     for (const auto corner : quad) shape << at(mesh.points[corner]);
     const double facing = std::abs(dot(mesh.normals[quad[0]], axes.forward)), light = 0.45 + 0.55 * facing;
-    QColor ink = QColor::fromRgbF(colours::kSurface.red * light, colours::kSurface.green * light, colours::kSurface.blue * light);
+    QColor ink = QColor::fromRgbF(widgets::colours::kSurface.red * light, widgets::colours::kSurface.green * light,
+                                  widgets::colours::kSurface.blue * light);
     ink.setAlpha(150);
     painter.setBrush(ink);
     painter.drawConvexPolygon(shape);
@@ -59,28 +60,28 @@ void drawSkin(QPainter& painter, const Projector& at, const SurfaceMesh& mesh) {
 QImage drawThumbnail(const ScenePlan& plan, const QSize& size, double pixelRatio) {
   QImage image((QSizeF(size) * pixelRatio).toSize(), QImage::Format_ARGB32_Premultiplied);
   image.setDevicePixelRatio(pixelRatio);
-  image.fill(toQColor(colours::kBase));
+  image.fill(widgets::toQColor(widgets::colours::kBase));
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);
   const double width = size.width(), height = size.height();
   const Projector at{lookAtPoints(plan.seen, 0.06 * plan.size, plan.viewFrom, width / height), width, height};
   if (!plan.surface.quads.empty()) {
     drawSkin(painter, at, plan.surface);
-    QColor line = toQColor(colours::kSurfaceLine);
+    QColor line = widgets::toQColor(widgets::colours::kSurfaceLine);
     line.setAlpha(70);
     painter.setPen(QPen(line, 0.6));
     for (const auto& piece : plan.surface.parameterLines) drawLine(painter, at, piece);
   }
-  painter.setPen(QPen(toQColor(colours::kRail), 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setPen(QPen(widgets::toQColor(widgets::colours::kRail), 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   for (const auto& piece : plan.curve.pieces) drawLine(painter, at, piece);
   if (plan.hasTask) {
     painter.setPen(Qt::NoPen);
-    painter.setBrush(toQColor(colours::kStart).lighter(125));
+    painter.setBrush(widgets::toQColor(widgets::colours::kStart).lighter(125));
     painter.drawEllipse(at(plan.start), 2.6, 2.6);
-    painter.setBrush(toQColor(colours::kTarget));
+    painter.setBrush(widgets::toQColor(widgets::colours::kTarget));
     painter.drawEllipse(at(plan.target), 2.6, 2.6);
   }
   return image;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -1,6 +1,6 @@
 #include "gui/scene/trial_texts.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 QString number(double value, int digits) { return QString::number(value, 'f', digits); }
@@ -107,4 +107,4 @@ OverlayState restingOverlay(const QString& experiment, bool mouse) {
   return o;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

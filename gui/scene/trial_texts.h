@@ -3,7 +3,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_state.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 
 /// What stands over the scene: what the subject is to do now, and how the last trial ended. Pure.
 OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse);
@@ -17,4 +17,4 @@ QString reasonText(trial::Reason reason);
 /// How a trial ended, for the subject: "Too fast by 0.12 s", "Mass 5 still moved too fast: 0.004 m/s over".
 QString outcomeText(const trial::TrialResult& result);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

@@ -6,13 +6,13 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
-namespace reachlab::gui {
+namespace reachlab::gui::subject {
 
 SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   setWindowTitle(QStringLiteral("Reachlab – subject"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  view_ = new SceneView;
+  view_ = new scene::SceneView;
   view_->setTextScale(1.5);
   layout->addWidget(view_);
   for (const auto& key : {QKeySequence(Qt::Key_F11), QKeySequence(Qt::Key_Escape)})
@@ -30,4 +30,4 @@ void SubjectWindow::closeEvent(QCloseEvent* event) {
   Q_EMIT closed();
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::subject

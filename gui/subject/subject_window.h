@@ -3,7 +3,7 @@
 
 #include "gui/scene/scene_view.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::subject {
 
 /// What the subject sees: the scene alone, over a whole screen. Esc, F11 or a closed window ends it.
 class SubjectWindow : public QWidget {
@@ -12,7 +12,7 @@ class SubjectWindow : public QWidget {
   explicit SubjectWindow(QWidget* parent = nullptr);
   /// On the second screen if there is one, else on this.
   void showFull();
-  SceneView& view() { return *view_; }
+  scene::SceneView& view() { return *view_; }
 
  Q_SIGNALS:
   void closed();
@@ -21,7 +21,7 @@ class SubjectWindow : public QWidget {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  SceneView* view_;
+  scene::SceneView* view_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::subject

@@ -2,7 +2,7 @@
 
 /// The window's palette: dark and legible from the back of a room, and told apart by colour-blind eyes (blue, orange and sky of Okabe
 /// and Ito). Components in [0, 1]; toQColor lives with the widgets.
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 struct Colour {
   double red = 0, green = 0, blue = 0;
@@ -21,4 +21,4 @@ inline constexpr Colour kText{0.93, 0.95, 0.98}, kFaintText{0.66, 0.71, 0.78};
 inline constexpr Colour kWindow{0.115, 0.130, 0.160}, kBase{0.075, 0.086, 0.108}, kButton{0.175, 0.198, 0.240}, kAccent{0.24, 0.60, 0.96};
 }  // namespace colours
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 /// What is wrong with the entries of a dock, a line each; hidden while nothing is. A watched field has `QString fault() const` and the signal
 /// `checked()`, which it emits whenever it is typed in.
@@ -36,4 +36,4 @@ class FaultLabel : public QLabel {
   std::vector<std::function<QString()>> fields_;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

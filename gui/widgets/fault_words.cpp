@@ -3,7 +3,7 @@
 #include <QRegularExpression>
 #include <map>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 namespace {
 
 // What a key's last part is called at its field. Others keep their name, without the unit.
@@ -48,4 +48,4 @@ QStringList inWords(const std::vector<Fault>& faults) {
   return lines;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

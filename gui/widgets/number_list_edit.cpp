@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 namespace {
 
 // Nothing behind it but the number: "5 x 0.6" gives five parts "0.6".
@@ -104,4 +104,4 @@ void NumberListEdit::mark() {
 std::optional<std::vector<double>> NumberListEdit::numbers() const { return numbersOf(text()); }
 QString NumberListEdit::fault() const { return isEnabled() ? faultOf(text(), rule_) : QString(); }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 /// What a list of numbers may hold, and what it is called in a message.
 struct NumberListRule {
@@ -49,4 +49,4 @@ std::optional<std::vector<double>> numbersOf(const QString& text);
 /// "mass 2: -0.6 kg; allowed: more than 0"; empty when the text keeps the rule.
 QString faultOf(const QString& text, const NumberListRule& rule);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

@@ -10,7 +10,7 @@
 
 #include "gui/widgets/unit_spin_box.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 namespace {
 
 constexpr int kSteps = 500;
@@ -87,4 +87,4 @@ std::map<std::string, double> ShapeSliders::values() const {
   return values;
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

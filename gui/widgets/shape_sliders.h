@@ -9,7 +9,7 @@
 class QFormLayout;
 class QSlider;
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 class UnitSpinBox;
 
@@ -41,4 +41,4 @@ class ShapeSliders : public QWidget {
   QFormLayout* form_ = nullptr;
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

@@ -6,7 +6,7 @@
 #include <QStyleFactory>
 #include <clocale>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 QColor toQColor(const Colour& colour) { return QColor::fromRgbF(colour.red, colour.green, colour.blue); }
 
@@ -53,4 +53,4 @@ void applyTheme(QApplication& application) {
       "QSplitter::handle { background: #262c37; }"));
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

@@ -5,10 +5,10 @@
 
 class QApplication;
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 QColor toQColor(const Colour& colour);
 /// Dark palette and style of the whole program; numbers with a decimal point and no group marks in every locale, as in the files.
 void applyTheme(QApplication& application);
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

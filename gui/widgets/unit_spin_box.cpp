@@ -5,7 +5,7 @@
 #include <QSignalBlocker>
 #include <utility>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 UnitSpinBox::UnitSpinBox(double low, double high, const QString& unit, QWidget* parent) : QDoubleSpinBox(parent) {
   setDecimals(9);
@@ -74,4 +74,4 @@ void UnitSpinBox::check() {
   Q_EMIT checked();
 }
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

@@ -2,7 +2,7 @@
 #include <QDoubleSpinBox>
 #include <optional>
 
-namespace reachlab::gui {
+namespace reachlab::gui::widgets {
 
 /// A number with its unit behind it; as many decimals as it needs, steps of a tenth of its size, told only when done. What cannot stand is
 /// red while it is typed; on leaving, the value before comes back and `fault` says so until the next entry.
@@ -37,4 +37,4 @@ class UnitSpinBox : public QDoubleSpinBox {
   bool wrong_ = false;  // what is in the field now
 };
 
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::widgets

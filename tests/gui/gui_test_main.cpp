@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
   qputenv("LANG", "de_DE.UTF-8");
   const QTemporaryDir own;
   qputenv("REACHLAB_CONSTRAINTS", own.path().toUtf8());  // nothing of the user's, and nothing left behind
-  reachlab::gui::applySurfaceFormat();
+  reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
-  reachlab::gui::applyTheme(application);
+  reachlab::gui::widgets::applyTheme(application);
   return RUN_ALL_TESTS();
 }

@@ -28,7 +28,7 @@
 #include "gui/plot/velocity_plot.h"
 #include "sim/record/run_log.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 namespace {
 
 // An object that a steady pointer brings to rest: well damped, and a wide window in time, so that a stall of the machine spoils nothing.
@@ -97,7 +97,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   QTest::keyClick(&window, Qt::Key_Space);
   ASSERT_EQ(window.message().toStdString(), "");
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
-  SceneView& view = window.view();
+  scene::SceneView& view = window.view();
   const QPoint from = view.pixelOf(view.plan().start).toPoint(), to = view.pixelOf(view.plan().target).toPoint();
   std::set<trial::Semaphore> seen{window.overlay().semaphore};
   press(Qt::LeftButton, from);
@@ -150,15 +150,15 @@ TEST_F(Window, TheTaskIsToldBeforeTheFirstTrialAndGoesWhenItRuns) {
 TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
   experiment::Experiment e;
   e.object.masses = {1};
-  EXPECT_EQ(taskText(e, false), QString());
+  EXPECT_EQ(scene::taskText(e, false), QString());
   e.task = experiment::Task{};
   e.task->duration = 1.5;
   e.task->tolerance = {0.005, 0.02, 8.5};
   EXPECT_EQ(
-      taskText(e, false).toStdString(),
+      scene::taskText(e, false).toStdString(),
       "Bring the mass to the small yellow sphere (within 5 mm) and to rest there (below 20 mm/s), at most 10 s after your hand starts to "
       "move.");
-  EXPECT_EQ(overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
+  EXPECT_EQ(scene::overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
 }
 
 TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
@@ -184,14 +184,14 @@ TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
   request_.what = "ellipse";                            // 1.5 s, at most 10
   MainWindow& window = open();
   EXPECT_NEAR(window.plot().timeSpan(), 3, 1e-12);
-  const ScenePlan& plan = window.view().plan();
-  EXPECT_TRUE(window.view().rect().contains(window.view().pixelOf(penEnd(plan.start, plan.handRadius)).toPoint()));
+  const scene::ScenePlan& plan = window.view().plan();
+  EXPECT_TRUE(window.view().rect().contains(window.view().pixelOf(scene::penEnd(plan.start, plan.handRadius)).toPoint()));
 }
 
 TEST_F(Window, MassesPutSideBySideAreAllInThePictureFromTheSameSide) {
   request_.what = "chain-moderate";
   MainWindow& window = open();
-  const SceneView& view = window.view();
+  const scene::SceneView& view = window.view();
   press(Qt::RightButton, {400, 300});
   moveTo({430, 290});
   release(Qt::RightButton, {430, 290});
@@ -206,7 +206,7 @@ TEST_F(Window, MassesPutSideBySideAreAllInThePictureFromTheSameSide) {
 
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   MainWindow& window = open();
-  const Camera before = window.view().camera();
+  const scene::Camera before = window.view().camera();
   const Vec3 hand = window.view().frame().hand;
   press(Qt::RightButton, {200, 200});
   moveTo({260, 180});
@@ -294,7 +294,7 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
 
 TEST_F(Window, MassesOverOneAnotherAreCountedInTheScene) {
   MainWindow& window = open();
-  const auto* overlay = window.view().findChild<SceneOverlay*>();
+  const auto* overlay = window.view().findChild<scene::SceneOverlay*>();
   ASSERT_NE(overlay, nullptr);
   EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
   QTest::keyClick(&window, Qt::Key_F);
@@ -369,7 +369,7 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   QTest::qWait(100);
   auto* table = window.predictions().findChild<QTableWidget*>();
   ASSERT_NE(table, nullptr);
-  const auto forecasts = forecastAll(window.session().experiment());
+  const auto forecasts = plot::forecastAll(window.session().experiment());
   EXPECT_EQ(table->item(0, 1)->text(), QString::number(forecasts[0].prediction->handPeak, 'f', 4));  // m/s, as everywhere
   // The simulated subject plans least hand jerk: that row's error is the smallest.
   const double jerk = table->item(0, 2)->text().toDouble(), forceChange = table->item(4, 2)->text().toDouble();
@@ -446,4 +446,4 @@ TEST_F(Window, TheSubjectsScreenShowsTheSceneAlone) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

@@ -21,7 +21,7 @@
 #include "sim/record/run_log.h"
 #include "test_paths.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -286,4 +286,4 @@ TEST_F(RecordingWindow, RecordsByteForByteWhatTheCommandLineRecords) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::app

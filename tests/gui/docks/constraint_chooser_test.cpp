@@ -17,7 +17,7 @@
 #include "gui/docks/formula_editor.h"
 #include "gui/scene/scene_view.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::docks {
 namespace {
 
 class Chooser : public ::testing::Test {
@@ -165,4 +165,4 @@ TEST(FormulaNames, AreWhatIsNeitherVariableConstantNorFunction) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::docks

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace reachlab::gui {
+namespace reachlab::gui::plot {
 namespace {
 
 // A hand that moves just as `plan` says, sampled as the window samples.
@@ -56,4 +56,4 @@ TEST(PathDirection, FollowsACurveTowardsTheTarget) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::plot

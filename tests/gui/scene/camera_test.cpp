@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 constexpr double kWidth = 900, kHeight = 600;
@@ -64,4 +64,4 @@ TEST(Camera, LookingStraightDownStillHasARightAndAnUp) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

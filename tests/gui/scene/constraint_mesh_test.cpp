@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -86,4 +86,4 @@ TEST(DrawnDomain, AnEndlessLineIsDrawnBeyondStartAndTarget) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene

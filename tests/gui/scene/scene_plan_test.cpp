@@ -9,7 +9,7 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/trial_texts.h"
 
-namespace reachlab::gui {
+namespace reachlab::gui::scene {
 namespace {
 
 ScenePlan planOf(const char* experiment, ViewOptions::SideBySide wish = ViewOptions::SideBySide::Auto) {
@@ -78,13 +78,13 @@ TEST(TrialTexts, TheSemaphoreIsTheStates) {
 
 TEST(NumberList, ReadsBackWhatItShows) {
   for (const std::vector<double>& numbers : {std::vector<double>{0.6, 0.6, 0.6}, {1, 2.5e-7}, {600}, {}, {0.1 + 0.2, -3}})
-    EXPECT_EQ(numbersOf(textOf(numbers)), numbers);
-  EXPECT_EQ(textOf({0.6, 0.6, 0.6, 0.6, 0.6}), QStringLiteral("5 x 0.6"));
+    EXPECT_EQ(widgets::numbersOf(widgets::textOf(numbers)), numbers);
+  EXPECT_EQ(widgets::textOf({0.6, 0.6, 0.6, 0.6, 0.6}), QStringLiteral("5 x 0.6"));
 }
 
 TEST(NumberList, RefusesWhatIsNoNumber) {
   for (const char* text : {"0,6", "abc", "1 nan", "inf", "3 x", "999999 x 1"})
-    EXPECT_FALSE(numbersOf(QString::fromLatin1(text)).has_value()) << text;
+    EXPECT_FALSE(widgets::numbersOf(QString::fromLatin1(text)).has_value()) << text;
 }
 
 TEST(Overlay, TheLongestSentenceFitsIntoTheSmallestScene) {
@@ -111,4 +111,4 @@ TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
 }
 
 }  // namespace
-}  // namespace reachlab::gui
+}  // namespace reachlab::gui::scene
