@@ -2,27 +2,31 @@
 #include <QMainWindow>
 #include <memory>
 
-#include "sim/session/session.h"
+#include "gui/app/edit_history.h"
+#include "gui/app/session_controller.h"
+#include "gui/app/status_line.h"
+#include "gui/app/success_sound.h"
+#include "gui/app/trial_pacing.h"
+#include "gui/docks/all_docks.h"
+#include "gui/plot/live_forecast.h"
+#include "gui/plot/live_trace.h"
+#include "gui/scene/scene_overlay.h"
+
+class QTimer;
 
 namespace reachlab::gui::docks {
 class ConstraintChooser;
-class PredictionDock;
-class SessionDock;
-}  // namespace reachlab::gui::docks
-namespace reachlab::gui::plot {
-class VelocityPlot;
 }
 namespace reachlab::gui::scene {
 class SceneView;
-struct OverlayState;
-}  // namespace reachlab::gui::scene
+}
 
 namespace reachlab::gui::app {
 
-class SessionController;
+class MessageBar;
+class Screens;
 
-/// The window of `reachlab`: the scene in the middle, docks around it, the live plot below. It wires docks to the session and owns no
-/// logic of either.
+/// The window of `reachlab`: the scene in the middle, docks around it. It wires docks, pictures and session, and owns no logic of any.
 class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
@@ -30,31 +34,62 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(const session::SessionRequest& request, QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  SessionController& session();
-  scene::SceneView& view();
+  SessionController& session() { return session_; }
+  scene::SceneView& view() { return *view_; }
   plot::VelocityPlot& plot();
-  docks::PredictionDock& predictions();
-  docks::SessionDock& sessionDock();
+  docks::PredictionDock& predictions() { return *docks_.predictions; }
+  docks::SessionDock& sessionDock() { return *docks_.session; }
   docks::ConstraintChooser& chooser();  // made when first asked for
-  scene::OverlayState overlay() const;
+  QUndoStack& edits() { return edits_.stack(); }
+  const scene::OverlayState& overlay() const;
   /// The sentence in the bar at the top, empty when there is none.
   QString message() const;
   /// Waits for nothing; true once the criteria have been computed for the experiment as it is.
-  bool predictionsReady() const;
+  bool predictionsReady() const { return forecast_.isReady(); }
 
  public Q_SLOTS:
   void nextTrial();
+  void abortTrial();
+  void repeatTrial();
+  void resumeSession();
+  void endRun();
   /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
   void openExperiment(const QString& what);
+  void openFile();
+  void saveExperimentAs();
   void chooseConstraint();
   void toggleSubjectWindow();
+  void setSideBySide(bool on);
+  void setMuted(bool muted);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void addCentre();
+  void wireDocks();
+  void wireSession();
+  void showExperiment();
+  void showOverlay();
+  void showStage();
+  void drawPredictions();
+  void runOpened();
+  void runClosed();
+  void trialEnded();
+  void oneFrame();
+
+  SessionController session_;
+  EditHistory edits_;
+  plot::LiveForecast forecast_;
+  plot::LiveTrace trace_;
+  TrialPacing pacing_;
+  SuccessSound sound_;
+  docks::Docks docks_;
+  std::unique_ptr<StatusLine> status_;
+  MessageBar* message_ = nullptr;
+  scene::SceneView* view_ = nullptr;
+  Screens* screens_ = nullptr;
+  QTimer* timer_ = nullptr;
 };
 
 }  // namespace reachlab::gui::app

@@ -10,6 +10,7 @@
 
 #include "constraints/definition.h"
 #include "base/error.h"
+#include "gui/docks/constraint_chooser.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/shape_sliders.h"
 
@@ -46,8 +47,7 @@ bool sameFormula(const constraints::ConstraintSpec& a, const constraints::Constr
 
 }  // namespace
 
-ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Constraint"), parent) {
-  setObjectName(QStringLiteral("constraintDock"));
+ConstraintDock::ConstraintDock(QWidget* parent) : Dock(QStringLiteral("Constraint"), QStringLiteral("constraintDock"), parent) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   name_ = new QLabel;
@@ -55,25 +55,29 @@ ConstraintDock::ConstraintDock(QWidget* parent) : QDockWidget(QStringLiteral("Co
   formula_->setProperty("role", "quiet");
   formula_->setWordWrap(true);
   sliders_ = new widgets::ShapeSliders;
-  faults_ = new widgets::FaultLabel;
-  auto* choose = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
-  choose->setObjectName(QStringLiteral("choose"));
-  choose->setFocusPolicy(Qt::NoFocus);
+  auto* another = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
+  another->setObjectName(QStringLiteral("choose"));
+  another->setFocusPolicy(Qt::NoFocus);
   layout->addWidget(name_);
   layout->addWidget(formula_);
   layout->addWidget(sliders_);
-  layout->addWidget(faults_);
-  layout->addWidget(choose);
+  layout->addWidget(faults());
+  layout->addWidget(another);
   layout->addStretch();
-  setWidget(body);
+  setBody(body);
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {
-    shown_.shape = sliders_->values();
-    Q_EMIT shapeMoved(shown_.shape);
+    experiment::Experiment changed = shown();
+    changed.constraint.shape = inSliders_.shape = sliders_->values();
+    Q_EMIT edited(changed, QStringLiteral("shape"));
   });
-  connect(choose, &QPushButton::clicked, this, &ConstraintDock::chooseRequested);
+  connect(another, &QPushButton::clicked, this, &ConstraintDock::choose);
 }
 
-void ConstraintDock::setConstraint(const constraints::ConstraintSpec& spec, const constraints::Constraint& constraint) {
+void ConstraintDock::display(const experiment::CompiledExperiment& experiment, bool editable) {
+  const constraints::ConstraintSpec& spec = experiment.experiment().constraint;
+  const constraints::Constraint& constraint = experiment.constraint();
+  body()->setEnabled(editable);
+  editable_ = editable;
   const char* kind = constraint.kind == constraints::ConstraintKind::Surface ? "surface"
                      : constraint.kind == constraints::ConstraintKind::Curve ? "curve"
                                                                              : "no constraint";
@@ -88,11 +92,30 @@ void ConstraintDock::setConstraint(const constraints::ConstraintSpec& spec, cons
   formula_->setText(formula.trimmed());
   formula_->setVisible(!formula.isEmpty());
   // While a slider is being moved its row must stand still.
-  if (!sameFormula(spec, shown_) || spec.shape != sliders_->values()) sliders_->setParameters(parametersOf(spec), spec.shape);
-  shown_ = spec;
-  faults_->hide();
+  if (!sameFormula(spec, inSliders_) || spec.shape != sliders_->values()) sliders_->setParameters(parametersOf(spec), spec.shape);
+  inSliders_ = spec;
+  faults()->hide();
 }
 
-void ConstraintDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
+ConstraintChooser& ConstraintDock::chooser() {
+  if (chooser_ != nullptr) return *chooser_;
+  chooser_ = new ConstraintChooser(this);
+  connect(chooser_, &ConstraintChooser::used, this, [this](const ConstraintChoice& choice) {
+    experiment::Experiment changed = shown();
+    changed.constraint = choice.spec;
+    if (!changed.task) changed.task = experiment::Task{};
+    changed.task->start = choice.start;
+    changed.task->target = choice.target;
+    Q_EMIT edited(changed, QStringLiteral("constraint"));
+  });
+  return *chooser_;
+}
+
+void ConstraintDock::choose() {
+  if (!editable_) return;
+  chooser().setCurrent(shown());
+  chooser().QDialog::show();
+  chooser().raise();
+}
 
 }  // namespace reachlab::gui::docks

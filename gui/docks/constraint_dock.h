@@ -1,36 +1,34 @@
 #pragma once
-#include <QDockWidget>
-#include <map>
-#include <string>
-
-#include "constraints/constraint.h"
+#include "gui/docks/dock.h"
 
 class QLabel;
 
 namespace reachlab::gui::widgets {
-class FaultLabel;
 class ShapeSliders;
 }  // namespace reachlab::gui::widgets
 
 namespace reachlab::gui::docks {
 
+class ConstraintChooser;
+
 /// The constraint in use: its name, its shape's sliders, and the way to another. Knows definitions, not the simulator.
-class ConstraintDock : public QDockWidget {
+class ConstraintDock : public Dock {
   Q_OBJECT
  public:
   explicit ConstraintDock(QWidget* parent = nullptr);
-  void setConstraint(const constraints::ConstraintSpec& spec, const constraints::Constraint& constraint);
-  void setFaults(const QStringList& faults);
+  /// The dialog with the catalogue, for the experiment that is shown; nothing where it may not be edited.
+  void choose();
+  ConstraintChooser& chooser();  // made when first asked for
 
- Q_SIGNALS:
-  void shapeMoved(const std::map<std::string, double>& shape);
-  void chooseRequested();
+ protected:
+  void display(const experiment::CompiledExperiment& experiment, bool editable) override;
 
  private:
   QLabel *name_, *formula_;
-  widgets::FaultLabel* faults_;
   widgets::ShapeSliders* sliders_;
-  constraints::ConstraintSpec shown_;
+  ConstraintChooser* chooser_ = nullptr;
+  constraints::ConstraintSpec inSliders_;
+  bool editable_ = true;
 };
 
 }  // namespace reachlab::gui::docks

@@ -24,8 +24,7 @@ void fitSprings(experiment::Object& object) {
 
 }  // namespace
 
-ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), parent) {
-  setObjectName(QStringLiteral("objectDock"));
+ObjectDock::ObjectDock(QWidget* parent) : Dock(QStringLiteral("Object"), QStringLiteral("objectDock"), parent) {
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
   kind_ = new QComboBox;
@@ -51,19 +50,18 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
   form->addRow(QStringLiteral("dampers [N s/m]"), damping_);
   form->addRow(QStringLiteral("viscosity"), viscosity_);
   form->addRow(QStringLiteral("gravity [m/s²]"), gravity);
-  faults_ = new widgets::FaultLabel;
-  faults_->setObjectName(QStringLiteral("objectFaults"));
-  form->addRow(faults_);
+  faults()->setObjectName(QStringLiteral("objectFaults"));
+  form->addRow(faults());
   viscosity_->setName(QStringLiteral("viscosity"));
   for (std::size_t i = 0; i < 3; ++i) gravity_[i]->setName(QStringLiteral("gravity %1").arg(QLatin1Char("xyz"[i])));
-  for (auto* list : {masses_, stiffness_, damping_}) faults_->watch(list);
-  for (auto* number : {viscosity_, gravity_[0], gravity_[1], gravity_[2]}) faults_->watch(number);
+  for (auto* list : {masses_, stiffness_, damping_}) faults()->watch(list);
+  for (auto* number : {viscosity_, gravity_[0], gravity_[1], gravity_[2]}) faults()->watch(number);
   masses_->setToolTip(QStringLiteral("first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6"));
   stiffness_->setToolTip(QStringLiteral("chain: between neighbours, one fewer than masses; parallel: each mass to the hand"));
-  setWidget(body);
+  setBody(body);
 
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] {
-    object_ = accepted_;  // a kind that was refused leaves nothing behind
+    object_ = shown().object;  // a kind that was refused leaves nothing behind
     object_.kind = static_cast<experiment::ObjectKind>(kind_->currentIndex());
     if (object_.kind == experiment::ObjectKind::Point || object_.kind == experiment::ObjectKind::Body) object_.masses.resize(1, 1.0);
     if (object_.kind == experiment::ObjectKind::Parallel)
@@ -91,8 +89,9 @@ ObjectDock::ObjectDock(QWidget* parent) : QDockWidget(QStringLiteral("Object"), 
             [this, part = parts[i]](double v) { object_.gravity.*part = v, tell(); });
 }
 
-void ObjectDock::setObject(const experiment::Object& object) {
-  object_ = accepted_ = object;
+void ObjectDock::display(const experiment::CompiledExperiment& experiment, bool editable) {
+  const experiment::Object& object = object_ = experiment.experiment().object;
+  body()->setEnabled(editable);
   kind_->setCurrentIndex(static_cast<int>(object.kind));
   const bool springs = object.kind == experiment::ObjectKind::Chain || object.kind == experiment::ObjectKind::Parallel;
   stiffness_->setEnabled(springs);
@@ -120,8 +119,13 @@ void ObjectDock::setRules() {
   damping_->setRule(rule);
 }
 
-void ObjectDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
-
-void ObjectDock::tell() { Q_EMIT edited(object_); }
+void ObjectDock::tell() {
+  experiment::Experiment changed = shown();
+  changed.object = object_;
+  // The springs of parallel masses are the hand's own.
+  if (object_.kind == experiment::ObjectKind::Parallel) changed.coupling.reset();
+  else if (!changed.coupling) changed.coupling = experiment::Coupling{600, 0};
+  Q_EMIT edited(changed, QStringLiteral("object"));
+}
 
 }  // namespace reachlab::gui::docks

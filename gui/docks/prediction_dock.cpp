@@ -23,9 +23,8 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 }  // namespace
 
 PredictionDock::PredictionDock(QWidget* parent)
-    : QDockWidget(QStringLiteral("Predictions"), parent), latest_(predict::kCriterionCount), sums_(predict::kCriterionCount),
-      counts_(predict::kCriterionCount) {
-  setObjectName(QStringLiteral("predictionDock"));
+    : Dock(QStringLiteral("Predictions"), QStringLiteral("predictionDock"), parent), latest_(predict::kCriterionCount),
+      sums_(predict::kCriterionCount), counts_(predict::kCriterionCount) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   table_ = new QTableWidget(predict::kCriterionCount, kColumns);
@@ -64,7 +63,7 @@ PredictionDock::PredictionDock(QWidget* parent)
   note_->setWordWrap(true);
   layout->addWidget(note_);
   layout->addStretch();
-  setWidget(body);
+  setBody(body);
   connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
     if (item->column() == kName) Q_EMIT chosenChanged();
   });

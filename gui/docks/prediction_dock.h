@@ -1,8 +1,8 @@
 #pragma once
-#include <QDockWidget>
 #include <optional>
 #include <vector>
 
+#include "gui/docks/dock.h"
 #include "gui/plot/trial_errors.h"
 
 class QTableWidget;
@@ -11,7 +11,7 @@ class QLabel;
 namespace reachlab::gui::docks {
 
 /// The criteria: which are drawn on the plot, and how far the last trial and all trials of the run were from each. Knows no simulator.
-class PredictionDock : public QDockWidget {
+class PredictionDock : public Dock {
   Q_OBJECT
  public:
   explicit PredictionDock(QWidget* parent = nullptr);
@@ -25,6 +25,9 @@ class PredictionDock : public QDockWidget {
 
  Q_SIGNALS:
   void chosenChanged();
+
+ protected:
+  void display(const experiment::CompiledExperiment&, bool) override {}
 
  private:
   void fillErrors();

@@ -21,8 +21,7 @@
 
 namespace reachlab::gui::docks {
 
-SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"), parent) {
-  setObjectName(QStringLiteral("sessionDock"));
+SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStringLiteral("sessionDock"), parent) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
 
@@ -74,9 +73,8 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   for (const devices::DeviceDriver& d : devices::deviceDrivers()) devices += QString::fromStdString(d.usage + ": " + d.description + "\n");
   device_->setToolTip(devices.trimmed());
   layout->addWidget(who_);
-  faults_ = new widgets::FaultLabel;
-  faults_->setObjectName(QStringLiteral("sessionFaults"));
-  layout->addWidget(faults_);
+  faults()->setObjectName(QStringLiteral("sessionFaults"));
+  layout->addWidget(faults());
 
   run_ = new QLabel;
   run_->setProperty("role", "quiet");
@@ -119,7 +117,7 @@ SessionDock::SessionDock(QWidget* parent) : QDockWidget(QStringLiteral("Session"
   note_->setPlaceholderText(QStringLiteral("note for the record, Enter to keep it"));
   layout->addWidget(note_);
   layout->addStretch();
-  setWidget(body);
+  setBody(body);
 
   connect(next_, &QPushButton::clicked, this, &SessionDock::nextRequested);
   connect(abort_, &QPushButton::clicked, this, &SessionDock::abortRequested);
@@ -158,10 +156,10 @@ void SessionDock::check() {
                      mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to 130 years, or nothing").arg(age)),
                      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
   faults.removeAll({});
-  faults_->setFaults(faults);
+  this->faults()->setFaults(faults);
 }
 
-QString SessionDock::fault() const { return faults_->text(); }
+QString SessionDock::fault() const { return faults()->text(); }
 
 void SessionDock::setRequest(const session::SessionRequest& request) {
   request_ = request;
@@ -174,9 +172,9 @@ void SessionDock::setRequest(const session::SessionRequest& request) {
   if (request.participant.age) age_->setText(QString::number(*request.participant.age));
 }
 
-void SessionDock::setPlan(bool isPlan) {
-  request_.trials = isPlan ? std::nullopt : std::optional(trials_->value());
-  trials_->setEnabled(!isPlan);
+void SessionDock::display(const experiment::CompiledExperiment&, bool editable) {
+  request_.trials = editable ? std::optional(trials_->value()) : std::nullopt;
+  trials_->setEnabled(editable);
 }
 
 session::SessionRequest SessionDock::request() const {
@@ -209,7 +207,12 @@ void SessionDock::setStage(Stage stage) {
   note_->setEnabled(stage != Stage::Closed);
 }
 
-void SessionDock::setRun(const QString& text) { run_->setText(text); }
+void SessionDock::showRun(const record::RunConfiguration& run) {
+  QString text = QStringLiteral("run %1, block %2: %3").arg(run.run).arg(run.block).arg(QString::fromStdString(run.condition));
+  if (run.practice) text += QStringLiteral(" (practice)");
+  if (run.day > 0) text += QStringLiteral(", day %1").arg(run.day);
+  run_->setText(text + QStringLiteral("; seed %1").arg(run.seed));
+}
 
 void SessionDock::clearTally() {
   successes_ = failures_ = others_ = 0;

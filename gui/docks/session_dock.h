@@ -1,8 +1,8 @@
 #pragma once
-#include <QDockWidget>
 #include <map>
 #include <string>
 
+#include "gui/docks/dock.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/session/session.h"
 
@@ -15,14 +15,13 @@ class QPushButton;
 class QSpinBox;
 
 namespace reachlab::gui::widgets {
-class FaultLabel;
 class UnitSpinBox;
 }  // namespace reachlab::gui::widgets
 
 namespace reachlab::gui::docks {
 
 /// Who, when, with which hand, and how it goes: subject, session, run, day, device, the trial buttons, the tally, notes.
-class SessionDock : public QDockWidget {
+class SessionDock : public Dock {
   Q_OBJECT
  public:
   explicit SessionDock(QWidget* parent = nullptr);
@@ -30,8 +29,6 @@ class SessionDock : public QDockWidget {
   void setRequest(const session::SessionRequest& request);
   /// What is typed; `what`, `fast` and the like as they came.
   session::SessionRequest request() const;
-  /// A plan has its own numbers of trials.
-  void setPlan(bool isPlan);
   /// What is wrong with the fields, a line each, as it stands under them; empty: nothing.
   QString fault() const;
   std::string device() const;
@@ -41,7 +38,8 @@ class SessionDock : public QDockWidget {
   /// While a run is open its who and where stand still.
   enum class Stage { Closed, BetweenTrials, UnderWay, Finished };
   void setStage(Stage stage);
-  void setRun(const QString& text);
+  /// Which run is open: its number, block, condition, day, seed.
+  void showRun(const record::RunConfiguration& run);
   void clearTally();
   void count(const trial::TrialResult& result);
   QString tallyText() const;
@@ -54,6 +52,10 @@ class SessionDock : public QDockWidget {
   void noteWritten(const QString& text);
   void deviceChanged();
 
+ protected:
+  /// A plan has its own numbers of trials.
+  void display(const experiment::CompiledExperiment& experiment, bool editable) override;
+
  private:
   void check();
 
@@ -64,7 +66,6 @@ class SessionDock : public QDockWidget {
   QCheckBox* automatic_;
   widgets::UnitSpinBox* pause_;
   QWidget* who_;
-  widgets::FaultLabel* faults_;
   QLabel *run_, *tally_;
   QPushButton *next_, *abort_, *repeat_, *end_;
   int successes_ = 0, failures_ = 0, others_ = 0;

@@ -10,8 +10,7 @@
 
 namespace reachlab::gui::docks {
 
-TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent) {
-  setObjectName(QStringLiteral("taskDock"));
+TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLiteral("taskDock"), parent) {
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
   start_ = new widgets::NumberListEdit;
@@ -30,21 +29,20 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   form->addRow(QStringLiteral("± ΔT"), time_);
   form->addRow(QStringLiteral("± Δx"), position_);
   form->addRow(QStringLiteral("± Δv"), velocity_);
-  faults_ = new widgets::FaultLabel;
-  faults_->setObjectName(QStringLiteral("taskFaults"));
-  form->addRow(faults_);
+  faults()->setObjectName(QStringLiteral("taskFaults"));
+  form->addRow(faults());
   duration_->setName(QStringLiteral("time T"));
   time_->setName(QStringLiteral("ΔT"));
   position_->setName(QStringLiteral("Δx"));
   velocity_->setName(QStringLiteral("Δv"));
-  for (auto* list : {start_, target_}) faults_->watch(list);
-  for (auto* number : {duration_, time_, position_, velocity_}) faults_->watch(number);
-  setWidget(body);
+  for (auto* list : {start_, target_}) faults()->watch(list);
+  for (auto* number : {duration_, time_, position_, velocity_}) faults()->watch(number);
+  setBody(body);
 
   const auto bind = [this](widgets::UnitSpinBox* box, auto set) {
     connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, set](double v) {
       set(task_, v);
-      Q_EMIT edited(task_);
+      tell();
     });
   };
   bind(duration_, [](experiment::Task& t, double v) { t.duration = v; });
@@ -53,16 +51,19 @@ TaskDock::TaskDock(QWidget* parent) : QDockWidget(QStringLiteral("Task"), parent
   bind(velocity_, [](experiment::Task& t, double v) { t.tolerance.velocity = v; });
   connect(start_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     task_.start = *start_->numbers();
-    Q_EMIT edited(task_);
+    tell();
   });
   connect(target_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     task_.target = *target_->numbers();
-    Q_EMIT edited(task_);
+    tell();
   });
 }
 
-void TaskDock::setTask(const experiment::Task& task, constraints::ConstraintKind kind) {
-  task_ = task;
+void TaskDock::display(const experiment::CompiledExperiment& experiment, bool editable) {
+  body()->setEnabled(editable);
+  if (!experiment.experiment().task) return;
+  const experiment::Task& task = task_ = *experiment.experiment().task;
+  const constraints::ConstraintKind kind = experiment.constraint().kind;  // what the numbers of start and target are
   widgets::NumberListRule rule;
   QString unit;
   if (kind == constraints::ConstraintKind::Free) {
@@ -92,6 +93,10 @@ void TaskDock::setTask(const experiment::Task& task, constraints::ConstraintKind
   velocity_->show(task.tolerance.velocity);
 }
 
-void TaskDock::setFaults(const QStringList& faults) { faults_->setFaults(faults); }
+void TaskDock::tell() {
+  experiment::Experiment changed = shown();
+  changed.task = task_;
+  Q_EMIT edited(changed, QStringLiteral("task"));
+}
 
 }  // namespace reachlab::gui::docks

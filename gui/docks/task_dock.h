@@ -1,12 +1,9 @@
 #pragma once
-#include <QDockWidget>
-
-#include "sim/experiment/experiment.h"
+#include "gui/docks/dock.h"
 
 class QLabel;
 
 namespace reachlab::gui::widgets {
-class FaultLabel;
 class NumberListEdit;
 class UnitSpinBox;
 }  // namespace reachlab::gui::widgets
@@ -14,23 +11,21 @@ class UnitSpinBox;
 namespace reachlab::gui::docks {
 
 /// Edits the task: where from, where to, how long, how exactly. Knows widgets and Task, not the simulator.
-class TaskDock : public QDockWidget {
+class TaskDock : public Dock {
   Q_OBJECT
  public:
   explicit TaskDock(QWidget* parent = nullptr);
-  /// `kind`: what the numbers of start and target are.
-  void setTask(const experiment::Task& task, constraints::ConstraintKind kind);
-  void setFaults(const QStringList& faults);
 
- Q_SIGNALS:
-  void edited(const reachlab::experiment::Task& task);
+ protected:
+  void display(const experiment::CompiledExperiment& experiment, bool editable) override;
 
  private:
+  void tell();
+
   experiment::Task task_;
   widgets::NumberListEdit *start_, *target_;
   widgets::UnitSpinBox *duration_, *time_, *position_, *velocity_;
   QLabel *startLabel_, *targetLabel_;
-  widgets::FaultLabel* faults_;
 };
 
 }  // namespace reachlab::gui::docks

@@ -243,7 +243,7 @@ TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.4, 0.1, 0.1}));
   EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
   EXPECT_EQ(masses->text(), QStringLiteral("0.4 0.1 0.1"));  // a point, also for a German user
-  window.findChild<QUndoStack*>()->undo();
+  window.edits().undo();
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
 }
 

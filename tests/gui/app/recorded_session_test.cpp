@@ -73,7 +73,7 @@ TEST_F(RecordingWindow, AnotherExperimentIsRecordedUnderItsOwnLabelConditionAndL
   EXPECT_EQ(session().experiment().name, "dingwell");
   doTrial();
   EXPECT_EQ(session().run()->configuration().condition, "dingwell");
-  window_->findChild<QUndoStack*>()->undo();
+  window_->edits().undo();
   EXPECT_EQ(session().experiment().name, "chain-moderate");
   doTrial();
   session().endRun();
@@ -158,7 +158,7 @@ TEST_F(RecordingWindow, AFileThatCannotBeReadIsOneSentenceAndNothingChanges) {
   window_->openExperiment(folder_.path() + QStringLiteral("/none.json"));
   EXPECT_TRUE(window_->message().contains(QStringLiteral("none.json"))) << window_->message().toStdString();
   EXPECT_EQ(session().experiment().name, "chain-moderate");
-  EXPECT_EQ(window_->findChild<QUndoStack*>()->count(), 0);
+  EXPECT_EQ(window_->edits().count(), 0);
 }
 
 // The day at the laboratory that a killed program cuts short: not a test by itself, run by the one below.

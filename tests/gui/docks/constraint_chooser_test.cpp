@@ -112,10 +112,12 @@ TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
   type("formula_z", "depth*sin(2*phi)");
   type("definitionName", "my-deep-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
-  constraints::ConstraintSpec spec;
-  spec.name = "my-deep-eight";
+  experiment::Experiment onIt;
+  onIt.constraint.name = "my-deep-eight";
+  onIt.object.masses = {1};
+  onIt.coupling = experiment::Coupling{600, 0};
   ConstraintDock dock;
-  dock.setConstraint(spec, constraints::makeConstraint(spec));
+  dock.showExperiment(experiment::CompiledExperiment(onIt), true);
   EXPECT_NE(dock.findChild<QSlider*>(QStringLiteral("slider_depth")), nullptr);
   std::filesystem::remove(constraints::userDefinitionFolder() + "/my-deep-eight.json");
 }

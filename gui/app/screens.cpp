@@ -1,0 +1,65 @@
+#include "gui/app/screens.h"
+
+#include <algorithm>
+
+#include "gui/scene/scene_view.h"
+#include "gui/subject/subject_window.h"
+
+namespace reachlab::gui::app {
+
+Screens::Screens(scene::SceneView& main) : main_(main) { connect(&main, &scene::SceneView::handDragged, this, &Screens::handDragged); }
+
+Screens::~Screens() { delete subject_; }
+
+void Screens::showExperiment(const experiment::CompiledExperiment& experiment) {
+  experiment_ = experiment;
+  rebuild();
+}
+
+void Screens::rebuild() {
+  const scene::ScenePlan plan = planScene(experiment_->experiment(), experiment_->constraint(), options_);
+  frame_ = restingFrame(plan);
+  main_.setPlan(plan);
+  if (subject_) subject_->view().setPlan(plan);
+}
+
+void Screens::showState(const haptics::TickState& state) {
+  copyToFrame(state, frame_);
+  main_.showFrame(frame_);
+  if (subject_) subject_->view().showFrame(frame_);
+}
+
+void Screens::showOverlay(const scene::OverlayState& overlay) {
+  overlay_ = overlay;
+  main_.setOverlay(overlay);
+  if (subject_) subject_->view().setOverlay(overlay);
+}
+
+void Screens::setSideBySide(bool on) {
+  options_.sideBySide = on ? scene::ViewOptions::SideBySide::Always : scene::ViewOptions::SideBySide::Never;
+  const scene::Camera kept = main_.camera();
+  rebuild();
+  main_.setCamera(kept);
+  main_.fit();
+}
+
+bool Screens::massesHide() const {
+  const std::vector<Vec3>& shifts = main_.plan().massShift;
+  return shifts.size() > 1 && std::all_of(shifts.begin(), shifts.end(), [](const Vec3& s) { return s == Vec3{}; });
+}
+
+void Screens::toggleSubject() {
+  if (subject_) return closeSubject();
+  subject_ = new subject::SubjectWindow;
+  subject_->setAttribute(Qt::WA_DeleteOnClose);
+  connect(&subject_->view(), &scene::SceneView::handDragged, this, &Screens::handDragged);
+  subject_->view().setPlan(main_.plan());
+  subject_->view().setOverlay(overlay_);
+  subject_->showFull();
+}
+
+void Screens::closeSubject() {
+  if (subject_) subject_->close();
+}
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,53 @@
+#pragma once
+#include <QObject>
+#include <QPointer>
+
+#include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_plan.h"
+#include "sim/experiment/compiled_experiment.h"
+
+namespace reachlab::gui::scene {
+class SceneView;
+}
+namespace reachlab::gui::subject {
+class SubjectWindow;
+}
+
+namespace reachlab::gui::app {
+
+/// Every picture of the scene that there is: the experimenter's and, while it is open, the subject's. All show the same.
+class Screens : public QObject {
+  Q_OBJECT
+ public:
+  explicit Screens(scene::SceneView& main);
+  ~Screens() override;
+
+  /// Builds the picture anew, the hand at rest at the start.
+  void showExperiment(const experiment::CompiledExperiment& experiment);
+  /// Moves what there is.
+  void showState(const haptics::TickState& state);
+  void showOverlay(const scene::OverlayState& overlay);
+  /// Masses beside one another, for the eye only; seen from where the camera stands.
+  void setSideBySide(bool on);
+  void toggleSubject();
+  void closeSubject();
+  const scene::OverlayState& overlay() const { return overlay_; }
+  /// Masses stand at one place, so that one hides the others.
+  bool massesHide() const;
+
+ Q_SIGNALS:
+  /// As SceneView::handDragged, from whichever picture.
+  void handDragged(double x, double y, double z);
+
+ private:
+  void rebuild();
+
+  scene::SceneView& main_;
+  QPointer<subject::SubjectWindow> subject_;
+  std::optional<experiment::CompiledExperiment> experiment_;
+  scene::ViewOptions options_;
+  scene::SceneFrame frame_;
+  scene::OverlayState overlay_;
+};
+
+}  // namespace reachlab::gui::app

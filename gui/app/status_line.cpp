@@ -1,0 +1,45 @@
+#include "gui/app/status_line.h"
+
+#include <QLabel>
+#include <QStatusBar>
+
+#include "sim/session/recorded_session.h"
+
+namespace reachlab::gui::app {
+
+StatusLine::StatusLine(QStatusBar& bar) : rate_(new QLabel), ticks_(new QLabel), method_(new QLabel), recording_(new QLabel) {
+  recording_->setObjectName(QStringLiteral("recording"));
+  recording_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  for (QLabel* label : {rate_, ticks_, method_}) bar.addWidget(label);
+  bar.addPermanentWidget(recording_);
+  runClosed();
+}
+
+void StatusLine::runOpened(const session::RecordedRun& run) {
+  const dynamics::MethodChoice& choice = run.choice();
+  method_->setText(QStringLiteral("%1 (%2)").arg(QString::fromStdString(choice.method), QString::fromStdString(choice.form)));
+  QString why = QString::fromStdString(choice.reason);
+  for (const std::string& warning : choice.warnings) why += QLatin1Char('\n') + QString::fromStdString(warning);
+  method_->setToolTip(why);
+  recording_->setText(QString::fromStdString(run.logPath()));
+}
+
+void StatusLine::runClosed() { rate_->setText(QStringLiteral("no run is open")); }
+
+void StatusLine::refresh(session::RecordedRun& run) {
+  const haptics::LoopReport report = run.report();
+  const haptics::TickState& s = run.latest();
+  rate_->setText(QStringLiteral("%1 Hz").arg(report.rate, 0, 'f', 1));
+  rate_->setToolTip(QStringLiteral("%1; lateness p50 %2 µs, p99 %3 µs, max %4 µs")
+                        .arg(QString::fromStdString(report.mode))
+                        .arg(report.latenessP50, 0, 'f', 0)
+                        .arg(report.latenessP99, 0, 'f', 0)
+                        .arg(report.latenessMax, 0, 'f', 0));
+  ticks_->setText(QStringLiteral("late %1  missed %2  clamped %3%4")
+                      .arg(s.faults.lateTicks)
+                      .arg(s.faults.missedTicks)
+                      .arg(s.faults.clampedTicks)
+                      .arg(s.faults.droppedRecords > 0 ? QStringLiteral("  not recorded %1").arg(s.faults.droppedRecords) : QString()));
+}
+
+}  // namespace reachlab::gui::app

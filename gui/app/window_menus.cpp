@@ -1,0 +1,120 @@
+#include "gui/app/window_menus.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QUndoStack>
+
+#include "gui/app/main_window.h"
+#include "gui/app/session_controller.h"
+#include "gui/scene/scene_view.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+template <typename Slot>
+QAction* add(MainWindow& window, QMenu* menu, const QString& text, const QKeySequence& key, Slot slot) {
+  QAction* action = menu->addAction(text);
+  action->setShortcut(key);
+  QObject::connect(action, &QAction::triggered, &window, slot);
+  return action;
+}
+
+template <typename Slot>
+QAction* addSwitch(MainWindow& window, QMenu* menu, const QString& text, const QKeySequence& key, Slot slot) {
+  QAction* action = add(window, menu, text, key, slot);
+  action->setCheckable(true);
+  return action;
+}
+
+void say(MainWindow& window, const QString& title, const QString& text) {
+  auto* box = new QMessageBox(QMessageBox::NoIcon, title, text, QMessageBox::Close, &window);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->show();
+}
+
+void sayKeys(MainWindow& window) {
+  say(window, QStringLiteral("Keys and mouse"),
+      QStringLiteral("<table cellpadding=3><tr><td><b>left drag</b></td><td>moves the hand (device mouse)</td></tr>"
+                     "<tr><td><b>right drag</b></td><td>turns</td></tr><tr><td><b>middle drag</b></td><td>shifts</td></tr>"
+                     "<tr><td><b>wheel</b></td><td>nearer, farther</td></tr><tr><td><b>Space</b></td><td>next trial</td></tr>"
+                     "<tr><td><b>Esc</b></td><td>abort the trial</td></tr><tr><td><b>R</b></td><td>repeat the last trial</td></tr>"
+                     "<tr><td><b>F</b></td><td>masses side by side</td></tr><tr><td><b>Ctrl+K</b></td><td>constraints</td></tr>"
+                     "<tr><td><b>F11</b></td><td>subject's screen</td></tr></table>"));
+}
+
+void sayAbout(MainWindow& window) {
+  say(window, QStringLiteral("Reachlab"),
+      QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>Drawn by %2")
+          .arg(QStringLiteral(REACHLAB_VERSION), window.view().rendererName().toHtmlEscaped()));
+}
+
+void addExperimentMenu(MainWindow& window) {
+  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Experiment"));
+  add(window, menu, QStringLiteral("&Open…"), QKeySequence::Open, &MainWindow::openFile);
+  QMenu* shipped = menu->addMenu(QStringLiteral("S&hipped"));
+  for (const std::string& name : experiment::shippedExperiments())
+    add(window, shipped, QString::fromStdString(name), {}, [&window, name] { window.openExperiment(QString::fromStdString(name)); });
+  add(window, menu, QStringLiteral("&Save as…"), QKeySequence::SaveAs, &MainWindow::saveExperimentAs);
+  menu->addSeparator();
+  add(window, menu, QStringLiteral("&Quit"), QKeySequence::Quit, &QWidget::close);
+}
+
+void addEditMenu(MainWindow& window) {
+  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("E&dit"));
+  QAction* undo = window.edits().createUndoAction(&window, QStringLiteral("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  QAction* redo = window.edits().createRedoAction(&window, QStringLiteral("&Redo"));
+  redo->setShortcut(QKeySequence::Redo);
+  menu->addActions({undo, redo});
+  menu->addSeparator();
+  add(window, menu, QStringLiteral("Choose or type a &constraint…"), QKeySequence(QStringLiteral("Ctrl+K")), &MainWindow::chooseConstraint);
+}
+
+void addTrialMenu(MainWindow& window) {
+  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Trial"));
+  add(window, menu, QStringLiteral("&Next"), Qt::Key_Space, &MainWindow::nextTrial);
+  add(window, menu, QStringLiteral("&Abort"), Qt::Key_Escape, &MainWindow::abortTrial);
+  add(window, menu, QStringLiteral("&Repeat"), Qt::Key_R, &MainWindow::repeatTrial);
+  add(window, menu, QStringLiteral("Res&ume the session"), {}, &MainWindow::resumeSession)->setObjectName(QStringLiteral("resume"));
+  add(window, menu, QStringLiteral("&End run"), QKeySequence(QStringLiteral("Ctrl+E")), &MainWindow::endRun);
+}
+
+void addViewMenu(MainWindow& window) {
+  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&View"));
+  add(window, menu, QStringLiteral("&Whole scene"), Qt::Key_Home, [&window] { window.view().resetCamera(); });
+  const char axes[] = {'x', 'y', 'z'};
+  for (int i = 0; i < 3; ++i)
+    add(window, menu, QStringLiteral("Along %1").arg(QLatin1Char(axes[i])), QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1)),
+        [&window, axis = axes[i]] { window.view().lookAlong(axis); });
+  menu->addSeparator();
+  QAction* aside = addSwitch(window, menu, QStringLiteral("&Masses side by side"), Qt::Key_F, &MainWindow::setSideBySide);
+  aside->setObjectName(QStringLiteral("sideBySide"));
+  aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
+  addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
+            [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
+  menu->addSeparator();
+  add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
+  addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
+  menu->addSeparator();
+  for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu->addAction(dock->toggleViewAction());
+}
+
+void addHelpMenu(MainWindow& window) {
+  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Help"));
+  add(window, menu, QStringLiteral("&Keys and mouse"), Qt::Key_F1, [&window] { sayKeys(window); });
+  add(window, menu, QStringLiteral("&About"), {}, [&window] { sayAbout(window); });
+}
+
+}  // namespace
+
+void addMenus(MainWindow& window) {
+  addExperimentMenu(window);
+  addEditMenu(window);
+  addTrialMenu(window);
+  addViewMenu(window);
+  addHelpMenu(window);
+}
+
+}  // namespace reachlab::gui::app

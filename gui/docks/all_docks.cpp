@@ -1,0 +1,36 @@
+#include "gui/docks/all_docks.h"
+
+#include <QMainWindow>
+
+#include "gui/docks/constraint_dock.h"
+#include "gui/docks/coupling_dock.h"
+#include "gui/docks/object_dock.h"
+#include "gui/docks/prediction_dock.h"
+#include "gui/docks/session_dock.h"
+#include "gui/docks/task_dock.h"
+#include "gui/docks/velocity_dock.h"
+
+namespace reachlab::gui::docks {
+
+Docks makeDocks(QMainWindow& window) {
+  Docks docks;
+  const auto add = [&](auto* dock, Qt::DockWidgetArea area) {
+    window.addDockWidget(area, dock);
+    docks.all.push_back(dock);
+    return dock;
+  };
+  window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  docks.velocity = add(new VelocityDock(&window), Qt::BottomDockWidgetArea);
+  docks.session = add(new SessionDock(&window), Qt::LeftDockWidgetArea);
+  docks.constraint = add(new ConstraintDock(&window), Qt::LeftDockWidgetArea);
+  docks.predictions = add(new PredictionDock(&window), Qt::LeftDockWidgetArea);
+  Dock* object = add(new ObjectDock(&window), Qt::RightDockWidgetArea);
+  add(new CouplingDock(&window), Qt::RightDockWidgetArea);
+  add(new TaskDock(&window), Qt::RightDockWidgetArea);
+  window.resizeDocks({docks.velocity}, {270}, Qt::Vertical);
+  window.resizeDocks({docks.session, object}, {378, 300}, Qt::Horizontal);
+  return docks;
+}
+
+}  // namespace reachlab::gui::docks

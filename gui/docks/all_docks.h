@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+class QMainWindow;
+
+namespace reachlab::gui::docks {
+
+class ConstraintDock;
+class Dock;
+class PredictionDock;
+class SessionDock;
+class VelocityDock;
+
+/// The docks of the window; owned by it.
+struct Docks {
+  SessionDock* session = nullptr;
+  ConstraintDock* constraint = nullptr;
+  PredictionDock* predictions = nullptr;
+  VelocityDock* velocity = nullptr;
+  std::vector<Dock*> all;  // these and those that need nothing but the experiment
+};
+
+/// Makes every dock and puts it in its place.
+Docks makeDocks(QMainWindow& window);
+
+}  // namespace reachlab::gui::docks

@@ -1,0 +1,15 @@
+#include "gui/docks/velocity_dock.h"
+
+namespace reachlab::gui::docks {
+
+VelocityDock::VelocityDock(QWidget* parent)
+    : Dock(QStringLiteral("Velocity"), QStringLiteral("plotDock"), parent), plot_(new plot::VelocityPlot) {
+  setBody(plot_);
+}
+
+void VelocityDock::display(const experiment::CompiledExperiment& experiment, bool) {
+  const experiment::Task task = experiment.experiment().task.value_or(experiment::Task{});
+  plot_->setTask(task.duration, task.tolerance.time);
+}
+
+}  // namespace reachlab::gui::docks

@@ -1,0 +1,60 @@
+#include "gui/plot/live_forecast.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "gui/plot/criterion_style.h"
+
+namespace reachlab::gui::plot {
+
+LiveForecast::~LiveForecast() { stop_.request_stop(); }
+
+void LiveForecast::setExperiment(const experiment::Experiment& experiment) {
+  experiment_ = experiment;
+  forecasts_.clear();
+  ended_.reset();
+  stale_ = true;
+  stop_.request_stop();
+  stop_ = {};
+  Q_EMIT changed();
+}
+
+void LiveForecast::poll() {
+  using namespace std::chrono_literals;
+  if (computing_.valid() && computing_.wait_for(0s) == std::future_status::ready) {
+    std::vector<CriterionForecast> computed = computing_.get();
+    if (!stale_) {
+      forecasts_ = std::move(computed);
+      Q_EMIT changed();
+    }
+  }
+  if (stale_ && !computing_.valid()) {
+    stale_ = false;
+    computing_ =
+        std::async(std::launch::async, [experiment = experiment_, stop = stop_.get_token()] { return forecastAll(experiment, stop); });
+  }
+  if (ended_ && isReady()) {
+    const Trial trial = *std::exchange(ended_, {});
+    Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, experiment_.task.value_or(experiment::Task{})));
+  }
+}
+
+std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::Criterion>& criteria) const {
+  std::vector<VelocityPlot::Line> lines;
+  for (const CriterionForecast& forecast : forecasts_) {
+    if (!forecast.prediction || std::find(criteria.begin(), criteria.end(), forecast.criterion) == criteria.end()) continue;
+    VelocityPlot::Line line{titleOf(forecast.criterion), colourOf(forecast.criterion), {}, {}};
+    constexpr int kParts = 240;
+    for (int i = 0; i <= kParts; ++i) {
+      const double t = forecast.prediction->duration * i / kParts;
+      line.time.push_back(t);
+      line.velocity.push_back(forecast.prediction->handAt(t).velocity);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+void LiveForecast::compare(const std::vector<TracePoint>& points, const PathDirection& path) { ended_ = Trial{points, path}; }
+
+}  // namespace reachlab::gui::plot

@@ -1,0 +1,52 @@
+#pragma once
+#include <QObject>
+#include <future>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "gui/plot/trial_errors.h"
+#include "gui/plot/velocity_plot.h"
+
+namespace reachlab::gui::plot {
+
+/// The criteria's predictions for the experiment that holds, computed beside the window, and the trials that are compared with them.
+class LiveForecast : public QObject {
+  Q_OBJECT
+ public:
+  ~LiveForecast() override;
+
+  /// Begins anew for this experiment; what was being computed is dropped.
+  void setExperiment(const experiment::Experiment& experiment);
+  /// Takes over what has been computed. From the frame timer; never waits.
+  void poll();
+  /// All have been computed for the experiment that holds.
+  bool isReady() const { return !stale_ && !computing_.valid(); }
+  /// Empty while they are being computed.
+  const std::vector<CriterionForecast>& forecasts() const { return forecasts_; }
+  /// The lines of these criteria, for the plot.
+  std::vector<VelocityPlot::Line> lines(const std::vector<predict::Criterion>& criteria) const;
+  /// A trial that has ended: `compared` follows, at once or when the predictions are there.
+  void compare(const std::vector<TracePoint>& points, const PathDirection& path);
+
+ Q_SIGNALS:
+  /// The predictions are there, or (an empty list) begun anew.
+  void changed();
+  /// The paper's error of the trial's hand for each forecast, in their order. [m/s]
+  void compared(const std::vector<std::optional<double>>& errors);
+
+ private:
+  struct Trial {
+    std::vector<TracePoint> points;
+    PathDirection path;
+  };
+
+  experiment::Experiment experiment_;
+  std::vector<CriterionForecast> forecasts_;
+  std::stop_source stop_;
+  std::future<std::vector<CriterionForecast>> computing_;
+  bool stale_ = false;
+  std::optional<Trial> ended_;
+};
+
+}  // namespace reachlab::gui::plot

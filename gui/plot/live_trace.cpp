@@ -1,0 +1,18 @@
+#include "gui/plot/live_trace.h"
+
+#include "gui/plot/velocity_plot.h"
+
+namespace reachlab::gui::plot {
+
+void LiveTrace::add(const TracePoint& p, VelocityPlot& plot) {
+  if (p.trial != trial_) {
+    trial_ = p.trial;
+    points_.clear();
+    plot.beginTrial();
+  }
+  if (p.phase != trial::Phase::Armed && p.phase != trial::Phase::Moving) return;
+  points_.push_back(p);
+  if (p.phase == trial::Phase::Moving) plot.add(p.trialTime, path_.along(p.handVelocity, p.firstQ), path_.along(p.lastVelocity, p.lastQ));
+}
+
+}  // namespace reachlab::gui::plot

@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "gui/plot/trial_errors.h"
+
+namespace reachlab::gui::plot {
+
+class VelocityPlot;
+
+/// The trial under way as the window has it: its points, kept until the next trial, and its curves on the plot.
+class LiveTrace {
+ public:
+  /// Velocities count along this path from now on.
+  void setPath(const PathDirection& path) { path_ = path; }
+  const PathDirection& path() const { return path_; }
+  /// A new run numbers its trials from 1 again.
+  void beginRun() { trial_ = 0; }
+  /// One more point: a new trial begins with its first.
+  void add(const TracePoint& point, VelocityPlot& plot);
+  /// From the start position on, of the trial under way or the last.
+  const std::vector<TracePoint>& points() const { return points_; }
+
+ private:
+  PathDirection path_;
+  std::vector<TracePoint> points_;
+  std::int32_t trial_ = 0;
+};
+
+}  // namespace reachlab::gui::plot
