@@ -137,6 +137,17 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   use_->setProperty("role", "go");
   use_->setAutoDefault(false);
   sideLayout->addWidget(use_);
+  refusal_ = new QLabel;
+  refusal_->setObjectName(QStringLiteral("refusal"));
+  refusal_->setProperty("role", "fault");
+  refusal_->setWordWrap(true);
+  refusal_->hide();
+  usePoint_ = new QPushButton(QStringLiteral("Reach on this with one mass"));
+  usePoint_->setObjectName(QStringLiteral("usePoint"));
+  usePoint_->setAutoDefault(false);
+  usePoint_->hide();
+  sideLayout->addWidget(refusal_);
+  sideLayout->addWidget(usePoint_);
   right->addWidget(side);
   columns->addLayout(right);
 
@@ -148,9 +159,13 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] { rebuild(false); });
   connect(save_, &QPushButton::clicked, this, &ConstraintChooser::save);
   connect(use_, &QPushButton::clicked, this, [this] {
+    if (choice_) Q_EMIT used(*choice_);
+  });
+  connect(usePoint_, &QPushButton::clicked, this, [this] {
     if (!choice_) return;
-    Q_EMIT used(*choice_);
-    close();
+    ConstraintChoice onePoint = *choice_;
+    onePoint.withPoint = true;
+    Q_EMIT used(onePoint);
   });
   fillList();
   if (!definitions_.empty()) list_->setCurrentRow(0);
@@ -197,7 +212,17 @@ int ConstraintChooser::shownCount() const {
   return count;
 }
 
+void ConstraintChooser::answer(const QStringList& faults) {
+  refusal_->setText(faults.join(QLatin1Char('\n')));
+  refusal_->setVisible(!faults.isEmpty());
+  usePoint_->setVisible(!faults.isEmpty() && severalMasses_);
+  if (faults.isEmpty()) close();
+}
+
 void ConstraintChooser::setCurrent(const experiment::Experiment& experiment) {
+  severalMasses_ = experiment.object.masses.size() > 1;
+  refusal_->hide();
+  usePoint_->hide();
   const constraints::ConstraintSpec& spec = experiment.constraint;
   for (std::size_t i = 0; i < definitions_.size(); ++i)
     if (spec.curve.empty() && spec.surface.empty() && definitions_[i].name == spec.name) {
@@ -281,6 +306,8 @@ void ConstraintChooser::dropVanishedSliders() {
 
 void ConstraintChooser::rebuild(bool resetCamera) {
   choice_.reset();
+  refusal_->hide();  // it was another choice's
+  usePoint_->hide();
   ConstraintChoice choice;
   choice.start = current_.start;
   choice.target = current_.target;
@@ -317,6 +344,7 @@ void ConstraintChooser::save() {
   const std::string name = name_->text().trimmed().toLower().replace(QLatin1Char(' '), QLatin1Char('-')).toStdString();
   constraints::Definition d = current_;
   d.name = name;
+  d.shape = sliders_->parameters();
   const auto values = sliders_->values();
   for (constraints::ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
   try {

@@ -26,6 +26,7 @@ class FormulaEditor;
 struct ConstraintChoice {
   constraints::ConstraintSpec spec;
   std::vector<double> start, target;
+  bool withPoint = false;  // the object becomes one mass of the same weight
 };
 
 /// Choose a constraint from a searchable list with thumbnails and move its sliders, or type a formula; both with a live picture. A typed
@@ -37,6 +38,9 @@ class ConstraintChooser : public QDialog {
   ~ConstraintChooser() override;
   /// Shows what is in use.
   void setCurrent(const experiment::Experiment& experiment);
+  /// Why the choice cannot be reached on with the object as it is; where it is more than one mass, one is offered instead. Empty: it was
+  /// taken, and the dialog closes.
+  void answer(const QStringList& faults);
   /// What would be used now; nullopt while it cannot be.
   std::optional<ConstraintChoice> choice() const { return choice_; }
   scene::SceneView* preview() { return preview_; }
@@ -65,8 +69,9 @@ class ConstraintChooser : public QDialog {
   scene::SceneView* preview_;
   widgets::ShapeSliders* sliders_;
   FormulaEditor* formula_;
-  QLabel *title_, *sentence_, *saved_;
-  QPushButton *use_, *save_;
+  QLabel *title_, *sentence_, *saved_, *refusal_;
+  QPushButton *use_, *usePoint_, *save_;
+  bool severalMasses_ = false;
 };
 
 }  // namespace reachlab::gui::docks

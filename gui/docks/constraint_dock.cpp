@@ -6,6 +6,7 @@
 #include <QVariant>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "constraints/definition.h"
@@ -39,6 +40,16 @@ std::vector<constraints::ShapeParameter> parametersOf(const constraints::Constra
     parameters.push_back({name, value, -reach, reach, "1", "typed"});
   }
   return parameters;
+}
+
+// One mass as heavy as all together, held as the driven one was.
+void becomePoint(experiment::Experiment& experiment) {
+  experiment::Object& object = experiment.object;
+  object.masses = {std::accumulate(object.masses.begin(), object.masses.end(), 0.0)};
+  object.kind = experiment::ObjectKind::Point;
+  object.stiffness.clear();
+  object.damping.clear();
+  if (!experiment.coupling) experiment.coupling = experiment::Coupling{600, 0};
 }
 
 bool sameFormula(const constraints::ConstraintSpec& a, const constraints::ConstraintSpec& b) {
@@ -106,9 +117,16 @@ ConstraintChooser& ConstraintDock::chooser() {
     if (!changed.task) changed.task = experiment::Task{};
     changed.task->start = choice.start;
     changed.task->target = choice.target;
+    if (choice.withPoint) becomePoint(changed);
     Q_EMIT edited(changed, QStringLiteral("constraint"));
   });
   return *chooser_;
+}
+
+void ConstraintDock::showFaults(const QStringList& faults) {
+  const bool chosen = chooser_ != nullptr && chooser_->isVisible();
+  if (chosen) chooser_->answer(faults);
+  Dock::showFaults(chosen ? QStringList() : faults);
 }
 
 void ConstraintDock::choose() {

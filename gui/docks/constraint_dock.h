@@ -19,6 +19,7 @@ class ConstraintDock : public Dock {
   /// The dialog with the catalogue, for the experiment that is shown; nothing where it may not be edited.
   void choose();
   ConstraintChooser& chooser();  // made when first asked for
+  void showFaults(const QStringList& faults) override;
 
  protected:
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;

@@ -1,8 +1,39 @@
 #include "gui/docks/dock.h"
 
+#include <QEvent>
+#include <QScrollArea>
+#include <QScrollBar>
+
 #include "gui/widgets/fault_label.h"
 
 namespace reachlab::gui::docks {
+namespace {
+
+// As wide as what it holds needs, and not higher than that; scrolls up and down only.
+class Scroll : public QScrollArea {
+ public:
+  explicit Scroll(QWidget* body) {
+    setWidgetResizable(true);
+    setFrameShape(QFrame::NoFrame);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setWidget(body);
+    body->installEventFilter(this);
+    fit();
+  }
+  QSize sizeHint() const override { return widget()->sizeHint() + QSize(verticalScrollBar()->sizeHint().width(), 2); }
+  QSize minimumSizeHint() const override { return {minimumWidth(), 70}; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::LayoutRequest) fit();
+    return QScrollArea::eventFilter(watched, event);
+  }
+
+ private:
+  void fit() { setMinimumWidth(widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width()); }
+};
+
+}  // namespace
 
 Dock::Dock(const QString& title, const QString& name, QWidget* parent) : QDockWidget(title, parent), faults_(new widgets::FaultLabel) {
   setObjectName(name);
@@ -10,9 +41,9 @@ Dock::Dock(const QString& title, const QString& name, QWidget* parent) : QDockWi
   faults_->hide();
 }
 
-void Dock::setBody(QWidget* body) {
+void Dock::setBody(QWidget* body, bool scrolls) {
   body_ = body;
-  setWidget(body);
+  setWidget(scrolls ? new Scroll(body) : body);
 }
 
 void Dock::showExperiment(const experiment::CompiledExperiment& experiment, bool editable) {

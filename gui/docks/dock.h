@@ -21,7 +21,7 @@ class Dock : public QDockWidget {
   /// Displays what holds; emits nothing. `editable`: false where the settings are a plan's, which stand in its file.
   void showExperiment(const experiment::CompiledExperiment& experiment, bool editable);
   /// Why the last edit was refused, a line each; empty: it holds.
-  void showFaults(const QStringList& faults);
+  virtual void showFaults(const QStringList& faults);
 
  Q_SIGNALS:
   /// The user changed something: the whole experiment as it is to be, perhaps faulty, and what the change is called: "task".
@@ -29,7 +29,8 @@ class Dock : public QDockWidget {
 
  protected:
   virtual void display(const experiment::CompiledExperiment& experiment, bool editable) = 0;
-  void setBody(QWidget* body);
+  /// `scrolls`: on a small screen the dock may be lower than what it holds.
+  void setBody(QWidget* body, bool scrolls = true);
   QWidget* body() const { return body_; }
   const experiment::Experiment& shown() const { return shown_; }
   widgets::FaultLabel* faults() const { return faults_; }  // a dock that edits gives it a place

@@ -4,7 +4,7 @@ namespace reachlab::gui::docks {
 
 VelocityDock::VelocityDock(QWidget* parent)
     : Dock(QStringLiteral("Velocity"), QStringLiteral("plotDock"), parent), plot_(new plot::VelocityPlot) {
-  setBody(plot_);
+  setBody(plot_, false);
 }
 
 void VelocityDock::display(const experiment::CompiledExperiment& experiment, bool) {

@@ -65,6 +65,15 @@ Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& dir
   return camera;
 }
 
+Camera lookAtPointsBelow(double head, std::span<const Vec3> points, double margin, const Vec3& direction, double width, double height) {
+  const double free = std::max(height - head, 0.5 * height);
+  Camera camera = lookAtPoints(points, margin, direction, width / free);
+  // Back until the free part is as large as the picture was, then up, so that what is seen comes down.
+  camera.position = camera.focus + (height / free) * (camera.position - camera.focus);
+  pan(camera, 0, 0.5 * (height - free), height);
+  return camera;
+}
+
 void turn(Camera& camera, double right, double down, double height) {
   const double scale = std::numbers::pi / std::max(height, 1.0);  // half a turn over the picture's height
   CameraAxes axes = axesOf(camera);

@@ -24,6 +24,9 @@ Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double
 /// Looks from `direction` so that all the points, with `margin` [m] around each, are just seen.
 Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect);
 
+/// The same, with `head` pixels at the top of a picture of that size left free.
+Camera lookAtPointsBelow(double head, std::span<const Vec3> points, double margin, const Vec3& direction, double width, double height);
+
 /// Turns about the focus: `right` and `down` pixels of a picture `height` high.
 void turn(Camera& camera, double right, double down, double height);
 /// Moves sideways so that the plane through the focus follows the pointer.

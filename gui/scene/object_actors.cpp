@@ -78,17 +78,20 @@ struct ObjectActors::Impl {
       ball->SetScale(radius);
       place(*ball, at);
     };
-    bool any = false, onRail = from.massShift.empty();
+    // Each place where a mass begins and ends, and the hand's own on the constraint. The shell at the target is the tolerance dx.
+    const double ball = from.massRadius.empty() ? 0 : *std::max_element(from.massRadius.begin(), from.massRadius.end());
     for (const Vec3& shift : from.massShift) {
-      onRail = onRail || norm(shift) == 0;
       if (norm(shift) == 0) continue;
-      any = true;
       mark(from.start + shift, widgets::colours::kStart, 0.55 * from.markRadius, 0.8);
       mark(from.target + shift, widgets::colours::kTarget, 0.55 * from.markRadius, 0.8);
+      if (from.tolerance > 0.55 * from.markRadius) mark(from.target + shift, widgets::colours::kTarget, from.tolerance, 0.13);
     }
     mark(from.start, widgets::colours::kStart, from.markRadius, 1);
+    mark(from.start, widgets::colours::kStart, 1.45 * std::max(ball, from.markRadius), 0.25);  // seen around the mass that stands there
     mark(from.target, widgets::colours::kTarget, from.markRadius, 1);
-    if (from.tolerance > from.markRadius && !(any && !onRail)) mark(from.target, widgets::colours::kTarget, from.tolerance, 0.13);
+    const bool massOnRail = from.massShift.empty() ||
+                            std::any_of(from.massShift.begin(), from.massShift.end(), [](const Vec3& shift) { return norm(shift) == 0; });
+    if (from.tolerance > from.markRadius && massOnRail) mark(from.target, widgets::colours::kTarget, from.tolerance, 0.13);
   }
   void addObject(const ScenePlan& from) {
     for (const SpringPlan& spring : from.springs)

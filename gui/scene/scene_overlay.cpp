@@ -66,12 +66,34 @@ void SceneOverlay::setLabel(const QString& text, const QPointF& at) {
 
 QColor SceneOverlay::colourOf(trial::Semaphore semaphore) {
   switch (semaphore) {
-    case trial::Semaphore::Green: return widgets::toQColor(widgets::colours::kGreen);
-    case trial::Semaphore::Red: return widgets::toQColor(widgets::colours::kRed);
+    case trial::Semaphore::Green: return widgets::toQColor(widgets::colours::kLampGreen);
+    case trial::Semaphore::Red: return widgets::toQColor(widgets::colours::kLampRed);
     case trial::Semaphore::Neutral: break;
   }
-  return widgets::toQColor(widgets::colours::kNeutral);
+  return widgets::toQColor(widgets::colours::kLampNeutral);
 }
+
+namespace {
+
+// Told by its sign as well as by its colour: empty before the time, a tick inside it, a cross after it.
+void paintLamp(QPainter& painter, trial::Semaphore semaphore, const QRectF& square, double s) {
+  const QColor lamp = SceneOverlay::colourOf(semaphore);
+  const bool lit = semaphore != trial::Semaphore::Neutral;
+  painter.setPen(QPen(lamp, 4 * s));
+  painter.setBrush(lit ? QBrush(lamp) : QBrush(Qt::NoBrush));
+  painter.drawRoundedRect(square.adjusted(2 * s, 2 * s, -2 * s, -2 * s), 6 * s, 6 * s);
+  const auto at = [&](double x, double y) { return square.topLeft() + QPointF(x * square.width(), y * square.height()); };
+  const QColor ink = semaphore == trial::Semaphore::Red ? QColor(Qt::white) : widgets::toQColor(widgets::colours::kBase);
+  painter.setPen(QPen(ink, 6 * s, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  if (semaphore == trial::Semaphore::Green)
+    painter.drawPolyline(QPolygonF(QVector<QPointF>{at(0.26, 0.54), at(0.44, 0.71), at(0.75, 0.31)}));
+  if (semaphore == trial::Semaphore::Red) {
+    painter.drawLine(at(0.30, 0.30), at(0.70, 0.70));
+    painter.drawLine(at(0.70, 0.30), at(0.30, 0.70));
+  }
+}
+
+}  // namespace
 
 void SceneOverlay::paintEvent(QPaintEvent*) {
   QPainter painter(this);
@@ -80,10 +102,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   const QRectF square(20 * s, 18 * s, 58 * s, 58 * s);
   double left = 20 * s;
   if (state_.semaphoreShown) {
-    const QColor lamp = colourOf(state_.semaphore);
-    painter.setPen(QPen(lamp.lighter(135), 2 * s));
-    painter.setBrush(lamp);
-    painter.drawRoundedRect(square, 6 * s, 6 * s);
+    paintLamp(painter, state_.semaphore, square, s);
     left = square.right() + 18 * s;
   }
   QFont font = painter.font();
@@ -115,6 +134,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
     painter.setPen(widgets::toQColor(widgets::colours::kText));
     painter.drawText(place, kWrapped, state_.task);
   }
+  if (!state_.rulersShown) return;
   paintScale(painter);
   paintAxes(painter);
   if (!label_.isEmpty()) paintLabel(painter);

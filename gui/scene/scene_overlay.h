@@ -12,10 +12,11 @@ namespace reachlab::gui::scene {
 struct OverlayState {
   trial::Semaphore semaphore = trial::Semaphore::Neutral;
   bool semaphoreShown = true;
-  QString counter;      // "Trial 3 of 20"
-  QString instruction;  // what the subject is to do
-  QString detail;       // how the last trial ended
-  QString task;         // what the trials ask for; over several lines, and only before the first
+  bool rulersShown = true;  // axes, scale, how many masses stand at one place
+  QString counter;          // "Trial 3 of 20"
+  QString instruction;      // what the subject is to do
+  QString detail;           // how the last trial ended
+  QString task;             // what the trials ask for; over several lines, and only before the first
   enum class Tone { Plain, Good, Bad } tone = Tone::Plain;
   bool operator==(const OverlayState&) const = default;
 };
@@ -30,6 +31,8 @@ class SceneOverlay : public QWidget {
   /// Screen directions of x, y, z (length at most 1, y down) and metres a pixel in the plane through the scene's centre.
   void setView(const std::array<QPointF, 3>& axes, double metresPerPixel);
   void setTextScale(double scale);
+  /// Pixels at the top that the texts take: the scene is put below them.
+  double headHeight() const { return state_.semaphoreShown ? 96 * textScale_ : 0; }
   /// "5 masses" beside where they are drawn over one another; empty: they are seen apart.
   void setLabel(const QString& text, const QPointF& at);
   const QString& label() const { return label_; }

@@ -142,6 +142,16 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
   for (std::size_t i = 0; i < frame.masses.size(); ++i) frame.masses[i] = state.masses[i].r;
 }
 
+bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
+  const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
+  if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || apart(from.hand, to.hand)) return true;
+  for (std::size_t i = 0; i < from.masses.size(); ++i)
+    if (apart(from.masses[i], to.masses[i])) return true;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!(std::abs(from.body.orientation[i] - to.body.orientation[i]) <= 1e-3)) return true;
+  return false;
+}
+
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
   const std::size_t count = std::min(frame.masses.size(), plan.massRadius.size());
   if (count < 2) return 0;

@@ -52,6 +52,8 @@ struct SceneFrame {
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
+/// Something has moved by more than that [m], turned by more than a thousandth, or the hand was lost or found.
+bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);
 /// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
 

@@ -50,6 +50,8 @@ struct SceneView::Impl {
   SurfaceStyle style = SurfaceStyle::Glass;
   QString rendererName;
   bool placed = false;  // the camera has been put in place for a real size
+  bool drawn = false;   // what is on the screen is `frame`
+  std::int64_t pictures = 0;
   QPoint pressedAt, lastAt;
   Vec3 handAtPress;
   bool reaching = false;
@@ -60,8 +62,8 @@ struct SceneView::Impl {
   // The whole scene, with the pen as it stands at the start.
   void lookFrom(const Vec3& direction) {
     std::vector<Vec3> points = plan.seen;
-    points.push_back(penEnd(plan.start, plan.handRadius));
-    camera = lookAtPoints(points, 0.09 * plan.size, direction, width() / height());
+    for (const Vec3& hand : {plan.start, plan.target}) points.push_back(penEnd(hand, plan.handRadius));
+    camera = lookAtPointsBelow(overlay->headHeight(), points, 0.09 * plan.size, direction, width(), height());
   }
 
   void applyCamera() {
@@ -77,6 +79,12 @@ struct SceneView::Impl {
     for (std::size_t i = 0; i < 3; ++i) directions[i] = {dot(world[i], axes.right), -dot(world[i], axes.up)};
     overlay->setView(directions, metresPerPixel(camera, plan.centre, height()));
     label();
+  }
+
+  // A tenth of a pixel is not seen: what rests costs nothing.
+  bool showsAlready(const SceneFrame& next) const {
+    return drawn &&
+           !movedBeyond(0.1 * metresPerPixel(camera, plan.centre, height()) / std::max(1.0, widget->devicePixelRatioF()), frame, next);
   }
 
   // Masses over one another look like one.
@@ -104,8 +112,11 @@ struct SceneView::Impl {
   }
 
   void render() {
+    drawn = false;
     if (!widget->isVisible()) return;
     window->Render();
+    drawn = true;
+    ++pictures;
     learnRenderer();
   }
 };
@@ -127,7 +138,9 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
   impl_->renderer->GetActiveCamera();
   addLights(*impl_->renderer);
   impl_->widget->installEventFilter(this);
-  impl_->widget->setFocusPolicy(Qt::NoFocus);
+  impl_->widget->setFocusPolicy(Qt::ClickFocus);  // a field beside the scene is left by a click into it
+  setFocusPolicy(Qt::ClickFocus);
+  setFocusProxy(impl_->widget);
   setMinimumSize(320, 240);
 }
 
@@ -147,8 +160,9 @@ void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
 }
 
 void SceneView::showFrame(const SceneFrame& frame) {
-  impl_->frame = frame;
   if (!impl_->actors) return;
+  if (impl_->showsAlready(frame)) return;
+  impl_->frame = frame;
   impl_->actors->show(frame);
   impl_->label();
   impl_->render();
@@ -202,6 +216,8 @@ void SceneView::setCamera(const Camera& camera) {
   impl_->applyCamera();
   renderNow();
 }
+
+std::int64_t SceneView::picturesDrawn() const { return impl_->pictures; }
 
 const ScenePlan& SceneView::plan() const { return impl_->plan; }
 SceneFrame SceneView::frame() const { return impl_->frame; }

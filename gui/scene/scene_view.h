@@ -21,7 +21,7 @@ class SceneView : public QWidget {
 
   /// Builds the actors anew and, if `resetCamera`, looks at all of it.
   void setPlan(const ScenePlan& plan, bool resetCamera = true);
-  /// Moves what there is; nothing is built.
+  /// Moves what there is; nothing is built, and nothing drawn while nothing has moved that could be seen.
   void showFrame(const SceneFrame& frame);
   void setOverlay(const OverlayState& state);
   void setSurfaceStyle(SurfaceStyle style);
@@ -32,6 +32,8 @@ class SceneView : public QWidget {
   void fit();
   /// From the side of x, y or z, or 0: the usual view.
   void lookAlong(char axis);
+  /// How often the scene was drawn.
+  std::int64_t picturesDrawn() const;
   /// Draws now. For screenshots and tests.
   void renderNow();
   QImage grabScene();

@@ -3,6 +3,7 @@
 #include <QLocale>
 #include <QRegularExpression>
 #include <algorithm>
+#include <utility>
 #include <cmath>
 
 namespace reachlab::gui::widgets {
@@ -78,8 +79,10 @@ NumberListEdit::NumberListEdit(QWidget* parent) : QLineEdit(parent) {
   connect(this, &QLineEdit::editingFinished, this, [this] {
     const auto now = numbers();
     if (!fault().isEmpty() || (*now == shown_ && *now == told_)) return;
+    if (std::exchange(telling_, true)) return;  // a question that this one raised takes the focus: the same entry again
     told_ = *now;
     Q_EMIT numbersEdited();
+    telling_ = false;
   });
 }
 

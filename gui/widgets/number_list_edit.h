@@ -41,6 +41,7 @@ class NumberListEdit : public QLineEdit {
 
   NumberListRule rule_;
   std::vector<double> shown_, told_;
+  bool telling_ = false;
 };
 
 /// "5 x 0.6" where all are equal. Shortest decimal that reads back the same.

@@ -6,7 +6,9 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gui/widgets/unit_spin_box.h"
 
@@ -14,6 +16,7 @@ namespace reachlab::gui::widgets {
 namespace {
 
 constexpr int kSteps = 500;
+constexpr double kMostTyped = 1e6;
 
 bool isWhole(const constraints::ShapeParameter& p) {
   return p.unit == "1" && p.max - p.min >= 2 && p.min == std::floor(p.min) && p.max == std::floor(p.max) &&
@@ -49,42 +52,85 @@ void ShapeSliders::setParameters(const std::vector<constraints::ShapeParameter>&
 }
 
 void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {
+  const bool typed = p.meaning == "typed";
   auto* slider = new QSlider(Qt::Horizontal);
   slider->setObjectName(QStringLiteral("slider_") + QString::fromStdString(p.name));
-  const bool whole = isWhole(p);
-  const int steps = whole ? static_cast<int>(p.max - p.min) : kSteps;
-  slider->setRange(0, steps);
-  auto* box = new UnitSpinBox(p.min, p.max, p.unit == "1" ? QString() : QString::fromStdString(p.unit));
+  const double low = typed ? -kMostTyped : p.min, high = typed ? kMostTyped : p.max;
+  auto* box = new UnitSpinBox(low, high, p.unit == "1" ? QString() : QString::fromStdString(p.unit));
   box->setObjectName(QStringLiteral("value_") + QString::fromStdString(p.name));
-  const auto toStep = [p, steps](double v) { return static_cast<int>(std::lround((v - p.min) / (p.max - p.min) * steps)); };
   box->show(value);
-  slider->setValue(toStep(value));
   auto* line = new QHBoxLayout;
   line->addWidget(slider, 1);
-  line->addWidget(box);
   auto* label = new QLabel(plainName(p));
   const QString meaning = QStringLiteral("%1: %2").arg(QString::fromStdString(p.name), QString::fromStdString(p.meaning));
   label->setToolTip(meaning);
   slider->setToolTip(meaning);
+  const std::size_t at = rows_.size();
+  rows_.push_back({p, slider, box, nullptr, nullptr, isWhole(p) && !typed ? static_cast<int>(p.max - p.min) : kSteps});
+  slider->setRange(0, rows_[at].steps);
+  if (typed) addEnds(at, *line);
+  line->addWidget(box);
+  fit(rows_[at]);
   form_->addRow(label, line);
-  rows_.push_back({p, slider, box});
-  connect(slider, &QSlider::valueChanged, this, [this, p, box, steps](int step) {
+  connect(slider, &QSlider::valueChanged, this, [this, at](int step) {
     // Three digits are as fine as a slider is.
-    const double raw = p.min + (p.max - p.min) * step / steps;
-    box->show(QString::number(raw, 'g', 3).toDouble());
+    const Row& row = rows_[at];
+    const double raw = row.parameter.min + (row.parameter.max - row.parameter.min) * step / row.steps;
+    row.box->show(QString::number(raw, 'g', 3).toDouble());
     Q_EMIT moved();
   });
-  connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, slider, toStep](double v) {
-    const QSignalBlocker quiet(slider);
-    slider->setValue(toStep(v));
+  connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, at](double) {
+    fit(rows_[at]);
     Q_EMIT moved();
   });
+}
+
+void ShapeSliders::addEnds(std::size_t at, QHBoxLayout& line) {
+  const auto end = [&](const char* name, double constraints::ShapeParameter::*bound) {
+    auto* box = new UnitSpinBox(-kMostTyped, kMostTyped, {});
+    box->setObjectName(QLatin1String(name) + QString::fromStdString(rows_[at].parameter.name));
+    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    box->setMinimumWidth(44);
+    box->setMaximumWidth(56);
+    box->setToolTip(QStringLiteral("end of the slider"));
+    box->show(rows_[at].parameter.*bound);
+    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, at, bound](double v) {
+      rows_[at].parameter.*bound = v;
+      fit(rows_[at]);
+    });
+    return box;
+  };
+  rows_[at].low = end("low_", &constraints::ShapeParameter::min);
+  rows_[at].high = end("high_", &constraints::ShapeParameter::max);
+  line.insertWidget(0, rows_[at].low);
+  line.addWidget(rows_[at].high);
+}
+
+void ShapeSliders::fit(Row& row) {
+  constraints::ShapeParameter& p = row.parameter;
+  const double value = row.box->value();
+  if (row.low != nullptr) {
+    if (p.max < p.min) std::swap(p.min, p.max);
+    p.min = std::min(p.min, value);
+    p.max = std::max(p.max, value);
+    row.low->show(p.min);
+    row.high->show(p.max);
+  }
+  const QSignalBlocker quiet(row.slider);
+  const double range = p.max - p.min;
+  row.slider->setValue(range > 0 ? static_cast<int>(std::lround((value - p.min) / range * row.steps)) : 0);
 }
 
 std::map<std::string, double> ShapeSliders::values() const {
   std::map<std::string, double> values;
   for (const Row& row : rows_) values[row.parameter.name] = row.box->value();
   return values;
+}
+
+std::vector<constraints::ShapeParameter> ShapeSliders::parameters() const {
+  std::vector<constraints::ShapeParameter> parameters;
+  for (const Row& row : rows_) parameters.push_back(row.parameter);
+  return parameters;
 }
 
 }  // namespace reachlab::gui::widgets

@@ -7,6 +7,7 @@
 #include "constraints/definition.h"
 
 class QFormLayout;
+class QHBoxLayout;
 class QSlider;
 
 namespace reachlab::gui::widgets {
@@ -16,7 +17,8 @@ class UnitSpinBox;
 /// "minor radius" of minor_radius_m: its unit stands behind the number.
 QString plainName(const constraints::ShapeParameter& parameter);
 
-/// A slider and a number for each shape parameter of a definition.
+/// A slider and a number for each shape parameter of a definition. A name out of a typed formula has no range but what is typed: the ends
+/// of its slider are numbers to type as well, and a value beyond them moves them.
 class ShapeSliders : public QWidget {
   Q_OBJECT
  public:
@@ -24,6 +26,8 @@ class ShapeSliders : public QWidget {
   /// Rows for these; values not given stand at their defaults.
   void setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values = {});
   std::map<std::string, double> values() const;
+  /// With the ranges as they are now.
+  std::vector<constraints::ShapeParameter> parameters() const;
 
  Q_SIGNALS:
   void moved();
@@ -33,8 +37,13 @@ class ShapeSliders : public QWidget {
     constraints::ShapeParameter parameter;
     QSlider* slider = nullptr;
     UnitSpinBox* box = nullptr;
+    UnitSpinBox *low = nullptr, *high = nullptr;  // of a typed name
+    int steps = 0;
   };
   void addRow(const constraints::ShapeParameter& parameter, double value);
+  void addEnds(std::size_t row, QHBoxLayout& line);
+  /// Lays slider and ends around the value.
+  void fit(Row& row);
 
   std::vector<Row> rows_;
   QWidget* body_ = nullptr;

@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
+#include <QDoubleSpinBox>
 #include <QSlider>
 #include <QTest>
 #include <algorithm>
@@ -15,7 +16,9 @@
 
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/formula_editor.h"
+#include "base/error.h"
 #include "gui/scene/scene_view.h"
+#include "sim/dynamics/compiled_scene.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -149,6 +152,58 @@ TEST_F(Chooser, ANameBesideAVariableIsASliderButAskedAbout) {
   EXPECT_TRUE(chooser_.choice().has_value());
   type("formula_y", "0.1*cos(phi)");
   EXPECT_FALSE(fault->isVisible());
+}
+
+TEST_F(Chooser, ATypedNamesRangeIsTyped) {
+  type("formula_x", "0.05*sin(k*phi)");
+  type("formula_y", "0.1*cos(phi)");
+  auto* value = find<QDoubleSpinBox>("value_k");
+  value->selectAll();
+  QTest::keyClicks(value, QStringLiteral("5"));
+  QTest::keyClick(value, Qt::Key_Return);
+  ASSERT_TRUE(chooser_.choice().has_value());
+  EXPECT_EQ(chooser_.choice()->spec.shape.at("k"), 5) << "beyond the slider's end, which follows";
+  EXPECT_EQ(find<QDoubleSpinBox>("high_k")->value(), 5);
+  auto* high = find<QDoubleSpinBox>("high_k");
+  high->selectAll();
+  QTest::keyClicks(high, QStringLiteral("20"));
+  QTest::keyClick(high, Qt::Key_Return);
+  EXPECT_EQ(chooser_.choice()->spec.shape.at("k"), 5);
+  find<QSlider>("slider_k")->setValue(500);
+  EXPECT_EQ(chooser_.choice()->spec.shape.at("k"), 20);
+}
+
+// The default chain cannot move on a surface: the dialog says so, stays, and offers what can.
+TEST(ConstraintDock, AChainOnASurfaceIsOfferedAsOneMass) {
+  const experiment::CompiledExperiment chain = experiment::openExperiment("chain-moderate");
+  ConstraintDock dock;
+  dock.showExperiment(chain, true);
+  experiment::Experiment told;
+  QObject::connect(&dock, &Dock::edited, &dock, [&](const experiment::Experiment& e, const QString&) {
+    told = e;
+    try {
+      (void)dynamics::compileScene(experiment::CompiledExperiment(e));
+      dock.showFaults({});
+    } catch (const Error& fault) {
+      dock.showFaults({QString::fromUtf8(fault.what())});
+    }
+  });
+  dock.choose();
+  ConstraintChooser& chooser = dock.chooser();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&chooser));
+  auto* list = chooser.findChild<QListWidget*>(QStringLiteral("definitions"));
+  const auto surfaces = list->findItems(QStringLiteral("torus\nsurface"), Qt::MatchExactly);
+  ASSERT_FALSE(surfaces.isEmpty());
+  list->setCurrentItem(surfaces.front());
+  chooser.findChild<QPushButton*>(QStringLiteral("use"))->click();
+  EXPECT_TRUE(chooser.isVisible());
+  EXPECT_TRUE(chooser.findChild<QLabel*>(QStringLiteral("refusal"))->isVisible());
+  auto* onePoint = chooser.findChild<QPushButton*>(QStringLiteral("usePoint"));
+  ASSERT_TRUE(onePoint->isVisible());
+  onePoint->click();
+  EXPECT_FALSE(chooser.isVisible());
+  EXPECT_EQ(told.object.kind, experiment::ObjectKind::Point);
+  EXPECT_EQ(told.object.masses, (std::vector<double>{3}));
 }
 
 TEST(FormulaNames, BesideAVariableAreOneLetterOrTheCaseApart) {

@@ -1,0 +1,103 @@
+// What the scene's picture promises to an eye: everything in the frame, below the words, and told by more than colour.
+#include <gtest/gtest.h>
+
+#include <QTest>
+#include <array>
+#include <cmath>
+
+#include "gui/scene/scene_actors.h"
+#include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_view.h"
+#include "gui/scene/trial_texts.h"
+#include "gui/widgets/theme.h"
+#include "sim/experiment/compiled_experiment.h"
+
+namespace reachlab::gui::scene {
+namespace {
+
+using Light = std::array<double, 3>;  // linear RGB
+
+Light lightOf(const QColor& colour) {
+  const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  return {linear(colour.redF()), linear(colour.greenF()), linear(colour.blueF())};
+}
+
+// Machado, Oliveira, Fernandes 2009, table 1, severity 1.
+Light toDeuteranope(const Light& c) {
+  return {0.367322 * c[0] + 0.860646 * c[1] - 0.227968 * c[2], 0.280085 * c[0] + 0.672501 * c[1] + 0.047413 * c[2],
+          -0.011820 * c[0] + 0.042940 * c[1] + 0.968881 * c[2]};
+}
+// Of the same table.
+Light toProtanope(const Light& c) {
+  return {0.152286 * c[0] + 1.052583 * c[1] - 0.204868 * c[2], 0.114503 * c[0] + 0.786281 * c[1] + 0.099216 * c[2],
+          -0.003882 * c[0] - 0.048116 * c[1] + 1.051998 * c[2]};
+}
+
+// WCAG 2.1's contrast ratio.
+double contrast(const Light& a, const Light& b) {
+  const auto luminance = [](const Light& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
+  const double la = luminance(a) + 0.05, lb = luminance(b) + 0.05;
+  return la > lb ? la / lb : lb / la;
+}
+
+QImage lampPicture(trial::Semaphore semaphore) {
+  QWidget page;
+  page.resize(200, 120);
+  QPalette palette;
+  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kSkyTop));
+  page.setPalette(palette);
+  SceneOverlay overlay(&page);
+  overlay.setGeometry(page.rect());
+  OverlayState state;
+  state.semaphore = semaphore;
+  state.rulersShown = false;
+  overlay.setState(state);
+  return page.grab().toImage().convertToFormat(QImage::Format_RGB32);
+}
+
+// Of the lamp's square in the top left: the commonest ink.
+QColor lampInk(const QImage& picture) {
+  std::map<QRgb, int> inks;
+  for (int y = 18; y < 76; ++y)
+    for (int x = 20; x < 78; ++x) ++inks[picture.pixel(x, y)];
+  return QColor(std::max_element(inks.begin(), inks.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first);
+}
+
+TEST(Semaphore, IsToldApartWithoutColour) {
+  const QImage neutral = lampPicture(trial::Semaphore::Neutral), green = lampPicture(trial::Semaphore::Green),
+               red = lampPicture(trial::Semaphore::Red);
+  const Light greenLight = lightOf(lampInk(green)), redLight = lightOf(lampInk(red)), ground = lightOf(lampInk(neutral));
+  using Eye = Light (*)(const Light&);
+  for (const Eye eye : {Eye([](const Light& c) { return c; }), Eye(toDeuteranope), Eye(toProtanope)}) {
+    EXPECT_GE(contrast(eye(greenLight), eye(redLight)), 3);
+    EXPECT_GE(contrast(eye(greenLight), eye(ground)), 3) << "before its time the lamp is empty";
+  }
+  // The sign in the lamp: other pixels, in an ink that stands out from the lamp's.
+  int sign = 0;
+  for (int y = 22; y < 72; ++y)
+    for (int x = 24; x < 74; ++x)
+      sign += contrast(lightOf(QColor(red.pixel(x, y))), redLight) >= 3 && contrast(lightOf(QColor(green.pixel(x, y))), greenLight) < 3;
+  EXPECT_GE(sign, 100) << "the cross is not where the tick is";
+}
+
+TEST(Picture, EveryShippedExperimentIsInTheFrameWithItsHandAndBelowTheWords) {
+  SceneView view;
+  view.resize(900, 620);
+  view.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+  for (const std::string& name : experiment::shippedExperiments()) {
+    const experiment::CompiledExperiment compiled = experiment::openExperiment(name);
+    view.setOverlay(restingOverlay(QString::fromStdString(name), true));
+    const ScenePlan plan = planScene(compiled.experiment(), compiled.constraint());
+    view.setPlan(plan);
+    const double head = view.findChild<SceneOverlay*>()->headHeight();
+    EXPECT_GT(head, 90);
+    for (const Vec3& place : {plan.start, plan.target, penEnd(plan.start, plan.handRadius), penEnd(plan.target, plan.handRadius)}) {
+      const QPointF at = view.pixelOf(place);
+      EXPECT_TRUE(QRectF(0, head, 900, 620 - head).contains(at)) << name << " at " << at.x() << ", " << at.y();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::gui::scene
