@@ -1,9 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <QApplication>
+#include <QMessageBox>
 #include <QIcon>
 #include <QSurfaceFormat>
 #include <cstdio>
 #include <cstdlib>
+
+#include <unistd.h>
 
 #include "base/error.h"
 #include "gui/app/main_window.h"
@@ -53,6 +56,7 @@ int run(const Arguments& arguments, int argc, char** argv) {
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
   reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
+  QApplication::setOrganizationName(QStringLiteral("reachlab"));
   QApplication::setApplicationName(QStringLiteral("reachlab"));
   reachlab::gui::widgets::applyTheme(application);
   if (!arguments.pictures.empty()) {
@@ -66,6 +70,16 @@ int run(const Arguments& arguments, int argc, char** argv) {
   return QApplication::exec();
 }
 
+// On the terminal, and where there is none (started from a menu) in a box.
+int sayFault(const char* sentence, int status, int argc, char** argv) {
+  std::fprintf(stderr, "%s\n", sentence);
+  if (isatty(STDERR_FILENO) == 1 || std::getenv("DISPLAY") == nullptr) return status;
+  std::unique_ptr<QApplication> application;
+  if (QCoreApplication::instance() == nullptr) application = std::make_unique<QApplication>(argc, argv);
+  QMessageBox(QMessageBox::Critical, QStringLiteral("Reachlab"), QString::fromUtf8(sentence), QMessageBox::Close).exec();
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,16 +89,12 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "reachlab: %s\n", e.what());
-    return 2;
+    return sayFault((std::string("reachlab: ") + e.what()).c_str(), 2, argc, argv);
   } catch (const reachlab::UsageError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 2;
+    return sayFault(e.what(), 2, argc, argv);
   } catch (const reachlab::RefusedError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 4;
+    return sayFault(e.what(), 4, argc, argv);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 3;
+    return sayFault(e.what(), 3, argc, argv);
   }
 }

@@ -1,5 +1,6 @@
 #include "gui/app/main_window.h"
 
+#include <QAction>
 #include <QCloseEvent>
 #include <QFileDialog>
 #include <QSaveFile>
@@ -8,10 +9,12 @@
 #include <QVBoxLayout>
 
 #include "base/error.h"
+#include "gui/app/key_focus.h"
 #include "gui/app/message_bar.h"
+#include "gui/app/questions.h"
 #include "gui/app/screens.h"
 #include "gui/app/session_overlay.h"
-#include "gui/app/window_menus.h"
+#include "gui/app/window_layout.h"
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
@@ -30,15 +33,20 @@ constexpr int kStatusMs = 200;
 
 MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) : QMainWindow(parent), session_(request), edits_(session_) {
   setObjectName(QStringLiteral("reachlab"));
-  resize(1560, 960);
   addCentre();
   docks_ = docks::makeDocks(*this);
   docks_.session->setRequest(request);
   status_ = std::make_unique<StatusLine>(*statusBar());
-  addMenus(*this);
+  actions_ = addMenus(*this);
+  screens_->setSubjectsActions({actions_.next, actions_.abort, actions_.repeat, actions_.end, actions_.subjectsScreen});
+  new KeyFocus(*this, *view_);
   wireDocks();
   wireSession();
+  firstLayout_ = saveState();
+  restoreLayout(*this);
   showExperiment();
+  showStage();
+  view_->setFocus();
 }
 
 MainWindow::~MainWindow() {
@@ -64,7 +72,7 @@ void MainWindow::addCentre() {
 void MainWindow::wireDocks() {
   for (docks::Dock* dock : docks_.all)
     connect(dock, &docks::Dock::edited, this,
-            [this, dock](const experiment::Experiment& changed, const QString& what) { dock->showFaults(edits_.tryEdit(changed, what)); });
+            [this, dock](const experiment::Experiment& changed, const QString& what) { tryEdit(*dock, changed, what); });
   docks::SessionDock* dock = docks_.session;
   connect(dock, &docks::SessionDock::nextRequested, this, &MainWindow::nextTrial);
   connect(dock, &docks::SessionDock::abortRequested, this, &MainWindow::abortTrial);
@@ -82,7 +90,7 @@ void MainWindow::wireSession() {
     drawPredictions();
   });
   connect(&forecast_, &plot::LiveForecast::compared, this,
-          [this](const std::vector<std::optional<double>>& errors) { predictions().addErrors(errors); });
+          [this](const std::vector<std::optional<double>>& errors, bool succeeded) { predictions().addErrors(errors, succeeded); });
   connect(&session_, &SessionController::experimentChanged, this, &MainWindow::showExperiment);
   connect(&session_, &SessionController::runOpened, this, &MainWindow::runOpened);
   connect(&session_, &SessionController::runClosed, this, &MainWindow::runClosed);
@@ -90,6 +98,7 @@ void MainWindow::wireSession() {
   connect(&session_, &SessionController::trialEnded, this, &MainWindow::trialEnded);
   for (const auto& sentence : {&SessionController::told, &SessionController::failed})
     connect(&session_, sentence, this, [this](const QString& words) { message_->say(words); });
+  connect(&edits_.stack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
   connect(timer_, &QTimer::timeout, this, &MainWindow::oneFrame);
@@ -109,18 +118,27 @@ void MainWindow::showExperiment() {
   screens_->showExperiment(compiled);
   showOverlay();
   forecast_.setExperiment(compiled.experiment());
-  setWindowTitle(QStringLiteral("%1 – Reachlab").arg(QString::fromStdString(compiled.experiment().name)));
+  setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(QString::fromStdString(compiled.experiment().name)));
 }
 
-void MainWindow::showOverlay() { screens_->showOverlay(overlayOf(session_, docks_.session->device() == "mouse", screens_->massesHide())); }
+void MainWindow::showOverlay() {
+  const bool mouse = docks_.session->device() == "mouse";
+  screens_->showOverlay(overlayOf(session_, mouse, screens_->massesHide()), subjectsOverlayOf(session_));
+}
 
 void MainWindow::showStage() {
   using Stage = docks::SessionDock::Stage;
   const session::RecordedRun* run = session_.run();
-  docks_.session->setStage(run == nullptr          ? Stage::Closed
-                           : run->underWay()       ? Stage::UnderWay
-                           : run->trialsLeft() > 0 ? Stage::BetweenTrials
-                                                   : Stage::Finished);
+  const Stage stage = run == nullptr              ? Stage::Closed
+                      : run->underWay()           ? Stage::UnderWay
+                      : run->trialsLeft() > 0     ? Stage::BetweenTrials
+                      : session_.blocksLeft() > 0 ? Stage::BlockDone
+                                                  : Stage::Finished;
+  docks_.session->setStage(stage);
+  // The keys do what the buttons do: a key that went astray begins no new run where one is over.
+  actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished);
+  actions_.abort->setEnabled(stage == Stage::UnderWay);
+  for (QAction* action : {actions_.repeat, actions_.end}) action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed);
 }
 
 void MainWindow::drawPredictions() { plot().setPredictions(forecast_.lines(predictions().chosen())); }
@@ -138,16 +156,23 @@ void MainWindow::runOpened() {
 void MainWindow::runClosed() {
   pacing_.cancel();
   status_->runClosed();
+  screens_->showRest();
   showStage();
   showOverlay();
 }
 
+void MainWindow::drainTrace() {
+  for (plot::TracePoint point; session_.tryTake(point);) trace_.add(point, plot());
+}
+
 void MainWindow::trialEnded() {
+  drainTrace();  // to its last point
   const trial::TrialResult result = session_.lastTrial()->result;
   docks_.session->count(result);
   if (result.outcome == trial::Outcome::Success) sound_.play();
   if (result.outcome == trial::Outcome::Success || result.outcome == trial::Outcome::Failure)
-    forecast_.compare(trace_.points(), trace_.path());
+    forecast_.compare(trace_.points(), trace_.path(), {session_.run()->configuration().sampleEveryTicks, result.onsetTick, result.endTick},
+                      result.outcome == trial::Outcome::Success);
   if (const session::RecordedRun* run = session_.run(); run != nullptr && run->trialsLeft() > 0) {
     const double planned = run->configuration().pauseSeconds;
     if (planned > 0 || docks_.session->repeatsByItself())
@@ -158,7 +183,7 @@ void MainWindow::trialEnded() {
 
 void MainWindow::oneFrame() {
   session_.poll();
-  for (plot::TracePoint point; session_.tryTake(point);) trace_.add(point, plot());
+  drainTrace();
   forecast_.poll();
   if (pacing_.takeDue(std::chrono::steady_clock::now())) nextTrial();
   if (session_.run() == nullptr) return;
@@ -198,10 +223,12 @@ void MainWindow::resumeSession() {
 void MainWindow::endRun() { session_.endRun(); }
 
 void MainWindow::openExperiment(const QString& what) {
+  if (!mayEndRun(QStringLiteral("Opening another experiment")) || !mayBeLeft()) return;
   try {
     const session::Programme opened = session::readProgramme(what.toStdString());
     for (const experiment::CompiledExperiment& experiment : opened.experiments) (void)dynamics::compileScene(experiment);
     edits_.open(opened, QStringLiteral("open %1").arg(what));
+    edits_.stack().setClean();
     message_->say({});
   } catch (const Error& e) {
     message_->say(QString::fromUtf8(e.what()));
@@ -214,16 +241,44 @@ void MainWindow::openFile() {
   if (!chosen.isEmpty()) openExperiment(chosen);
 }
 
-void MainWindow::saveExperimentAs() {
+bool MainWindow::saveExperimentAs() {
   const QString file =
       QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), QString::fromStdString(session_.experiment().name + ".json"),
                                    QStringLiteral("Experiments (*.json)"));
-  if (file.isEmpty()) return;
+  if (file.isEmpty()) return false;
   QSaveFile out(file);
   const std::string text = experiment::toJson(session_.experiment());
   if (!out.open(QIODevice::WriteOnly) || out.write(text.data(), static_cast<qint64>(text.size())) < 0 || !out.commit())
-    message_->say(QStringLiteral("%1: could not be written: %2").arg(file, out.errorString()));
+    return message_->say(QStringLiteral("%1: could not be written: %2").arg(file, out.errorString())), false;
+  edits_.stack().setClean();
+  return true;
 }
+
+void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what) {
+  experiment::Experiment same = changed;
+  same.text = session_.experiment().text;
+  if (!(same == session_.experiment()) && !mayEndRun(QStringLiteral("A change")))
+    return dock.showExperiment(session_.compiled(), !session_.isPlan());
+  dock.showFaults(edits_.tryEdit(changed, what));
+}
+
+bool MainWindow::mayEndRun(const QString& doing) {
+  session::RecordedRun* run = session_.run();
+  if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;
+  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount());
+}
+
+bool MainWindow::mayBeLeft() {
+  if (edits_.stack().isClean()) return true;
+  switch (askAboutUnsaved(*this, QString::fromStdString(session_.experiment().name))) {
+    case Unsaved::Save: return saveExperimentAs();
+    case Unsaved::Discard: return true;
+    case Unsaved::Cancel: break;
+  }
+  return false;
+}
+
+void MainWindow::resetLayout() { (void)restoreState(firstLayout_); }
 
 void MainWindow::chooseConstraint() { docks_.constraint->choose(); }
 void MainWindow::toggleSubjectWindow() { screens_->toggleSubject(); }
@@ -236,6 +291,8 @@ void MainWindow::setSideBySide(bool on) {
 void MainWindow::setMuted(bool muted) { sound_.setMuted(muted); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!mayEndRun(QStringLiteral("Closing the window")) || !mayBeLeft()) return event->ignore();
+  rememberLayout(*this);
   session_.endRun();  // an unfinished trial is kept as interrupted
   screens_->closeSubject();
   QMainWindow::closeEvent(event);

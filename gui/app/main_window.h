@@ -7,6 +7,7 @@
 #include "gui/app/status_line.h"
 #include "gui/app/success_sound.h"
 #include "gui/app/trial_pacing.h"
+#include "gui/app/window_menus.h"
 #include "gui/docks/all_docks.h"
 #include "gui/plot/live_forecast.h"
 #include "gui/plot/live_trace.h"
@@ -56,11 +57,13 @@ class MainWindow : public QMainWindow {
   /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
   void openExperiment(const QString& what);
   void openFile();
-  void saveExperimentAs();
+  /// False when it was not saved.
+  bool saveExperimentAs();
   void chooseConstraint();
   void toggleSubjectWindow();
   void setSideBySide(bool on);
   void setMuted(bool muted);
+  void resetLayout();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -75,8 +78,13 @@ class MainWindow : public QMainWindow {
   void drawPredictions();
   void runOpened();
   void runClosed();
+  void drainTrace();
   void trialEnded();
   void oneFrame();
+  void tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what);
+  /// True when no trial of an open run would be lost, or the user says so.
+  bool mayEndRun(const QString& doing);
+  bool mayBeLeft();
 
   SessionController session_;
   EditHistory edits_;
@@ -85,6 +93,8 @@ class MainWindow : public QMainWindow {
   TrialPacing pacing_;
   SuccessSound sound_;
   docks::Docks docks_;
+  TrialActions actions_;
+  QByteArray firstLayout_;  // of the docks
   std::unique_ptr<StatusLine> status_;
   MessageBar* message_ = nullptr;
   scene::SceneView* view_ = nullptr;

@@ -23,16 +23,23 @@ void Screens::rebuild() {
   if (subject_) subject_->view().setPlan(plan);
 }
 
+void Screens::showRest() {
+  frame_ = restingFrame(main_.plan());
+  main_.showFrame(frame_);
+  if (subject_) subject_->view().showFrame(frame_);
+}
+
 void Screens::showState(const haptics::TickState& state) {
   copyToFrame(state, frame_);
   main_.showFrame(frame_);
   if (subject_) subject_->view().showFrame(frame_);
 }
 
-void Screens::showOverlay(const scene::OverlayState& overlay) {
-  overlay_ = overlay;
-  main_.setOverlay(overlay);
-  if (subject_) subject_->view().setOverlay(overlay);
+void Screens::showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects) {
+  overlay_ = experimenters;
+  subjectsOverlay_ = subjects;
+  main_.setOverlay(experimenters);
+  if (subject_) subject_->view().setOverlay(subjects);
 }
 
 void Screens::setSideBySide(bool on) {
@@ -54,7 +61,8 @@ void Screens::toggleSubject() {
   subject_->setAttribute(Qt::WA_DeleteOnClose);
   connect(&subject_->view(), &scene::SceneView::handDragged, this, &Screens::handDragged);
   subject_->view().setPlan(main_.plan());
-  subject_->view().setOverlay(overlay_);
+  subject_->view().setOverlay(subjectsOverlay_);
+  subject_->addActions(actions_);
   subject_->showFull();
 }
 

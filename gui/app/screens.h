@@ -1,10 +1,13 @@
 #pragma once
+#include <QList>
 #include <QObject>
 #include <QPointer>
 
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_plan.h"
 #include "sim/experiment/compiled_experiment.h"
+
+class QAction;
 
 namespace reachlab::gui::scene {
 class SceneView;
@@ -15,7 +18,7 @@ class SubjectWindow;
 
 namespace reachlab::gui::app {
 
-/// Every picture of the scene that there is: the experimenter's and, while it is open, the subject's. All show the same.
+/// Every picture of the scene that there is: the experimenter's and, while it is open, the subject's, with words of its own.
 class Screens : public QObject {
   Q_OBJECT
  public:
@@ -24,9 +27,13 @@ class Screens : public QObject {
 
   /// Builds the picture anew, the hand at rest at the start.
   void showExperiment(const experiment::CompiledExperiment& experiment);
+  /// The object back at the start: no run is open.
+  void showRest();
   /// Moves what there is.
   void showState(const haptics::TickState& state);
-  void showOverlay(const scene::OverlayState& overlay);
+  void showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects);
+  /// The keys that work on the subject's screen as they do in the main window.
+  void setSubjectsActions(const QList<QAction*>& actions) { actions_ = actions; }
   /// Masses beside one another, for the eye only; seen from where the camera stands.
   void setSideBySide(bool on);
   void toggleSubject();
@@ -47,7 +54,8 @@ class Screens : public QObject {
   std::optional<experiment::CompiledExperiment> experiment_;
   scene::ViewOptions options_;
   scene::SceneFrame frame_;
-  scene::OverlayState overlay_;
+  scene::OverlayState overlay_, subjectsOverlay_;
+  QList<QAction*> actions_;
 };
 
 }  // namespace reachlab::gui::app

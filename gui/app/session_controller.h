@@ -54,6 +54,8 @@ class SessionController : public QObject {
   bool tryTake(plot::TracePoint& point) { return trace_.tryTake(point); }
 
   session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
+  /// Blocks of the plan after the one that is open.
+  std::size_t blocksLeft() const { return recorded_ && isPlan() ? recorded_->blocksLeft() : 0; }
   bool underWay() { return run() != nullptr && run()->underWay(); }
   std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
 

@@ -27,4 +27,9 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
   return overlay;
 }
 
+scene::OverlayState subjectsOverlayOf(SessionController& session) {
+  const session::RecordedRun* run = session.run();
+  return run == nullptr ? scene::subjectsRest() : scene::subjectsOverlayOf(run->latest());
+}
+
 }  // namespace reachlab::gui::app

@@ -39,7 +39,7 @@ void sayKeys(MainWindow& window) {
       QStringLiteral("<table cellpadding=3><tr><td><b>left drag</b></td><td>moves the hand (device mouse)</td></tr>"
                      "<tr><td><b>right drag</b></td><td>turns</td></tr><tr><td><b>middle drag</b></td><td>shifts</td></tr>"
                      "<tr><td><b>wheel</b></td><td>nearer, farther</td></tr><tr><td><b>Space</b></td><td>next trial</td></tr>"
-                     "<tr><td><b>Esc</b></td><td>abort the trial</td></tr><tr><td><b>R</b></td><td>repeat the last trial</td></tr>"
+                     "<tr><td><b>Esc</b></td><td>abort the trial</td></tr><tr><td><b>Ctrl+R</b></td><td>repeat the last trial</td></tr>"
                      "<tr><td><b>F</b></td><td>masses side by side</td></tr><tr><td><b>Ctrl+K</b></td><td>constraints</td></tr>"
                      "<tr><td><b>F11</b></td><td>subject's screen</td></tr></table>"));
 }
@@ -56,7 +56,7 @@ void addExperimentMenu(MainWindow& window) {
   QMenu* shipped = menu->addMenu(QStringLiteral("S&hipped"));
   for (const std::string& name : experiment::shippedExperiments())
     add(window, shipped, QString::fromStdString(name), {}, [&window, name] { window.openExperiment(QString::fromStdString(name)); });
-  add(window, menu, QStringLiteral("&Save as…"), QKeySequence::SaveAs, &MainWindow::saveExperimentAs);
+  add(window, menu, QStringLiteral("&Save as…"), QKeySequence::SaveAs, [&window] { window.saveExperimentAs(); });
   menu->addSeparator();
   add(window, menu, QStringLiteral("&Quit"), QKeySequence::Quit, &QWidget::close);
 }
@@ -72,16 +72,18 @@ void addEditMenu(MainWindow& window) {
   add(window, menu, QStringLiteral("Choose or type a &constraint…"), QKeySequence(QStringLiteral("Ctrl+K")), &MainWindow::chooseConstraint);
 }
 
-void addTrialMenu(MainWindow& window) {
+void addTrialMenu(MainWindow& window, TrialActions& actions) {
   QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Trial"));
-  add(window, menu, QStringLiteral("&Next"), Qt::Key_Space, &MainWindow::nextTrial);
-  add(window, menu, QStringLiteral("&Abort"), Qt::Key_Escape, &MainWindow::abortTrial);
-  add(window, menu, QStringLiteral("&Repeat"), Qt::Key_R, &MainWindow::repeatTrial);
+  actions.next = add(window, menu, QStringLiteral("&Next"), Qt::Key_Space, &MainWindow::nextTrial);
+  actions.abort = add(window, menu, QStringLiteral("&Abort"), Qt::Key_Escape, &MainWindow::abortTrial);
+  // Not a letter alone: one that went astray would repeat a trial.
+  actions.repeat = add(window, menu, QStringLiteral("&Repeat"), QKeySequence(QStringLiteral("Ctrl+R")), &MainWindow::repeatTrial);
   add(window, menu, QStringLiteral("Res&ume the session"), {}, &MainWindow::resumeSession)->setObjectName(QStringLiteral("resume"));
-  add(window, menu, QStringLiteral("&End run"), QKeySequence(QStringLiteral("Ctrl+E")), &MainWindow::endRun);
+  actions.end = add(window, menu, QStringLiteral("&End run"), QKeySequence(QStringLiteral("Ctrl+E")), &MainWindow::endRun);
+  for (QAction* action : {actions.next, actions.abort, actions.repeat, actions.end}) action->setAutoRepeat(false);
 }
 
-void addViewMenu(MainWindow& window) {
+void addViewMenu(MainWindow& window, TrialActions& actions) {
   QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&View"));
   add(window, menu, QStringLiteral("&Whole scene"), Qt::Key_Home, [&window] { window.view().resetCamera(); });
   const char axes[] = {'x', 'y', 'z'};
@@ -95,10 +97,11 @@ void addViewMenu(MainWindow& window) {
   addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
             [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
   menu->addSeparator();
-  add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
+  actions.subjectsScreen = add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
   addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
   menu->addSeparator();
   for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu->addAction(dock->toggleViewAction());
+  add(window, menu, QStringLiteral("&Docks in their places"), {}, &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
 }
 
 void addHelpMenu(MainWindow& window) {
@@ -109,12 +112,14 @@ void addHelpMenu(MainWindow& window) {
 
 }  // namespace
 
-void addMenus(MainWindow& window) {
+TrialActions addMenus(MainWindow& window) {
+  TrialActions actions;
   addExperimentMenu(window);
   addEditMenu(window);
-  addTrialMenu(window);
-  addViewMenu(window);
+  addTrialMenu(window, actions);
+  addViewMenu(window, actions);
   addHelpMenu(window);
+  return actions;
 }
 
 }  // namespace reachlab::gui::app

@@ -24,7 +24,7 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 
 PredictionDock::PredictionDock(QWidget* parent)
     : Dock(QStringLiteral("Predictions"), QStringLiteral("predictionDock"), parent), latest_(predict::kCriterionCount),
-      sums_(predict::kCriterionCount), counts_(predict::kCriterionCount) {
+      succeeded_(predict::kCriterionCount), failed_(predict::kCriterionCount) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   table_ = new QTableWidget(predict::kCriterionCount, kColumns);
@@ -32,8 +32,10 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_->setHorizontalHeaderLabels(
       {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
   table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [m/s]"));
-  table_->horizontalHeaderItem(kLast)->setToolTip(QStringLiteral("RMS difference of the last trial's hand velocity [m/s]"));
-  table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral("the same over all trials of this run [m/s]"));
+  table_->horizontalHeaderItem(kLast)->setToolTip(
+      QStringLiteral("the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]"));
+  table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral(
+      "the paper's epsilon over the trials of this run that succeeded, as in reach analyze; grey: over failed ones, while none has [m/s]"));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(23);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
@@ -88,21 +90,22 @@ void PredictionDock::setForecasts(const std::vector<plot::CriterionForecast>& fo
   }
 }
 
-void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors) {
+void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors, bool succeeded) {
   latest_.assign(predict::kCriterionCount, std::nullopt);
   for (std::size_t i = 0; i < errors.size() && i < latest_.size(); ++i) {
     latest_[i] = errors[i];
     if (!errors[i]) continue;
-    sums_[i] += *errors[i] * *errors[i];
-    ++counts_[i];
+    Sum& sum = (succeeded ? succeeded_ : failed_)[i];
+    sum.squares += *errors[i] * *errors[i];
+    ++sum.count;
   }
   fillErrors();
 }
 
 void PredictionDock::clearErrors() {
   latest_.assign(predict::kCriterionCount, std::nullopt);
-  std::fill(sums_.begin(), sums_.end(), 0.0);
-  std::fill(counts_.begin(), counts_.end(), 0);
+  succeeded_.assign(predict::kCriterionCount, {});
+  failed_.assign(predict::kCriterionCount, {});
   fillErrors();
 }
 
@@ -118,7 +121,10 @@ void PredictionDock::fillErrors() {
     QFont font = table_->font();
     font.setBold(latest_[k] && latest_[k] == best);
     last->setFont(font);
-    table_->item(i, kAll)->setText(counts_[k] > 0 ? speed(std::sqrt(sums_[k] / counts_[k])) : QString());
+    const bool any = std::any_of(succeeded_.begin(), succeeded_.end(), [](const Sum& s) { return s.count > 0; });
+    const Sum& sum = (any ? succeeded_ : failed_)[k];
+    table_->item(i, kAll)->setText(sum.count > 0 ? speed(std::sqrt(sum.squares / sum.count)) : QString());
+    table_->item(i, kAll)->setForeground(any ? palette().color(QPalette::Text) : widgets::toQColor(widgets::colours::kNeutral));
   }
 }
 

@@ -17,8 +17,9 @@ class PredictionDock : public Dock {
   explicit PredictionDock(QWidget* parent = nullptr);
   /// While they are being computed: an empty list.
   void setForecasts(const std::vector<plot::CriterionForecast>& forecasts);
-  /// One a criterion, in the forecasts' order. [m/s]
-  void addErrors(const std::vector<std::optional<double>>& errors);
+  /// The paper's epsilon of a trial, one a criterion, in the forecasts' order [m/s]. The run's is over the trials that succeeded, as in
+  /// `reach analyze`, and over the failed ones while none has.
+  void addErrors(const std::vector<std::optional<double>>& errors, bool succeeded);
   void clearErrors();
   std::vector<predict::Criterion> chosen() const;
   void setChosen(const std::vector<predict::Criterion>& criteria);
@@ -35,8 +36,11 @@ class PredictionDock : public Dock {
   QTableWidget* table_;
   QLabel* note_;
   std::vector<std::optional<double>> latest_;
-  std::vector<double> sums_;  // of squares, so that the mean is the paper's error of the series
-  std::vector<int> counts_;
+  struct Sum {
+    double squares = 0;  // so that the root of the mean is the paper's epsilon of the series
+    int count = 0;
+  };
+  std::vector<Sum> succeeded_, failed_;
 };
 
 }  // namespace reachlab::gui::docks

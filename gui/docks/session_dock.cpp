@@ -86,7 +86,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   next_->setProperty("role", "go");
   abort_ = new QPushButton(QStringLiteral("Abort  (Esc)"));
   abort_->setObjectName(QStringLiteral("abort"));
-  repeat_ = new QPushButton(QStringLiteral("Repeat  (R)"));
+  repeat_ = new QPushButton(QStringLiteral("Repeat  (Ctrl+R)"));
   repeat_->setObjectName(QStringLiteral("repeat"));
   repeat_->setToolTip(QStringLiteral("puts the last trial up once more, at the end of the run"));
   end_ = new QPushButton(QStringLiteral("End run  (Ctrl+E)"));
@@ -199,11 +199,12 @@ double SessionDock::pauseSeconds() const { return pause_->value(); }
 
 void SessionDock::setStage(Stage stage) {
   who_->setEnabled(stage == Stage::Closed);
-  next_->setText(stage == Stage::Closed ? QStringLiteral("Start  (Space)") : QStringLiteral("Next trial  (Space)"));
-  next_->setEnabled(stage == Stage::Closed || stage == Stage::BetweenTrials);
+  next_->setText(stage == Stage::Closed      ? QStringLiteral("Start  (Space)")
+                 : stage == Stage::BlockDone ? QStringLiteral("Next block  (Space)")
+                                             : QStringLiteral("Next trial  (Space)"));
+  next_->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished);
   abort_->setEnabled(stage == Stage::UnderWay);
-  repeat_->setEnabled(stage == Stage::BetweenTrials || stage == Stage::Finished);
-  end_->setEnabled(stage == Stage::BetweenTrials || stage == Stage::Finished);
+  for (auto* button : {repeat_, end_}) button->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed);
   note_->setEnabled(stage != Stage::Closed);
 }
 

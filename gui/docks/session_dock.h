@@ -36,7 +36,7 @@ class SessionDock : public Dock {
   double pauseSeconds() const;   // [s] before it
 
   /// While a run is open its who and where stand still.
-  enum class Stage { Closed, BetweenTrials, UnderWay, Finished };
+  enum class Stage { Closed, BetweenTrials, UnderWay, BlockDone, Finished };  // BlockDone: the plan has another
   void setStage(Stage stage);
   /// Which run is open: its number, block, condition, day, seed.
   void showRun(const record::RunConfiguration& run);

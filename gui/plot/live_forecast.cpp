@@ -35,7 +35,8 @@ void LiveForecast::poll() {
   }
   if (ended_ && isReady()) {
     const Trial trial = *std::exchange(ended_, {});
-    Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, experiment_.task.value_or(experiment::Task{})));
+    const experiment::Task task = experiment_.task.value_or(experiment::Task{});
+    Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, task, trial.span), trial.succeeded);
   }
 }
 
@@ -55,6 +56,8 @@ std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::C
   return lines;
 }
 
-void LiveForecast::compare(const std::vector<TracePoint>& points, const PathDirection& path) { ended_ = Trial{points, path}; }
+void LiveForecast::compare(const std::vector<TracePoint>& points, const PathDirection& path, const TrialSpan& span, bool succeeded) {
+  ended_ = Trial{points, path, span, succeeded};
+}
 
 }  // namespace reachlab::gui::plot

@@ -27,18 +27,20 @@ class LiveForecast : public QObject {
   /// The lines of these criteria, for the plot.
   std::vector<VelocityPlot::Line> lines(const std::vector<predict::Criterion>& criteria) const;
   /// A trial that has ended: `compared` follows, at once or when the predictions are there.
-  void compare(const std::vector<TracePoint>& points, const PathDirection& path);
+  void compare(const std::vector<TracePoint>& points, const PathDirection& path, const TrialSpan& span, bool succeeded);
 
  Q_SIGNALS:
   /// The predictions are there, or (an empty list) begun anew.
   void changed();
   /// The paper's error of the trial's hand for each forecast, in their order. [m/s]
-  void compared(const std::vector<std::optional<double>>& errors);
+  void compared(const std::vector<std::optional<double>>& errors, bool succeeded);
 
  private:
   struct Trial {
     std::vector<TracePoint> points;
     PathDirection path;
+    TrialSpan span;
+    bool succeeded = false;
   };
 
   experiment::Experiment experiment_;

@@ -10,7 +10,8 @@ void LiveTrace::add(const TracePoint& p, VelocityPlot& plot) {
     points_.clear();
     plot.beginTrial();
   }
-  if (p.phase != trial::Phase::Armed && p.phase != trial::Phase::Moving) return;
+  const bool ended = p.phase == trial::Phase::Done && !points_.empty() && points_.back().phase != trial::Phase::Done;
+  if (p.phase != trial::Phase::Armed && p.phase != trial::Phase::Moving && !ended) return;
   points_.push_back(p);
   if (p.phase == trial::Phase::Moving) plot.add(p.trialTime, path_.along(p.handVelocity, p.firstQ), path_.along(p.lastVelocity, p.lastQ));
 }

@@ -1,5 +1,7 @@
 #include "gui/plot/trial_errors.h"
 
+#include <numeric>
+
 #include "base/error.h"
 #include "sim/analyze/measures.h"
 #include "sim/analyze/paper_error.h"
@@ -59,14 +61,22 @@ double PathDirection::along(const Vec3& velocity, double q) const {
 }
 
 std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
-                                                     const std::vector<CriterionForecast>& forecasts, const experiment::Task& task) {
+                                                     const std::vector<CriterionForecast>& forecasts, const experiment::Task& task,
+                                                     const TrialSpan& span) {
   std::vector<std::optional<double>> errors(forecasts.size());
   if (trace.size() < 8) return errors;
   analyze::TrialData trial;
-  trial.rate = TraceSink::kRate;
+  const std::uint64_t every = std::lcm(span.every, TraceSink::kEvery);
+  trial.rate = 1000.0 / static_cast<double>(every);
   trial.start = path.start();
   trial.target = path.target();
   for (const TracePoint& p : trace) {
+    if (p.tick % every != 0 || (span.endTick > 0 && p.tick > span.endTick)) continue;
+    if (trial.hand.empty() && span.endTick > 0) {
+      const auto seconds = [&](std::uint64_t tick) { return (static_cast<double>(tick) - static_cast<double>(p.tick)) / 1000.0; };
+      trial.taskOnset = seconds(span.onsetTick);
+      trial.taskEnd = seconds(span.endTick);
+    }
     trial.hand.push_back(p.hand);
     trial.object.push_back(p.last);
     trial.objectVelocity.push_back(p.lastVelocity);
@@ -74,6 +84,7 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
     if (path.straight()) trial.along = {path.at(0)};
     else if (const Vec3 direction = path.at(p.firstQ); !(direction == Vec3{})) trial.along.push_back(direction);
   }
+  if (trial.hand.size() < 8) return errors;
   const analyze::MeasureOptions options;
   const analyze::TrialSignals signals = analyze::computeSignals(trial, options);
   if (!signals.movement.found) return errors;

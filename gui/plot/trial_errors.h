@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,9 +45,17 @@ class PathDirection {
   bool straight_ = false;
 };
 
+/// What of a trial is compared: the ticks that are in the recording, up to the end as the task saw it.
+struct TrialSpan {
+  std::uint64_t every = 1;                   // ticks a row of the recording
+  std::uint64_t onsetTick = 0, endTick = 0;  // as judged; 0: not known, and all of the trace is looked at
+};
+
+/// The paper's epsilon of one trial, by the analysis' own code from the rows that the recording holds, so that it is `reach analyze`'s number.
 /// RMS difference between the measured hand velocity and each forecast, both from onset to end by the rule of the analysis and time-scaled to the
 /// measured duration: the paper's error for one trial. nullopt where there is no prediction or no movement. [m/s]
 std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
-                                                     const std::vector<CriterionForecast>& forecasts, const experiment::Task& task);
+                                                     const std::vector<CriterionForecast>& forecasts, const experiment::Task& task,
+                                                     const TrialSpan& span = {});
 
 }  // namespace reachlab::gui::plot

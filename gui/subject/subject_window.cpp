@@ -3,7 +3,6 @@
 #include <QCloseEvent>
 #include <QGuiApplication>
 #include <QScreen>
-#include <QShortcut>
 #include <QVBoxLayout>
 
 namespace reachlab::gui::subject {
@@ -13,10 +12,9 @@ SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   view_ = new scene::SceneView;
-  view_->setTextScale(1.5);
+  view_->setTextScale(1.8);
   layout->addWidget(view_);
-  for (const auto& key : {QKeySequence(Qt::Key_F11), QKeySequence(Qt::Key_Escape)})
-    connect(new QShortcut(key, this), &QShortcut::activated, this, &QWidget::close);
+  setCursor(Qt::BlankCursor);
 }
 
 void SubjectWindow::showFull() {

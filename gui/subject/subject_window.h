@@ -5,7 +5,8 @@
 
 namespace reachlab::gui::subject {
 
-/// What the subject sees: the scene alone, over a whole screen. Esc, F11 or a closed window ends it.
+/// What the subject sees: the scene and a few words, over a whole screen. The experimenter's keys work here too: the main window gives its
+/// actions.
 class SubjectWindow : public QWidget {
   Q_OBJECT
  public:

@@ -18,8 +18,11 @@ int main(int argc, char** argv) {
   qputenv("LANG", "de_DE.UTF-8");
   const QTemporaryDir own;
   qputenv("REACHLAB_CONSTRAINTS", own.path().toUtf8());  // nothing of the user's, and nothing left behind
+  qputenv("XDG_CONFIG_HOME", own.path().toUtf8());
   reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
+  QApplication::setOrganizationName(QStringLiteral("reachlab"));
+  QApplication::setApplicationName(QStringLiteral("test"));
   reachlab::gui::widgets::applyTheme(application);
   return RUN_ALL_TESTS();
 }

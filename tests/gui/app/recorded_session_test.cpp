@@ -20,6 +20,7 @@
 #include "gui/docks/session_dock.h"
 #include "sim/record/run_log.h"
 #include "test_paths.h"
+#include "tests/gui/answer_box.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -127,7 +128,12 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   request_.trials = 2;
   open();
   doTrial();
-  window_->openExperiment(QString::fromStdString(file));
+  {
+    const AnswerBox box(QStringLiteral("End the run"));
+    window_->openExperiment(QString::fromStdString(file));
+    EXPECT_TRUE(box.text().startsWith(QStringLiteral("1 of 2 trials are done. Opening another experiment ends the run")))
+        << box.text().toStdString();
+  }
   EXPECT_TRUE(session().isPlan());
   EXPECT_FALSE(window_->sessionDock().request().trials.has_value());
   EXPECT_EQ(session().experiment().name, "chain-slow");

@@ -1,0 +1,14 @@
+#pragma once
+#include <QString>
+
+class QWidget;
+
+namespace reachlab::gui::app {
+
+/// Asks before something is lost. Each waits for the answer; closing the box is "no".
+bool askToEndRun(QWidget& window, const QString& doing, std::size_t trialsDone, std::size_t trialsPlanned);
+
+enum class Unsaved { Save, Discard, Cancel };
+Unsaved askAboutUnsaved(QWidget& window, const QString& experiment);
+
+}  // namespace reachlab::gui::app

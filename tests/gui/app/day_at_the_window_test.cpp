@@ -1,0 +1,323 @@
+// What an experimenter and a subject meet in a day: keys, fields, the subject's screen, questions, the layout.
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QFile>
+#include <QLineEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QScrollArea>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QWindow>
+#include <fstream>
+
+#include "gui/app/main_window.h"
+#include "gui/app/window_layout.h"
+#include "gui/docks/prediction_dock.h"
+#include "gui/docks/session_dock.h"
+#include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_view.h"
+#include "gui/scene/trial_texts.h"
+#include "gui/subject/subject_window.h"
+#include "test_paths.h"
+#include "tests/gui/answer_box.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+class Day : public ::testing::Test {
+ protected:
+  Day() {
+    request_.what = "chain-moderate";
+    request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
+    request_.device = "mouse";
+    request_.trials = 3;
+    request_.seed = 1;
+  }
+  ~Day() override { forgetLayout(); }
+  MainWindow& open() {
+    window_ = std::make_unique<MainWindow>(request_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());
+    return *window_;
+  }
+  template <typename T>
+  T* find(const char* name) const {
+    T* found = window_->findChild<T*>(QLatin1String(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  void key(Qt::Key key, Qt::KeyboardModifiers with = {}) const { QTest::keyClick(window_->windowHandle(), key, with); }
+  void clickIntoScene() const {
+    const QPoint at = window_->view().mapTo(window_.get(), QPoint(500, 300));
+    QTest::mouseClick(window_->windowHandle(), Qt::LeftButton, {}, at);
+  }
+  QTemporaryDir folder_;
+  session::SessionRequest request_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(Day, AClickIntoTheSceneLeavesTheFieldAndSpaceIsTheTrialsAgain) {
+  MainWindow& window = open();
+  auto* masses = find<QLineEdit>("masses");
+  masses->setFocus();
+  masses->selectAll();
+  for (const Qt::Key k : {Qt::Key_1, Qt::Key_Space, Qt::Key_1}) key(k);
+  EXPECT_EQ(masses->text(), QStringLiteral("1 1")) << "while it is typed in, a blank is a blank";
+  clickIntoScene();
+  EXPECT_FALSE(masses->hasFocus());
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
+  key(Qt::Key_Space);
+  EXPECT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(masses->text(), QStringLiteral("1 1"));
+}
+
+TEST_F(Day, EnterKeepsAnEntryAndGivesTheKeysBack) {
+  MainWindow& window = open();
+  auto* masses = find<QLineEdit>("masses");
+  masses->setFocus();
+  masses->selectAll();
+  for (const Qt::Key k : {Qt::Key_2, Qt::Key_Return}) key(k);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !masses->hasFocus(); }, 2000));
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{2}));
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(window.session().experiment().object.masses.size(), 5u) << "undone from the scene";
+  masses->setFocus();
+  key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{2})) << "redone from a field with nothing of its own to redo";
+  masses->setFocus();
+  masses->selectAll();
+  for (const Qt::Key k : {Qt::Key_X, Qt::Key_Return}) key(k);
+  QTest::qWait(20);
+  EXPECT_TRUE(masses->hasFocus()) << "a wrong entry is mended where it stands";
+}
+
+TEST_F(Day, AStrayKeyNeitherStartsNorRepeatsATrial) {
+  request_.device = "simulated:noise=0";
+  request_.fast = true;
+  request_.trials = 1;
+  MainWindow& window = open();
+  auto* kind = find<QComboBox>("objectKind");
+  kind->setFocus();
+  key(Qt::Key_R);
+  EXPECT_EQ(window.session().run(), nullptr);
+  clickIntoScene();
+  key(Qt::Key_Space);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window.session().underWay(); }, 5000));
+  const std::string log = window.session().run()->logPath();
+  key(Qt::Key_R);
+  key(Qt::Key_Space);
+  ASSERT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(window.session().run()->logPath(), log) << "the run is over: no key opens another by the way";
+  EXPECT_EQ(window.session().run()->trialCount(), 1u);
+  key(Qt::Key_R, Qt::ControlModifier);
+  EXPECT_EQ(window.session().run()->trialCount(), 2u);
+}
+
+// The words that are on the screen, those of the overlay; what is painted comes from them alone.
+QString wordsOn(const scene::SceneOverlay& overlay) {
+  const scene::OverlayState& s = overlay.state();
+  return QStringList{s.counter, s.instruction, s.detail, s.task}.join(QLatin1Char('|'));
+}
+
+TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
+  MainWindow& window = open();
+  window.toggleSubjectWindow();
+  subject::SubjectWindow* screen = nullptr;
+  for (QWidget* top : QApplication::topLevelWidgets())
+    if (auto* found = qobject_cast<subject::SubjectWindow*>(top)) screen = found;
+  ASSERT_NE(screen, nullptr);
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(screen));
+  QApplication::setActiveWindow(screen);
+  EXPECT_EQ(screen->cursor().shape(), Qt::BlankCursor);
+  const auto* overlay = screen->findChild<scene::SceneOverlay*>();
+  const QRegularExpression forOthers(QStringLiteral("\\d|Space|mm|chain|\\bF\\b"));
+  const auto look = [&] {
+    EXPECT_FALSE(overlay->state().rulersShown);
+    EXPECT_FALSE(wordsOn(*overlay).contains(forOthers)) << wordsOn(*overlay).toStdString();
+  };
+  look();
+  QTest::keyClick(screen->windowHandle(), Qt::Key_Space);
+  ASSERT_NE(window.session().run(), nullptr) << "the experimenter's keys work here";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  QTest::qWait(50);
+  look();
+  QTest::keyClick(screen->windowHandle(), Qt::Key_Escape);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Aborted);
+  EXPECT_TRUE(screen->isVisible()) << "Esc aborts the trial and leaves the screen";
+  QTest::qWait(50);
+  look();
+  QTest::keyPress(screen->windowHandle(), Qt::Key_F11);  // the window is gone before the key comes up
+  QTest::qWait(50);
+  for (QWidget* top : QApplication::topLevelWidgets()) EXPECT_EQ(qobject_cast<subject::SubjectWindow*>(top), nullptr);
+}
+
+TEST(SubjectsWords, TellNoOutcomeByANumber) {
+  haptics::TickState state;
+  state.phase = trial::Phase::Done;
+  for (int reason = 0; reason <= static_cast<int>(trial::kLastReason); ++reason) {
+    state.result = {trial::Outcome::Failure, static_cast<trial::Reason>(reason), 3, 0.207};
+    const QString words = scene::subjectsOverlayOf(state).instruction;
+    EXPECT_FALSE(words.isEmpty());
+    EXPECT_FALSE(words.contains(QRegularExpression(QStringLiteral("\\d")))) << words.toStdString();
+  }
+}
+
+TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  auto* masses = find<QLineEdit>("masses");
+  const auto type = [&] {
+    masses->setFocus();
+    masses->selectAll();
+    QTest::keyClicks(masses, QStringLiteral("1 1"));
+    QTest::keyClick(masses, Qt::Key_Return);
+  };
+  {
+    const AnswerBox box(QStringLiteral("Go on with it"));
+    type();
+    EXPECT_TRUE(box.text().startsWith(QStringLiteral("0 of 3 trials are done."))) << box.text().toStdString();
+  }
+  EXPECT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(masses->text(), QStringLiteral("5 x 0.6")) << "what holds is shown again";
+  {
+    const AnswerBox box(QStringLiteral("End the run"));
+    type();
+    EXPECT_TRUE(box.asked());
+  }
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
+}
+
+TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
+  MainWindow& window = open();
+  experiment::Experiment edited = window.session().experiment();
+  EXPECT_FALSE(window.isWindowModified());
+  auto* masses = find<QLineEdit>("masses");
+  masses->setText(QStringLiteral("1 1"));
+  Q_EMIT masses->editingFinished();
+  EXPECT_TRUE(window.isWindowModified());
+  {
+    const AnswerBox box(QStringLiteral("Cancel"));
+    EXPECT_FALSE(window.close());
+    EXPECT_TRUE(box.text().contains(QStringLiteral("was changed"))) << box.text().toStdString();
+  }
+  window.edits().undo();
+  EXPECT_FALSE(window.isWindowModified());
+  window.nextTrial();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  {
+    const AnswerBox box(QStringLiteral("Go on with it"));
+    EXPECT_FALSE(window.close());
+    EXPECT_TRUE(box.asked());
+  }
+  EXPECT_NE(window.session().run(), nullptr);
+  const AnswerBox box(QStringLiteral("End the run"));
+  EXPECT_TRUE(window.close());
+  EXPECT_EQ(window.session().run(), nullptr);
+}
+
+// 1366 x 768, and 1920 x 1080 at a scale of 1.5, less a title bar.
+TEST_F(Day, FitsASmallScreenAndScrollsItsDocks) {
+  MainWindow& window = open();
+  const QSize least = window.minimumSizeHint().expandedTo(window.minimumSize());
+  EXPECT_LE(least.width(), 1280);
+  EXPECT_LE(least.height(), 690);
+  window.resize(1280, 690);
+  QTest::qWait(50);
+  EXPECT_EQ(window.size(), QSize(1280, 690));
+  const auto* note = find<QLineEdit>("note");
+  QWidget* above = note->parentWidget();
+  while (above != nullptr && qobject_cast<QScrollArea*>(above) == nullptr) above = above->parentWidget();
+  ASSERT_NE(above, nullptr);
+  auto* area = qobject_cast<QScrollArea*>(above);
+  area->ensureWidgetVisible(find<QLineEdit>("note"));
+  EXPECT_FALSE(note->visibleRegion().isEmpty()) << "the last line of the longest dock can be scrolled to";
+  EXPECT_GE(area->width(), area->widget()->minimumSizeHint().width()) << "and nothing is cut off at its side";
+}
+
+TEST_F(Day, TheLayoutIsRememberedAndCanBePutBack) {
+  MainWindow& first = open();
+  first.resize(1300, 800);
+  find<QDockWidget>("taskDock")->hide();
+  first.addDockWidget(Qt::LeftDockWidgetArea, find<QDockWidget>("objectDock"));
+  EXPECT_TRUE(first.close());
+  MainWindow& second = open();
+  EXPECT_EQ(second.size(), QSize(1300, 800));
+  EXPECT_FALSE(find<QDockWidget>("taskDock")->isVisible());
+  EXPECT_EQ(second.dockWidgetArea(find<QDockWidget>("objectDock")), Qt::LeftDockWidgetArea);
+  find<QAction>("resetLayout")->trigger();
+  EXPECT_TRUE(find<QDockWidget>("taskDock")->isVisible());
+  EXPECT_EQ(second.dockWidgetArea(find<QDockWidget>("objectDock")), Qt::RightDockWidgetArea);
+}
+
+// One law, one number: what the window shows of a run is what the analysis of its recording gives, to the digits that are shown.
+TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
+  request_.what = "dingwell";
+  request_.device = "simulated";
+  request_.trials = 8;
+  request_.fast = true;
+  MainWindow& window = open();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 60000));
+  auto* table = window.predictions().findChild<QTableWidget*>();
+  int succeeded = 0, failed = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const QString before = table->item(0, 2)->text();
+    window.nextTrial();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window.session().underWay() && window.session().lastTrial(); }, 60000));
+    QTest::qWait(100);
+    ++(window.session().lastTrial()->result.outcome == trial::Outcome::Success ? succeeded : failed);
+  }
+  QStringList shown;
+  for (int i = 0; i < predict::kCriterionCount; ++i) shown << table->item(i, 3)->text();
+  window.session().endRun();
+  ASSERT_GT(succeeded, 0);
+  EXPECT_GT(failed, 0) << "the seed is to give both";
+
+  QProcess reach;
+  reach.start(QStringLiteral(REACH_PROGRAM), {QStringLiteral("analyze"), QString::fromStdString(request_.place.data)});
+  ASSERT_TRUE(reach.waitForFinished(120000));
+  ASSERT_EQ(reach.exitCode(), 0) << reach.readAllStandardError().toStdString();
+  QFile file(QString::fromStdString(request_.place.data) + QStringLiteral("/derivatives/reachlab/ranking.csv"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  const QStringList heads = QString::fromUtf8(file.readLine()).trimmed().split(QLatin1Char(','));
+  const int signal = heads.indexOf(QStringLiteral("signal")), criterion = heads.indexOf(QStringLiteral("criterion")),
+            epsilon = heads.indexOf(QStringLiteral("epsilon_m_per_s"));
+  ASSERT_TRUE(signal >= 0 && criterion >= 0 && epsilon >= 0) << heads.join(QLatin1Char(' ')).toStdString();
+  int compared = 0;
+  while (!file.atEnd()) {
+    const QStringList cells = QString::fromUtf8(file.readLine()).trimmed().split(QLatin1Char(','));
+    if (cells.value(signal) != QStringLiteral("hand")) continue;
+    for (int i = 0; i < predict::kCriterionCount; ++i) {
+      const std::string_view name = predict::nameOf(static_cast<predict::Criterion>(i));
+      if (cells.value(criterion).toStdString() != name) continue;
+      EXPECT_EQ(shown.at(i).toStdString(), QString::number(cells.value(epsilon).toDouble(), 'f', 4).toStdString()) << name;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 3);
+}
+
+TEST_F(Day, WhatRestsIsNotDrawnAgain) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  // However long the settling takes: once it rests, no picture is drawn in forty frames.
+  std::int64_t before = -1;
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return std::exchange(before, window.view().picturesDrawn()) == window.view().picturesDrawn(); }, 20000));
+  before = window.view().picturesDrawn();
+  for (int frame = 0; frame < 40; ++frame) QTest::qWait(16);
+  EXPECT_LE(window.view().picturesDrawn(), before + 1);
+}
+
+}  // namespace
+}  // namespace reachlab::gui::app
