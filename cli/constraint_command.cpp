@@ -127,6 +127,11 @@ void showPlaces(const constraints::Constraint& c) {
     const constraints::CurveRegularity regularity = constraints::computeRegularity(c, 0.5 * (range[0].lo + range[0].hi));
     std::size_t told = 0;
     for (const constraints::Place& place : regularity.places) {
+      if (std::isinf(place.at)) {
+        fmt::print("end       as phi grows to {}infinity: the curve has a finite length there\n", place.at < 0 ? "minus " : "");
+        ++told;
+        continue;
+      }
       if (place.at < range[0].lo || place.at > range[0].hi || (range[0].periodic && place.at >= range[0].hi - 1e-9)) continue;
       fmt::print("{:<9} phi = {:.9g}: {}; {}\n", nameOf(place.kind), place.at, place.because,
                  constraints::isPassed(place.kind) ? "passed" : "never crossed");
@@ -145,8 +150,8 @@ void showPlaces(const constraints::Constraint& c) {
                  p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
                              : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
     if (places.empty() && branches->smooth())
-      fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]\n", range[0].lo, range[0].hi, range[1].lo,
-                 range[1].hi);
+      fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]{}\n", range[0].lo, range[0].hi,
+                 range[1].lo, range[1].hi, constraints::isProvedRegular(c, range) ? ", shown by interval arithmetic" : "");
     if (places.size() >= constraints::kMaxDegeneratePlaces)
       fmt::print("…         isolated points are listed only up to {} places in all: there may be more of them\n",
                  constraints::kMaxDegeneratePlaces);

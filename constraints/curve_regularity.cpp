@@ -70,6 +70,8 @@ class Examiner {
       result_.pieces = {{lo, hi, c_.curve}};
       result_.owner = c_.owner;
       addCusps(c_.curve, r_, from, to);
+      if (!std::isfinite(lo) && !c_.domain[0].periodic) addFarEnd(-1);
+      if (!std::isfinite(hi) && !c_.domain[0].periodic) addFarEnd(1);
       result_.smooth = result_.places.empty();
       return std::move(result_);
     }
@@ -104,6 +106,29 @@ class Examiner {
       if (!(range.lo > g.level || range.hi < g.level)) return false;
     }
     return true;
+  }
+
+  /// A curve may come to its end only as phi grows without bound (tanh(phi)): from some phi on each doubling of it adds less.
+  void addFarEnd(double direction) {
+    constexpr int kFirst = 8, kLast = 40;
+    double before = std::numeric_limits<double>::infinity();
+    Vec3 last = evaluate(c_.curve, about_ + direction * std::ldexp(1.0, kFirst)).r;
+    for (int k = kFirst; k < kLast; ++k) {
+      double way = 0;  // by chords at uneven places, so that none meets a period
+      for (const double share : {1.234, 1.4142, 1.618, 1.8, 2.0}) {
+        const Vec3 r = evaluate(c_.curve, about_ + direction * std::ldexp(share, k)).r;
+        way += norm(r - last);
+        last = r;
+      }
+      if (!(way <= 0.9 * before)) return;
+      before = way;
+    }
+    Place place;
+    place.kind = PlaceKind::End;
+    place.at = direction * std::numeric_limits<double>::infinity();
+    place.r = last;
+    place.because = "r comes to rest";
+    result_.places.push_back(place);
   }
 
   std::pair<double, double> window(double lo, double hi, double share) const {
@@ -198,6 +223,7 @@ class Examiner {
   /// One side of a boundary.
   struct Side {
     bool valid = false, bounded = true, settled = true;  // settled: r and r_phi have limits
+    bool exact = false;                                  // the formula itself has them at the boundary
     CurvePoint limit;
     double edge = 0;  // the last phi at which the formula is evaluated
     double stop = 0;  // where a mass ends if it may not pass
@@ -212,11 +238,17 @@ class Examiner {
     side.edge = side.stop = b;
     const double width = std::abs(inwards), direction = inwards > 0 ? 1 : -1, unit = std::max(1.0, std::abs(b));
     side.limit = at(program, b);
-    if (branching && isFinite(side.limit)) {
-      side.valid = true;
-      return side;
-    }
     const auto inside = [&](double d) { return at(program, b + direction * d); };
+    if (branching && isFinite(side.limit)) {
+      // A value there need not be a limit: atan2(0, 0) is 0, or pi.
+      const double close = std::min(0.1 * width, 1e-7 * unit);
+      const CurvePoint p = inside(close);
+      side.exact = isFinite(p) && norm(p.r - (direction * close) * p.rPhi - side.limit.r) <= kContinuous * (1e-3 + norm(p.r));
+      if (side.exact) {
+        side.valid = true;
+        return side;
+      }
+    }
     const double far = std::min(0.1 * width, 1e-5 * unit), near = 0.1 * far, nearer = 0.01 * near;
     const CurvePoint a = inside(far), n = inside(near), m = inside(nearer);
     side.valid = reachlab::isFinite(a.r) && reachlab::isFinite(n.r) && isFinite(inside(0.3 * width));
@@ -281,6 +313,7 @@ class Examiner {
         left = sideOf(*(*programs)[i - 1]->program, b, -(stretches_[i - 1].hi - stretches_[i - 1].lo), branching);
       if (hasRight && alive[i]) right = sideOf(*(*programs)[i]->program, b, stretches_[i].hi - stretches_[i].lo, branching);
       if (!left.valid && !right.valid) continue;
+      branching = branching && (!left.valid || left.exact) && (!right.valid || right.exact);
       Place place;
       place.at = b + 0.0;
       const auto telling = std::find_if(deciding.begin(), deciding.end(), [&](std::size_t k) { return !guards_[k].branches(); });

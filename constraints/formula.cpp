@@ -1,6 +1,7 @@
 #include "constraints/formula.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "constraints/guards.h"
@@ -25,6 +26,17 @@ Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
       parsed.fault->coordinate = static_cast<int>(k);
       result.faults.push_back(*parsed.fault);
     }
+  }
+  if (!result.faults.empty()) return result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<bool> needed = graph.reachableFrom(std::vector<int>{result.roots[k]});
+    for (std::size_t id = 0; id < needed.size(); ++id)
+      if (needed[id] && graph.isConstant(static_cast<int>(id)) && !std::isfinite(graph.node(static_cast<int>(id)).value)) {
+        result.faults.push_back({static_cast<int>(k), 0, 1,
+                                 "has no finite value anywhere: a part of it that does not move is not finite (1/0, log(0), the root of a "
+                                 "negative number); allowed: numbers that have a value"});
+        break;
+      }
   }
   if (!result.faults.empty()) return result;
   for (std::size_t i = 0; i < used.size(); ++i)

@@ -27,12 +27,19 @@ Interval wholePower(Interval a, double n) {
   return {contains(a, 0) ? 0.0 : std::min(lo, hi), std::max(lo, hi)};
 }
 
-// Sine and cosine change at most as fast as their argument.
-Interval waveAround(double (*f)(double), Interval a) {
-  const double half = (a.hi - a.lo) / 2;
-  if (!(half < 1)) return {-1, 1};
-  const double centre = f(a.lo + half);
-  return {std::max(-1.0, centre - half), std::min(1.0, centre + half)};
+// Sine or cosine, which is 1 at `crest` and every 2 pi from there.
+Interval waveOver(double (*f)(double), double crest, Interval a) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (!(a.hi - a.lo < kTurn)) return {-1, 1};
+  const auto holds = [&](double place) { return place + kTurn * std::ceil((a.lo - place) / kTurn) <= a.hi; };
+  const double first = f(a.lo), last = f(a.hi);
+  return {holds(crest + kTurn / 2) ? -1 : std::min(first, last), holds(crest) ? 1 : std::max(first, last)};
+}
+
+// Where the box meets neither the cut nor 0, the angle grows and falls along its sides.
+Interval angleOver(Interval y, Interval x) {
+  if (!(x.lo > 0 || y.lo > 0 || y.hi < 0)) return {-std::numbers::pi, std::numbers::pi};
+  return hull({std::atan2(y.lo, x.lo), std::atan2(y.lo, x.hi), std::atan2(y.hi, x.lo), std::atan2(y.hi, x.hi)});
 }
 
 }  // namespace
@@ -93,8 +100,8 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
       }
       break;
     }
-    case Op::Sin: r = waveAround(std::sin, a); break;
-    case Op::Cos: r = waveAround(std::cos, a); break;
+    case Op::Sin: r = waveOver(std::sin, std::numbers::pi / 2, a); break;
+    case Op::Cos: r = waveOver(std::cos, 0, a); break;
     case Op::Tan: {
       const double k = std::floor(a.lo / std::numbers::pi + 0.5);
       if (k != std::floor(a.hi / std::numbers::pi + 0.5)) {
@@ -114,7 +121,7 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
       break;
     }
     case Op::Atan: r = monotone(std::atan); break;
-    case Op::Atan2: r = {-std::numbers::pi, std::numbers::pi}; break;
+    case Op::Atan2: r = angleOver(a, b); break;
     case Op::Sinh: r = monotone(std::sinh); break;
     case Op::Cosh:
       r = {contains(a, 0) ? 1.0 : std::min(std::cosh(a.lo), std::cosh(a.hi)), std::max(std::cosh(a.lo), std::cosh(a.hi))};

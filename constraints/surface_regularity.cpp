@@ -17,10 +17,11 @@ namespace {
 constexpr int kMostBoxes = 20000;
 constexpr double kLeaf = 1.0 / (1 << 20);
 
-/// The argument cannot meet its level anywhere in the domain, by interval arithmetic on boxes.
-bool isProvedAway(const ExpressionGraph& graph, const Guard& guard, const double* shape, const std::array<Domain, 2>& domain) {
-  const std::vector<int> argument{guard.argument};
-  IntervalEvaluator bounds(graph, argument, shape);
+/// Interval arithmetic on boxes shows `holds(bounds)` of the roots everywhere in the domain.
+template <class Holds>
+bool isProved(const ExpressionGraph& graph, const std::vector<int>& roots, const double* shape, const std::array<Domain, 2>& domain,
+              const Holds& holds) {
+  IntervalEvaluator bounds(graph, roots, shape);
   std::array<Interval, 2> whole;
   bool finite = true;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -33,8 +34,7 @@ bool isProvedAway(const ExpressionGraph& graph, const Guard& guard, const double
     const std::array<Interval, 2> box = stack.back();
     stack.pop_back();
     bounds.evaluate(box);
-    const Interval range = bounds.rangeOf(0);
-    if (range.lo > guard.level || range.hi < guard.level) continue;
+    if (holds(bounds)) continue;
     if (!finite || boxes > kMostBoxes) return false;
     std::array<double, 2> width{};
     for (std::size_t k = 0; k < 2; ++k) width[k] = (box[k].hi - box[k].lo) / std::max(whole[k].hi - whole[k].lo, 1e-300);
@@ -47,6 +47,16 @@ bool isProvedAway(const ExpressionGraph& graph, const Guard& guard, const double
     stack.push_back(left);
   }
   return true;
+}
+
+/// The argument meets its level nowhere in the domain; atan2's cut lies where x < 0.
+bool isProvedAway(const ExpressionGraph& graph, const Guard& guard, const double* shape, const std::array<Domain, 2>& domain) {
+  std::vector<int> roots{guard.argument};
+  if (guard.op == Op::Atan2) roots.push_back(graph.node(guard.node).b);
+  return isProved(graph, roots, shape, domain, [&](const IntervalEvaluator& bounds) {
+    const Interval range = bounds.rangeOf(0);
+    return range.lo > guard.level || range.hi < guard.level || (roots.size() > 1 && bounds.rangeOf(1).lo > 0);
+  });
 }
 
 PlaceKind kindOf(const Guard& guard) {
@@ -75,6 +85,27 @@ std::array<SurfaceBranches::Guarded, SurfaceBranches::kMostGuards> SurfaceBranch
   const Vec3* values = &room.r;
   for (int k = 0; k < kMostGuards; ++k) result[static_cast<std::size_t>(k)] = {values[k].x, values[k].y, values[k].z};
   return result;
+}
+
+bool isProvedRegular(const Constraint& c, const std::array<Domain, 2>& range) {
+  if (c.kind != ConstraintKind::Surface || c.owner == nullptr) return false;
+  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
+  ExpressionGraph graph = formula.graph;
+  const double* shape = c.surface.shape.data();
+  const std::vector<int> r(formula.roots.begin(), formula.roots.begin() + 3);
+  for (const Guard& guard : findGuards(graph, r, shape))
+    if (!isProvedAway(graph, guard, shape, range)) return false;
+  const std::vector<int> u = graph.differentiate(r, 0), v = graph.differentiate(r, 1);
+  std::vector<int> area;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+    area.push_back(graph.sub(graph.mul(u[a], v[b]), graph.mul(u[b], v[a])));
+  }
+  return isProved(graph, area, shape, range, [](const IntervalEvaluator& bounds) {
+    bool apart = false;
+    for (std::size_t k = 0; k < 3; ++k) apart = apart || bounds.rangeOf(k).lo > 0 || bounds.rangeOf(k).hi < 0;
+    return apart;
+  });
 }
 
 std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {

@@ -83,6 +83,8 @@ class AbmWith {
                                    StepReport& report) noexcept {
     if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
     if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
+    if constexpr (requires { system.careful; })
+      if (system.careful) return stepOtherwise(system, hand, y, next, report);
     const auto end = system.handOf(endOf(hand));
     const int n = system.states();
     State predicted(n), f(n);

@@ -34,31 +34,30 @@ class Adaptive {
                         StepReport& report) noexcept {
     State inside = y0;
     double reached = 0;
-    const StepStatus status =
-        advance(system, hand, dt, y0, y, reached, report,
-                       [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
-                         const bool ends = !system.inside(to);
-                         if (!ends && !mayHaveTurned(system, from, to, h)) return false;
-                         const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
-                         report.rhs += 4;
-                         State at(system.states());
-                         double low = 0, high = 1;
-                         inside = from;
-                         meeting.beyond = to;
-                         if (!ends) {
-                           high = findTurnOutside(system, dense, from, meeting.beyond);
-                           if (high == 0) return false;
-                         }
-                         for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high)) {
-                           dense.at(middle, at);
-                           const bool good = system.inside(at);
-                           (good ? low : high) = middle;
-                           (good ? inside : meeting.beyond) = at;
-                         }
-                         meeting.met = true;
-                         reached = t + low * h;
-                         return true;
-                       });
+    const StepStatus status = advance(system, hand, dt, y0, y, reached, report,
+                                      [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
+                                        const bool ends = !system.inside(to);
+                                        if (!ends && !mayHaveTurned(system, from, to, h)) return false;
+                                        const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
+                                        report.rhs += 4;
+                                        State at(system.states());
+                                        double low = 0, high = 1;
+                                        inside = from;
+                                        meeting.beyond = to;
+                                        if (!ends) {
+                                          high = findTurnOutside(system, dense, from, meeting.beyond);
+                                          if (high == 0) return false;
+                                        }
+                                        for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high)) {
+                                          dense.at(middle, at);
+                                          const bool good = system.inside(at);
+                                          (good ? low : high) = middle;
+                                          (good ? inside : meeting.beyond) = at;
+                                        }
+                                        meeting.met = true;
+                                        reached = t + low * h;
+                                        return true;
+                                      });
     meeting.share = reached / dt;
     if (meeting.met) y = inside;
     return status;
@@ -108,7 +107,10 @@ class Adaptive {
     auto k = dop853::makeStages<System::kStates>(n);
     State trial(n);
     const auto rate = [&](double time, const State& at, State& slope) { system.rate(system.handAt(hand, time / dt), at, slope); };
-    const auto unit = [&](int i, double value) { return tolerance_ * (system.scale(i) + std::abs(value)); };
+    double tolerance = tolerance_;
+    if constexpr (requires { system.careful; })
+      if (system.careful) tolerance *= kCareful;
+    const auto unit = [&](int i, double value) { return tolerance * (system.scale(i) + std::abs(value)); };
     y = y0;
     rate(0, y, k[0]);
     int rhs = 1;
@@ -157,6 +159,7 @@ class Adaptive {
     return StepStatus::Ok;
   }
 
+  static constexpr double kCareful = 0.01;
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step
 };

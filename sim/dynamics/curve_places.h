@@ -1,6 +1,9 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "sim/dynamics/system.h"
 
@@ -64,6 +67,18 @@ struct CurvePlaces {
         masses[k].a = slope * p.rPhi + rate * rate * p.rPhiPhi;
       }
     }
+  }
+
+  /// Where no step leads on: a curve of finite length whose end phi never reaches.
+  template <class State>
+  std::string troubleReason(const State& y) const {
+    constexpr double kFar = 1e3, kStill = 1e-5;
+    for (int i = 0; i < n(); ++i)
+      if (const double speed = speedAt(i, y[i]); std::abs(y[i]) > kFar && !(speed > kStill * speedScale))
+        return fmt::format(
+            "mass {} at phi = {:.3g}, where |r_phi| has fallen to {:.2g} m: the curve comes to its end only as phi grows without bound",
+            i + 1, y[i], speed);
+    return {};
   }
 
   bool bounded() const noexcept { return !domain.periodic && (std::isfinite(domain.lo) || std::isfinite(domain.hi)); }

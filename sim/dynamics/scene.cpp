@@ -88,6 +88,13 @@ bool isStill(constraints::PlaceKind kind) {
   return kind == constraints::PlaceKind::Cusp || kind == constraints::PlaceKind::Fold || kind == constraints::PlaceKind::Standstill;
 }
 
+void requireValue(const constraints::Curve& curve, double start) {
+  const constraints::CurvePoint p = evaluate(curve, start);
+  if (!isFinite(p.r) || !isFinite(p.rPhi))
+    throw RefusedError(
+        fmt::format("the curve has no place for a mass at the start phi = {}: it has no finite value there; choose another start", start));
+}
+
 const constraints::CurvePiece& startPiece(const constraints::CurveRegularity& regularity, double start) {
   const int piece = regularity.pieceAt(start);
   if (piece >= 0) return regularity.pieces[static_cast<std::size_t>(piece)];
@@ -154,6 +161,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
   } else if (constraint.kind == constraints::ConstraintKind::Curve) {
     regularity = std::make_shared<const constraints::CurveRegularity>(constraints::computeRegularity(constraint, start[0]));
     const constraints::CurvePiece& piece = startPiece(*regularity, start[0]);
+    requireValue(piece.curve, start[0]);
     const SpeedRange speeds = findSpeedRange(constraint, piece, start[0]);
     speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
     form = {speedRatio < kHardSpeedRatio || !regularity->whole, speeds.most};

@@ -1,5 +1,6 @@
 #include "sim/dynamics/surface_system.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace reachlab::dynamics {
@@ -123,9 +124,19 @@ bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double)
     }
     const Where other{where.branch ^ (1 << line.bit), where.side};
     const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
-    const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], y[0], y[1]);
+    // Just behind the line: before it the other branch may have a value that it has not got there (atan2(u, u)).
+    const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], behind[0], behind[1]);
     if (!(norm(here.r - there.r) <= 1e-9 * (1e-3 + norm(here.r)))) return false;
-    const auto at = branches->at(y[0], y[1])[k];
+    // On the line itself a formula may have a value that is no limit.
+    constexpr double kBefore = 1e-7, kSame = 1e-4;  // [s], and of a derivative's size
+    const std::array<double, 2> back{y[0] - kBefore * y[2], y[1] - kBefore * y[3]};
+    const constraints::SurfacePoint before = evaluate(surface, back[0], back[1]);
+    if (!(norm(here.rU - before.rU) + norm(here.rV - before.rV) <= kSame * (norm(here.rU) + norm(here.rV)))) {
+      y[0] = back[0];
+      y[1] = back[1];
+      return false;
+    }
+    const auto at = branches->at(behind[0], behind[1])[k];
     // Unit vectors along the crease and across it, the latter in each side's tangent plane.
     const auto across = [&](const constraints::SurfacePoint& p, const Vec3& along) {
       const Vec3 through = at.u * p.rU + at.v * p.rV, part = through - dot(through, along) * along;
@@ -137,8 +148,7 @@ bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double)
     const Vec3 turnedVelocity = dot(v, along) * along + dot(v, across(here, along)) * across(there, along);
     const std::array<double, 2> rate = solveRates(there, turnedVelocity);
     if (!std::isfinite(rate[0]) || !std::isfinite(rate[1])) return false;
-    y[2] = rate[0];
-    y[3] = rate[1];
+    y.values = {behind[0], behind[1], rate[0], rate[1]};
     where = other;
     where.side[k] = static_cast<signed char>(-where.side[k]);
     useBranch();
@@ -167,7 +177,16 @@ std::string SurfaceSystem::endReason() const {
 
 std::string SurfaceSystem::lostReason(const State& y) const {
   const int k = endingLine(y);
-  if (k < 0) return kNoContinuation;
+  if (k < 0) {
+    const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
+    const Vec3 area = cross(p.rU, p.rV);
+    if (dot(area, area) < 100 * kParallel * dot(p.rU, p.rU) * dot(p.rV, p.rV))
+      return fmt::format(
+          "the surface's parameter lines run into each other here: r_u and r_v are {:.2g} degrees apart, too little for a "
+          "velocity to be told from its rates; write the surface in other parameters",
+          std::sqrt(dot(area, area) / (dot(p.rU, p.rU) * dot(p.rV, p.rV))) * 180 / std::numbers::pi);
+    return kNoContinuation;
+  }
   const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];
   return fmt::format("the mass is beside a place of the surface that is never crossed: {}: {}", nameOf(line.kind), line.because);
 }

@@ -18,6 +18,8 @@ struct SurfaceSystem {
   static constexpr bool kEnds = true;
   static constexpr const char* kNoContinuation =
       "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
+  /// Squared sine of the angle between r_u and r_v below which the rates' tolerance, and their rounding, would show in the speed.
+  static constexpr double kOblique = 1e-3, kParallel = 1e-6;
   using State = Numbers<4>;
   using Hand = HandSample;
 
@@ -38,8 +40,11 @@ struct SurfaceSystem {
     std::array<signed char, constraints::SurfaceBranches::kMostGuards> side{};  // sign of each line's argument - level
   };
   Where where;
-  int metLine = -1;  // that stopped the mass
-  mutable double leastDeterminant = 1e300;  // [m^4] of G in this step
+  int metLine = -1;                                          // that stopped the mass
+  mutable double leastDeterminant = 1e300;                   // [m^4] of G in this step
+  mutable double awayFromOblique = 1, awayFromParallel = 1;  // [m^4] negative: in this step r_u and r_v came that near to each other
+  /// Where the parameter lines are oblique the rates nearly cancel in the velocity, so that they are needed more exactly.
+  bool careful = false;
   /// How near a mass comes to a line at which the formula ends, in its argument: nearer, its rounding shows in the speed.
   std::array<double, constraints::SurfaceBranches::kMostGuards> margin{};
 
@@ -64,6 +69,8 @@ struct SurfaceSystem {
     const double determinant = mulAdd(e, g, -(f * f));
     const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
     leastDeterminant = std::fmin(leastDeterminant, determinant);
+    awayFromOblique = std::fmin(awayFromOblique, mulAdd(-kOblique * e, g, determinant));
+    awayFromParallel = std::fmin(awayFromParallel, mulAdd(-kParallel * e, g, determinant));
     dy[0] = du;
     dy[1] = dv;
     dy[2] = mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du));
@@ -76,6 +83,8 @@ struct SurfaceSystem {
     inPolar = false;
     metLine = -1;
     leastDeterminant = 1e300;
+    awayFromOblique = awayFromParallel = 1;
+    careful = false;
     if (branches != nullptr) findBranch(q, qRate);
     active = surface;
     ticks = waiting = 0;
@@ -96,8 +105,10 @@ struct SurfaceSystem {
   Settled settle(const State&, State& y) noexcept {
     // Across a place where r_u and r_v span no plane the parameters carry no velocity: what comes out of such a step is nothing.
     constexpr double kDegenerate = 1e-7;
-    const bool degenerate = leastDeterminant < kDegenerate * largestArea;
+    const bool degenerate = leastDeterminant < kDegenerate * largestArea || awayFromParallel < 0;
+    careful = awayFromOblique < 0;
     leastDeterminant = 1e300;
+    awayFromOblique = awayFromParallel = 1;
     if (degenerate) return Settled::Lost;
     constexpr int kLookEvery = 4;
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
