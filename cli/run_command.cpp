@@ -26,6 +26,9 @@ void addRunCommand(CLI::App& app, int& exitCode) {
           "--disk-reserve", [r](double megabytes) { r->diskReserve = static_cast<std::uint64_t>(megabytes * 1e6); },
           "MB that the recording leaves free on the disk [1000, at most 5 % of the disk]")
       ->check(CLI::Range(0.0, 1e9));
+  command
+      ->add_option("--timing-check", r->timingCheckSeconds, "Seconds for which the loop is watched before a block in real time; 0: not [2]")
+      ->check(CLI::Range(0.0, 60.0));
   command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
   command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, 130.0));
   command->add_option("--sex", r->participant.sex, "Participant's sex: F, M or O")->check(CLI::IsMember({"F", "M", "O"}));

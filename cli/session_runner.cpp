@@ -40,6 +40,7 @@ int conductSession(const session::SessionRequest& request) {
     printRun(run);
     stop.emplace();  // from here on a signal ends the trial, not the program
   };
+  words.checked = [](const session::RecordedRun& run) { fmt::print(stderr, "{}\n", run.timingVerdict()->sentence); };
   words.ended = [&](const session::RecordedRun& run, const haptics::ConductedTrial& trial) {
     fmt::print("{}\n", trialLine(run.numberOf(trial), trial.result));
     std::fflush(stdout);

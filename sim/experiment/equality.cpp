@@ -31,6 +31,11 @@ auto parts(const Arm& a) {
   return std::tie(length, centre, mass, inertia, damping, shoulder, elbowLeft);
 }
 
+auto parts(const TimingLimits& t) {
+  const auto& [maxMissedTicks, maxGap] = t;
+  return std::tie(maxMissedTicks, maxGap);
+}
+
 auto parts(const VelocityEstimatorSpec& v) {
   const auto& [kind, cutoff] = v;
   return std::tie(kind, cutoff);
@@ -62,11 +67,12 @@ bool same(const constraints::ConstraintSpec& a, const constraints::ConstraintSpe
 }  // namespace
 
 bool operator==(const Experiment& a, const Experiment& b) {
-  const auto& [schemaVersion, name, constraint, object, coupling, task, method, handMass, forceLimit, forceLimitEndsTrial,
+  const auto& [schemaVersion, name, constraint, object, coupling, task, method, handMass, forceLimit, forceLimitEndsTrial, timing,
                velocityEstimator, arm, text] = a;
   return schemaVersion == b.schemaVersion && name == b.name && same(constraint, b.constraint) && same(object, b.object) &&
          same(coupling, b.coupling) && same(task, b.task) && method == b.method && handMass == b.handMass && forceLimit == b.forceLimit &&
-         forceLimitEndsTrial == b.forceLimitEndsTrial && same(velocityEstimator, b.velocityEstimator) && same(arm, b.arm) && text == b.text;
+         forceLimitEndsTrial == b.forceLimitEndsTrial && same(timing, b.timing) && same(velocityEstimator, b.velocityEstimator) &&
+         same(arm, b.arm) && text == b.text;
 }
 
 }  // namespace reachlab::experiment

@@ -63,6 +63,13 @@ struct VelocityEstimatorSpec {
   double cutoff = 40;         // [Hz] butterworth
 };
 
+/// How much time a movement may miss before its trial does not count (trial/protocol.h). The haptic loop counts in whole ticks of 1 ms.
+struct TimingLimits {
+  int maxMissedTicks = 5;
+  double maxGap = 0.02;  // [s] between two ticks
+};
+inline constexpr TimingLimits kNoTimingLimits{10'000'000, 7200};  // longer than any task may last
+
 /// One experiment file, validated: what the subject holds, on what, and what is asked. SI units throughout.
 struct Experiment {
   int schemaVersion = 1;
@@ -75,6 +82,7 @@ struct Experiment {
   double handMass = 0;               // [kg] predictions only
   std::optional<double> forceLimit;  // [N] of the device; nullopt: the device's own
   bool forceLimitEndsTrial = false;
+  TimingLimits timing;
   VelocityEstimatorSpec velocityEstimator;
   Arm arm;
   std::string text;  // the file as read: goes into the recording unchanged

@@ -198,6 +198,17 @@ void readArm(ObjectReader& root, Experiment& experiment) {
   reader.finish();
 }
 
+void readTiming(ObjectReader& root, Experiment& experiment) {
+  const JsonNode* node = root.optional("timing");
+  if (node == nullptr) return;
+  ObjectReader reader(root.faults(), *node, "timing");
+  reader.integer("max_missed_ticks", 0, kNoTimingLimits.maxMissedTicks, experiment.timing.maxMissedTicks);
+  constexpr double kTick = 0.001;  // [s] a gap between two ticks is never shorter
+  reader.number("max_gap_s", {kTick, kNoTimingLimits.maxGap, true, fmt::format("{} s to {:.0f} s", kTick, kNoTimingLimits.maxGap)},
+                experiment.timing.maxGap);
+  reader.finish();
+}
+
 void readVelocityEstimator(ObjectReader& root, Experiment& experiment) {
   const JsonNode* node = root.optional("velocity_estimator");
   if (node == nullptr) return;
@@ -244,6 +255,7 @@ CompiledExperiment openExperimentText(const std::string& text, const std::string
     if (root.requiredNumber("force_limit_n", positive("N"), limit)) experiment.forceLimit = limit;
   }
   root.boolean("force_limit_ends_trial", experiment.forceLimitEndsTrial);
+  readTiming(root, experiment);
   readVelocityEstimator(root, experiment);
   readArm(root, experiment);
   root.finish();

@@ -76,6 +76,7 @@ std::string toJson(const Experiment& experiment) {
   json["hand_mass_kg"] = experiment.handMass;
   if (experiment.forceLimit) json["force_limit_n"] = *experiment.forceLimit;
   json["force_limit_ends_trial"] = experiment.forceLimitEndsTrial;
+  json["timing"] = {{"max_missed_ticks", experiment.timing.maxMissedTicks}, {"max_gap_s", experiment.timing.maxGap}};
   json["velocity_estimator"] = {{"kind", experiment.velocityEstimator.kind}, {"cutoff_hz", experiment.velocityEstimator.cutoff}};
   const Arm& arm = experiment.arm;
   json["arm"] = {{"link_length_m", arm.length},

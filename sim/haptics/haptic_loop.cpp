@@ -21,12 +21,14 @@ std::string describeRights(const std::string& priority, int wanted, const std::s
 
 void runOnOwnClock(LoopCore& core, const LoopOptions& options) {
   constexpr std::int64_t kPeriodNs = LoopCore::kPeriodNs;
-  std::int64_t deadline = os::now() + kPeriodNs;
+  LoopClock computers;
+  LoopClock& clock = options.clock ? *options.clock : computers;
+  std::int64_t deadline = clock.now() + kPeriodNs;
   core.firstNs.store(deadline, std::memory_order_relaxed);
   while (!core.stopping.load(std::memory_order_acquire)) {
-    os::sleepUntil(deadline - options.spinNs);
-    std::int64_t time = os::now();
-    while (time < deadline) time = os::now();
+    clock.sleepUntil(deadline - options.spinNs);
+    std::int64_t time = clock.now();
+    while (time < deadline) time = clock.now();
     const std::int64_t lateness = time - deadline;
     const auto missed = static_cast<std::uint32_t>(lateness / kPeriodNs);
     core.countLateness(lateness, missed);
@@ -68,12 +70,15 @@ void HapticLoop::start() {
   const std::string memory = os::lockMemory();
   if (core_->info.drivesClock) {
     core_->mode = fmt::format("the device's clock, {}", memory.empty() ? "memory locked" : memory);
+    core_->realTime = true;
     core_->completedNs.store(os::now(), std::memory_order_release);  // the watchdog waits for the first call from here
     core_->device->startClock([](void* core) noexcept { static_cast<LoopCore*>(core)->tickOfDevice(); }, core_.get());
   } else {
     auto ready = std::make_shared<std::atomic<bool>>(false);
     thread_ = LeavableThread([core = core_, options = options_, ready, memory] {
-      core->mode = describeRights(os::requestRealTime(options.priority), options.priority, memory);
+      const std::string refused = os::requestRealTime(options.priority);
+      core->realTime = refused.empty();
+      core->mode = describeRights(refused, options.priority, memory);
       os::requestExactSleep();
       ready->store(true, std::memory_order_release);
       ready->notify_one();

@@ -147,6 +147,7 @@ LoopReport reportOf(const LoopCore& core) {
   report.faults.longestGapNs = core.longestGapNs.load(std::memory_order_relaxed);
   report.faults.droppedRecords = core.dropped.load(std::memory_order_relaxed);
   report.mode = core.mode;
+  report.realTime = core.realTime;
   return report;
 }
 

@@ -8,15 +8,17 @@
 #include "base/triple_buffer.h"
 #include "sim/haptics/device_watch.h"
 #include "sim/haptics/lateness.h"
+#include "sim/haptics/loop_clock.h"
 #include "sim/haptics/run_sink.h"
 #include "sim/haptics/tick_engine.h"
 
 namespace reachlab::haptics {
 
 struct LoopOptions {
-  bool virtualClock = false;     // no thread and no waiting: whoever calls `advance` is the haptic thread
-  int priority = 80;             // SCHED_FIFO where it is allowed
-  std::int64_t spinNs = 50'000;  // the last part of each wait is spun, not slept: removes the wake-up latency for 5 % of a core
+  bool virtualClock = false;         // no thread and no waiting: whoever calls `advance` is the haptic thread
+  int priority = 80;                 // SCHED_FIFO where it is allowed
+  std::shared_ptr<LoopClock> clock;  // of real time; null: the computer's
+  std::int64_t spinNs = 50'000;      // the last part of each wait is spun, not slept: removes the wake-up latency for 5 % of a core
 };
 
 /// How well the loop kept time. Lateness: from deadline to the start of the tick.
@@ -26,7 +28,8 @@ struct LoopReport {
   double rate = 0;                                           // [1/s] achieved
   double latenessP50 = 0, latenessP99 = 0, latenessMax = 0;  // [us]
   LoopFaults faults;
-  std::string mode;  // "SCHED_FIFO 80, memory locked", or what was not allowed
+  std::string mode;       // "SCHED_FIFO 80, memory locked", or what was not allowed
+  bool realTime = false;  // the loop runs at real-time priority, or by the device's own clock
 };
 
 /// What the haptic thread works on. Plain members with one writer each; kept alive by whoever may still run in it.
@@ -75,6 +78,7 @@ struct LoopCore {
   std::atomic<bool> abandoned{false};          // `stop` has left a device call behind
   std::int64_t deadlineNs = 0;                 // of the next tick of a clock that the device drives
   std::string mode = "virtual clock";
+  bool realTime = false;
 
  private:
   bool enterDevice(Where from) noexcept;

@@ -41,6 +41,12 @@ Participant participantFrom(const json& j) {
   return p;
 }
 
+experiment::TimingLimits timingFrom(const json& j) {
+  if (!j.is_object()) throw UsageError("timing: is no object");
+  return {static_cast<int>(wholeOf(j, "max_missed_ticks", 0, experiment::kNoTimingLimits.maxMissedTicks)),
+          numberOf(j, "max_gap_s", 0.001, experiment::kNoTimingLimits.maxGap)};
+}
+
 json toJson(const std::vector<trial::PlannedTrial>& trials) {
   json list = json::array();
   for (const trial::PlannedTrial& t : trials)
@@ -105,6 +111,7 @@ std::string toJson(const RunConfiguration& c) {
       {"device_renders_force", c.rendersForce},
       {"device_continuous_force_n", c.deviceContinuousForce},
       {"device_thermal_s", c.deviceThermalSeconds},
+      {"timing", {{"max_missed_ticks", c.timing.maxMissedTicks}, {"max_gap_s", c.timing.maxGap}}},
       {"method", c.method},
       {"method_reason", c.methodReason},
       {"software_version", c.softwareVersion},
@@ -155,6 +162,7 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     if (j.contains("device_renders_force")) c.rendersForce = flagOf(j, "device_renders_force");
     c.deviceContinuousForce = j.contains("device_continuous_force_n") ? numberOf(j, "device_continuous_force_n", 0, 1e6) : 0;
     c.deviceThermalSeconds = j.contains("device_thermal_s") ? numberOf(j, "device_thermal_s", 1e-3, 1e6) : 10;
+    if (j.contains("timing")) c.timing = timingFrom(memberOf(j, "timing"));
     c.method = textOf(j, "method");
     c.methodReason = textOf(j, "method_reason");
     c.softwareVersion = textOf(j, "software_version");
@@ -175,7 +183,9 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
 }
 
 experiment::Experiment recordedExperiment(const RunConfiguration& c) {
-  return experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
+  experiment::Experiment experiment = experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
+  experiment.timing = c.timing;  // what held then, which the text may leave to a default
+  return experiment;
 }
 
 void checkConfiguration(const RunConfiguration& c) {

@@ -43,7 +43,8 @@ struct RunConfiguration {
   bool rendersForce = false;         // DeviceInfo::rendersForce; this and the next two are not in logs of 0.1.0
   double deviceContinuousForce = 0;  // [N] 0: no budget was kept
   double deviceThermalSeconds = 10;  // [s]
-  std::string method, methodReason;  // what the scene was compiled to
+  experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by; logs before 2026-11-22 had none
+  std::string method, methodReason;                               // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds
   std::string clock = "steady";  // virtual with --fast

@@ -14,12 +14,14 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
       const record::RunConfiguration& configuration = log.configuration();
       auto block =
           std::find_if(blocks.begin(), blocks.end(), [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
-      if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{configuration, {}, 0, 0});
+      if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{.configuration = configuration});
       block->lastRun = configuration.run;
       for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
-        const bool again = trial::endsRun(trial.result) || (trial::isPutUpAgain(trial.result) && configuration.repeatAborted);
-        if (!again) block->done.insert(trial.planned.index);
+        const int index = trial.planned.index;
+        if (trial::endsRun(trial.result)) continue;
+        const bool again = trial::isPutUpAgain(trial.result) && configuration.repeatAborted && !block->putUpAgain.contains(index);
+        (again ? block->putUpAgain : block->done).insert(index);
       }
     } catch (const Error& error) {
       faults.emplace_back(error.what());

@@ -4,9 +4,11 @@
 #include <sys/utsname.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 #include <utility>
 
+#include "base/os.h"
 #include "base/utc.h"
 #include "sim/record/append_file.h"
 #include "sim/record/exporters.h"
@@ -15,7 +17,8 @@ namespace reachlab::session {
 namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);
-constexpr int kLooks = 50;  // the loop takes a command within a tick
+constexpr int kLooks = 50;            // the loop takes a command within a tick
+constexpr double kCheckPatience = 1;  // [s] for a loop that does not keep up with the clock at all
 
 std::string computerName() {
   utsname system{};
@@ -68,7 +71,7 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
   if (options.virtualClock && !device->info().virtualHand)
     throw FaultError(Fault{"fast", fmt::format("device {} moves in real time", block_.configuration.device), "simulated, replay"});
   conductor_ = std::make_unique<haptics::RunConductor>(block_.experiment, std::move(device), block_.trials,
-                                                       haptics::LoopOptions{.virtualClock = options.virtualClock});
+                                                       haptics::LoopOptions{.virtualClock = options.virtualClock, .clock = options.clock});
   choice_ = conductor_->engine().choice();
   inDataset([this] { openLog(); });
 }
@@ -90,6 +93,7 @@ void RecordedRun::completeConfiguration() {
   c.rendersForce = device.rendersForce;
   c.deviceContinuousForce = device.maxContinuousForce;
   c.deviceThermalSeconds = device.thermalSeconds;
+  c.timing = block_.experiment.experiment().timing;
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   c.softwareVersion = "reachlab " REACHLAB_VERSION;
@@ -121,22 +125,47 @@ void RecordedRun::start() {
   if (std::exchange(started_, true)) return;
   if (options_.watcher != nullptr) sink_ = std::make_unique<WatchedSink>(*recorder_, *options_.watcher);
   conductor_->start(sink_ ? sink_.get() : recorder_.get());
+  checkUntilNs_ = os::now() + std::llround((options_.timingCheckSeconds + kCheckPatience) * 1e9);
+}
+
+// True as long as the loop is watched; the verdict is there afterwards. By the loop's clock, or by ours where the loop does not come to it.
+bool RecordedRun::checksTiming() {
+  if (timingVerdict_ || options_.virtualClock || !(options_.timingCheckSeconds > 0)) return false;
+  const haptics::LoopReport report = conductor_->report();
+  if (report.seconds < options_.timingCheckSeconds && os::now() < checkUntilNs_ && !conductor_->fault()) return true;
+  timingVerdict_ = haptics::judgeTiming(report, conductor_->engine().protocol());
+  note(timingVerdict_->sentence);
+  return false;
+}
+
+void RecordedRun::checkTiming(const std::atomic<bool>& stop) {
+  start();
+  while (!stop && checksTiming()) {
+    (void)conductor_->poll();  // throws when the device hangs
+    std::this_thread::sleep_for(kLook);
+  }
 }
 
 bool RecordedRun::putUpNext() {
   start();
-  return conductor_->putUpNext();
+  if (underWay()) return false;
+  if (!checksTiming()) return conductor_->putUpNext();
+  return awaited_ = trialsLeft() > 0;
 }
 
 std::optional<haptics::ConductedTrial> RecordedRun::poll() {
   if (!started_) return std::nullopt;
+  if (awaited_ && !checksTiming()) {
+    awaited_ = false;
+    (void)conductor_->putUpNext();
+  }
   const std::optional<haptics::ConductedTrial> trial = conductor_->poll();
   if (trial) repeatIfAborted(*trial);
   return trial;
 }
 
 std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop) {
-  start();
+  checkTiming(stop);
   const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop);
   if (trial) repeatIfAborted(*trial);
   return trial;
@@ -148,11 +177,16 @@ void RecordedRun::repeat(const trial::PlannedTrial& trial) {
 }
 
 void RecordedRun::abort() {
+  if (awaited_) {  // who aborts does not wait for the check: the trial is put up, and aborted
+    awaited_ = false;
+    if (!conductor_->putUpNext()) return;
+  }
   if (underWay()) conductor_->abort();
 }
 
 void RecordedRun::closeLog() {
   if (std::exchange(closed_, true)) return;
+  awaited_ = false;  // never put up
   if (underWay()) conductor_->interrupt();
   for (int looks = 0; looks < kLooks && underWay(); ++looks) {
     (void)conductor_->poll();

@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "sim/haptics/run_conductor.h"
+#include "sim/haptics/timing_check.h"
 #include "sim/record/recorder.h"
 #include "sim/session/session.h"
 
@@ -21,6 +22,8 @@ struct RecordedRunOptions {
   bool numberAskedFor = false;                // the block's run number was asked for: a taken one is refused, not exchanged
   bool virtualClock = false;                  // as fast as the processor allows; needs a device whose hand moves by tick count
   std::uint64_t diskReserve = 1'000'000'000;  // [bytes] that the recording leaves free on the disk
+  double timingCheckSeconds = 0;              // in real time: how long the loop is watched before the first trial; 0: not at all
+  std::shared_ptr<haptics::LoopClock> clock;  // LoopOptions::clock
   haptics::RunSink* watcher = nullptr;        // sees every tick as well (a plot), may lose them, outlives the run
 };
 
@@ -41,10 +44,14 @@ class RecordedRun {
   RecordedRun(const RecordedRun&) = delete;
   RecordedRun& operator=(const RecordedRun&) = delete;
 
-  /// Puts the next trial up. False when none is left, or one is under way. Throws ResourceError, as all that writes.
+  /// Puts the next trial up. False when none is left, or one is under way. Throws ResourceError, as all that writes. Before the first
+  /// trial in real time the timing is checked: the trial is under way then, and `poll` puts it up when the check is over.
   bool putUpNext();
   /// The trial that has ended and is safe on the disk, once; an aborted one has then been put up once more at the end, if the block wants it.
   std::optional<haptics::ConductedTrial> poll();
+  /// Starts the loop and waits until the timing is checked; returns at once where there is nothing (more) to check, soon when `stop` becomes
+  /// true.
+  void checkTiming(const std::atomic<bool>& stop);
   /// Puts the next trial up and waits for its end; nullopt when none is left. When `stop` becomes true, the trial is interrupted.
   std::optional<haptics::ConductedTrial> runTrial(const std::atomic<bool>& stop);
   /// Puts a trial that is over up once more at the end, under its own index.
@@ -63,7 +70,7 @@ class RecordedRun {
   /// What has latched on the device, or that it is lost, in one sentence: no further trial makes sense.
   std::optional<std::string> fault() const { return conductor_->fault(); }
 
-  bool underWay() const { return conductor_->underWay(); }
+  bool underWay() const { return awaited_ || conductor_->underWay(); }
   std::size_t trialsLeft() const { return conductor_->trialsLeft(); }
   std::size_t trialCount() const { return trialCount_; }  // with repeats
   const haptics::TickState& latest() const { return conductor_->latest(); }
@@ -72,6 +79,8 @@ class RecordedRun {
   const record::RunConfiguration& configuration() const { return block_.configuration; }
   const experiment::CompiledExperiment& experiment() const { return block_.experiment; }
   const std::string& logPath() const { return block_.logPath; }
+  /// How the timing was before the first trial; nullopt until it was checked, and on the virtual clock. Also a note in the log.
+  const std::optional<haptics::TimingVerdict>& timingVerdict() const { return timingVerdict_; }
   /// How well the loop kept time, in one line; empty until the log is closed, and on the virtual clock.
   const std::string& timing() const { return timing_; }
   /// The trial's number as recorded: a block that was resumed goes on counting.
@@ -81,6 +90,7 @@ class RecordedRun {
   void completeConfiguration();
   void openLog();
   void start();
+  bool checksTiming();
   void repeatIfAborted(const haptics::ConductedTrial& trial);
 
   BlockToRun block_;
@@ -88,6 +98,9 @@ class RecordedRun {
   dynamics::MethodChoice choice_;
   std::size_t trialCount_ = 0, conducted_ = 0;
   bool started_ = false, closed_ = false, finished_ = false;
+  bool awaited_ = false;  // a trial is to be put up when the timing is checked
+  std::int64_t checkUntilNs_ = 0;
+  std::optional<haptics::TimingVerdict> timingVerdict_;
   std::string timing_;
   std::unique_ptr<record::Recorder> recorder_;
   std::unique_ptr<haptics::RunSink> sink_;            // recorder and watcher

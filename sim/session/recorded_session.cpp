@@ -14,6 +14,8 @@ void pauseFor(double seconds, const std::atomic<bool>& stop) {
 
 // True when it was done to its end.
 bool conduct(RecordedRun& run, bool virtualClock, const std::atomic<bool>& stop, const SessionWords& words) {
+  run.checkTiming(stop);
+  if (run.timingVerdict() && words.checked) words.checked(run);
   while (const std::optional<haptics::ConductedTrial> trial = run.runTrial(stop)) {
     words.ended(run, *trial);
     if (trial::endsRun(trial->result) || run.fault()) return false;
@@ -43,6 +45,7 @@ bool RecordedSession::openNext() {
   options.numberAskedFor = request_.run == block.configuration.run;
   options.virtualClock = request_.fast;
   options.diskReserve = request_.diskReserve;
+  options.timingCheckSeconds = request_.timingCheckSeconds;
   options.watcher = watcher_;
   run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.experiment, block.configuration.seed), options);
   blocks_.pop_front();

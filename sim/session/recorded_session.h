@@ -42,7 +42,8 @@ class RecordedSession {
 
 /// What a front end is told while a session is conducted to its end.
 struct SessionWords {
-  std::function<void(const RecordedRun& run)> opened;                                       // before the loop starts
+  std::function<void(const RecordedRun& run)> opened;   // before the loop starts
+  std::function<void(const RecordedRun& run)> checked;  // RecordedRun::timingVerdict is there; in real time only, before the first trial
   std::function<void(const RecordedRun& run, const haptics::ConductedTrial& trial)> ended;  // the trial is safe on the disk
   std::function<void(const RecordedRun& run)> logClosed;                                    // all that was recorded is in order
   std::function<void(const RecordedRun& run)> closed;                                       // and in the dataset

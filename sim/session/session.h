@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/haptics/timing_check.h"
 #include "sim/record/run_configuration.h"
 #include "sim/record/run_log.h"
 #include "sim/session/programme.h"
@@ -20,8 +21,9 @@ struct SessionRequest {
   std::optional<std::uint64_t> seed;
   bool resume = false;
   bool fast = false, everyTick = false;
-  std::string device;                         // as asked for
-  std::uint64_t diskReserve = 1'000'000'000;  // [bytes] RecorderOptions::diskReserve
+  std::string device;                                        // as asked for
+  std::uint64_t diskReserve = 1'000'000'000;                 // [bytes] RecorderOptions::diskReserve
+  double timingCheckSeconds = haptics::kTimingCheckSeconds;  // RecordedRunOptions::timingCheckSeconds
   record::Participant participant;
   std::string notes;
 };

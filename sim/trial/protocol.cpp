@@ -59,13 +59,20 @@ void arm(const ProtocolInput& in, ProtocolState& state) noexcept {
   state.gone = !state.planned.catchTrial && state.planned.foreperiodTicks <= 0;
 }
 
+// Counts what this tick's gap took of the movement, and ends a trial that missed too much of it; true when it did.
+bool endByMissedTime(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
+  state.missedTicks += in.missedTicks;
+  if (in.missedTicks == 0 || (state.missedTicks <= s.maxMissedTicks && std::int64_t{in.missedTicks} + 1 <= s.maxGapTicks)) return false;
+  return end(state, in.tick, Outcome::Interrupted, Reason::Timing), true;
+}
+
 void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
   const auto waited = static_cast<std::int64_t>(in.tick - state.armedTick);
   const std::int64_t foreperiod = std::max(0, state.planned.foreperiodTicks);
   if (in.handValid && norm(in.hip - state.armedAt) > s.onset) {
     state.onsetTick = in.tick;
     state.phase = Phase::Moving;
-    if (!state.gone) end(state, in.tick, Outcome::Failure, Reason::FalseStart);
+    if (!endByMissedTime(s, in, state) && !state.gone) end(state, in.tick, Outcome::Failure, Reason::FalseStart);
     return;
   }
   if (state.planned.catchTrial) {
@@ -98,11 +105,7 @@ bool endByForce(const ProtocolSettings& s, const ProtocolInput& in, ProtocolStat
   if (in.command == Command::Abort) return end(state, in.tick, Outcome::Aborted, Reason::Experimenter), true;
   state.lostTicks = in.handValid ? 0 : state.lostTicks + 1;
   if (in.handBroken || state.lostTicks > kLostTicks) return end(state, in.tick, Outcome::Interrupted, Reason::DeviceLost), true;
-  if (state.phase == Phase::Moving && in.missedTicks > 0) {
-    state.missedTicks += in.missedTicks;
-    if (state.missedTicks > s.maxMissedTicks || std::int64_t{in.missedTicks} + 1 > s.maxGapTicks)
-      return end(state, in.tick, Outcome::Interrupted, Reason::Timing), true;
-  }
+  if (state.phase == Phase::Moving && endByMissedTime(s, in, state)) return true;
   if (!isEngaged(state.phase)) return false;
   switch (in.status) {
     case dynamics::StepStatus::Ok:

@@ -24,8 +24,9 @@
 ///   Armed, Moving    the device's force was clamped, if that ends trials    Done      failure, force_limit
 ///   Armed, Moving    the body ran off the constraint                        Done      failure, end_of_constraint
 ///   Armed, Moving    a step failed (not finite, capped, no continuation)    Done      aborted, computation
-///   Moving           more ticks missed since onset, or in one gap, than     Done      interrupted, timing
-///                    the experiment allows
+///   Armed, Moving    more ticks missed in the movement, or in one gap of    Done      interrupted, timing
+///                    it, than the experiment allows (the gap that onset
+///                    lies in is the movement's)
 ///   W., A., M.       the device lost for kLostTicks, or a number of its     Done      interrupted, device_lost
 ///                    is not finite
 ///   Waiting          `startTimeout` is over (hands without a person only)   Done      aborted, no_start
@@ -85,7 +86,7 @@ struct ProtocolState {
   Vec3 armedAt;       // [m] the HIP at arming
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
   int lostTicks = 0;             // in a row
-  std::int64_t missedTicks = 0;  // since onset
+  std::int64_t missedTicks = 0;  // of the movement: since onset, with the gap that it lies in
   TrialResult result;            // in Done
 };
 

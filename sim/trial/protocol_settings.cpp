@@ -36,6 +36,8 @@ ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, 
   s.earliestTick = std::llround(std::ceil(s.earliest * kTicksPerSecond - kWholeTick));
   s.latestTick = std::llround(std::floor((task.duration + task.tolerance.time) * kTicksPerSecond + kWholeTick));
   s.timeoutTicks = std::llround(task.timeout * kTicksPerSecond);
+  s.maxMissedTicks = experiment.timing.maxMissedTicks;
+  s.maxGapTicks = std::llround(std::floor(experiment.timing.maxGap * kTicksPerSecond + kWholeTick));
   s.forceLimitEndsTrial = experiment.forceLimitEndsTrial;
   return s;
 }

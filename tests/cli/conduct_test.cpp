@@ -110,16 +110,19 @@ TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
 
 TEST(Conduct, InRealTimeTheRecordKeepsHowWellTheLoopKeptTime) {
   const Folder folder;
-  const Ended ended = reach("run " + hurriedPlan(folder, false) + " --device simulated --seed 2 --data " + folder.string());
+  const Ended ended =
+      reach("run " + hurriedPlan(folder, false) + " --device simulated --seed 2 --timing-check 0.1 --data " + folder.string());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const std::vector<record::RunLog> logs = logsOf(folder);
   ASSERT_EQ(logs.size(), 1u);
   EXPECT_EQ(logs[0].configuration().clock, "monotonic");
-  std::string note;
+  std::vector<std::string> notes;
   for (const record::RecordedEvent& event : logs[0].events())
-    if (event.kind == record::EventKind::Note) note += event.text;
-  EXPECT_TRUE(note.starts_with("loop: ")) << note;
-  EXPECT_NE(ended.err.find(note), std::string::npos) << ended.err;
+    if (event.kind == record::EventKind::Note) notes.push_back(event.text);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_TRUE(notes[0].starts_with("timing ")) << "the verdict, before the first trial";
+  EXPECT_TRUE(notes[1].starts_with("loop: ")) << notes[1];
+  for (const std::string& note : notes) EXPECT_NE(ended.err.find(note), std::string::npos) << ended.err;
 }
 
 }  // namespace

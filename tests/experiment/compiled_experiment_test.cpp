@@ -62,6 +62,8 @@ TEST(Experiment, IsEqualToItselfAndToNothingThatDiffersInOneKey) {
   EXPECT_TRUE(differs([](Experiment& o) { o.arm.elbowLeft = true; }));
   EXPECT_TRUE(differs([](Experiment& o) { o.forceLimit = 3; }));
   EXPECT_TRUE(differs([](Experiment& o) { o.method = "rk4"; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.timing.maxMissedTicks = 6; }));
+  EXPECT_TRUE(differs([](Experiment& o) { o.timing.maxGap = 0.03; }));
   EXPECT_TRUE(differs([](Experiment& o) { o.velocityEstimator.cutoff = 41; }));
   EXPECT_TRUE(differs([](Experiment& o) { o.text += " "; }));
 }

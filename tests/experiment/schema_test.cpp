@@ -64,6 +64,12 @@ TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
       [](Json& j) { j["task"]["start"] = Json::array(); },
       [](Json& j) { j["method"] = "euler"; },
       [](Json& j) { j["force_limit_n"] = 0; },
+      [](Json& j) { j["timing"]["max_missed_ticks"] = -1; },
+      [](Json& j) { j["timing"]["max_missed_ticks"] = 2.5; },
+      [](Json& j) { j["timing"]["max_missed_ticks"] = 10'000'001; },
+      [](Json& j) { j["timing"]["max_gap_s"] = 0; },
+      [](Json& j) { j["timing"]["max_gap_s"] = 7201; },
+      [](Json& j) { j["timing"]["max_gap"] = 0.02; },
       [](Json& j) { j["velocity_estimator"] = "guess"; },
       [](Json& j) { j["arm"]["link_length_m"] = {1}; },
       [](Json& j) {

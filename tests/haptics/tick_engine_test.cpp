@@ -19,12 +19,18 @@ DeviceSample handAt(const Vec3& position) {
   return sample;
 }
 
-// chain-moderate with a hand that is put where the test wants it.
+// chain-moderate, whose movements may have gaps, so that what a gap does can be seen to its end.
+experiment::Experiment chainThatMayMissTime() {
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  experiment.timing = experiment::kNoTimingLimits;
+  return experiment;
+}
+
+// With a hand that is put where the test wants it.
 class Engine : public ::testing::Test {
  protected:
   explicit Engine(bool virtualHand = false)
-      : experiment(experiment::readExperiment("chain-moderate")), engine(experiment, {kLimit, virtualHand}), hand(engine.protocol().start) {
-  }
+      : experiment(chainThatMayMissTime()), engine(experiment, {kLimit, virtualHand}), hand(engine.protocol().start) {}
 
   const TickState& tick(trial::Command command = trial::Command::None, std::uint32_t missed = 0) {
     TickInput input;

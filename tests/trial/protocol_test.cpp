@@ -415,6 +415,23 @@ TEST_F(Protocol, WhatIsMissedBeforeTheMovementOrInTheTrialBeforeDoesNotCount) {
   EXPECT_EQ(state.phase, Phase::Moving);
 }
 
+TEST_F(Protocol, AMovementThatBeginsInAGapHasMissedIt) {
+  settings.maxMissedTicks = 5;
+  for (const int gap : {5, 6}) {
+    arm();
+    hip.x += 0.05;
+    missed = static_cast<std::uint32_t>(gap);
+    tick();
+    if (gap == 5) {
+      EXPECT_EQ(state.phase, Phase::Moving);
+      missed = 1;
+      tick();
+    }
+    expectEnd(Outcome::Interrupted, Reason::Timing);
+    hip = settings.start;
+  }
+}
+
 TEST_F(Protocol, ASuccessAtATickThatCameTooLateIsNone) {
   settings.maxMissedTicks = 5;
   leave();
