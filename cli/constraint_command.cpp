@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "constraints/analysis.h"
+#include "constraints/geometry/arc_length.h"
 #include "constraints/cpp_writer.h"
 #include "constraints/definition.h"
 #include "base/error.h"
@@ -120,8 +121,8 @@ void showJson(const constraints::Definition& d, const constraints::Constraint& c
 void showPlaces(const constraints::Constraint& c) {
   const std::array<constraints::Domain, 2> range = constraints::boundedDomain(c);
   if (c.kind == constraints::ConstraintKind::Curve) {
-    fmt::print("length    {:.6g} m from phi = {:.6g} to {:.6g}\n", constraints::computeArcLength(c, range[0].lo, range[0].hi), range[0].lo,
-               range[0].hi);
+    fmt::print("length    {:.6g} m from phi = {:.6g} to {:.6g}\n", constraints::ArcLength(c, range[0].lo, range[0].hi).length(),
+               range[0].lo, range[0].hi);
     const constraints::SlowPlace slow = constraints::findMinSpeed(c, range[0].lo, range[0].hi);
     fmt::print("|r_phi|   at least {:.3g} m, at phi = {:.6g}\n", slow.speed, slow.phi);
     const constraints::CurveRegularity regularity = constraints::computeRegularity(c, 0.5 * (range[0].lo + range[0].hi));

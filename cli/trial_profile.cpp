@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/ticks.h"
+
 namespace reachlab::cli {
 namespace {
 
@@ -39,7 +41,7 @@ TrialProfile profileOf(const record::RunLog& log, const record::RecordedTrial& t
   TrialProfile profile;
   profile.sinceOnset = trial.result.onsetTick > 0;
   const std::uint64_t begin = profile.sinceOnset ? trial.result.onsetTick : trial.startTick;
-  for (const std::uint64_t tick : rows.ticks) profile.time.push_back((static_cast<double>(tick) - static_cast<double>(begin)) / 1000.0);
+  for (const std::uint64_t tick : rows.ticks) profile.time.push_back(secondsBetween(begin, tick));
   profile.handSpeed = magnitudeOf(rows, table, "hand_vel");
   profile.firstSpeed = magnitudeOf(rows, table, "mass1_vel");
   profile.lastSpeed = magnitudeOf(rows, table, fmt::format("mass{}_vel", table.massCount));

@@ -59,21 +59,6 @@ void requireCurve(const Constraint& c) {
   if (c.kind != ConstraintKind::Curve) throw RefusedError(c.name + " is no curve");
 }
 
-// Gauss-Legendre with 8 points (Abramowitz and Stegun 1964, table 25.4), halved until both halves agree with the whole.
-double gauss(const Constraint& c, double a, double b) {
-  static constexpr double kNode[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
-  static constexpr double kWeight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
-  const double centre = (a + b) / 2, half = (b - a) / 2;
-  double sum = 0;
-  for (int k = 0; k < 4; ++k) sum += kWeight[k] * (speedAt(c, centre - half * kNode[k]) + speedAt(c, centre + half * kNode[k]));
-  return sum * half;
-}
-double adaptiveLength(const Constraint& c, double a, double b, double whole, double tolerance, int depth) {
-  const double middle = (a + b) / 2, left = gauss(c, a, middle), right = gauss(c, middle, b);
-  if (depth == 0 || std::abs(left + right - whole) <= tolerance) return left + right;
-  return adaptiveLength(c, a, middle, left, tolerance / 2, depth - 1) + adaptiveLength(c, middle, b, right, tolerance / 2, depth - 1);
-}
-
 }  // namespace
 
 std::array<Domain, 2> boundedDomain(const Constraint& c) {
@@ -119,23 +104,6 @@ SlowPlace findMinSpeed(const Constraint& c, double lo, double hi) {
   double largest = 0;
   const std::vector<SlowPlace> minima = localMinima(c, std::min(lo, hi), std::max(lo, hi), largest);
   return *std::min_element(minima.begin(), minima.end(), [](const SlowPlace& a, const SlowPlace& b) { return a.speed < b.speed; });
-}
-
-double computeArcLength(const Constraint& c, double from, double to) {
-  requireCurve(c);
-  if (from == to) return 0;
-  if (from > to) return -computeArcLength(c, to, from);
-  if (c.straight) return speedAt(c, from) * (to - from);
-  std::vector<double> breaks{from};
-  for (const double cusp : findCusps(c, from, to))
-    if (cusp > from && cusp < to) breaks.push_back(cusp);
-  breaks.push_back(to);
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const double whole = gauss(c, breaks[i], breaks[i + 1]);
-    length += adaptiveLength(c, breaks[i], breaks[i + 1], whole, 1e-14 * std::abs(whole), 24);
-  }
-  return length;
 }
 
 double computeAngleSine(const SurfacePoint& p) noexcept {

@@ -28,9 +28,6 @@ struct SlowPlace {
 /// The smallest |r_phi| in [lo, hi].
 SlowPlace findMinSpeed(const Constraint& curve, double lo, double hi);
 
-/// Length of the curve between two parameters, with sign. [m] To 1e-13 of it.
-double computeArcLength(const Constraint& curve, double from, double to);
-
 /// How a surface's parametrisation fails at a place where det G = 0.
 enum class DegenerateKind {
   Pole,  // a whole parameter line is one point and the surface is smooth there: geodesics go on

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "sim/trial/protocol.h"
+#include "base/ticks.h"
 
 namespace reachlab::devices {
 namespace {
@@ -50,10 +50,10 @@ haptics::DeviceSample RateHand::read() noexcept {
   const double held = age_ <= kHoldTicks ? 1 : std::exp(-static_cast<double>(age_ - kHoldTicks) / kFadeTicks);
   const auto speed = [&](double push) { return options_.gain * held * shaped(push, options_.deadZone); };
   sample_.velocity = {speed(deflection_.push.x), speed(deflection_.push.y), speed(deflection_.push.z)};
-  const Vec3 next = sample_.position + trial::kTickSeconds * sample_.velocity;
+  const Vec3 next = sample_.position + kTickSeconds * sample_.velocity;
   const auto within = [&](double at, double middle) { return std::clamp(at, middle - options_.reach, middle + options_.reach); };
   const Vec3 bounded{within(next.x, start_.x), within(next.y, start_.y), within(next.z, start_.z)};
-  if (!(bounded == next)) sample_.velocity = (bounded - sample_.position) / trial::kTickSeconds;
+  if (!(bounded == next)) sample_.velocity = (bounded - sample_.position) / kTickSeconds;
   sample_.position = bounded;
   sample_.buttons = deflection_.buttons;
   sample_.valid = !shared_->lost.load(std::memory_order_acquire);

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "devices/drivers.h"
-#include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 
@@ -19,10 +19,10 @@ haptics::DeviceSample MouseDevice::read() noexcept {
   if (const Vec3* target = targets_.takeLatest()) target_ = *target;
   // Exact solution of the critically damped system over one tick, with the target held.
   constexpr double w = 1 / kSmoothing;
-  const double decay = std::exp(-w * trial::kTickSeconds);
+  const double decay = std::exp(-w * kTickSeconds);
   const Vec3 away = position_ - target_, slope = velocity_ + w * away;
-  position_ = target_ + decay * (away + trial::kTickSeconds * slope);
-  velocity_ = decay * (velocity_ - w * trial::kTickSeconds * slope);
+  position_ = target_ + decay * (away + kTickSeconds * slope);
+  velocity_ = decay * (velocity_ - w * kTickSeconds * slope);
   haptics::DeviceSample sample;
   sample.position = position_;
   sample.velocity = velocity_;

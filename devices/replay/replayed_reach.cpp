@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
+#include "base/cubic_spline.h"
 #include "base/error.h"
-#include "base/json_tree.h"
+#include "base/minimum_jerk.h"
+#include "base/ticks.h"
 #include "devices/drivers.h"
-#include "devices/replay/natural_spline.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -19,20 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongestReach = 600;  // [s]
+constexpr double kLongestReach = 600;       // [s]
 constexpr double kRest = 0.3, kJoin = 0.1;  // [s]
-
-bool readRow(const std::string& line, std::array<double, 4>& row) {
-  const char* at = line.data();
-  const char* end = at + line.size();
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const auto [next, error] = std::from_chars(at, end, row[i]);
-    if (error != std::errc() || !std::isfinite(row[i])) return false;
-    at = next;
-    if (i + 1 < row.size() && (at == end || *at++ != ',')) return false;
-  }
-  return at == end;
-}
 
 // Turns `from` onto `to` (unit vectors) by the smallest rotation: v + w x v + w x (w x v)/(1 + c), w = from x to (Rodrigues).
 Vec3 turn(const Vec3& v, const Vec3& from, const Vec3& to) {
@@ -61,36 +48,10 @@ std::vector<std::string> reachFiles(const std::string& path) {
   return {path};
 }
 
-RecordedReach readReach(const std::string& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) throw ResourceError(file + ": cannot be opened");
-  std::istringstream in(readTextFile(file));
-  RecordedReach reach;
-  reach.file = file;
-  std::string line;
-  const auto trim = [&line] {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-  };
-  std::getline(in, line);
-  trim();
-  if (line != "time_s,x_m,y_m,z_m") throw UsageError(file + ":1: header: not that of a reach; allowed: time_s,x_m,y_m,z_m");
-  for (int number = 2; std::getline(in, line); ++number) {
-    trim();
-    if (line.empty()) continue;
-    std::array<double, 4> row{};
-    if (!readRow(line, row)) throw UsageError(fmt::format("{}:{}: not four finite numbers with commas between", file, number));
-    if (!reach.time.empty() && !(row[0] > reach.time.back()))
-      throw UsageError(fmt::format("{}:{}: time_s: does not increase", file, number));
-    reach.time.push_back(row[0]);
-    reach.position.push_back({row[1], row[2], row[3]});
-  }
-  if (reach.time.size() < 2) throw UsageError(file + ": fewer than two samples");
-  if (const double lasts = reach.time.back() - reach.time.front(); !(lasts <= kLongestReach))
-    throw UsageError(fmt::format("{}: time_s: lasts {} s; allowed: a reach of at most {:.0f} s", file, lasts, kLongestReach));
-  return reach;
-}
-
 PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
+  if (reach.time.size() < 2) throw UsageError(reach.file + ": fewer than two samples");
+  if (const double lasts = reach.time.back() - reach.time.front(); !(lasts <= kLongestReach))
+    throw UsageError(fmt::format("{}: time_s: lasts {} s; allowed: a reach of at most {:.0f} s", reach.file, lasts, kLongestReach));
   const Vec3 first = reach.position.front();
   const auto distance = [&](const Vec3& p) { return norm(p - first); };
   const Vec3 far = *std::max_element(reach.position.begin(), reach.position.end(),
@@ -103,16 +64,15 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
   std::vector<Vec3> laid;
   laid.reserve(reach.position.size());
   for (const Vec3& p : reach.position) laid.push_back(start + asked / length * turn(p - first, chord / length, wanted / asked));
-  const NaturalSpline spline(reach.time, laid);
+  const CubicSpline spline(reach.time, laid, SplineEnds::Natural);
 
   PlayedReach played;
   const double begin = reach.time.front(), whole = reach.time.back() - begin;
-  const auto ticks = static_cast<std::size_t>(std::ceil((kRest + whole) / trial::kTickSeconds - 1e-9));
+  const auto ticks = static_cast<std::size_t>(std::ceil((kRest + whole) / kTickSeconds - 1e-9));
   for (std::size_t i = 0; i <= ticks; ++i) {
-    const double t = static_cast<double>(i) * trial::kTickSeconds - kRest;
-    const double x = std::clamp(t / kJoin, 0.0, 1.0);
-    const double blend = x * x * x * (10 + x * (6 * x - 15));
-    const Vec3 recorded = spline.at(begin + std::clamp(t, 0.0, whole));
+    const double t = static_cast<double>(i) * kTickSeconds - kRest;
+    const double blend = minimumJerk(std::clamp(t / kJoin, 0.0, 1.0));
+    const Vec3 recorded = spline.at(begin + std::clamp(t, 0.0, whole)).value;
     played.position.push_back(start + blend * (recorded - start));
   }
   return played;

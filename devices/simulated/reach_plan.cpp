@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/minimum_jerk.h"
+#include "base/ticks.h"
+#include "constraints/geometry/arc_length.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -18,16 +21,15 @@ struct TimedPlan {
 };
 using MakePlan = std::function<TimedPlan(double duration)>;
 
-constexpr double kLook = 0.001;                           // [s]
 constexpr double kShortestLine = 0.01, kLongestLine = 1;  // [m] of the catalogue's line
 
 // From the first time that `hasLeft` to the first one from there on that `isThere`.
 template <typename HasLeft, typename IsThere>
 double computeArrival(double duration, HasLeft&& hasLeft, IsThere&& isThere) {
   double onset = 0;
-  while (onset < duration && !hasLeft(onset)) onset += kLook;
+  while (onset < duration && !hasLeft(onset)) onset += kTickSeconds;
   double t = onset;
-  while (t < duration && !isThere(t)) t += kLook;
+  while (t < duration && !isThere(t)) t += kTickSeconds;
   return t - onset;
 }
 
@@ -36,8 +38,8 @@ ReachPlan timeForTask(const experiment::Task& task, const MakePlan& makePlan) {
   if (timed.arrival >= task.duration - task.tolerance.time) return timed.plan;
   double shorter = task.duration, longer = task.duration;
   while (timed.arrival < task.duration && longer < 8 * task.duration) timed = makePlan(longer *= 1.5);
-  const double accuracy = std::max(kLook, 0.05 * task.tolerance.time);
-  while (std::abs(timed.arrival - task.duration) > accuracy && longer - shorter > kLook) {
+  const double accuracy = std::max(kTickSeconds, 0.05 * task.tolerance.time);
+  while (std::abs(timed.arrival - task.duration) > accuracy && longer - shorter > kTickSeconds) {
     const double middle = (shorter + longer) / 2;
     timed = makePlan(middle);
     (timed.arrival < task.duration ? shorter : longer) = middle;
@@ -89,44 +91,18 @@ ReachPlan planAlongChord(const experiment::Experiment& experiment, const Vec3& s
   return planByPrediction(experiment, length, criterion, handMass, [=](double s) { return start + s * direction; });
 }
 
-// phi as a function of arc length from `from`, by Simpson's rule on equal parts of phi; beyond `to` the last part's slope goes on.
-class ArcTable {
- public:
-  ArcTable(const constraints::Curve& curve, double from, double to) : from_(from), step_((to - from) / kParts) {
-    const auto speed = [&](double phi) { return norm(constraints::evaluate(curve, phi).rPhi); };
-    for (int i = 0; i < kParts; ++i) {
-      const double a = from_ + i * step_;
-      arc_[i + 1] = arc_[i] + std::abs(step_) / 6 * (speed(a) + 4 * speed(a + step_ / 2) + speed(a + step_));
-    }
-  }
-  double length() const { return arc_[kParts]; }
-  double phiAt(double s) const {
-    const auto above = std::upper_bound(arc_.begin(), arc_.end(), s);
-    const auto i = std::clamp<std::ptrdiff_t>(above - arc_.begin() - 1, 0, kParts - 1);
-    const double part = arc_[i + 1] - arc_[i];
-    return from_ + step_ * (static_cast<double>(i) + (part > 0 ? (s - arc_[i]) / part : 0));
-  }
-
- private:
-  static constexpr int kParts = 4000;
-  double from_, step_;
-  std::vector<double> arc_ = std::vector<double>(kParts + 1, 0.0);
-};
-
 ReachPlan planAlongCurve(const experiment::Experiment& experiment, const constraints::Constraint& constraint, predict::Criterion criterion,
                          std::optional<double> handMass) {
-  const ArcTable table(constraint.curve, experiment.task->start[0], experiment.task->target[0]);
-  if (!(table.length() > 0)) throw UsageError("task: start and target are the same place");
-  return planByPrediction(experiment, table.length(), criterion, handMass,
-                          [=](double s) { return constraints::evaluate(constraint.curve, table.phiAt(s)).r; });
-}
-
-// Minimum-jerk law 10 x^3 - 15 x^4 + 6 x^5 (Flash and Hogan 1985) with its first two derivatives.
-struct MinimumJerk {
-  double value, rate, acceleration;
-};
-MinimumJerk minimumJerkAt(double x) {
-  return {x * x * x * (10 + x * (6 * x - 15)), 30 * x * x * (1 - x) * (1 - x), 60 * x * (1 - x) * (1 - 2 * x)};
+  const double from = experiment.task->start[0], to = experiment.task->target[0];
+  const auto way = std::make_shared<const constraints::ArcLength>(constraint, from, to);
+  if (!(way->length() > 0)) throw UsageError("task: start and target are the same place");
+  // Beyond both ends at their own pace, since a hand that carries springs passes the target.
+  const auto perMetre = [&](double phi) { return (to < from ? -1 : 1) / norm(constraints::evaluate(constraint.curve, phi).rPhi); };
+  const double before = perMetre(from), after = perMetre(to);
+  return planByPrediction(experiment, way->length(), criterion, handMass, [=](double s) {
+    const double beyond = s < 0 ? s * before : s > way->length() ? (s - way->length()) * after : 0;
+    return constraints::evaluate(constraint.curve, way->parameterAt(std::clamp(s, 0.0, way->length())) + beyond).r;
+  });
 }
 
 struct Motion {
@@ -139,14 +115,14 @@ struct ParameterReach {
   std::array<double, 2> from{}, by{};
 
   Motion at(double t, double duration) const {
-    const MinimumJerk law = minimumJerkAt(t / duration);
-    const double rate = law.rate / duration, change = law.acceleration / (duration * duration);
-    const double q = from[0] + by[0] * law.value, u = by[0] * rate;
+    const double x = t / duration, way = minimumJerk(x);
+    const double rate = minimumJerkRate(x) / duration, change = minimumJerkAcceleration(x) / (duration * duration);
+    const double q = from[0] + by[0] * way, u = by[0] * rate;
     if (constraint.kind == constraints::ConstraintKind::Curve) {
       const constraints::CurvePoint p = constraints::evaluate(constraint.curve, q);
       return {p.r, u * p.rPhi, by[0] * change * p.rPhi + u * u * p.rPhiPhi};
     }
-    const constraints::SurfacePoint p = constraints::evaluate(constraint.surface, q, from[1] + by[1] * law.value);
+    const constraints::SurfacePoint p = constraints::evaluate(constraint.surface, q, from[1] + by[1] * way);
     const double w = by[1] * rate;
     return {p.r, u * p.rU + w * p.rV, by[0] * change * p.rU + by[1] * change * p.rV + u * u * p.rUu + 2 * u * w * p.rUv + w * w * p.rVv};
   }

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "devices/drivers.h"
 #include "devices/simulated/played_hand.h"
 #include "devices/simulated/reach_plan.h"
 #include "base/seeded.h"
-#include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 namespace {
@@ -75,14 +75,14 @@ PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uin
   const double sd = subject.noise * subject.speedSd;
 
   const double duration = plan.duration * stretch;
-  const auto still = static_cast<std::size_t>(std::max(1.0, reaction / trial::kTickSeconds));
-  const auto steps = static_cast<std::size_t>(std::ceil(duration / trial::kTickSeconds));
+  const auto still = static_cast<std::size_t>(std::max(1.0, reaction / kTickSeconds));
+  const auto steps = static_cast<std::size_t>(std::ceil(duration / kTickSeconds));
   PlayedReach reach;
   reach.position.reserve(still + steps + 2);
   Vec3 planned = plan.handAt(0), hand = planned;
   reach.position.assign(still, planned);
   for (std::size_t i = 1; i <= steps; ++i) {
-    const double t = std::min(static_cast<double>(i) * trial::kTickSeconds, duration);
+    const double t = std::min(static_cast<double>(i) * kTickSeconds, duration);
     const Vec3 next = plan.handAt(std::min(t / stretch, plan.duration)), by = next - planned;
     planned = next;
     hand += by;
@@ -95,8 +95,7 @@ PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uin
   reach.position.push_back(hand);
   const std::size_t count = reach.position.size();
   reach.velocity.resize(count);
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * trial::kTickSeconds);
+  for (std::size_t i = 1; i + 1 < count; ++i) reach.velocity[i] = (reach.position[i + 1] - reach.position[i - 1]) / (2 * kTickSeconds);
   return reach;
 }
 

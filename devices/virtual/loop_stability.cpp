@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "sim/trial/protocol.h"
+#include "base/butterworth.h"
+#include "base/ticks.h"
 
 namespace reachlab::devices {
 namespace {
@@ -20,7 +20,7 @@ Matrix heldStep(const LoopSettings& s) {
   generator(1, 0) = -s.handStiffness / s.mass;
   generator(1, 1) = -s.friction / s.mass;
   generator(1, 2) = 1 / s.mass;
-  return (generator * trial::kTickSeconds).exp();
+  return (generator * kTickSeconds).exp();
 }
 
 }  // namespace
@@ -33,12 +33,12 @@ double spectralRadius(const LoopSettings& s) {
   using Row = Eigen::RowVectorXd;
   const auto unit = [&](int at) { return Row(Row::Unit(size, at)); };
 
-  const Row difference = (unit(kX) - unit(kOldX)) / trial::kTickSeconds;
+  const Row difference = (unit(kX) - unit(kOldX)) / kTickSeconds;
   Row velocity = difference;
   if (filtered) {  // the low-pass of VelocityEstimator
-    const double w = std::tan(std::numbers::pi * s.estimator.cutoff * trial::kTickSeconds), scale = 1 + std::numbers::sqrt2 * w + w * w;
-    const double b0 = w * w / scale, a1 = 2 * (w * w - 1) / scale, a2 = (1 - std::numbers::sqrt2 * w + w * w) / scale;
-    velocity = b0 * (difference + 2 * unit(kIn1) + unit(kIn2)) - a1 * unit(kOut1) - a2 * unit(kOut2);
+    const Biquad filter = butterworthLowPass(s.estimator.cutoff, kTickSeconds);
+    velocity = filter.b[0] * difference + filter.b[1] * unit(kIn1) + filter.b[2] * unit(kIn2) - filter.a[1] * unit(kOut1) -
+               filter.a[2] * unit(kOut2);
   }
   const Row force = -s.stiffness * unit(kX) - s.damping * velocity;
   const Row acting = s.delayTicks == 0 ? force : unit(size - 1);
@@ -56,9 +56,7 @@ double spectralRadius(const LoopSettings& s) {
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-double passivityMargin(const LoopSettings& s) noexcept {
-  return s.friction - (s.stiffness * trial::kTickSeconds / 2 + std::abs(s.damping));
-}
+double passivityMargin(const LoopSettings& s) noexcept { return s.friction - (s.stiffness * kTickSeconds / 2 + std::abs(s.damping)); }
 
 double largestStableStiffness(LoopSettings settings, double most) {
   const auto stableAt = [&](double stiffness) {

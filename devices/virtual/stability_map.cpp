@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/trial/protocol.h"
+#include "base/ticks.h"
 
 namespace reachlab::devices {
 
@@ -18,7 +18,7 @@ std::vector<StabilityPoint> computeStabilityMap(const DeviceModel& model, const 
     const auto steps = static_cast<int>(settings.mostDamping / settings.dampingStep + 1e-9);
     for (int i = 0; i <= steps; ++i) {
       loop.damping = i * settings.dampingStep;
-      const double passive = 2 * (loop.friction - loop.damping) / trial::kTickSeconds;
+      const double passive = 2 * (loop.friction - loop.damping) / kTickSeconds;
       map.push_back({handDamping, loop.damping, largestStableStiffness(loop), std::max(passive, 0.0)});
     }
   }

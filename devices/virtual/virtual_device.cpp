@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "devices/drivers.h"
 #include "devices/options.h"
 #include "devices/simulated/simulated_hand.h"
-#include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 namespace {
 
 constexpr int kSubsteps = 10;
-constexpr double kStep = trial::kTickSeconds / kSubsteps;
+constexpr double kStep = kTickSeconds / kSubsteps;
 constexpr double kCreep = 1e-3;  // [m/s] v0: below it Coulomb friction is viscous, so that a resting handle does not chatter
 
 double rounded(double value, double step) noexcept { return std::round(value / step) * step; }
@@ -54,7 +54,7 @@ void VirtualDevice::advanceTick(const Vec3& from, const Vec3& to) noexcept {
   const Vec3 force = forces_[static_cast<std::size_t>((at_ - options_.delayTicks + kMostDelay) % kMostDelay)];
   const HandImpedance& hand = options_.hand;
   const double mass = model_.mass + hand.mass;
-  const Vec3 speed = (to - from) / trial::kTickSeconds, push = mass / trial::kTickSeconds * (speed - meantSpeed_);  // m p''
+  const Vec3 speed = (to - from) / kTickSeconds, push = mass / kTickSeconds * (speed - meantSpeed_);  // m p''
   const auto friction = [&](double v) { return model_.viscosity * v + model_.friction * std::tanh(v / kCreep); };
   for (int i = 1; i <= kSubsteps; ++i) {
     const Vec3 meant = from + (static_cast<double>(i) / kSubsteps) * (to - from);

@@ -114,7 +114,8 @@ void MainWindow::wireSession() {
 void MainWindow::showExperiment() {
   const experiment::CompiledExperiment& compiled = session_.compiled();
   for (docks::Dock* dock : docks_.all) dock->showExperiment(compiled, !session_.isPlan());
-  trace_.setPath(plot::PathDirection(compiled.experiment(), compiled.constraint()));
+  const auto& task = compiled.experiment().task;
+  trace_.setPath(task ? constraints::TaskPath(compiled.constraint(), task->start, task->target) : constraints::TaskPath());
   screens_->showExperiment(compiled);
   showOverlay();
   forecast_.setExperiment(compiled.experiment());

@@ -56,7 +56,8 @@ std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::C
   return lines;
 }
 
-void LiveForecast::compare(const std::vector<TracePoint>& points, const PathDirection& path, const TrialSpan& span, bool succeeded) {
+void LiveForecast::compare(const std::vector<TracePoint>& points, const constraints::TaskPath& path, const TrialSpan& span,
+                           bool succeeded) {
   ended_ = Trial{points, path, span, succeeded};
 }
 

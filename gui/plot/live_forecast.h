@@ -27,7 +27,7 @@ class LiveForecast : public QObject {
   /// The lines of these criteria, for the plot.
   std::vector<VelocityPlot::Line> lines(const std::vector<predict::Criterion>& criteria) const;
   /// A trial that has ended: `compared` follows, at once or when the predictions are there.
-  void compare(const std::vector<TracePoint>& points, const PathDirection& path, const TrialSpan& span, bool succeeded);
+  void compare(const std::vector<TracePoint>& points, const constraints::TaskPath& path, const TrialSpan& span, bool succeeded);
 
  Q_SIGNALS:
   /// The predictions are there, or (an empty list) begun anew.
@@ -38,7 +38,7 @@ class LiveForecast : public QObject {
  private:
   struct Trial {
     std::vector<TracePoint> points;
-    PathDirection path;
+    constraints::TaskPath path;
     TrialSpan span;
     bool succeeded = false;
   };

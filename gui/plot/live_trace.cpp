@@ -13,7 +13,8 @@ void LiveTrace::add(const TracePoint& p, VelocityPlot& plot) {
   const bool ended = p.phase == trial::Phase::Done && !points_.empty() && points_.back().phase != trial::Phase::Done;
   if (p.phase != trial::Phase::Armed && p.phase != trial::Phase::Moving && !ended) return;
   points_.push_back(p);
-  if (p.phase == trial::Phase::Moving) plot.add(p.trialTime, path_.along(p.handVelocity, p.firstQ), path_.along(p.lastVelocity, p.lastQ));
+  if (p.phase == trial::Phase::Moving)
+    plot.add(p.trialTime, path_.velocityAlong(p.handVelocity, p.firstQ), path_.velocityAlong(p.lastVelocity, p.lastQ));
 }
 
 }  // namespace reachlab::gui::plot

@@ -11,8 +11,8 @@ class VelocityPlot;
 class LiveTrace {
  public:
   /// Velocities count along this path from now on.
-  void setPath(const PathDirection& path) { path_ = path; }
-  const PathDirection& path() const { return path_; }
+  void setPath(const constraints::TaskPath& path) { path_ = path; }
+  const constraints::TaskPath& path() const { return path_; }
   /// A new run numbers its trials from 1 again.
   void beginRun() { trial_ = 0; }
   /// One more point: a new trial begins with its first.
@@ -21,7 +21,7 @@ class LiveTrace {
   const std::vector<TracePoint>& points() const { return points_; }
 
  private:
-  PathDirection path_;
+  constraints::TaskPath path_;
   std::vector<TracePoint> points_;
   std::int32_t trial_ = 0;
 };

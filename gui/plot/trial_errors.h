@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "constraints/geometry/task_path.h"
 #include "gui/plot/trial_trace.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
@@ -24,27 +25,6 @@ struct CriterionForecast {
 /// rest.
 std::vector<CriterionForecast> forecastAll(const experiment::Experiment& experiment, const std::stop_token& stop = {});
 
-/// Direction of positive velocity: along the chord when straight, along rising phi towards the target on a curve; on a surface or in free
-/// space there is none, and speed is taken. World frame.
-class PathDirection {
- public:
-  PathDirection() = default;
-  PathDirection(const experiment::Experiment& experiment, const constraints::Constraint& constraint);
-  /// Signed velocity along the path of something at parameter `q`. [m/s]
-  double along(const Vec3& velocity, double q) const;
-  /// Unit direction; zero where only speed makes sense.
-  Vec3 at(double q) const;
-  bool straight() const { return straight_; }
-  const Vec3& start() const { return start_; }
-  const Vec3& target() const { return target_; }
-
- private:
-  constraints::Constraint constraint_;
-  Vec3 chord_, start_, target_;
-  double sign_ = 1;
-  bool straight_ = false;
-};
-
 /// What of a trial is compared: the ticks that are in the recording, up to the end as the task saw it.
 struct TrialSpan {
   std::uint64_t every = 1;                   // ticks a row of the recording
@@ -54,7 +34,7 @@ struct TrialSpan {
 /// The paper's epsilon of one trial, by the analysis' own code from the rows that the recording holds, so that it is `reach analyze`'s number.
 /// RMS difference between the measured hand velocity and each forecast, both from onset to end by the rule of the analysis and time-scaled to the
 /// measured duration: the paper's error for one trial. nullopt where there is no prediction or no movement. [m/s]
-std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const PathDirection& path,
+std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint> trace, const constraints::TaskPath& path,
                                                      const std::vector<CriterionForecast>& forecasts, const experiment::Task& task,
                                                      const TrialSpan& span = {});
 

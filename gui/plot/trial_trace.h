@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "base/ticks.h"
 #include "base/vec3.h"
 #include "sim/haptics/run_sink.h"
 #include "base/spsc_queue.h"
@@ -22,8 +23,8 @@ struct TracePoint {
 /// Watches the runs of a session for the window's plot: every fifth tick, without waiting.
 class TraceSink final : public haptics::RunSink {
  public:
-  static constexpr std::uint64_t kEvery = 5;                             // ticks a point
-  static constexpr double kRate = 1000.0 / static_cast<double>(kEvery);  // [Hz]
+  static constexpr std::uint64_t kEvery = 5;                         // ticks a point
+  static constexpr double kRate = kTicksPerSecond / double{kEvery};  // [Hz]
 
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   void announce(std::int32_t, const trial::PlannedTrial&) override {}

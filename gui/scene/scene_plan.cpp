@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/geometry/task_path.h"
+
 namespace reachlab::gui::scene {
 namespace {
 
-Vec3 placeOnConstraint(const constraints::Constraint& constraint, const std::vector<double>& q) {
-  Vec3 r;
-  if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) r = constraints::evaluate(constraint.curve, q[0]).r;
-  if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2) r = constraints::evaluate(constraint.surface, q[0], q[1]).r;
-  if (constraint.kind == constraints::ConstraintKind::Free && q.size() == 3) r = {q[0], q[1], q[2]};
+Vec3 placeOrOrigin(const constraints::Constraint& constraint, const std::vector<double>& q) {
+  const Vec3 r = constraints::placeOn(constraint, q);
   return isFinite(r) ? r : Vec3{};
 }
 
@@ -107,8 +106,8 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   }
   if (experiment.task) {
     plan.hasTask = true;
-    plan.start = placeOnConstraint(constraint, from);
-    plan.target = placeOnConstraint(constraint, to);
+    plan.start = placeOrOrigin(constraint, from);
+    plan.target = placeOrOrigin(constraint, to);
     plan.tolerance = experiment.task->tolerance.position;
     box.add(plan.start);
     box.add(plan.target);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/analyze/dataset.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
@@ -43,7 +44,7 @@ constexpr double kLongestRun = 1e6;  // [s]
 std::uint64_t tickOf(double seconds) {
   if (!std::isfinite(seconds)) return 0;
   if (!(seconds >= 0 && seconds <= kLongestRun)) throw UsageError(fmt::format("time {} s: allowed: 0 to {:.0f} s", seconds, kLongestRun));
-  return static_cast<std::uint64_t>(std::llround(seconds * 1000));
+  return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
 }
 
 // A whole number of a cell; 0 where there is none.
@@ -135,10 +136,10 @@ RunSource readRun(const fs::path& motion) {
   double frequency = about.is_object() && about.contains("SamplingFrequency") && about["SamplingFrequency"].is_number()
                          ? about["SamplingFrequency"].get<double>()
                          : 0.0;
-  if (!(frequency > 0) && rows->size() > 1) frequency = 1000.0 / static_cast<double>(rows->ticks[1] - rows->ticks[0]);
+  if (!(frequency > 0) && rows->size() > 1) frequency = kTicksPerSecond / static_cast<double>(rows->ticks[1] - rows->ticks[0]);
   if (!(frequency > 0)) frequency = 100;
-  c.sampleEveryTicks = static_cast<std::uint32_t>(std::clamp<double>(std::round(1000.0 / frequency), 1, 1e6));
-  c.samplingHz = 1000.0 / c.sampleEveryTicks;
+  c.sampleEveryTicks = static_cast<std::uint32_t>(std::clamp<double>(std::round(kTicksPerSecond / frequency), 1, 1e6));
+  c.samplingHz = kTicksPerSecond / c.sampleEveryTicks;
 
   const fs::path eventsFile = sibling("events.tsv");
   const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
@@ -146,7 +147,7 @@ RunSource readRun(const fs::path& motion) {
   const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
   // Events count from the first row, as BIDS asks; those written before arming was a column count from the run's own clock.
   run.armedFromRows = !has("armed");
-  const double begin = run.armedFromRows || rows->size() == 0 ? 0 : static_cast<double>(rows->ticks.front()) / 1000.0;
+  const double begin = run.armedFromRows || rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());
   for (const auto& row : events.rows) {
     const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
     const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/minimum_jerk.h"
 
 namespace reachlab::analyze {
 namespace {
@@ -71,11 +72,10 @@ ProfileFamily::Sampler samplerOf(const experiment::Experiment& experiment, predi
   };
 }
 
-bool minimumJerk(double, std::span<double> phi) {
+bool referenceProfile(double, std::span<double> phi) {
   const double last = static_cast<double>(phi.size() - 1);
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    const double s = static_cast<double>(i) / last;
-    phi[i] = 30 * s * s * (1 - s) * (1 - s);
+    phi[i] = minimumJerkRate(static_cast<double>(i) / last);
   }
   return true;
 }
@@ -158,7 +158,7 @@ CandidateSet makeCandidates(const experiment::Experiment& experiment, const Cand
     out.candidates.push_back(std::move(candidate));
   }
   Candidate reference;
-  reference.families.push_back(std::make_unique<ProfileFamily>(minimumJerk, filter, grid));
+  reference.families.push_back(std::make_unique<ProfileFamily>(referenceProfile, filter, grid));
   out.candidates.push_back(std::move(reference));
   return out;
 }

@@ -9,8 +9,9 @@
 #include <map>
 #include <set>
 
-#include "constraints/constraint.h"
 #include "base/error.h"
+#include "base/ticks.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/analyze/equal_runs.h"
 #include "sim/analyze/experiment_difference.h"
 #include "sim/analyze/tables.h"
@@ -38,48 +39,17 @@ Vec3 vectorAt(const record::SampleRows& rows, std::size_t row, std::size_t colum
   return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
 }
 
-Vec3 pointAt(const constraints::Constraint& constraint, const std::vector<double>& at) {
-  switch (constraint.kind) {
-    case constraints::ConstraintKind::Curve: return evaluate(constraint.curve, at.at(0)).r;
-    case constraints::ConstraintKind::Surface: return evaluate(constraint.surface, at.at(0), at.at(1)).r;
-    case constraints::ConstraintKind::Free: return {at.at(0), at.at(1), at.at(2)};
-  }
-  return {};
-}
-
-/// The path's unit direction: from start to target on a line and in free space, the tangent under the driven mass on other curves.
-struct Path {
-  constraints::Constraint constraint;
-  Vec3 start, target, chord;
-  double sense = 1;  // of the parameter, on curves
-
-  Path(const experiment::Experiment& experiment) : constraint(constraints::makeConstraint(experiment.constraint)) {
-    const experiment::Task& task = *experiment.task;
-    start = pointAt(constraint, task.start);
-    target = pointAt(constraint, task.target);
-    const Vec3 way = target - start;
-    chord = norm(way) > 0 ? way / norm(way) : Vec3{};
-    if (constraint.kind == constraints::ConstraintKind::Curve) sense = task.target[0] >= task.start[0] ? 1 : -1;
-  }
-  bool closed() const { return bent() && constraint.domain[0].periodic; }
-  bool bent() const { return constraint.kind == constraints::ConstraintKind::Curve && !constraint.straight; }
-  bool directed() const { return constraint.kind != constraints::ConstraintKind::Surface && (bent() || norm(chord) > 0); }
-  Vec3 tangent(double parameter) const {
-    const Vec3 d = evaluate(constraint.curve, parameter).rPhi;
-    const double length = norm(d);
-    return length > 0 ? sense / length * d : Vec3{};
-  }
-};
-
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
-void appendEvenly(TrialData& trial, const record::SampleRows& rows, const Columns& columns, const Path& path, std::uint64_t every) {
+void appendEvenly(TrialData& trial, const record::SampleRows& rows, const Columns& columns, const constraints::TaskPath& path,
+                  std::uint64_t every) {
   const auto put = [&](std::size_t a, std::size_t b, double part) {
     const auto mix = [&](std::size_t column) { return (1 - part) * vectorAt(rows, a, column) + part * vectorAt(rows, b, column); };
     trial.hand.push_back(mix(columns.hand));
     trial.object.push_back(mix(columns.object));
     trial.objectVelocity.push_back(mix(columns.velocity));
     trial.force.push_back(norm(mix(columns.force)));
-    if (path.bent()) trial.along.push_back(path.tangent((1 - part) * rows.at(a, columns.parameter) + part * rows.at(b, columns.parameter)));
+    if (path.bent())
+      trial.along.push_back(path.directionAt((1 - part) * rows.at(a, columns.parameter) + part * rows.at(b, columns.parameter)));
   };
   std::size_t a = 0;
   for (std::uint64_t tick = rows.ticks.front(); tick <= rows.ticks.back(); tick += every) {
@@ -169,7 +139,7 @@ void addRun(const RunSource& run, const experiment::Experiment& experiment, Data
   }
   const std::size_t condition = conditionIndex(index, index.runs.back().condition, experiment);
   const Columns columns(c.table);
-  const Path path(experiment);
+  const constraints::TaskPath path(constraints::makeConstraint(experiment.constraint), experiment.task->start, experiment.task->target);
   const std::uint64_t every = std::max<std::uint64_t>(1, c.sampleEveryTicks);
   for (const record::RecordedTrial& recorded : run.trials) {
     TrialData trial;
@@ -177,18 +147,16 @@ void addRun(const RunSource& run, const experiment::Experiment& experiment, Data
     trial.practice = c.practice;
     trial.catchTrial = recorded.planned.catchTrial;
     trial.result = recorded.result;
-    trial.rate = 1000.0 / static_cast<double>(every);
-    trial.start = path.start;
-    trial.target = path.target;
-    trial.closed = path.closed();
-    if (path.directed() && !path.bent()) trial.along = {path.chord};
+    trial.rate = kTicksPerSecond / static_cast<double>(every);
+    trial.start = path.start();
+    trial.target = path.target();
+    trial.closed = path.bent() && path.constraint().domain[0].periodic;
+    if (path.straight() && !(path.directionAt(0) == Vec3{})) trial.along = {path.directionAt(0)};
     if (recorded.armedTick > 0) {
       // What the hand does after the trial, or where it is put for the next one, is no part of the movement.
       const std::uint64_t end = recorded.result.endTick > 0 ? recorded.result.endTick : recorded.lastTick;
       const record::SampleRows rows = run.rowsOf(recorded.armedTick, std::max(end, recorded.armedTick));
-      const auto seconds = [&](std::uint64_t tick) {
-        return tick == 0 ? kNotMeasured : (static_cast<double>(tick) - static_cast<double>(recorded.armedTick)) / 1000.0;
-      };
+      const auto seconds = [&](std::uint64_t tick) { return tick == 0 ? kNotMeasured : secondsBetween(recorded.armedTick, tick); };
       if (rows.size() > 0) {
         appendEvenly(trial, rows, columns, path, every);
         trial.first = seconds(rows.ticks.front());

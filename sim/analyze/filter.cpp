@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
 
@@ -26,14 +25,6 @@ void runFrom(const Biquad& s, double x0, std::vector<double>& signal) {
 
 }  // namespace
 
-Biquad butterworthLowPass(double cutoff, double rate) {
-  if (!(cutoff > 0) || !(cutoff < rate / 2) || !std::isfinite(rate))
-    throw UsageError(fmt::format("cut-off {} Hz at {} samples per second; allowed: more than 0 and less than half the rate", cutoff, rate));
-  const double k = std::tan(std::numbers::pi * cutoff / rate), k2 = k * k;
-  const double norm = 1 / (1 + std::numbers::sqrt2 * k + k2);
-  return {{k2 * norm, 2 * k2 * norm, k2 * norm}, {1, 2 * (k2 - 1) * norm, (1 - std::numbers::sqrt2 * k + k2) * norm}};
-}
-
 std::vector<double> filterBothWays(const Biquad& section, std::span<const double> signal) {
   const std::size_t n = signal.size();
   if (n < 2) return {signal.begin(), signal.end()};
@@ -52,7 +43,9 @@ std::vector<double> filterBothWays(const Biquad& section, std::span<const double
 
 std::vector<double> lowPass(std::span<const double> signal, double rate, double cutoff) {
   if (cutoff == 0) return {signal.begin(), signal.end()};
-  return filterBothWays(butterworthLowPass(cutoff, rate), signal);
+  if (!(cutoff > 0) || !(cutoff < rate / 2) || !std::isfinite(rate))
+    throw UsageError(fmt::format("cut-off {} Hz at {} samples per second; allowed: more than 0 and less than half the rate", cutoff, rate));
+  return filterBothWays(butterworthLowPass(cutoff, 1 / rate), signal);
 }
 
 std::vector<double> differentiate(std::span<const double> x, double rate) {

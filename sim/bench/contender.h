@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/ticks.h"
 #include "sim/bench/reference.h"
 #include "sim/bench/scenes.h"
 
 namespace reachlab::bench {
 
-inline constexpr double kTick = 0.001;      // [s] a result is due this often
 inline constexpr int kTicksPerSample = 10;  // errors are taken at 100 Hz
 
 /// What one run of a scene gave. Rows are laid out as in Reference; empty unless asked for.
@@ -24,9 +24,9 @@ struct Trajectory {
 /// One way to compute one scene: a method of ours, a library, or a form written for this scene alone.
 struct Contender {
   std::string method;
-  double step = kTick;   // [s]
-  double tolerance = 0;  // 0: the method has none
-  std::string form;      // what was chosen, in words
+  double step = kTickSeconds;  // [s]
+  double tolerance = 0;        // 0: the method has none
+  std::string form;            // what was chosen, in words
   /// Computes the whole reach from the start with a result every millisecond. `out` null: only the time matters.
   std::function<void(Trajectory* out)> run;
 };

@@ -11,12 +11,8 @@ using Series = std::array<double, kTerms>;
 // mj((t0 + s dt)/T) in powers of s: the derivatives of 10 p^3 - 15 p^4 + 6 p^5 at p0 over the factorials.
 Series minimumJerkSeries(double t0, double dt, double duration) {
   const double p = t0 / duration, h = dt / duration;
-  const double derivative[6] = {p * p * p * (10 + p * (6 * p - 15)),
-                                30 * p * p * (1 - p) * (1 - p),
-                                60 * p * (1 - p) * (1 - 2 * p),
-                                60 - 360 * p + 360 * p * p,
-                                720 * p - 360,
-                                720};
+  const double derivative[6] = {
+      minimumJerk(p), minimumJerkRate(p), minimumJerkAcceleration(p), 60 - 360 * p + 360 * p * p, 720 * p - 360, 720};
   Series s{};
   double scale = 1;
   for (int k = 0; k < 6; ++k) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/minimum_jerk.h"
 #include "base/vec3.h"
 #include "sim/bench/systems.h"
 #include "sim/dynamics/hand_segment.h"
@@ -20,8 +21,8 @@ struct HandLaw {
 template <class T>
 void evaluate(const HandLaw& law, const T& t, T* r, T* v) {
   const T p = t / law.duration;
-  const T q = p * p * p * (10 + p * (6 * p - 15));
-  const T rate = 30 * p * p * (1 - p) * (1 - p) / law.duration;
+  const T q = minimumJerk(p);
+  const T rate = minimumJerkRate(p) / law.duration;
   const double from[3] = {law.from.x, law.from.y, law.from.z}, by[3] = {law.by.x, law.by.y, law.by.z};
   if (law.kind == HandLaw::Kind::None || law.kind == HandLaw::Kind::Straight) {
     for (int i = 0; i < 3; ++i) r[i] = from[i] + by[i] * q, v[i] = by[i] * rate;

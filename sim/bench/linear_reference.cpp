@@ -15,12 +15,8 @@ struct HandTerms {
 
 HandTerms handTerms(const HandLaw& law, const Quad& t) {
   const Quad p = t / law.duration;
-  const Quad d[kHandTerms] = {p * p * p * (10 + p * (6 * p - 15)),
-                              30 * p * p * (1 - p) * (1 - p),
-                              60 * p * (1 - p) * (1 - 2 * p),
-                              60 - 360 * p + 360 * p * p,
-                              720 * p - 360,
-                              720};
+  const Quad d[kHandTerms] = {
+      minimumJerk(p), minimumJerkRate(p), minimumJerkAcceleration(p), 60 - 360 * p + 360 * p * p, 720 * p - 360, 720};
   HandTerms out;
   Quad scale = law.by.x;
   for (int k = 0; k < kHandTerms; ++k) {

@@ -5,6 +5,8 @@
 #include <ctime>
 #include <limits>
 
+#include "base/ticks.h"
+
 namespace reachlab::bench {
 namespace {
 
@@ -44,7 +46,7 @@ Deviation computeError(const Trajectory& trajectory, const Reference& reference)
 
 std::vector<Row> measure(const BenchScene& scene, const Reference& reference, const std::vector<Contender>& contenders,
                          const Effort& effort) {
-  const double ticks = std::round(scene.duration / kTick);
+  const double ticks = std::round(scene.duration / kTickSeconds);
   std::vector<Row> rows;
   std::vector<int> repeats;
   std::vector<std::vector<double>> times(contenders.size());

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/ticks.h"
 #include "sim/bench/contender.h"
 #include "sim/bench/visit_system.h"
 
@@ -16,7 +17,7 @@ struct PeerSystem {
   void rate(const double* y, double* dy, double t) {
     ++evaluations;
     double r[3] = {}, v[3] = {};
-    const double s = t * (1 / kTick);
+    const double s = t * (1 / kTickSeconds);
     constexpr int d = System::kHandDegree;
     constexpr unsigned axes = System::kHandAxes;
     const auto& p = segment->position;
@@ -77,7 +78,7 @@ void runReach(PeerSystem<System>& peer, const std::vector<dynamics::HandSegment>
   for (std::size_t i = 0; i < segments.size(); ++i) {
     peer.segment = &segments[i];
     if (!tick()) {
-      if (out) out->failure = "gave up at " + std::to_string(static_cast<double>(i) * kTick) + " s";
+      if (out) out->failure = "gave up at " + std::to_string(static_cast<double>(i) * kTickSeconds) + " s";
       return;
     }
     if (!out) continue;

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/ticks.h"
 #include "sim/bench/contender.h"
 
 namespace reachlab::bench {
@@ -10,6 +11,6 @@ std::vector<Contender> makePeers(const BenchScene& scene);
 bool peersBuilt();
 
 /// odeint's rk4 at 1 ms: the yardstick that hand-written forms are compared with.
-Contender makeOdeintRk4(const BenchScene& scene, double step = kTick);
+Contender makeOdeintRk4(const BenchScene& scene, double step = kTickSeconds);
 
 }  // namespace reachlab::bench

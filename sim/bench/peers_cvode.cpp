@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "base/ticks.h"
 #include "sim/bench/peer_system.h"
 #include "sim/bench/peers.h"
 
@@ -27,7 +28,7 @@ struct CvodeRun {
   SUNNonlinearSolver nonlinear = nullptr;
 
   CvodeRun(const BenchScene& s, const System& system, bool stiff, double tolerance)
-      : scene(s), peer{system}, segments(makeSegments(s, kTick)) {
+      : scene(s), peer{system}, segments(makeSegments(s, kTickSeconds)) {
     SUNContext_Create(nullptr, &context);
     y = N_VNew_Serial(n, context);
     setInitialState<System>(scene, N_VGetArrayPointer(y));
@@ -70,8 +71,8 @@ struct CvodeRun {
     tickStart = 0;
     std::size_t tick = 0;
     runReach(peer, *segments, N_VGetArrayPointer(y), out, [&] {
-      tickStart = static_cast<double>(tick) * kTick;
-      const double end = static_cast<double>(++tick) * kTick;
+      tickStart = static_cast<double>(tick) * kTickSeconds;
+      const double end = static_cast<double>(++tick) * kTickSeconds;
       CVodeSetStopTime(memory, end);
       realtype reached = 0;
       return CVode(memory, end, y, &reached, CV_NORMAL) >= 0;

@@ -5,6 +5,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 
+#include "base/ticks.h"
 #include "sim/bench/peer_system.h"
 #include "sim/bench/peers.h"
 
@@ -26,11 +27,11 @@ struct Problem {
 // The state, the stepper and the system are locals of a run, so that the compiler may keep them where it likes.
 template <class Stepper, class System>
 Contender fixedStep(const std::string& method, const BenchScene& scene, const System& system, double step) {
-  const auto problem = std::make_shared<const Problem<System>>(Problem<System>{scene, system, makeSegments(scene, kTick)});
+  const auto problem = std::make_shared<const Problem<System>>(Problem<System>{scene, system, makeSegments(scene, kTickSeconds)});
   Contender out;
   out.method = method, out.step = step;
   out.run = [problem, step](Trajectory* trajectory) {
-    const int stepsPerTick = static_cast<int>(std::lround(kTick / step));
+    const int stepsPerTick = static_cast<int>(std::lround(kTickSeconds / step));
     PeerSystem<System> peer{problem->system};
     Stepper stepper;
     State<System> y{};
@@ -47,7 +48,7 @@ Contender fixedStep(const std::string& method, const BenchScene& scene, const Sy
 
 template <class Stepper, class System>
 Contender controlled(const std::string& method, const BenchScene& scene, const System& system, double tolerance) {
-  const auto problem = std::make_shared<const Problem<System>>(Problem<System>{scene, system, makeSegments(scene, kTick)});
+  const auto problem = std::make_shared<const Problem<System>>(Problem<System>{scene, system, makeSegments(scene, kTickSeconds)});
   Contender out;
   out.method = method, out.tolerance = tolerance;
   out.run = [problem, tolerance](Trajectory* trajectory) {
@@ -56,13 +57,13 @@ Contender controlled(const std::string& method, const BenchScene& scene, const S
     State<System> y{};
     setInitialState<System>(problem->scene, y.data());
     const auto rate = [&peer](const State<System>& at, State<System>& slope, double t) { peer.rate(at.data(), slope.data(), t); };
-    double suggested = kTick;
+    double suggested = kTickSeconds;
     std::uint64_t steps = 0;
     runReach(peer, *problem->segments, y.data(), trajectory, [&] {
       double t = 0;
       int tries = 0;
-      while (t < kTick * (1 - 1e-12)) {
-        double dt = std::min(suggested, kTick - t);
+      while (t < kTickSeconds * (1 - 1e-12)) {
+        double dt = std::min(suggested, kTickSeconds - t);
         const bool shortened = dt < suggested;
         if (stepper.try_step(rate, y, t, dt) == odeint::success) {
           ++steps;

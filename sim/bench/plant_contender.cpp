@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/ticks.h"
 #include "sim/bench/contender.h"
 #include "sim/dynamics/plant.h"
 
@@ -73,7 +74,7 @@ Contender makePlantContender(const BenchScene& scene, const std::string& method,
   dynamics::SceneOptions options;
   options.method = method, options.step = step, options.tolerance = tolerance;
   auto run = std::make_shared<PlantRun>(PlantRun{scene, dynamics::compileScene(scene.experiment, options), makeSegments(scene, step), step,
-                                                 static_cast<int>(std::lround(kTick / step))});
+                                                 static_cast<int>(std::lround(kTickSeconds / step))});
   Contender out;
   out.method = method, out.step = step, out.tolerance = tolerance;
   const dynamics::MethodChoice& choice = run->compiled.choice;

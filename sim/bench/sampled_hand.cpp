@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/bench/measure.h"
 #include "sim/bench/suite.h"
 #include "sim/dynamics/hand_path.h"
@@ -22,9 +23,9 @@ std::vector<Vec3> measuredPositions(const BenchScene& scene, Measurement measure
   std::mt19937_64 random(20260101);
   std::normal_distribution<double> error(0, kNoise);
   std::vector<Vec3> positions;
-  const int ticks = static_cast<int>(std::lround(scene.duration / kTick));
+  const int ticks = static_cast<int>(std::lround(scene.duration / kTickSeconds));
   for (int i = 0; i <= ticks; ++i) {
-    Vec3 r = makeSample(scene.hand, i * kTick).position;
+    Vec3 r = makeSample(scene.hand, i * kTickSeconds).position;
     if (measurement == Measurement::Noise) {
       const double x = error(random), y = error(random), z = error(random);
       r += Vec3{x, y, z};
@@ -43,7 +44,7 @@ Vec3 pathVelocity(const std::vector<Vec3>& r, int newest, int count) {
   Vec3 sum = at(0) - at(1);
   if (count >= 3) sum += 0.5 * (at(0) - 2.0 * at(1) + at(2));
   if (count >= 4) sum += (1.0 / 3) * (at(0) - 3.0 * at(1) + 3.0 * at(2) - at(3));
-  return sum / kTick;
+  return sum / kTickSeconds;
 }
 
 double positionError(const BenchScene& scene, const Reference& reference, const std::string& method, int samples, Measurement measurement) {
@@ -62,7 +63,7 @@ double positionError(const BenchScene& scene, const Reference& reference, const 
     const int newest = samples == 1 ? tick - 1 : tick;
     const dynamics::HandSample hand{r[newest], pathVelocity(r, newest, samples), true};
     path.push(hand);
-    if (plant.step(path.segment(), kTick) != dynamics::StepStatus::Ok) return std::numeric_limits<double>::quiet_NaN();
+    if (plant.step(path.segment(), kTickSeconds) != dynamics::StepStatus::Ok) return std::numeric_limits<double>::quiet_NaN();
     if (tick % kTicksPerSample != 0) continue;
     plant.observe(hand, masses);
     const Quad* expected = &reference.positions[static_cast<std::size_t>(tick / kTicksPerSample) * masses.size() * 3];

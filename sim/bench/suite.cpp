@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/bench/peers.h"
 
 namespace reachlab::bench {
@@ -13,8 +14,9 @@ struct Setting {
 };
 
 std::vector<Setting> settingsOf(const std::string& method, bool quick) {
-  if (quick || method == "auto" || method == "exact") return {{kTick, 0}};
-  if (method == "adaptive") return {{kTick, 0}, {kTick, 1e-6}, {kTick, 1e-8}, {kTick, 1e-10}, {kTick, 1e-12}};
+  if (quick || method == "auto" || method == "exact") return {{kTickSeconds, 0}};
+  if (method == "adaptive")
+    return {{kTickSeconds, 0}, {kTickSeconds, 1e-6}, {kTickSeconds, 1e-8}, {kTickSeconds, 1e-10}, {kTickSeconds, 1e-12}};
   if (method == "rk4") return {{1e-3, 0}, {5e-4, 0}, {2.5e-4, 0}, {1e-4, 0}};
   return {{1e-3, 0}, {5e-4, 0}, {2.5e-4, 0}};
 }

@@ -61,13 +61,4 @@ HandSegment heldSegment(const Vec3& position) noexcept {
   return segment;
 }
 
-MinJerk minJerk(double x) noexcept {
-  if (x <= 0) return {0, 0};
-  if (x >= 1) return {1, 0};
-  const double y = 1 - x;
-  // Near the end 1 - s(1 - y) keeps the digits.
-  const double s = x < 0.5 ? x * x * x * (10 + x * (6 * x - 15)) : 1 - y * y * y * (10 + y * (6 * y - 15));
-  return {s, 30 * x * x * y * y};
-}
-
 }  // namespace reachlab::dynamics

@@ -15,10 +15,4 @@ HandSegment makeSegment(const HandFunction& hand, double t0, double dt);
 /// The hand at rest at `position`.
 HandSegment heldSegment(const Vec3& position) noexcept;
 
-/// s(x) = 10 x^3 - 15 x^4 + 6 x^5 on [0, 1], held beyond: the minimum-jerk law, and ds/dx.
-struct MinJerk {
-  double s = 0, rate = 0;
-};
-MinJerk minJerk(double x) noexcept;
-
 }  // namespace reachlab::dynamics

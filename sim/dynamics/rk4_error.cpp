@@ -1,3 +1,4 @@
+#include "base/minimum_jerk.h"
 #include "sim/dynamics/rk4_error.h"
 
 #include <algorithm>
@@ -39,8 +40,8 @@ std::optional<double> measureRk4Error(Plant& plant, const experiment::Task& task
   const Vec3 start = placeAt(constraint, task.start), chord = placeAt(constraint, task.target) - start;
   if (!isFinite(chord) || !(norm(chord) > 0)) return {};
   const HandFunction hand = [&](double t) {
-    const MinJerk law = minJerk(t / task.duration);
-    return HandSample{start + law.s * chord, (law.rate / task.duration) * chord, true};
+    const MinimumJerk law = heldMinimumJerk(t / task.duration);
+    return HandSample{start + law.value * chord, (law.rate / task.duration) * chord, true};
   };
   const int steps = std::max(1, static_cast<int>(std::ceil(task.duration / step)));
   const std::vector<Vec3> whole = drive(plant, task, hand, step, steps, 1), halves = drive(plant, task, hand, step / 2, 2 * steps, 2);

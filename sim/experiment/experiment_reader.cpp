@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "base/json_reader.h"
 #include "sim/experiment/compiled_experiment.h"
 
@@ -203,8 +204,8 @@ void readTiming(ObjectReader& root, Experiment& experiment) {
   if (node == nullptr) return;
   ObjectReader reader(root.faults(), *node, "timing");
   reader.integer("max_missed_ticks", 0, kNoTimingLimits.maxMissedTicks, experiment.timing.maxMissedTicks);
-  constexpr double kTick = 0.001;  // [s] a gap between two ticks is never shorter
-  reader.number("max_gap_s", {kTick, kNoTimingLimits.maxGap, true, fmt::format("{} s to {:.0f} s", kTick, kNoTimingLimits.maxGap)},
+  // A gap between two ticks is never shorter than one.
+  reader.number("max_gap_s", {kTickSeconds, kNoTimingLimits.maxGap, true, fmt::format("{} s to {:.0f} s", kTickSeconds, kNoTimingLimits.maxGap)},
                 experiment.timing.maxGap);
   reader.finish();
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/trial/protocol.h"
+#include "base/ticks.h"
 
 namespace reachlab::haptics {
 
@@ -67,7 +67,7 @@ double DeviceWatch::speedOver(const Vec3& position, std::int64_t nowNs) noexcept
   double speed = 0;
   if (have == kWindow) {
     const Place& oldest = window_[static_cast<std::size_t>(seen_ % kWindow)];
-    const double seconds = std::max(static_cast<double>(nowNs - oldest.ns) * 1e-9, kWindow * trial::kTickSeconds);
+    const double seconds = std::max(static_cast<double>(nowNs - oldest.ns) * 1e-9, kWindow * kTickSeconds);
     speed = norm(position - oldest.position) / seconds;
   }
   window_[static_cast<std::size_t>(seen_ % kWindow)] = {position, nowNs};
@@ -86,7 +86,7 @@ DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& c
   reports_ = sample.reports;
   last_ = sample.position;
   const double speed = std::max(speedOver(sample.position, context.nowNs), sample.hasVelocity ? norm(sample.velocity) : 0);
-  const bool jumped = step > kJumpMetres + speedLimit_ * passed * trial::kTickSeconds;
+  const bool jumped = step > kJumpMetres + speedLimit_ * passed * kTickSeconds;
   if (!context.engaged && jumped) seen_ = 0;  // carried to the next start: what it did before says nothing of its speed from there
   if (!context.engaged || first) return DeviceFault::None;
   if (jumped) return DeviceFault::Jump;

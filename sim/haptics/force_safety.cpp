@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/trial/protocol.h"
+#include "base/ticks.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kCautiousFrom = 0.8;  // of the heat budget
 double ForceSafety::heat() const noexcept { return limits_.continuous > 0 ? heat_ / (limits_.continuous * limits_.continuous) : 0; }
 
 Vec3 ForceSafety::bound(const Vec3& force) noexcept {
-  double bound = limits_.instantaneous * rampTicks_ * trial::kTickSeconds / kRampSeconds;
+  double bound = limits_.instantaneous * rampTicks_ * kTickSeconds / kRampSeconds;
   if (limits_.continuous > 0 && limits_.continuous < limits_.instantaneous) {
     const double used = std::clamp((heat() - kCautiousFrom) / (1 - kCautiousFrom), 0.0, 1.0);
     const double peak = limits_.instantaneous * limits_.instantaneous, rest = limits_.continuous * limits_.continuous;
@@ -31,13 +31,13 @@ Vec3 ForceSafety::limit(const Vec3& force, bool engaged, bool held) noexcept {
     rampTicks_ = 0;
     last_ = {};
   } else {
-    rampTicks_ = std::min(rampTicks_ + 1, kRampSeconds / trial::kTickSeconds);
+    rampTicks_ = std::min(rampTicks_ + 1, kRampSeconds / kTickSeconds);
     const Vec3 bounded = bound(force);
     const Vec3 change = bounded - last_;
     const double step = norm(change);
     last_ = step > kSlewPerTick ? last_ + (kSlewPerTick / step) * change : bounded;
   }
-  if (limits_.continuous > 0) heat_ += trial::kTickSeconds / limits_.thermalSeconds * (dot(last_, last_) - heat_);
+  if (limits_.continuous > 0) heat_ += kTickSeconds / limits_.thermalSeconds * (dot(last_, last_) - heat_);
   return last_;
 }
 

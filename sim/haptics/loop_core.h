@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/spsc_queue.h"
+#include "base/ticks.h"
 #include "base/triple_buffer.h"
 #include "sim/haptics/device_watch.h"
 #include "sim/haptics/lateness.h"
@@ -34,7 +35,7 @@ struct LoopReport {
 
 /// What the haptic thread works on. Plain members with one writer each; kept alive by whoever may still run in it.
 struct LoopCore {
-  static constexpr std::int64_t kPeriodNs = 1'000'000;
+  static constexpr std::int64_t kPeriodNs = kTickNs;
 
   struct Order {
     trial::Command command = trial::Command::None;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/minimum_jerk.h"
+#include "base/ticks.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -19,7 +21,7 @@ const experiment::Task& taskOf(const experiment::Experiment& experiment) {
 struct Blend {
   double value, rate;
 };
-Blend fadeOut(double x) noexcept { return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x)}; }
+Blend fadeOut(double x) noexcept { return {1 - minimumJerk(x), -minimumJerkRate(x)}; }
 
 ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOptions& options) {
   double most = experiment.forceLimit.value_or(options.deviceMaxForce);
@@ -79,7 +81,7 @@ dynamics::HandSample TickEngine::takeHand(const TickInput& input) noexcept {
   if (anchorTicks_ > 0) {
     const Blend blend = fadeOut(1 - static_cast<double>(anchorTicks_) / kReanchorTicks);
     hand.position += blend.value * anchor_;
-    hand.velocity += (blend.rate / (kReanchorTicks * trial::kTickSeconds)) * anchor_;
+    hand.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * anchor_;
     --anchorTicks_;
   }
   lastSeen_ = hand.position;
@@ -90,7 +92,7 @@ dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) no
   const bool continuous = path_.push(hand);
   if (!hand.valid) return dynamics::StepStatus::HandLost;
   if (!continuous) scene_.plant->restart();
-  return scene_.plant->step(path_.segment(), trial::kTickSeconds);
+  return scene_.plant->step(path_.segment(), kTickSeconds);
 }
 
 // At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.
@@ -148,7 +150,7 @@ void TickEngine::tick(const TickInput& input) noexcept {
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
   state_.trial = protocol_.trial;
-  state_.trialTime = protocol_.phase == trial::Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * trial::kTickSeconds
+  state_.trialTime = protocol_.phase == trial::Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * kTickSeconds
                                                              : protocol_.result.movementTime;
   state_.result = protocol_.result;
 }

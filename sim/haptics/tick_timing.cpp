@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/os.h"
+#include "base/ticks.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -42,7 +43,7 @@ TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t 
     const bool over = phase == trial::Phase::Idle || phase == trial::Phase::Done;
     input.command = over ? trial::Command::NextTrial : trial::Command::None;
     since = over || phase == trial::Phase::Waiting ? 0 : since + 1;
-    input.device.position = start + std::sin(kOmega * trial::kTickSeconds * static_cast<double>(since)) * swing;
+    input.device.position = start + std::sin(kOmega * kTickSeconds * static_cast<double>(since)) * swing;
     const std::int64_t before = os::now();
     engine.tick(input);
     cost = os::now() - before;

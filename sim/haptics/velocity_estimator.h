@@ -1,4 +1,5 @@
 #pragma once
+#include "base/butterworth.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/device.h"
 
@@ -21,7 +22,7 @@ class VelocityEstimator {
 
  private:
   bool fromDevice_, filtered_;
-  double b0_ = 1, a1_ = 0, a2_ = 0;  // H(z) = b0 (1 + z^-1)^2 / (1 + a1 z^-1 + a2 z^-2)
+  Biquad filter_;
   Vec3 last_;
   Vec3 x1_, x2_, y1_, y2_;  // the filter's last inputs and outputs
   int count_ = 0;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/ticks.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 #include "base/table_text.h"
@@ -20,7 +21,7 @@ std::string orUnknown(const std::string& text) { return text.empty() ? "n/a" : t
 // The dataset's clock is the tick; rows lie a sampling period apart wherever nothing was dropped.
 double effectiveFrequency(const SampleRows& rows, double nominal) {
   if (rows.size() < 2) return nominal;
-  const double seconds = static_cast<double>(rows.ticks.back() - rows.ticks.front()) / 1000.0;
+  const double seconds = secondsBetween(rows.ticks.front(), rows.ticks.back());
   return seconds > 0 ? static_cast<double>(rows.size() - 1) / seconds : nominal;
 }
 
@@ -59,7 +60,7 @@ std::string motionJson(const RunLog& run) {
   j["Instructions"] = "Move the object to the target in the prescribed time and bring it to rest there";
   j["SamplingFrequency"] = c.samplingHz;
   j["SamplingFrequencyEffective"] = effectiveFrequency(rows, c.samplingHz);
-  j["RecordingDuration"] = rows.size() == 0 ? 0 : static_cast<double>(rows.ticks.back() - rows.ticks.front()) / 1000.0;
+  j["RecordingDuration"] = rows.size() == 0 ? 0 : secondsBetween(rows.ticks.front(), rows.ticks.back());
   j["TrackingSystemName"] = "haptic";
   j["Manufacturer"] = "n/a";
   j["ManufacturersModelName"] = orUnknown(c.deviceName);
@@ -108,8 +109,7 @@ std::string eventsTsv(const RunLog& run) {
   // BIDS counts events from the first row of the motion file, which is not the run's first tick.
   double begin = 0;
   if (!run.trials().empty())
-    if (const SampleRows first = run.rows(0, run.trials().front().lastTick); first.size() > 0)
-      begin = static_cast<double>(first.ticks.front()) / 1000.0;
+    if (const SampleRows first = run.rows(0, run.trials().front().lastTick); first.size() > 0) begin = secondsOf(first.ticks.front());
   for (const RecordedTrial& trial : run.trials()) {
     const TrialTimes times = timesOf(trial);
     const double onset = std::isfinite(times.onset) ? times.onset : times.start;
@@ -119,7 +119,7 @@ std::string eventsTsv(const RunLog& run) {
         .cell(trial::nameOf(trial.result.reason))
         .whole(trial.result.mass)
         .number(trial.result.by);
-    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go - begin).number(trial.planned.foreperiodTicks / 1000.0);
+    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go - begin).number(secondsOf(trial.planned.foreperiodTicks));
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
     table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed - begin).number(trial.meanForce).whole(c.day);
     table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/ticks.h"
 
 namespace reachlab::record {
 namespace {
@@ -94,7 +95,7 @@ std::size_t rowWidth(int massCount, int parameterCount, bool body) {
 
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept {
   double* at = row;
-  *at++ = static_cast<double>(state.tick) / 1000.0;
+  *at++ = secondsOf(state.tick);
   *at++ = static_cast<double>(state.measuredNs) * 1e-9;
   at = putVector(at, state.hand.position);
   at = putVector(at, state.hand.velocity);

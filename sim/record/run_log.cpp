@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/record/records.h"
 
 namespace reachlab::record {
@@ -47,7 +48,7 @@ struct OpenTrial {
     RecordedTrial t = trial;
     t.lastTick = std::max(t.lastTick, lastTick);
     t.result.endTick = t.lastTick;
-    if (t.result.onsetTick > 0) t.result.movementTime = static_cast<double>(t.lastTick - t.result.onsetTick) / 1000.0;
+    if (t.result.onsetTick > 0) t.result.movementTime = secondsBetween(t.result.onsetTick, t.lastTick);
     return t;
   }
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/ticks.h"
 #include "sim/record/append_file.h"
 #include "sim/record/column_dictionary.h"
 #include "base/table_text.h"
@@ -74,7 +75,7 @@ void addTrial(TableText& table, const RunConfiguration& c, const experiment::Tas
   table.cell(trial::nameOf(t.result.outcome)).cell(trial::nameOf(t.result.reason)).whole(t.result.mass);
   table.number(movementTimeOf(t)).number(t.result.by).cell(unitOf(t.result.reason));
   table.cell(c.experimentName).whole(c.day).whole(t.planned.index).whole(t.planned.catchTrial ? 1 : 0);
-  table.number(t.planned.foreperiodTicks / 1000.0).number(task.duration);
+  table.number(secondsOf(t.planned.foreperiodTicks)).number(task.duration);
   table.number(task.tolerance.position).number(task.tolerance.velocity).number(task.tolerance.time);
   for (const double time : {times.start, times.armed, times.go, times.onset, times.end, times.reaction}) table.number(time);
   for (const double measure : {t.peakHandSpeed, t.handPathLength, t.peakForce, t.meanForce}) table.number(measure);

@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 
+#include "base/ticks.h"
 #include "sim/record/run_log.h"
 
 namespace reachlab::record {
@@ -12,18 +13,15 @@ struct TrialTimes {
 };
 
 inline TrialTimes timesOf(const RecordedTrial& trial) {
-  const auto seconds = [](std::uint64_t tick) {
-    return tick == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(tick) / 1000.0;
-  };
+  const auto seconds = [](std::uint64_t tick) { return tick == 0 ? std::numeric_limits<double>::quiet_NaN() : secondsOf(tick); };
   TrialTimes t;
-  t.start = static_cast<double>(trial.startTick) / 1000.0;
+  t.start = secondsOf(trial.startTick);
   t.armed = seconds(trial.armedTick);
   t.go = seconds(trial.goTick);
   t.onset = seconds(trial.result.onsetTick);
-  t.end = static_cast<double>(trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick) / 1000.0;
-  t.reaction = trial.result.onsetTick > 0 && trial.goTick > 0
-                   ? (static_cast<double>(trial.result.onsetTick) - static_cast<double>(trial.goTick)) / 1000.0
-                   : std::numeric_limits<double>::quiet_NaN();
+  t.end = secondsOf(trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick);
+  t.reaction = trial.result.onsetTick > 0 && trial.goTick > 0 ? secondsBetween(trial.goTick, trial.result.onsetTick)
+                                                              : std::numeric_limits<double>::quiet_NaN();
   return t;
 }
 

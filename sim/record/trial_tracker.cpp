@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/ticks.h"
+
 namespace reachlab::record {
 
 TickFacts factsOf(const haptics::TickState& state) noexcept {
@@ -95,7 +97,7 @@ RecordedTrial TrialTracker::brokenOff() const {
   trial.result.reason = trial::Reason::Program;
   trial.result.onsetTick = onset;
   trial.result.endTick = trial.lastTick;
-  trial.result.movementTime = onset > 0 ? static_cast<double>(trial.lastTick - onset) / 1000.0 : 0;
+  trial.result.movementTime = onset > 0 ? secondsBetween(onset, trial.lastTick) : 0;
   trial.complete = false;
   return trial;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/seeded.h"
+#include "base/ticks.h"
 
 namespace reachlab::session {
 namespace {
@@ -21,7 +22,7 @@ std::vector<trial::PlannedTrial> planTrials(const PlanBlock& block, std::uint64_
   for (std::size_t i = 0; i < count; ++i) {
     trials[i].index = static_cast<int>(i);
     const double foreperiod = lo + (hi - lo) * seededFraction(seed ^ kForeperiodStream, i);
-    trials[i].foreperiodTicks = static_cast<int>(std::lround(foreperiod * 1000));
+    trials[i].foreperiodTicks = static_cast<int>(std::lround(foreperiod * kTicksPerSecond));
   }
   // The catch trials are those with the smallest drawn numbers; the first trial is never one, nobody would know what to do.
   std::vector<std::size_t> byDraw(count > 0 ? count - 1 : 0);

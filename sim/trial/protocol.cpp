@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/ticks.h"
+
 namespace reachlab::trial {
 namespace {
 

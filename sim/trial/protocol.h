@@ -37,7 +37,6 @@
 /// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
 namespace reachlab::trial {
 
-inline constexpr double kTickSeconds = 0.001;
 inline constexpr std::int64_t kNoLimit = INT64_MAX;
 inline constexpr int kLostTicks = 20;  // a driver may skip a packet or two; longer than this the movement is not known any more
 
@@ -60,8 +59,6 @@ struct ProtocolSettings {
 
 /// Throws UsageError when the experiment has no task, or its start or target is no place on the constraint.
 ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint);
-/// A place on the constraint given by its parameters (three metres when free) [m]; not finite outside the domain.
-Vec3 placeOn(const constraints::Constraint& constraint, std::span<const double> q);
 
 /// What the protocol sees of one tick.
 struct ProtocolInput {

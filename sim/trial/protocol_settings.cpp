@@ -1,31 +1,23 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/ticks.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::trial {
 namespace {
 
-constexpr double kTicksPerSecond = 1000;
 constexpr double kWholeTick = 1e-6;  // [ticks] a decimal time such as 1.35 s is a whole number of ticks, whatever its binary form
 
 }  // namespace
-
-Vec3 placeOn(const constraints::Constraint& constraint, std::span<const double> q) {
-  switch (constraint.kind) {
-    case constraints::ConstraintKind::Curve: return constraints::evaluate(constraint.curve, q[0]).r;
-    case constraints::ConstraintKind::Surface: return constraints::evaluate(constraint.surface, q[0], q[1]).r;
-    case constraints::ConstraintKind::Free: break;
-  }
-  return {q[0], q[1], q[2]};
-}
 
 ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
   if (!experiment.task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
   const experiment::Task& task = *experiment.task;
   ProtocolSettings s;
-  s.start = placeOn(constraint, task.start);
-  s.target = placeOn(constraint, task.target);
+  s.start = constraints::placeOn(constraint, task.start);
+  s.target = constraints::placeOn(constraint, task.target);
   if (!isFinite(s.start)) throw UsageError("task.start: no place on the constraint");
   if (!isFinite(s.target)) throw UsageError("task.target: no place on the constraint");
   s.armRadius = task.armRadius;

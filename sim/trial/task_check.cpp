@@ -4,6 +4,7 @@
 
 #include "constraints/constraint.h"
 #include "base/error.h"
+#include "constraints/geometry/arc_length.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::trial {
@@ -15,15 +16,7 @@ constexpr double kHeavyMass = 100;  // [kg]
 // Along the curve, so that a full lap is a way; the chord elsewhere. [m]
 double wayOf(const constraints::Constraint& constraint, const experiment::Task& task, const ProtocolSettings& place) {
   if (constraint.kind != constraints::ConstraintKind::Curve) return norm(place.target - place.start);
-  constexpr int kParts = 200;
-  double length = 0;
-  Vec3 before = place.start;
-  for (int i = 1; i <= kParts; ++i) {
-    const Vec3 r = constraints::evaluate(constraint.curve, task.start[0] + (task.target[0] - task.start[0]) * i / kParts).r;
-    length += norm(r - before);
-    before = r;
-  }
-  return length;
+  return constraints::ArcLength(constraint, task.start[0], task.target[0]).length();
 }
 
 }  // namespace

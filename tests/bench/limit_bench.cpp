@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/bench/peers.h"
 #include "sim/bench/suite.h"
 #include "tests/bench/limit_forms.h"
@@ -22,7 +23,7 @@ int main(int argc, char** argv) {
     if (!wanted || !limit) continue;
     std::vector<Contender> contenders{*limit, makeOdeintRk4(scene)};
     try {
-      contenders.push_back(makePlantContender(scene, "auto", kTick, 0));
+      contenders.push_back(makePlantContender(scene, "auto", kTickSeconds, 0));
     } catch (const Error& e) {
       fmt::print(stderr, "{}: auto refused: {}\n", scene.name, e.what());
     }

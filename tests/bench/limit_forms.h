@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "base/ticks.h"
 #include "sim/bench/contender.h"
 
 namespace reachlab::bench {
@@ -18,7 +19,7 @@ Contender makeSmallLimit(const BenchScene& scene);      // S6: RK4; S7d, S7e: RK
 template <class Form>
 Contender makeLimitContender(const BenchScene& scene, const Form& form) {
   const auto shared = std::make_shared<const Form>(form);
-  const Segments segments = makeSegments(scene, kTick);
+  const Segments segments = makeSegments(scene, kTickSeconds);
   Contender out;
   out.method = "limit";
   out.run = [shared, segments](Trajectory* trajectory) {

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/bench/linear_reference.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
@@ -85,7 +86,7 @@ struct ModalForm {
 // Gains of w^2-oscillator q'' + w^2 q = g h over dt for h = s^k, by the series of its response from rest (w dt < 1, sums to rounding).
 template <int N>
 Contender makeModal(const BenchScene& scene) {
-  const double k = scene.experiment.object.stiffness[0], m = scene.experiment.object.masses[0], dt = kTick;
+  const double k = scene.experiment.object.stiffness[0], m = scene.experiment.object.masses[0], dt = kTickSeconds;
   ModalForm<N> form;
   form.x0 = scene.hand.from.x;
   form.shape.resize(N * N);
@@ -118,7 +119,7 @@ Contender makeModal(const BenchScene& scene) {
 }  // namespace
 
 Contender makeExactLimit(const BenchScene& scene) {
-  const ExactStep exact = computeExactStep(scene, kTick);
+  const ExactStep exact = computeExactStep(scene, kTickSeconds);
   ExactForm form;
   form.x0 = scene.hand.from.x;
   for (int i = 0; i < ExactForm::kStates; ++i)

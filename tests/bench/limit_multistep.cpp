@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/ticks.h"
 #include "sim/bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
@@ -24,7 +25,7 @@ struct AdamsForm {
       return;
     }
     const Vec3 force = driving(hand);
-    static constexpr double h = kTick / 1440;
+    static constexpr double h = kTickSeconds / 1440;
     static constexpr double predict[kOrder] = {4277 * h, -7923 * h, 9982 * h, -7298 * h, 2877 * h, -475 * h};
     static constexpr double correct[kOrder] = {475 * h, 1427 * h, -798 * h, 482 * h, -173 * h, 27 * h};
     T qp[K], vp[K], a[K];
@@ -74,7 +75,7 @@ struct AdamsForm {
   }
   void startUp(const dynamics::HandSegment& hand) {
     constexpr int kParts = 4;
-    constexpr double h = kTick / kParts;
+    constexpr double h = kTickSeconds / kParts;
     T a[K];
     if (started == 0) {
       model.rate(q, v, driving(hand, 0), a);

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/ticks.h"
 #include "sim/bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
 
@@ -13,7 +14,7 @@ struct ParallelForm {
   double y[4]{};
 
   void step(const dynamics::HandSegment& hand) {
-    constexpr double h = kTick;
+    constexpr double h = kTickSeconds;
     const auto& p = hand.position;
     const double begin = p[0].x - x0;
     const double middle = begin + 0.5 * (p[1].x + 0.5 * (p[2].x + 0.5 * (p[3].x + 0.5 * (p[4].x + 0.5 * p[5].x))));
@@ -45,7 +46,7 @@ struct SphereForm {
   Vec3 r, v;
 
   void step(const dynamics::HandSegment&) {
-    constexpr double h = kTick;
+    constexpr double h = kTickSeconds;
     const double w2 = -dot(v, v) * inverse;
     const Vec3 a1 = w2 * r, r2 = r + h / 2 * v, v2 = v + h / 2 * a1;
     const Vec3 a2 = w2 * r2, r3 = r + h / 2 * v2, v3 = v + h / 2 * a2;

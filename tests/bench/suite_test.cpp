@@ -1,3 +1,4 @@
+#include "base/ticks.h"
 #include "sim/bench/suite.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ TEST(Suite, AutoKeepsItsPromiseOnEveryScene) {
   for (const auto& [name, bound] : promised) {
     SCOPED_TRACE(name);
     const BenchScene scene = benchScene(name);
-    const Contender contender = makePlantContender(scene, "auto", kTick, 0);
+    const Contender contender = makePlantContender(scene, "auto", kTickSeconds, 0);
     Trajectory trajectory;
     contender.run(&trajectory);
     ASSERT_EQ(trajectory.failure, "");

@@ -2,32 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "test_paths.h"
+#include "tests/until.h"
 
 namespace reachlab::devices {
 namespace {
 
-using namespace std::chrono_literals;
+using reachlab::test::until;
 
 std::string textOf(const std::string& file) {
   std::ifstream in(std::string(REACHLAB_SOURCE_DIR "/") + file);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
-}
-
-template <typename Condition>
-bool until(Condition&& condition) {
-  for (int i = 0; i < 20'000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(1ms);
-  }
-  return false;
 }
 
 TEST(ExampleDriver, IsTheOneOfTheManualsPage) {

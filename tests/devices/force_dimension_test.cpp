@@ -1,28 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "base/error.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
 #include "tests/devices/fakes/fake_dhd.h"
+#include "tests/until.h"
 
 /// The driver behind its I/O thread; waits are for events.
 namespace reachlab::devices {
 namespace {
 
+using reachlab::test::until;
 using test::fakeDhd;
-using namespace std::chrono_literals;
-
-template <typename Condition>
-bool until(Condition&& condition) {
-  for (int i = 0; i < 20'000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(1ms);
-  }
-  return false;
-}
 
 class ForceDimension : public ::testing::Test {
  protected:

@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "devices/replay/natural_spline.h"
 #include "test_paths.h"
 
 namespace reachlab::devices {
@@ -124,12 +123,20 @@ TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}), ResourceError);
   EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
-  for (const char* rows :
-       {"", "0,0,0,0\n", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
+  EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), UsageError) << "one place is no reach";
+  for (const char* rows : {"", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
     EXPECT_THROW(readReach(write("bad.csv", header + rows)), UsageError) << rows;
   EXPECT_THROW(readReach(write("bad.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n")), UsageError);
   const std::string still = write("still.csv", header + "0,1,1,1\n1,1,1,1\n");
   EXPECT_THROW(layOnto(readReach(still), {}, {1, 0, 0}), UsageError);
+}
+
+// Spreadsheets write a byte order mark, spaces and CRLF; recordings have further columns.
+TEST_F(Files, TakesItsFourColumnsFromAnyTableThatNamesThem) {
+  const RecordedReach reach =
+      readReach(write("wide.csv", "\xef\xbb\xbfz_m, trial, time_s, x_m, y_m\r\n3, a, 0, 1, 2\r\n\r\n6, a, 0.5, 4, 5\r\n"));
+  EXPECT_EQ(reach.time, (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(reach.position, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
 }
 
 TEST_F(Files, NamesFileAndLine) {
@@ -140,35 +147,6 @@ TEST_F(Files, NamesFileAndLine) {
   } catch (const UsageError& error) {
     EXPECT_EQ(std::string(error.what()).rfind(file + ":3:", 0), 0u) << error.what();
   }
-}
-
-// A cubic that bends at neither end is its own natural spline: x^3 - 3 x^2 on [0, 1] has the second derivative 6 x - 6, zero at 1
-// only, so a whole one is put together from sin, and the error falls as the fourth power of the spacing.
-TEST(NaturalSpline, ErrorFallsWithTheFourthPowerOfTheSpacing) {
-  const auto errorWith = [](int parts) {
-    std::vector<double> time;
-    std::vector<Vec3> value;
-    for (int i = 0; i <= parts; ++i) {
-      time.push_back(3.14159265358979323846 * i / parts);
-      value.push_back({std::sin(time.back()), 0, 0});
-    }
-    const NaturalSpline spline(time, value);
-    double worst = 0;
-    for (int i = 0; i <= 1000; ++i) {
-      const double t = time.back() * i / 1000;
-      worst = std::max(worst, std::abs(spline.at(t).x - std::sin(t)));
-    }
-    return worst;
-  };
-  EXPECT_NEAR(errorWith(10) / errorWith(20), 16, 1) << "the next order adds a few per cent";
-}
-
-TEST(NaturalSpline, GoesThroughItsPointsAndIsStraightThroughTwo) {
-  const std::vector<double> time{0, 0.1, 0.5, 0.55, 2};
-  const std::vector<Vec3> value{{0, 1, 0}, {2, 0, 1}, {1, 1, 1}, {0, 5, 0}, {3, 3, 3}};
-  const NaturalSpline spline(time, value);
-  for (std::size_t i = 0; i < time.size(); ++i) EXPECT_NEAR(norm(spline.at(time[i]) - value[i]), 0, 1e-12);
-  EXPECT_NEAR(NaturalSpline({0, 2}, {{0, 0, 0}, {4, 0, 0}}).at(0.5).x, 1, 1e-15);
 }
 
 }  // namespace

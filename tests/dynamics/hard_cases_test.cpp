@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/minimum_jerk.h"
 #include "base/error.h"
 #include "sim/dynamics/hand_path.h"
 #include "tests/dynamics/make_experiment.h"
@@ -106,7 +107,7 @@ TEST(HardCases, DampersThatBreakRk4AreTakenByAuto) {
   const Scene scene = compileScene(e), fine = compileScene(e, {"adaptive", 1e-4, 0});
   EXPECT_EQ(scene.choice.method, "stiff");
   const auto hand = [](double t) {
-    const double s = 0.3 + minJerk(t / 1.35).s, rate = minJerk(t / 1.35).rate / 1.35;
+    const double s = 0.3 + heldMinimumJerk(t / 1.35).value, rate = heldMinimumJerk(t / 1.35).rate / 1.35;
     return HandSample{{0.1 * std::cos(s), 0.06 * std::sin(s), 0}, {-0.1 * std::sin(s) * rate, 0.06 * std::cos(s) * rate, 0}, true};
   };
   for (const Scene* s : {&scene, &fine}) s->plant->placeAtRest(std::array{0.3});

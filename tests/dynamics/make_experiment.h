@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/minimum_jerk.h"
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
 
@@ -33,8 +34,8 @@ inline experiment::Experiment onSurface(const std::string& x, const std::string&
 
 /// 0.2 m along x in 1.35 s from the line's start, then held.
 inline HandSample reachAt(double t) {
-  const MinJerk law = minJerk(t / 1.35);
-  return {{-0.1 + 0.2 * law.s, 0, 0}, {0.2 * law.rate / 1.35, 0, 0}, true};
+  const MinimumJerk law = heldMinimumJerk(t / 1.35);
+  return {{-0.1 + 0.2 * law.value, 0, 0}, {0.2 * law.rate / 1.35, 0, 0}, true};
 }
 
 /// Steps of 1 ms with a hand given as a function; the first status that is not Ok, or Ok.

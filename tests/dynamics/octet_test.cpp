@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "base/minimum_jerk.h"
 #include "sim/dynamics/curve_system.h"
 #include "sim/dynamics/octet_system.h"
 #include "tests/dynamics/make_experiment.h"
@@ -83,7 +84,7 @@ TEST(Abm, SparesTheSecondRightHandSideWhereAChainsFastestModeIsAFourteenthOfARad
   // sqrt(4 k / m) dt = 0.063 and 0.073 with the coupling: beyond what PEC without the corrected rates bears.
   const experiment::Experiment e = onCurve(makeChain(5, 0.6, 800), "0.1*cos(phi)", "0.06*sin(phi)", "0");
   const auto hand = [](double t) {
-    const double s = minJerk(t / 1.35).s;
+    const double s = heldMinimumJerk(t / 1.35).value;
     return HandSample{{0.1 * std::cos(s), 0.06 * std::sin(s), 0}, {}, true};
   };
   const Scene abm = compileScene(e, {"abm", 1e-3, 0}), sure = compileScene(e, {"adaptive", 1e-3, 0});

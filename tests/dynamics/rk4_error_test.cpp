@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/minimum_jerk.h"
 #include "constraints/definition.h"
 #include "tests/dynamics/make_experiment.h"
 
@@ -23,8 +24,8 @@ double trueError(const experiment::Experiment& e) {
   };
   const Vec3 start = at(task.start), chord = at(task.target) - start;
   const HandFunction hand = [&](double t) {
-    const MinJerk law = minJerk(t / task.duration);
-    return HandSample{start + law.s * chord, (law.rate / task.duration) * chord, true};
+    const MinimumJerk law = heldMinimumJerk(t / task.duration);
+    return HandSample{start + law.value * chord, (law.rate / task.duration) * chord, true};
   };
   double most = 0;
   std::vector<MassState> a(1), b(1);

@@ -10,11 +10,13 @@
 #include "base/os.h"
 #include "sim/haptics/haptic_loop.h"
 #include "sim/haptics/run_conductor.h"
+#include "tests/until.h"
 
 /// The loop on devices that fail it. Waits are for events, never for a time to be short enough.
 namespace reachlab::haptics {
 namespace {
 
+using reachlab::test::until;
 using namespace std::chrono_literals;
 
 // A hand that goes along x at a steady 0.1 m/s as soon as force may be felt, and a device that can be made to hang.
@@ -87,14 +89,6 @@ class LoopSafety : public ::testing::Test {
     loop->start();
     loop->tryCommand(trial::Command::NextTrial);
     ASSERT_TRUE(until([&] { return device->lastForce > 1.2; }));
-  }
-  template <typename Condition>
-  static bool until(Condition&& condition) {
-    for (int i = 0; i < 20'000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(1ms);
-    }
-    return false;
   }
 
   experiment::Experiment experiment;

@@ -15,21 +15,14 @@
 #include "devices/registry.h"
 #include "tests/cli/program.h"
 #include "tests/hidraw/hidraw_bed.h"
+#include "tests/until.h"
 
 /// The unmodified program and the real hidapi on devices that umockdev shows: run under umockdev-wrapper. Waits are for events.
 namespace reachlab::devices {
 namespace {
 
+using reachlab::test::until;
 using namespace std::chrono_literals;
-
-template <typename Condition>
-bool until(Condition&& condition) {
-  for (int i = 0; i < 20'000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(1ms);
-  }
-  return false;
-}
 
 /// The arm's firmware: report, answer, report, strictly in turn; motors off when no answer came for half a second. Its handle is moved by
 /// a hand of its own along the world's x, 20 cm in 1.35 s by a minimum-jerk law, back and forth with rests.

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/ticks.h"
 #include "base/fault.h"
 #include "base/json_tree.h"
 #include "sim/record/replay.h"
@@ -306,8 +307,8 @@ TEST_F(InRealTime, ATrialThatMissedTooMuchIsInterruptedAndPutUpOnceMoreIfTheBloc
   for (std::size_t i = 0; i < missed.size(); ++i) {
     const record::RecordedTrial& trial = log.trials()[i];
     EXPECT_EQ(trial.missedTicks, missed[i]) << i;
-    const double ticks = static_cast<double>(trial.result.endTick - trial.goTick) * trial::kTickSeconds;
-    EXPECT_NEAR(trial.elapsed, ticks + static_cast<double>(missed[i]) * trial::kTickSeconds, 1e-3) << "by the clock, within a tick";
+    const double ticks = static_cast<double>(trial.result.endTick - trial.goTick) * kTickSeconds;
+    EXPECT_NEAR(trial.elapsed, ticks + static_cast<double>(missed[i]) * kTickSeconds, 1e-3) << "by the clock, within a tick";
   }
   EXPECT_TRUE(record::replayRun(log).identical()) << record::replayRun(log).firstDifference;
   EXPECT_EQ(readProgress(request_.place, unreadable).at(0).done, (std::set<int>{0, 1, 2}))

@@ -6,9 +6,9 @@ namespace reachlab::gui::plot {
 namespace {
 
 // A hand that moves just as `plan` says, sampled as the window samples.
-std::vector<TracePoint> traceOf(const predict::Prediction& plan, const PathDirection& path) {
+std::vector<TracePoint> traceOf(const predict::Prediction& plan, const constraints::TaskPath& path) {
   std::vector<TracePoint> trace;
-  const Vec3 along = path.at(0);
+  const Vec3 along = path.directionAt(0);
   for (double t = -0.3; t < plan.duration + 0.3; t += 1 / TraceSink::kRate) {
     TracePoint p;
     const predict::PredictedHand hand = plan.handAt(std::clamp(t, 0.0, plan.duration));
@@ -22,7 +22,7 @@ std::vector<TracePoint> traceOf(const predict::Prediction& plan, const PathDirec
 
 TEST(HandErrors, AreLeastForTheCriterionThatTheHandFollows) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  const PathDirection path(experiment, constraints::makeConstraint(experiment.constraint));
+  const constraints::TaskPath path(constraints::makeConstraint(experiment.constraint), experiment.task->start, experiment.task->target);
   const auto forecasts = forecastAll(experiment);
   ASSERT_EQ(forecasts.size(), static_cast<std::size_t>(predict::kCriterionCount));
   const auto errors = computeHandErrors(traceOf(*forecasts[0].prediction, path), path, forecasts, *experiment.task);
@@ -37,7 +37,7 @@ TEST(HandErrors, AreLeastForTheCriterionThatTheHandFollows) {
 
 TEST(HandErrors, AreNotMadeUpWithoutAMovement) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  const PathDirection path(experiment, constraints::makeConstraint(experiment.constraint));
+  const constraints::TaskPath path(constraints::makeConstraint(experiment.constraint), experiment.task->start, experiment.task->target);
   const std::vector<TracePoint> still(200);
   for (const auto& error : computeHandErrors(still, path, forecastAll(experiment), *experiment.task)) EXPECT_FALSE(error.has_value());
 }
@@ -49,10 +49,10 @@ TEST(PathDirection, FollowsACurveTowardsTheTarget) {
   e.task = experiment::Task{};
   e.task->start = {3};
   e.task->target = {1};
-  const PathDirection path(e, constraints::makeConstraint(e.constraint));
+  const constraints::TaskPath path(constraints::makeConstraint(e.constraint), e.task->start, e.task->target);
   const Vec3 v{0, 0.1 * std::sin(2.0), -0.06 * std::cos(2.0)};  // towards falling phi
-  EXPECT_NEAR(path.along(v, 2), norm(v), 1e-15);
-  EXPECT_NEAR(path.along(-v, 2), -norm(v), 1e-15);
+  EXPECT_NEAR(path.velocityAlong(v, 2), norm(v), 1e-15);
+  EXPECT_NEAR(path.velocityAlong(-v, 2), -norm(v), 1e-15);
 }
 
 }  // namespace
