@@ -7,6 +7,7 @@
 
 #include "base/vec3.h"
 #include "sim/dynamics/plant.h"
+#include "sim/haptics/hand_guard.h"
 
 namespace reachlab::haptics {
 
@@ -37,8 +38,17 @@ struct DeviceInfo {
   double silenceLimit = 0.02;     // [s] longest time without a new report while force is felt
   int degreesOfFreedom = 3;       // of the force; of the place where there is none
   double rate = 1000;             // [1/s] of its reports
-  double workspaceRadius = 0;     // [m] about the origin; 0: unknown
-  std::string secondPath;         // what `stopForce` does, in words; empty: nothing, the device's own watchdog is relied on
+  double workspaceRadius = 0;     // [m] about `workspaceCentre`; 0: unknown
+  // As a body, for what is predicted of it; 0: unknown.
+  double apparentMass = 0;     // [kg] at the handle
+  double coulombFriction = 0;  // [N] to move it backwards
+  double viscosity = 0;        // [N s/m]
+  double resolution = 0;       // [m]
+  double stylusMass = 0;       // [kg] that hangs on it and is held by `guards.compensation`
+  Vec3 workspaceCentre;        // [m]
+  GuardSettings guards;
+  std::string mapping;     // device to world, as JSON (devices/mapping/mapping.h); empty: as it is
+  std::string secondPath;  // what `stopForce` does, in words; empty: nothing, the device's own watchdog is relied on
 };
 
 /// A trial's cue to a hand that is simulated or replayed.

@@ -91,15 +91,17 @@ DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& c
   if (!context.engaged || first) return DeviceFault::None;
   if (jumped) return DeviceFault::Jump;
   if (speed > speedLimit_) return DeviceFault::Speed;
-  if (context.force > kFeltForce && context.nowNs - reportNs_ > silenceNs_) return DeviceFault::Silent;
+  silentNow_ = context.nowNs - reportNs_ >= silenceNs_;
+  if (context.force > kFeltForce && silentNow_) return DeviceFault::Silent;
   return DeviceFault::None;
 }
 
 DeviceSample DeviceWatch::look(DeviceSample sample, const WatchContext& context) noexcept {
   if (!guards_) return sample;
+  silentNow_ = false;
   if (sample.valid && isFinite(sample.position)) latch(judge(sample, context));
   else seen_ = 0;
-  if (fault_ != DeviceFault::None || sample.released) sample.valid = false;
+  if (fault_ != DeviceFault::None || sample.released || silentNow_) sample.valid = false;
   return sample;
 }
 

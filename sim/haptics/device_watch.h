@@ -51,6 +51,7 @@ class DeviceWatch {
 
  private:
   double speedOver(const Vec3& position, std::int64_t nowNs) noexcept;
+  bool silentNow_ = false;  // no report for the device's bound: not believed, whatever force is felt
   DeviceFault judge(const DeviceSample& sample, const WatchContext& context) noexcept;
 
   bool guards_;

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "base/vec3.h"
 
 namespace reachlab::haptics {
@@ -32,6 +34,8 @@ class ForceSafety {
   void rearm() noexcept { latched_ = false; }
   bool latched() const noexcept { return latched_; }
   double limit() const noexcept { return limits_.instantaneous; }
+  /// What was done to the latest force: bits of `intervention` (hand_guard.h).
+  std::uint8_t interventions() const noexcept { return interventions_; }
   /// Share of the budget that is used up: 1 where only the continuous force is left.
   double heat() const noexcept;
 
@@ -42,6 +46,7 @@ class ForceSafety {
   double rampTicks_ = 0;  // since force was allowed again
   double heat_ = 0;       // [N^2]
   bool latched_ = false;
+  std::uint8_t interventions_ = 0;
   Vec3 last_;  // [N] what the device got at the tick before
 };
 

@@ -79,7 +79,10 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   if (!enterDevice(Where::Idle)) return false;
   input.device = device->read();
   if (!leaveDevice()) return false;
-  if (info.rendersForce) input.device = watched(input.device, missed, measuredNs);
+  if (info.rendersForce) {
+    input.device = watched(input.device, missed, measuredNs);
+    input.deviceFault = fault.load(std::memory_order_acquire) != DeviceFault::None;
+  }
   Order order;
   if (commands.tryPop(order)) {
     input.command = order.command;

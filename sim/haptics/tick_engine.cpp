@@ -32,7 +32,7 @@ ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOpti
 }  // namespace
 
 EngineOptions engineOptions(const DeviceInfo& device) {
-  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds};
+  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds, device.guards};
 }
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOptions& options)
@@ -41,8 +41,9 @@ TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOpt
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), start_(taskOf(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
       virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump), safety_(limitsFor(experiment, options)),
-      fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
+      guards_(options.guards), fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
+  state_.rendersForce = options.rendersForce;
   if (virtualHand_) settings_.startTimeoutTicks = settings_.timeoutTicks;
   lastSeen_ = settings_.start;
   putUp();
@@ -59,6 +60,7 @@ void TickEngine::putUp() noexcept {
   handBroken_ = clamped_ = false;
   forceStatus_ = dynamics::StepStatus::Ok;
   safety_.rearm();
+  port_.reset();
 }
 
 dynamics::HandSample TickEngine::takeHand(const TickInput& input) noexcept {
@@ -146,6 +148,7 @@ void TickEngine::tick(const TickInput& input) noexcept {
   if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
 
   exertForce(hand, status, input.missedTicks);
+  state_.deviceState = deviceState(input);
   state_.hand = hand;
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
@@ -153,6 +156,26 @@ void TickEngine::tick(const TickInput& input) noexcept {
   state_.trialTime = protocol_.phase == trial::Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * kTickSeconds
                                                              : protocol_.result.movementTime;
   state_.result = protocol_.result;
+}
+
+// What acts beside the object: the workspace's wall, and the passivity controller where it is wanted.
+Vec3 TickEngine::guardForce(const dynamics::HandSample& hand, bool engaged) noexcept {
+  state_.interventions = 0;
+  if (hand.valid) port_.observe(state_.device.position);
+  state_.portEnergy = port_.energy();
+  if (!engaged) return {};
+  const Vec3 wall = wallForce(guards_, state_.device.position, hand.velocity);
+  if (!(wall == Vec3{})) state_.interventions |= intervention::kWall;
+  const Vec3 dissipation = guards_.passivityControl ? port_.control(hand.velocity) : Vec3{};
+  if (!(dissipation == Vec3{})) state_.interventions |= intervention::kPassivity;
+  return wall + dissipation;
+}
+
+DeviceState TickEngine::deviceState(const TickInput& input) const noexcept {
+  if (input.deviceFault || safety_.latched()) return DeviceState::Fault;
+  if (!input.device.valid && !input.device.released) return DeviceState::Off;
+  if (trial::isEngaged(protocol_.phase)) return DeviceState::Engaged;
+  return protocol_.phase == trial::Phase::Waiting ? DeviceState::Armed : DeviceState::Homed;
 }
 
 void TickEngine::exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept {
@@ -163,9 +186,17 @@ void TickEngine::exertForce(const dynamics::HandSample& hand, dynamics::StepStat
   state_.energy = engaged && held ? plant.energy(hand) : 0;
   if (!isFinite(state_.couplingForce)) forceStatus_ = status = dynamics::StepStatus::NotFinite;
   state_.feedbackForce = -state_.couplingForce;
-  state_.deviceForce = safety_.limit(state_.feedbackForce, engaged, held && missedTicks <= kGapTicks);
+  const Vec3 added = guardForce(hand, engaged && held);
+  const bool weighs = !(guards_.compensation == Vec3{});
+  Vec3 asked = state_.feedbackForce;
+  if (!(added == Vec3{})) asked += added;
+  if (weighs) asked += guards_.compensation;
+  state_.deviceForce = safety_.limit(asked, engaged || weighs, held && missedTicks <= kGapTicks);
+  port_.render(weighs && !(state_.deviceForce == Vec3{}) ? state_.deviceForce - guards_.compensation : state_.deviceForce);
+  state_.clamped = !(state_.deviceForce == asked);
+  state_.interventions |= safety_.interventions();
   clamped_ = norm(state_.feedbackForce) > safety_.limit();
-  if (engaged && !(state_.deviceForce == state_.feedbackForce)) ++state_.faults.clampedTicks;
+  if (engaged && state_.clamped) ++state_.faults.clampedTicks;
   if (engaged) {
     ++state_.faults.steps[static_cast<std::size_t>(status)];
     state_.body = plant.body();

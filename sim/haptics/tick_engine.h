@@ -20,6 +20,7 @@ struct TickInput {
   trial::PlannedTrial planned;    // of the trial that NextTrial puts up
   std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
   std::int64_t measuredNs = 0;    // for the record only
+  bool deviceFault = false;       // latched on the device; its samples are then not valid
 };
 
 struct EngineOptions {
@@ -30,6 +31,7 @@ struct EngineOptions {
   bool rendersForce = false;
   double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
   double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
+  GuardSettings guards = {};   // DeviceInfo::guards
 };
 EngineOptions engineOptions(const DeviceInfo& device);
 
@@ -67,6 +69,8 @@ class TickEngine {
   dynamics::StepStatus stepObject(const dynamics::HandSample& hand) noexcept;
   void placeFixedPoint(dynamics::HandSample& hand) noexcept;
   void exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept;
+  Vec3 guardForce(const dynamics::HandSample& hand, bool engaged) noexcept;
+  DeviceState deviceState(const TickInput& input) const noexcept;
 
   dynamics::Scene scene_;
   std::vector<double> start_;  // constraint parameters
@@ -75,6 +79,8 @@ class TickEngine {
   VelocityEstimator estimator_;
   dynamics::HandPath path_;
   ForceSafety safety_;
+  GuardSettings guards_;
+  PassivityObserver port_;
   Vec3 fpInBody_;  // [m] the FP from mass 1 as the object is put up
   trial::ProtocolState protocol_;
   Vec3 fpOffset_;            // [m] HIP minus FP at arming, fixed in world axes

@@ -36,8 +36,13 @@ struct TickState {
   Vec3 couplingForce;         // [N] on the object, unclamped
   Vec3 feedbackForce;         // [N] to the device, unclamped (the negative)
   Vec3 deviceForce;           // [N] to the device, after the safety layer
+  bool clamped = false;       // the safety layer gave less than it was asked for
   double energy = 0;          // [J]
-  trial::TrialResult result;  // valid in phase Done
+  double portEnergy = 0;      // [J] given by the hand to the program in this trial, as the passivity observer counts
+  bool rendersForce = false;  // the device: what follows is of interest
+  DeviceState deviceState = DeviceState::Off;
+  std::uint8_t interventions = 0;  // bits of `intervention`
+  trial::TrialResult result;       // valid in phase Done
   LoopFaults faults;
   std::int32_t massCount = 0;
   dynamics::BodyState body;

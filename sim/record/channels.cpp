@@ -65,8 +65,9 @@ std::size_t ChannelTable::indexOf(const std::string& name) const {
   return static_cast<std::size_t>(found - channels.begin());
 }
 
-ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount) {
+ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount, bool portEnergy) {
   ChannelTable table;
+  table.portEnergy = portEnergy;
   table.massCount = static_cast<int>(experiment.object.masses.size());
   table.parameterCount = parameterCount;
   table.body = experiment.object.kind == experiment::ObjectKind::Body;
@@ -86,11 +87,15 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   addScalar(out, {"valid", "valid", "MISC", "n/a", "n/a", "1 while the device delivers samples"});
   for (int mass = 1; mass <= table.massCount; ++mass) addMass(out, mass, parameterCount);
   if (table.body) addBody(out);
+  if (portEnergy)
+    addScalar(out, {"port_energy", "port_energy_j", "MISC", "hand", "J",
+                    "energy that the hand has given to the program in this trial (passivity observer); below 0 it was given some"});
   return table;
 }
 
-std::size_t rowWidth(int massCount, int parameterCount, bool body) {
-  return kTrialColumn + 3 + static_cast<std::size_t>(massCount) * static_cast<std::size_t>(9 + 2 * parameterCount) + (body ? 7 : 0);
+std::size_t rowWidth(int massCount, int parameterCount, bool body, bool portEnergy) {
+  return kTrialColumn + 3 + static_cast<std::size_t>(massCount) * static_cast<std::size_t>(9 + 2 * parameterCount) + (body ? 7 : 0) +
+         (portEnergy ? 1 : 0);
 }
 
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept {
@@ -117,8 +122,9 @@ void fillRow(const ChannelTable& table, const haptics::TickState& state, double*
   }
   if (table.body) {
     for (const double part : state.body.orientation) *at++ = part;
-    putVector(at, state.body.angularVelocity);
+    at = putVector(at, state.body.angularVelocity);
   }
+  if (table.portEnergy) *at = state.portEnergy;
 }
 
 void numberTrial(const ChannelTable&, int firstTrial, double* row) noexcept {

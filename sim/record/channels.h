@@ -23,8 +23,9 @@ struct Channel {
 struct ChannelTable {
   std::vector<Channel> channels;
   int massCount = 0;
-  int parameterCount = 0;  // constraint parameters of a mass: 0, 1 or 2
-  bool body = false;       // orientation and angular velocity follow
+  int parameterCount = 0;   // constraint parameters of a mass: 0, 1 or 2
+  bool body = false;        // orientation and angular velocity follow
+  bool portEnergy = false;  // of a device that renders force: the passivity observer's energy is the last column
 
   std::size_t size() const { return channels.size(); }
   /// Index of a channel; throws UsageError when there is none of that name.
@@ -32,10 +33,10 @@ struct ChannelTable {
 };
 
 /// `parameterCount` is Constraint::parameterCount() of the scene's constraint.
-ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount);
+ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount, bool portEnergy = false);
 
 /// Numbers in a row of such a table.
-std::size_t rowWidth(int massCount, int parameterCount, bool body);
+std::size_t rowWidth(int massCount, int parameterCount, bool body, bool portEnergy = false);
 
 /// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic
 /// thread; never allocates.

@@ -16,6 +16,8 @@ std::string_view nameOf(EventKind kind) {
     case EventKind::TicksMissed: return "ticks_missed";
     case EventKind::StepFault: return "step_fault";
     case EventKind::Note: return "note";
+    case EventKind::DeviceState: return "device_state";
+    case EventKind::Intervention: return "intervention";
   }
   return "unknown";
 }

@@ -72,8 +72,8 @@ void compareTrials(const RunLog& log, Replay& replay) {
 Replay replayRun(const RunLog& log) {
   const RunConfiguration& c = log.configuration();
   const experiment::Experiment experiment = recordedExperiment(c);
-  haptics::TickEngine engine(
-      experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds});
+  haptics::TickEngine engine(experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce,
+                                                                c.deviceThermalSeconds, c.guards});
   const ChannelTable scene = makeChannelTable(experiment, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body)
     throw UsageError(fmt::format("{}: table: has not the masses of its experiment, so the run cannot be simulated again", log.path()));

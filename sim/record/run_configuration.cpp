@@ -62,10 +62,40 @@ std::vector<trial::PlannedTrial> trialsFrom(const json& list) {
   return trials;
 }
 
+json toJson(const Vec3& v) { return json::array({v.x, v.y, v.z}); }
+
+Vec3 vectorFrom(const json& j, const char* name) {
+  const json& list = listOf(j, name, 3);
+  const bool good = list.size() == 3 && std::all_of(list.begin(), list.end(), [](const json& x) { return x.is_number(); });
+  if (!good) throw UsageError(fmt::format("{}: is not three numbers", name));
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
+
+json guardsToJson(const haptics::GuardSettings& g) {
+  return {{"wall_centre_m", toJson(g.wallCentre)},     {"wall_radius_m", g.wallRadius},
+          {"wall_stiffness_n_per_m", g.wallStiffness}, {"wall_damping_n_s_per_m", g.wallDamping},
+          {"compensation_n", toJson(g.compensation)},  {"passivity_control", g.passivityControl}};
+}
+
+haptics::GuardSettings guardsFrom(const json& j) {
+  haptics::GuardSettings g;
+  g.wallCentre = vectorFrom(j, "wall_centre_m");
+  g.wallRadius = numberOf(j, "wall_radius_m", 0, 1e3);
+  g.wallStiffness = numberOf(j, "wall_stiffness_n_per_m", 0, 1e6);
+  g.wallDamping = numberOf(j, "wall_damping_n_s_per_m", 0, 1e6);
+  g.compensation = vectorFrom(j, "compensation_n");
+  g.passivityControl = flagOf(j, "passivity_control");
+  return g;
+}
+
 json tableToJson(const ChannelTable& table) {
   json channels = json::array();
   for (const Channel& channel : table.channels) channels.push_back(toJson(channel));
-  return {{"mass_count", table.massCount}, {"parameter_count", table.parameterCount}, {"body", table.body}, {"channels", channels}};
+  return {{"mass_count", table.massCount},
+          {"parameter_count", table.parameterCount},
+          {"body", table.body},
+          {"port_energy", table.portEnergy},
+          {"channels", channels}};
 }
 
 ChannelTable tableFrom(const json& j) {
@@ -73,6 +103,7 @@ ChannelTable tableFrom(const json& j) {
   table.massCount = static_cast<int>(wholeOf(j, "mass_count", 1, experiment::kMaxMasses));
   table.parameterCount = static_cast<int>(wholeOf(j, "parameter_count", 0, 3));
   table.body = flagOf(j, "body");
+  table.portEnergy = j.contains("port_energy") && flagOf(j, "port_energy");
   for (const json& channel : listOf(j, "channels", kMostChannels)) table.channels.push_back(channelFrom(channel));
   return table;
 }
@@ -112,6 +143,8 @@ std::string toJson(const RunConfiguration& c) {
       {"device_continuous_force_n", c.deviceContinuousForce},
       {"device_thermal_s", c.deviceThermalSeconds},
       {"timing", {{"max_missed_ticks", c.timing.maxMissedTicks}, {"max_gap_s", c.timing.maxGap}}},
+      {"guards", guardsToJson(c.guards)},
+      {"device_mapping", c.deviceMapping},
       {"method", c.method},
       {"method_reason", c.methodReason},
       {"software_version", c.softwareVersion},
@@ -163,6 +196,8 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     c.deviceContinuousForce = j.contains("device_continuous_force_n") ? numberOf(j, "device_continuous_force_n", 0, 1e6) : 0;
     c.deviceThermalSeconds = j.contains("device_thermal_s") ? numberOf(j, "device_thermal_s", 1e-3, 1e6) : 10;
     if (j.contains("timing")) c.timing = timingFrom(memberOf(j, "timing"));
+    if (j.contains("guards")) c.guards = guardsFrom(memberOf(j, "guards"));
+    if (j.contains("device_mapping")) c.deviceMapping = textOf(j, "device_mapping");
     c.method = textOf(j, "method");
     c.methodReason = textOf(j, "method_reason");
     c.softwareVersion = textOf(j, "software_version");
@@ -192,7 +227,7 @@ void checkConfiguration(const RunConfiguration& c) {
   checkLabel(c.subject, "subject");
   checkLabel(c.session, "session");
   checkLabel(c.task, "task");
-  const std::size_t columns = rowWidth(c.table.massCount, c.table.parameterCount, c.table.body);
+  const std::size_t columns = rowWidth(c.table.massCount, c.table.parameterCount, c.table.body, c.table.portEnergy);
   if (c.table.size() != columns)
     throw UsageError(fmt::format("table: has {} channels; allowed: {}, as its masses have", c.table.size(), columns));
 }

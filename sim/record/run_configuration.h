@@ -44,6 +44,8 @@ struct RunConfiguration {
   double deviceContinuousForce = 0;  // [N] 0: no budget was kept
   double deviceThermalSeconds = 10;  // [s]
   experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by; logs before 2026-11-22 had none
+  haptics::GuardSettings guards;                                  // wall, compensation, passivity control
+  std::string deviceMapping;                                      // DeviceInfo::mapping
   std::string method, methodReason;                               // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds

@@ -37,8 +37,10 @@ enum class EventKind : std::uint8_t {
   DeviceLost = 8,
   DeviceBack = 9,
   TicksMissed = 10,
-  StepFault = 11,  // a step did not end well; `value` is its StepStatus
-  Note = 12,       // by the experimenter
+  StepFault = 11,     // a step did not end well; `value` is its StepStatus
+  Note = 12,          // by the experimenter
+  DeviceState = 13,   // of a device that renders force; `value` is its haptics::DeviceState, `text` its name
+  Intervention = 14,  // of the safety layer, `text` its name; `value` 1 when it begins, 0 when it has ended
 };
 std::string_view nameOf(EventKind kind);
 

@@ -7,8 +7,15 @@
 namespace reachlab::record {
 
 TickFacts factsOf(const haptics::TickState& state) noexcept {
-  return {state.phase, state.status,        state.trial, !(state.deviceForce == state.feedbackForce) && state.device.valid,
-          state.hand,  state.couplingForce, state.result};
+  return {state.phase,
+          state.status,
+          state.trial,
+          state.clamped && state.device.valid,
+          state.rendersForce ? state.deviceState : haptics::DeviceState::Off,
+          state.rendersForce ? state.interventions : std::uint8_t{0},
+          state.hand,
+          state.couplingForce,
+          state.result};
 }
 
 void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {
@@ -36,6 +43,28 @@ void TrialTracker::measure(const TickFacts& facts) {
   lastPosition_ = facts.hand.position;
 }
 
+// An intervention that comes and goes from tick to tick is one, until it has stayed away for kQuietTicks.
+void TrialTracker::tellGuards(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
+  constexpr std::uint64_t kQuietTicks = 100;
+  if (facts.deviceState != deviceState_)
+    events.push_back({tick.tick, EventKind::DeviceState, facts.trial, static_cast<double>(facts.deviceState),
+                      std::string(haptics::nameOf(facts.deviceState))});
+  deviceState_ = facts.deviceState;
+  for (int bit = 0; bit < haptics::intervention::kCount; ++bit) {
+    std::uint64_t& last = lastActive_[static_cast<std::size_t>(bit)];
+    const auto tell = [&](double value) {
+      events.push_back({tick.tick, EventKind::Intervention, facts.trial, value, std::string(haptics::intervention::nameOf(bit))});
+    };
+    if ((facts.interventions >> bit & 1) != 0) {
+      if (last == 0) tell(1);
+      last = tick.tick;
+    } else if (last != 0 && tick.tick > last + kQuietTicks) {
+      tell(0);
+      last = 0;
+    }
+  }
+}
+
 TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, std::vector<RecordedEvent>& events) {
   Step step;
   if (facts.trial > 0) facts.trial += firstTrial_ - 1;
@@ -49,6 +78,7 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, 
   if (tick.missedTicks > 0) tell(EventKind::TicksMissed, tick.missedTicks);
   if (tick.device.valid != valid_) tell(tick.device.valid ? EventKind::DeviceBack : EventKind::DeviceLost);
   valid_ = tick.device.valid;
+  tellGuards(tick, facts, events);
   if (facts.clamped != clamped_) tell(facts.clamped ? EventKind::ClampBegin : EventKind::ClampEnd);
   clamped_ = facts.clamped;
   if (facts.status != status_ && facts.status != dynamics::StepStatus::Ok) tell(EventKind::StepFault, static_cast<double>(facts.status));

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "sim/record/run_log.h"
@@ -11,6 +12,8 @@ struct TickFacts {
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::int32_t trial = 0;
   bool clamped = false;  // the device gets less force than the object gives
+  haptics::DeviceState deviceState = haptics::DeviceState::Off;
+  std::uint8_t interventions = 0;  // bits of haptics::intervention
   dynamics::HandSample hand;
   Vec3 couplingForce;         // [N]
   trial::TrialResult result;  // in phase Done
@@ -43,6 +46,7 @@ class TrialTracker {
  private:
   void begin(const RecordedTick& tick, const TickFacts& facts);
   void measure(const TickFacts& facts);
+  void tellGuards(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
   int firstTrial_;
   std::vector<TrialSetup> setups_;
@@ -50,6 +54,8 @@ class TrialTracker {
   bool underWay_ = false;
   trial::Phase phase_ = trial::Phase::Idle;
   bool clamped_ = false, valid_ = true;
+  haptics::DeviceState deviceState_ = haptics::DeviceState::Off;
+  std::array<std::uint64_t, haptics::intervention::kCount> lastActive_{};  // tick at which each bit was last set; 0: it is not under way
   dynamics::StepStatus status_ = dynamics::StepStatus::Ok;
   Vec3 lastPosition_;
   std::int64_t goNs_ = 0;  // clock at the go signal

@@ -94,6 +94,8 @@ void RecordedRun::completeConfiguration() {
   c.deviceContinuousForce = device.maxContinuousForce;
   c.deviceThermalSeconds = device.thermalSeconds;
   c.timing = block_.experiment.experiment().timing;
+  c.guards = device.guards;
+  c.deviceMapping = device.mapping;
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   c.softwareVersion = "reachlab " REACHLAB_VERSION;
@@ -101,7 +103,7 @@ void RecordedRun::completeConfiguration() {
   c.computer = computerName();
   c.startedUtc = utcText(std::chrono::system_clock::now());
   c.clock = options_.virtualClock ? "virtual" : "monotonic";
-  c.table = record::makeChannelTable(block_.experiment.experiment(), block_.experiment.constraint().parameterCount());
+  c.table = record::makeChannelTable(block_.experiment.experiment(), block_.experiment.constraint().parameterCount(), device.rendersForce);
 }
 
 // The number is free when the log is created: nobody else takes one meanwhile.

@@ -1,0 +1,54 @@
+#include "sim/haptics/hand_guard.h"
+
+#include <algorithm>
+
+#include "base/ticks.h"
+
+namespace reachlab::haptics {
+
+bool operator==(const GuardSettings& a, const GuardSettings& b) noexcept {
+  return a.wallCentre == b.wallCentre && a.wallRadius == b.wallRadius && a.wallStiffness == b.wallStiffness &&
+         a.wallDamping == b.wallDamping && a.compensation == b.compensation && a.passivityControl == b.passivityControl;
+}
+
+std::string_view nameOf(DeviceState state) {
+  switch (state) {
+    case DeviceState::Off: return "off";
+    case DeviceState::Homed: return "homed";
+    case DeviceState::Armed: return "armed";
+    case DeviceState::Engaged: return "engaged";
+    case DeviceState::Fault: break;
+  }
+  return "fault";
+}
+
+std::string_view intervention::nameOf(int bit) {
+  constexpr std::string_view names[kCount] = {"limit", "heat", "ramp", "slew", "wall", "passivity", "not_finite", "held_back"};
+  return bit >= 0 && bit < kCount ? names[bit] : std::string_view("unknown");
+}
+
+Vec3 wallForce(const GuardSettings& settings, const Vec3& place, const Vec3& velocity) noexcept {
+  if (!(settings.wallRadius > 0)) return {};
+  const Vec3 away = place - settings.wallCentre;
+  const double distance = norm(away);
+  if (!(distance > settings.wallRadius)) return {};
+  const Vec3 outwards = away / distance;
+  const double push =
+      settings.wallStiffness * (distance - settings.wallRadius) + settings.wallDamping * std::max(dot(velocity, outwards), 0.0);
+  return -push * outwards;
+}
+
+void PassivityObserver::observe(const Vec3& place) noexcept {
+  if (seen_) energy_ -= dot(force_, place - place_);
+  place_ = place;
+  seen_ = true;
+}
+
+Vec3 PassivityObserver::control(const Vec3& velocity) const noexcept {
+  constexpr double kRest = 1e-3;  // [m/s] a hand at rest takes no energy
+  const double square = dot(velocity, velocity);
+  if (!(energy_ < 0) || !(square > kRest * kRest)) return {};
+  return -std::min(-energy_ / (kTickSeconds * square), kMostDissipation) * velocity;
+}
+
+}  // namespace reachlab::haptics
