@@ -18,5 +18,6 @@ void addRecoverCommand(CLI::App& app, int& exitCode);
 void addConstraintCommand(CLI::App& app, int& exitCode);
 void addBenchCommand(CLI::App& app, int& exitCode);
 void addStabilityCommand(CLI::App& app, int& exitCode);
+void addVelocityCommand(CLI::App& app, int& exitCode);
 
 }  // namespace reachlab::cli

@@ -32,9 +32,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "reach " REACHLAB_VERSION);
   app.require_subcommand(1);
   app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
-  for (auto* add :
-       {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand, addShowCommand,
-        addReplayCommand, addExportCommand, addRecoverCommand, addConstraintCommand, addBenchCommand, addStabilityCommand})
+  for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
+                    addShowCommand, addReplayCommand, addExportCommand, addRecoverCommand, addConstraintCommand, addBenchCommand,
+                    addStabilityCommand, addVelocityCommand})
     add(app, exitCode);
   for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   return exitCodeOf(app, [&] {

@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<std::string> kMethods{"auto", "rk4", "exact", "abm", "adaptive", "stiff"};
 const std::vector<std::string> kObjectKinds{"point", "chain", "parallel", "body"};
-const std::vector<std::string> kEstimators{"auto", "difference", "butterworth", "device"};
+const std::vector<std::string> kEstimators{"auto", "difference", "low-pass", "butterworth", "kalman", "adaptive-window", "device"};
 
 Vec3 vec3(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
 

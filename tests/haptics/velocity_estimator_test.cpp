@@ -26,7 +26,7 @@ double gainAt(VelocityEstimator& estimator, double frequency) {
 }
 
 TEST(VelocityEstimator, FollowsASteadyHandExactly) {
-  for (const char* kind : {"difference", "butterworth", "auto"}) {
+  for (const char* kind : {"difference", "low-pass", "butterworth", "kalman", "adaptive-window", "auto"}) {
     VelocityEstimator estimator({kind, 40});
     double v = 0;
     for (int i = 0; i < 500; ++i) v = estimator.estimate(at(0.3 * i * 1e-3)).x;
@@ -60,6 +60,36 @@ TEST(VelocityEstimator, ButterworthTamesQuantisation) {
     if (i > 200) roughWorst = std::max(roughWorst, r), smoothWorst = std::max(smoothWorst, s);
   }
   EXPECT_LT(smoothWorst, 0.25 * roughWorst);
+}
+
+// A hand that speeds up evenly: the low-passes lag by their delay times the acceleration, a filter that knows of accelerations does not.
+TEST(VelocityEstimator, KalmanFollowsAnAccelerationWithoutLag) {
+  VelocityEstimator kalman({"kalman", 40}), butterworth({"butterworth", 40});
+  double ahead = 0, behind = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = i * 1e-3;
+    ahead = kalman.estimate(at(t * t)).x - 2 * t;
+    behind = butterworth.estimate(at(t * t)).x - 2 * t;
+  }
+  EXPECT_NEAR(ahead, 0, 1e-6);
+  EXPECT_NEAR(behind, -2 * (0.5e-3 + std::numbers::sqrt2 / (2 * std::numbers::pi * 40)), 1e-4);
+}
+
+// Within the window's noise bound a slow hand's steps are not seen at all; a fast hand gets a short window.
+TEST(VelocityEstimator, AdaptiveWindowIsLongWhereTheHandIsStraight) {
+  VelocityEstimator estimator({"adaptive-window", 40});
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double seen = 60e-6 * std::round(0.02 * i * 1e-3 / 60e-6);
+    const double v = estimator.estimate(at(seen)).x;
+    if (i > 200) worst = std::max(worst, std::abs(v - 0.02));
+  }
+  EXPECT_LT(worst, 0.01) << "a plain difference is 0.04 to 0.06 off";
+  estimator.reset();
+  for (int i = 0; i < 100; ++i) estimator.estimate(at(0));
+  double v = 0;
+  for (int i = 1; i <= 5; ++i) v = estimator.estimate(at(1e-3 * i)).x;
+  EXPECT_NEAR(v, 1, 0.05) << "after five ticks at 1 m/s";
 }
 
 TEST(VelocityEstimator, TakesTheDevicesOwnVelocityWhereItIsWanted) {
