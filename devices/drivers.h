@@ -12,5 +12,11 @@ DeviceDriver phantomDriver();
 DeviceDriver forceDimensionDriver();
 DeviceDriver hidDriver();
 DeviceDriver spaceMouseDriver();
+DeviceDriver haplyDriver();
+DeviceDriver polhemDriver();
+DeviceDriver stickDriver();
+DeviceDriver keyboardDriver();
+DeviceDriver gamepadDriver();
+DeviceDriver tabletDriver();
 
 }  // namespace reachlab::devices

@@ -18,11 +18,24 @@ Spec parse(const std::string& spec) {
   return {spec.substr(0, comma), spec.substr(comma)};
 }
 
+// What a replayed file is called is its own business.
+bool takesHandOptions(const Spec& asked) { return asked.name != "replay"; }
+
+std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked, const experiment::Experiment& experiment,
+                                              std::uint64_t seed) {
+  if (!takesHandOptions(asked)) return driver.make({asked.name, asked.argument, experiment, seed});
+  DeviceOptions options(asked.argument, "device " + asked.name);
+  const HandOptions hand = takeHandOptions(options);
+  if (!hand.any()) return driver.make({asked.name, asked.argument, experiment, seed});
+  const std::string rest = options.rest(), argument = options.plain() + (options.plain().empty() || rest.empty() ? "" : ",") + rest;
+  return guardDevice(driver.make({asked.name, argument, experiment, seed}), hand);
+}
+
 }  // namespace
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {
   const Spec asked = parse(spec);
-  if (const DeviceDriver* driver = findDriver(asked.name)) return driver->make({asked.name, asked.argument, experiment, seed});
+  if (const DeviceDriver* driver = findDriver(asked.name)) return makeBy(*driver, asked, experiment, seed);
   std::string known;
   for (const DeviceDriver& driver : deviceDrivers()) known += (known.empty() ? "" : ", ") + driver.usage;
   throw UsageError("device " + spec + ": unknown; allowed: " + known);
@@ -31,6 +44,13 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed) {
   return makeDevice(spec, experiment.experiment(), seed);
+}
+
+HandOptions handOptionsOf(const std::string& spec) {
+  const Spec asked = parse(spec);
+  if (!takesHandOptions(asked)) return {};
+  DeviceOptions options(asked.argument, "device " + asked.name);
+  return takeHandOptions(options);
 }
 
 int trialsOnOffer(const std::string& spec) {

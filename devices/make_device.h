@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "devices/mapping/guarded_device.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 
@@ -15,6 +16,9 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 /// The same for an experiment that is compiled already.
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed);
+
+/// What is asked of the device beside its driver's own options: mapping and guards (docs/devices.md). Throws UsageError.
+HandOptions handOptionsOf(const std::string& spec);
 
 /// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws
 /// ResourceError when there is nothing to replay.

@@ -29,6 +29,7 @@ class OpenArm final : public Transport {
 
   haptics::DeviceInfo info() const override;
   Exchange exchange(ForceSource& force, haptics::DeviceSample& sample) override;
+  bool tellZero() noexcept override { return !port_ || send({}); }
   bool reopen() override;
   void close() noexcept override;
   std::string calibrationHint() const override;

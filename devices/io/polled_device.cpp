@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -27,9 +28,10 @@ constexpr std::chrono::milliseconds kPatience{300};
 }  // namespace
 
 struct PolledDevice::Shared final : ForceSource {
-  explicit Shared(std::shared_ptr<Transport> t) : transport(std::move(t)) {}
+  Shared(std::shared_ptr<Transport> t, std::int64_t (*n)()) : transport(std::move(t)), clock(n) {}
 
   std::shared_ptr<Transport> transport;
+  std::int64_t (*clock)();
   TripleBuffer<TimedForce> forces;     // tick -> I/O
   TripleBuffer<DeviceSample> samples;  // I/O -> tick
   std::atomic<bool> stopping{false}, lost{false}, forceStopped{false};
@@ -39,18 +41,25 @@ struct PolledDevice::Shared final : ForceSource {
   std::condition_variable changed;
   bool calibrationAsked = false, calibrated = false;
   std::string calibrationFault;
+  std::string loss;   // the transport's words
   TimedForce latest;  // the I/O thread's
 
+  std::int64_t nextReopenNs = 0;  // the I/O thread's
+  bool zeroTold = false;          // the I/O thread's, since the device was lost
+  DeviceSample sample;            // the I/O thread's
+
   Vec3 newest() noexcept override;
+  std::int64_t now() const noexcept override { return clock(); }
   void run();
+  bool turn();
   void serveCalibration();
-  void takeReport(DeviceSample& sample);
+  void takeReport();
 };
 
-void PolledDevice::Shared::takeReport(DeviceSample& sample) {
+void PolledDevice::Shared::takeReport() {
   sample.valid = true;
   sample.reports = reports.load(std::memory_order_relaxed) + 1;
-  sample.takenNs = os::now();
+  sample.takenNs = now();
   samples.publish(sample);
   lost.store(false, std::memory_order_release);
   const bool first = sample.reports == 1;
@@ -76,36 +85,51 @@ void PolledDevice::Shared::serveCalibration() {
 
 Vec3 PolledDevice::Shared::newest() noexcept {
   if (const TimedForce* force = forces.takeLatest()) latest = *force;
-  const bool off = os::now() - latest.ns > kStaleNs || forceStopped.load(std::memory_order_acquire) ||
-                   lost.load(std::memory_order_acquire) || stopping.load(std::memory_order_acquire);
+  const bool off = now() - latest.ns > kStaleNs || forceStopped.load(std::memory_order_acquire) || lost.load(std::memory_order_acquire) ||
+                   stopping.load(std::memory_order_acquire);
   return off ? Vec3{} : latest.force;
 }
 
+// False: it brought nothing, and there is no hurry.
+bool PolledDevice::Shared::turn() {
+  serveCalibration();
+  if (lost.load(std::memory_order_acquire)) {
+    if (!zeroTold) zeroTold = transport->tellZero();
+    if (now() < nextReopenNs) return false;
+    nextReopenNs = now() + kReopenNs;
+    if (!transport->reopen()) return false;
+  }
+  switch (transport->exchange(*this, sample)) {
+    case Exchange::Report: takeReport(); return true;
+    case Exchange::Nothing: return false;
+    case Exchange::Lost: break;
+  }
+  {
+    const std::string why = transport->lossText();
+    const std::lock_guard lock(mutex);
+    loss = why;
+  }
+  zeroTold = transport->tellZero();
+  lost.store(true, std::memory_order_release);
+  nextReopenNs = now() + kReopenNs;
+  return false;
+}
+
 void PolledDevice::Shared::run() {
-  DeviceSample sample;
-  std::int64_t nextReopenNs = 0;
+  const std::int64_t period = transport->period();
+  std::int64_t next = now();
   while (!stopping.load(std::memory_order_acquire)) {
-    serveCalibration();
-    if (lost.load(std::memory_order_acquire)) {
-      os::sleepUntil(os::now() + kPauseNs);
-      if (os::now() < nextReopenNs) continue;
-      nextReopenNs = os::now() + kReopenNs;
-      if (!transport->reopen()) continue;
+    if (period > 0) {
+      os::sleepUntil(next);
+      next = std::max(next + period, now());
     }
-    switch (transport->exchange(*this, sample)) {
-      case Exchange::Report: takeReport(sample); break;
-      case Exchange::Nothing: os::sleepUntil(os::now() + kPauseNs); break;
-      case Exchange::Lost:
-        lost.store(true, std::memory_order_release);
-        nextReopenNs = os::now() + kReopenNs;
-        break;
-    }
+    if (!turn()) os::sleepUntil(now() + kPauseNs);
   }
   transport->close();
 }
 
 PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
-    : info_(transport->info()), shared_(std::make_shared<Shared>(std::move(transport))) {
+    : info_(transport->info()), shared_(std::make_shared<Shared>(std::move(transport), os::now)) {
   thread_ = haptics::LeavableThread([shared = shared_] {
     constexpr int kBelowTheTick = 70;
     os::requestRealTime(kBelowTheTick);
@@ -121,10 +145,19 @@ PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
   throw ResourceError(fmt::format("device {}: it was opened, but no report came within {} ms", info_.name, patienceMs));
 }
 
+PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, std::int64_t (*now)())
+    : info_(transport->info()), shared_(std::make_shared<Shared>(std::move(transport), now)) {}
+
 PolledDevice::~PolledDevice() {
   shared_->stopping = true;
+  if (!thread_.running()) {
+    shared_->transport->close();
+    return;
+  }
   if (!thread_.join(kPatience)) thread_.leave();
 }
+
+void PolledDevice::step() { shared_->turn(); }
 
 DeviceSample PolledDevice::read() noexcept {
   if (const DeviceSample* newest = shared_->samples.takeLatest()) last_ = *newest;
@@ -135,14 +168,18 @@ DeviceSample PolledDevice::read() noexcept {
 
 void PolledDevice::write(const Vec3& force) noexcept {
   shared_->forceStopped.store(false, std::memory_order_release);
-  shared_->forces.publish({force, os::now()});
+  shared_->forces.publish({force, shared_->now()});
 }
 
 DeviceHealth PolledDevice::health() const noexcept {
   return shared_->lost.load(std::memory_order_acquire) ? DeviceHealth::Lost : DeviceHealth::Ready;
 }
 
-std::string PolledDevice::healthText() const { return health() == DeviceHealth::Lost ? "no connection any more" : ""; }
+std::string PolledDevice::healthText() const {
+  if (health() != DeviceHealth::Lost) return {};
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->loss.empty() ? "no connection any more" : shared_->loss;
+}
 
 bool PolledDevice::stopForce() noexcept {
   shared_->forceStopped.store(true, std::memory_order_release);

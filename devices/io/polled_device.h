@@ -22,6 +22,8 @@ class ForceSource {
  public:
   /// [N], world frame; zero when the tick hangs, the device was lost or stopped. I/O thread, wait-free.
   virtual Vec3 newest() noexcept = 0;
+  /// [ns] the I/O thread's clock.
+  virtual std::int64_t now() const noexcept = 0;
 
  protected:
   ~ForceSource() = default;
@@ -35,8 +37,15 @@ class Transport {
   /// Takes the device's newest sample (world frame; position, velocity, buttons, orientation, released) and tells it the newest force.
   /// May wait, at most some 10 ms: a force is never older than that.
   virtual Exchange exchange(ForceSource& force, haptics::DeviceSample& sample) = 0;
+  /// [ns] between the beginnings of two exchanges, at the least; 0: the exchange itself keeps the pace.
+  virtual std::int64_t period() const { return 0; }
+  /// After Lost, every millisecond until true: zero force if the device can still be told, without waiting for an answer. What was lost to one
+  /// refused report may still hold its last force.
+  virtual bool tellZero() noexcept { return true; }
   /// After Lost: tries to have it again. Not called more often than every 200 ms.
   virtual bool reopen() { return false; }
+  /// I/O thread, after Lost: why, in the device's or the system's words; empty: nothing is known.
+  virtual std::string lossText() const { return {}; }
   /// Any thread; must not wait for `exchange`.
   virtual bool stopForce() noexcept { return false; }
   /// I/O thread, last: zero force, off.
@@ -56,7 +65,12 @@ class PolledDevice final : public haptics::HapticDevice {
 
   /// Waits for the first report, at most `patienceMs`; throws ResourceError when none comes.
   explicit PolledDevice(std::shared_ptr<Transport> transport, int patienceMs = 2000);
+  /// Without a thread, for simulated time: whoever calls `step` is the I/O thread, and `now` its clock [ns]. Nothing waits.
+  PolledDevice(std::shared_ptr<Transport> transport, std::int64_t (*now)());
   ~PolledDevice() override;
+
+  /// One exchange, or one attempt to have a lost device again.
+  void step();
 
   haptics::DeviceInfo info() const override { return info_; }
   haptics::DeviceSample read() noexcept override;
@@ -72,7 +86,6 @@ class PolledDevice final : public haptics::HapticDevice {
   haptics::DeviceInfo info_;
   std::shared_ptr<Shared> shared_;  // with the I/O thread, which may hang for ever
   haptics::DeviceSample last_;
-  std::atomic<std::int64_t> newestNs_{0};
   haptics::LeavableThread thread_;
 };
 

@@ -1,3 +1,5 @@
+#include "devices/vendor/force_dimension.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/os.h"
 #include "devices/drivers.h"
 #include "devices/io/polled_device.h"
 #include "devices/options.h"
@@ -42,10 +43,9 @@ class ForceDimension final : public Transport {
   ~ForceDimension() override { shut(); }
 
   haptics::DeviceInfo info() const override { return info_; }
+  std::int64_t period() const override { return kPeriodNs; }
 
   Exchange exchange(ForceSource& source, haptics::DeviceSample& sample) override {
-    os::sleepUntil(nextNs_);
-    nextNs_ = std::max(nextNs_ + kPeriodNs, os::now());
     Vec3 place, velocity;
     bool fine = dhd_.getPosition(&place.x, &place.y, &place.z, id_) >= 0;
     if (fine && deviceVelocity_) fine = dhd_.getLinearVelocity(&velocity.x, &velocity.y, &velocity.z, id_) >= 0;
@@ -60,6 +60,8 @@ class ForceDimension final : public Transport {
     if (wrist_) readOrientation(sample);
     return Exchange::Report;
   }
+
+  bool tellZero() noexcept override { return !isOpen_ || dhd_.setForce(0, 0, 0, id_) >= 0; }
 
   bool reopen() override {
     try {
@@ -138,8 +140,15 @@ class ForceDimension final : public Transport {
   haptics::DeviceInfo info_;
   bool deviceVelocity_, wrist_ = false, isOpen_ = false;
   int errors_ = 0;  // in a row
-  std::int64_t nextNs_ = 0;
 };
+
+}  // namespace
+
+std::shared_ptr<Transport> openForceDimension(int index, const std::string& words, bool deviceVelocity) {
+  return std::make_shared<ForceDimension>(index, words, deviceVelocity);
+}
+
+namespace {
 
 std::unique_ptr<haptics::HapticDevice> makeForceDimension(const DeviceRequest& request) {
   DeviceOptions options(request.argument, request.words());
@@ -152,7 +161,7 @@ std::unique_ptr<haptics::HapticDevice> makeForceDimension(const DeviceRequest& r
   }
   const bool deviceVelocity = options.word("velocity", {"estimated", "device"}) == "device";
   options.done();
-  return std::make_unique<PolledDevice>(std::make_shared<ForceDimension>(index, request.words(), deviceVelocity));
+  return std::make_unique<PolledDevice>(openForceDimension(index, request.words(), deviceVelocity));
 }
 
 std::vector<FoundDevice> findForceDimension(const DeviceDriver& self) {

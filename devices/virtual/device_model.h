@@ -4,8 +4,7 @@
 
 namespace reachlab::devices {
 
-/// A force device as a body, in numbers that its maker has published. `source` says where from; all are data-sheet values, none was measured
-/// here.
+/// A force device as a body, in published numbers. `source` says where each is from; none was measured here.
 struct DeviceModel {
   std::string_view name, title;
   double mass;             // [kg] apparent, at the handle

@@ -6,7 +6,6 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/butterworth.h"
-#include "base/ticks.h"
 
 namespace reachlab::devices {
 namespace {
@@ -20,7 +19,7 @@ Matrix heldStep(const LoopSettings& s) {
   generator(1, 0) = -s.handStiffness / s.mass;
   generator(1, 1) = -s.friction / s.mass;
   generator(1, 2) = 1 / s.mass;
-  return (generator * kTickSeconds).exp();
+  return (generator * s.period).exp();
 }
 
 }  // namespace
@@ -33,10 +32,10 @@ double spectralRadius(const LoopSettings& s) {
   using Row = Eigen::RowVectorXd;
   const auto unit = [&](int at) { return Row(Row::Unit(size, at)); };
 
-  const Row difference = (unit(kX) - unit(kOldX)) / kTickSeconds;
+  const Row difference = (unit(kX) - unit(kOldX)) / s.period;
   Row velocity = difference;
   if (filtered) {  // the low-pass of VelocityEstimator
-    const Biquad filter = butterworthLowPass(s.estimator.cutoff, kTickSeconds);
+    const Biquad filter = butterworthLowPass(s.estimator.cutoff, s.period);
     velocity = filter.b[0] * difference + filter.b[1] * unit(kIn1) + filter.b[2] * unit(kIn2) - filter.a[1] * unit(kOut1) -
                filter.a[2] * unit(kOut2);
   }
@@ -56,7 +55,7 @@ double spectralRadius(const LoopSettings& s) {
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-double passivityMargin(const LoopSettings& s) noexcept { return s.friction - (s.stiffness * kTickSeconds / 2 + std::abs(s.damping)); }
+double passivityMargin(const LoopSettings& s) noexcept { return s.friction - (s.stiffness * s.period / 2 + std::abs(s.damping)); }
 
 double largestStableStiffness(LoopSettings settings, double most) {
   const auto stableAt = [&](double stiffness) {

@@ -4,6 +4,7 @@
 #include "devices/virtual/device_model.h"
 #include "devices/virtual/virtual_device.h"
 #include "sim/experiment/experiment.h"
+#include "base/ticks.h"
 
 namespace reachlab::devices {
 
@@ -15,6 +16,7 @@ struct LoopSettings {
   double friction = 0.5;                        // [N s/m] viscous: device and hand together
   double handStiffness = 0;                     // [N/m] of the hand to the ground
   int delayTicks = 0;                           // beyond the loop's own hold of one tick
+  double period = kTickSeconds;                 // [s] T of the loop
   experiment::VelocityEstimatorSpec estimator;  // of b_h: difference, butterworth (auto and device are taken for it)
 };
 

@@ -32,6 +32,10 @@ haptics::DeviceInfo VirtualDevice::info() const {
   info.maxContinuousForce = model_.continuousForce;
   info.rendersForce = true;
   info.workspaceRadius = model_.workspaceRadius;
+  info.apparentMass = model_.mass;
+  info.coulombFriction = model_.friction;
+  info.viscosity = model_.viscosity;
+  info.resolution = options_.quantised ? model_.resolution : 0;
   info.secondPath = "none is needed: it is simulated";
   return info;
 }

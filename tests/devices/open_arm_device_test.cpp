@@ -44,6 +44,7 @@ class FakePort final : public HidPort {
 struct Wish final : ForceSource {
   Vec3 force;
   Vec3 newest() noexcept override { return force; }
+  std::int64_t now() const noexcept override { return 0; }
 };
 
 class OpenArmOverAPort : public ::testing::Test {

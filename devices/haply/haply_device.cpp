@@ -1,0 +1,176 @@
+#include "devices/haply/haply_device.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "devices/drivers.h"
+#include "devices/options.h"
+#include "devices/virtual/device_model.h"
+
+namespace reachlab::devices {
+namespace {
+
+constexpr std::int64_t kAskAgainNs = 50'000'000;  // an answer that did not come by then will not
+constexpr int kAnswerMs = 10, kUnaskedMs = 200, kFirstMs = 2000;
+constexpr int kMostGarbled = 20;  // in a row, before it counts as lost
+constexpr std::uint16_t kPort = 10001;
+
+}  // namespace
+
+HaplyInverse3::HaplyInverse3(const Options& options, OpenLink open) : options_(options), open_(std::move(open)) { connect(); }
+
+// Older services tell their state unasked, newer ones answer only.
+std::string HaplyInverse3::firstMessage() {
+  std::string message;
+  if (link_->receive(message, kUnaskedMs) == MessageLink::Got::Message) return message;
+  link_->send(haplyGreeting());
+  if (link_->receive(message, kFirstMs) == MessageLink::Got::Message) return message;
+  throw ResourceError(link_->fault().empty() ? fmt::format("the service does not answer within {} ms", kFirstMs) : link_->fault());
+}
+
+void HaplyInverse3::connect() {
+  link_ = open_();
+  const std::string first = firstMessage();
+  switch (readHaplyMessage(first, options_.id, state_)) {
+    case HaplyAnswer::State: break;
+    case HaplyAnswer::NotJson: throw ResourceError("what answers is no Inverse service (its first message is none of its protocol)");
+    case HaplyAnswer::OtherVersion:
+      throw ResourceError("the Inverse service speaks a protocol of another version (known: 3.1 to 3.5); update it");
+    case HaplyAnswer::NoDevice: {
+      there_ = haplyDevices(first);
+      throw ResourceError(there_.empty() ? std::string("the Inverse service runs, but no Inverse3 is connected")
+                                         : fmt::format("not connected; there is: {}", fmt::join(there_, ", ")));
+    }
+  }
+  there_ = haplyDevices(first);
+  const DeviceModel& model = *findDeviceModel("inverse3");
+  info_.name = "Haply Inverse3 " + state_.id;
+  const std::string settings = haplySettings(first, state_.id);
+  info_.version = "Inverse service, websocket" + (settings.empty() ? "" : "; " + settings);
+  info_.maxForce = options_.maxForce > 0 ? options_.maxForce : model.maxForce;
+  info_.maxContinuousForce = std::min(model.continuousForce, info_.maxForce);
+  info_.rendersForce = true;
+  info_.workspaceRadius = model.workspaceRadius;
+  info_.apparentMass = model.mass;
+  info_.coulombFriction = model.friction;
+  info_.resolution = model.resolution;
+  info_.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms";
+  options_.id = state_.id;
+  awaiting_ = false;
+  garbled_ = 0;
+}
+
+Exchange HaplyInverse3::lose(std::string why) {
+  loss_ = std::move(why);
+  return Exchange::Lost;
+}
+
+Exchange HaplyInverse3::take(const std::string& message, haptics::DeviceSample& sample) {
+  switch (readHaplyMessage(message, options_.id, state_)) {
+    case HaplyAnswer::State: break;
+    case HaplyAnswer::NoDevice: return lose(fmt::format("the service has no Inverse3 {} any more", options_.id));
+    case HaplyAnswer::NotJson:
+    case HaplyAnswer::OtherVersion:
+      if (++garbled_ >= kMostGarbled) return lose("the service's messages cannot be understood any more");
+      return Exchange::Nothing;
+  }
+  garbled_ = 0;
+  sample.position = haplyToWorld(state_.position);
+  sample.hasVelocity = options_.deviceVelocity && state_.velocity.has_value();
+  if (sample.hasVelocity) sample.velocity = haplyToWorld(*state_.velocity);
+  sample.buttons = state_.buttons;
+  sample.hasOrientation = state_.orientation.has_value();
+  if (state_.orientation) {
+    const auto& q = *state_.orientation;
+    const Vec3 axis = haplyToWorld({q[1], q[2], q[3]});
+    sample.orientation = {q[0], axis.x, axis.y, axis.z};
+  }
+  return Exchange::Report;
+}
+
+Exchange HaplyInverse3::exchange(ForceSource& source, haptics::DeviceSample& sample) {
+  if (!link_) return Exchange::Lost;
+  if (!awaiting_ || source.now() - sentNs_ > kAskAgainNs) {
+    if (!link_->send(haplyForceCommand(options_.id, worldToHaply(source.newest())))) return lose(link_->fault());
+    sentNs_ = source.now();
+    awaiting_ = true;
+  }
+  std::string message, newer;
+  switch (link_->receive(message, kAnswerMs)) {
+    case MessageLink::Got::Gone: return lose(link_->fault());
+    case MessageLink::Got::Nothing: return Exchange::Nothing;
+    case MessageLink::Got::Message: break;
+  }
+  constexpr int kMostDrained = 64;
+  for (int i = 0; i < kMostDrained && link_->receive(newer, 0) == MessageLink::Got::Message; ++i) message.swap(newer);
+  awaiting_ = false;
+  return take(message, sample);
+}
+
+bool HaplyInverse3::reopen() {
+  link_.reset();
+  try {
+    connect();
+    return true;
+  } catch (const ResourceError&) {
+    link_.reset();
+    return false;
+  }
+}
+
+bool HaplyInverse3::tellZero() noexcept {
+  try {
+    return !link_ || link_->send(haplyForceCommand(options_.id, {}));
+  } catch (const std::exception&) {  // no memory for a message: closing takes the force as well
+    return false;
+  }
+}
+
+void HaplyInverse3::close() noexcept {
+  tellZero();
+  link_.reset();
+}
+
+namespace {
+
+std::unique_ptr<haptics::HapticDevice> makeHaply(const DeviceRequest& request) {
+  DeviceOptions options(request.argument, request.words());
+  HaplyInverse3::Options chosen;
+  chosen.id = options.plain();
+  chosen.maxForce = options.number("max-force", findDeviceModel("inverse3")->maxForce, 0.01, findDeviceModel("inverse3")->maxForce);
+  chosen.deviceVelocity = options.word("velocity", {"estimated", "device"}) == "device";
+  const auto port = static_cast<std::uint16_t>(options.number("port", kPort, 1, 65535));
+  options.done();
+  try {
+    return std::make_unique<PolledDevice>(std::make_shared<HaplyInverse3>(chosen, [port] { return openWebSocket("127.0.0.1", port); }));
+  } catch (const ResourceError& error) {
+    throw ResourceError(fmt::format("{}: {}", request.words(), error.what()));
+  }
+}
+
+std::vector<FoundDevice> findHaply(const DeviceDriver& self) {
+  try {
+    const HaplyInverse3 device({}, [] { return openWebSocket("127.0.0.1", kPort); });
+    std::vector<FoundDevice> found;
+    for (const std::string& id : device.there()) found.push_back(presentDevice(self, self.name + ":" + id, device.info()));
+    return found;
+  } catch (const ResourceError& error) {
+    return {absentDevice(self, fmt::format("{}; is Haply's Inverse service running?", error.what()))};
+  }
+}
+
+}  // namespace
+
+DeviceDriver haplyDriver() {
+  return {"haply",
+          "haply[:ID][,max-force=N,velocity=device,port=N]",
+          "Haply Inverse3 by its service on this machine (ws://127.0.0.1:10001)",
+          false,
+          findHaply,
+          makeHaply};
+}
+
+}  // namespace reachlab::devices

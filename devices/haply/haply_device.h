@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "devices/haply/haply_message.h"
+#include "devices/haply/message_link.h"
+#include "devices/io/polled_device.h"
+
+namespace reachlab::devices {
+
+/// A Haply Inverse3 through its service on this machine: one force out, one state back, strictly in turn, at most 2 kHz. Verified against
+/// the published protocol, not on a device.
+class HaplyInverse3 final : public Transport {
+ public:
+  struct Options {
+    std::string id;               // empty: the first that the service has
+    double maxForce = 0;          // [N] 0: the data sheet's
+    bool deviceVelocity = false;  // the service's own velocity instead of our estimator's
+  };
+  using OpenLink = std::function<std::unique_ptr<MessageLink>()>;
+
+  /// Throws ResourceError: no service (`open`'s words), no such device, a service of another version.
+  HaplyInverse3(const Options& options, OpenLink open);
+
+  haptics::DeviceInfo info() const override { return info_; }
+  Exchange exchange(ForceSource& force, haptics::DeviceSample& sample) override;
+  std::int64_t period() const override { return 500'000; }
+  bool tellZero() noexcept override;
+  bool reopen() override;
+  void close() noexcept override;
+  std::string lossText() const override { return loss_; }
+  /// Every Inverse3 that the service had when it was last connected to.
+  const std::vector<std::string>& there() const { return there_; }
+
+ private:
+  void connect();
+  std::string firstMessage();
+  Exchange lose(std::string why);
+  Exchange take(const std::string& message, haptics::DeviceSample& sample);
+
+  Options options_;
+  OpenLink open_;
+  std::unique_ptr<MessageLink> link_;
+  haptics::DeviceInfo info_;
+  HaplyState state_;
+  std::string loss_;
+  std::vector<std::string> there_;
+  bool awaiting_ = false;  // an answer to what was sent
+  int garbled_ = 0;        // messages in a row that were none
+  std::int64_t sentNs_ = 0;
+};
+
+}  // namespace reachlab::devices

@@ -1,0 +1,132 @@
+#include "devices/haply/haply_message.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace reachlab::devices {
+namespace {
+
+using Json = nlohmann::json;
+
+Json parsed(std::string_view message) { return Json::parse(message, nullptr, false); }
+
+// The member of that name, when the value is an object that has it.
+const Json* find(const Json* value, const char* name) {
+  if (value == nullptr || !value->is_object()) return nullptr;
+  const auto at = value->find(name);
+  return at == value->end() ? nullptr : &*at;
+}
+
+// Absent: `otherwise`. nullopt: no finite number.
+std::optional<double> numberOf(const Json* value, const char* name, double otherwise) {
+  const Json* number = find(value, name);
+  if (number == nullptr) return otherwise;
+  if (!number->is_number()) return std::nullopt;
+  const double x = number->get<double>();
+  return std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
+std::optional<Vec3> vectorOf(const Json* value) {
+  if (value == nullptr || !value->is_object()) return std::nullopt;
+  const auto x = numberOf(value, "x", 0), y = numberOf(value, "y", 0), z = numberOf(value, "z", 0);
+  if (!x || !y || !z) return std::nullopt;
+  return Vec3{*x, *y, *z};
+}
+
+std::optional<std::array<double, 4>> quaternionOf(const Json* value) {
+  if (value == nullptr || !value->is_object()) return std::nullopt;
+  const auto w = numberOf(value, "w", 1), x = numberOf(value, "x", 0), y = numberOf(value, "y", 0), z = numberOf(value, "z", 0);
+  if (!w || !x || !y || !z) return std::nullopt;
+  const double length = std::sqrt(*w * *w + *x * *x + *y * *y + *z * *z);
+  constexpr double kRounding = 0.01;
+  if (!(std::abs(length - 1) < kRounding)) return std::nullopt;
+  return std::array<double, 4>{*w / length, *x / length, *y / length, *z / length};
+}
+
+std::string idOf(const Json& device) {
+  const Json* id = find(&device, "device_id");
+  return id != nullptr && id->is_string() ? id->get<std::string>() : std::string();
+}
+
+const Json* deviceIn(const Json& list, const std::string& id) {
+  for (const Json& device : list)
+    if (device.is_object() && !idOf(device).empty() && (id.empty() || idOf(device) == id)) return &device;
+  return nullptr;
+}
+
+// The wireless grip, or the one on a cable.
+void readGrip(const Json& message, HaplyState& state) {
+  for (const char* kind : {"wireless_verse_grip", "verse_grip"}) {
+    const Json* grips = find(&message, kind);
+    if (grips == nullptr || !grips->is_array() || grips->empty()) continue;
+    const Json* grip = find(&grips->front(), "state");
+    state.orientation = quaternionOf(find(grip, "orientation"));
+    const Json* buttons = find(grip, "buttons");
+    int bit = 0;
+    for (const char* name : {"a", "b", "c"}) {
+      const Json* button = find(buttons, name);
+      if (button != nullptr && button->is_boolean() && button->get<bool>()) state.buttons |= 1u << bit;
+      ++bit;
+    }
+    return;
+  }
+}
+
+}  // namespace
+
+HaplyAnswer readHaplyMessage(std::string_view text, const std::string& id, HaplyState& state) {
+  const Json message = parsed(text);
+  if (!message.is_object()) return HaplyAnswer::NotJson;
+  const Json* list = find(&message, "inverse3");
+  if (list == nullptr) return message.empty() ? HaplyAnswer::NoDevice : HaplyAnswer::OtherVersion;
+  if (!list->is_array()) return HaplyAnswer::OtherVersion;
+  const Json* device = deviceIn(*list, id);
+  if (device == nullptr) {
+    const bool named = list->empty() || !idOf(list->front()).empty();
+    return named ? HaplyAnswer::NoDevice : HaplyAnswer::OtherVersion;
+  }
+  const Json *told = find(device, "state"), *place = find(told, "cursor_position");
+  if (place == nullptr) return HaplyAnswer::OtherVersion;
+  const auto position = vectorOf(place);
+  if (!position) return HaplyAnswer::NotJson;
+  state = {};
+  state.id = idOf(*device);
+  state.position = *position;
+  state.velocity = vectorOf(find(told, "cursor_velocity"));
+  readGrip(message, state);
+  return HaplyAnswer::State;
+}
+
+std::vector<std::string> haplyDevices(std::string_view text) {
+  std::vector<std::string> ids;
+  const Json message = parsed(text);
+  const Json* list = find(&message, "inverse3");
+  if (list == nullptr || !list->is_array()) return ids;
+  for (const Json& device : *list)
+    if (device.is_object() && !idOf(device).empty()) ids.push_back(idOf(device));
+  return ids;
+}
+
+std::string haplySettings(std::string_view text, const std::string& id) {
+  const Json message = parsed(text);
+  const Json* list = find(&message, "inverse3");
+  if (list == nullptr || !list->is_array()) return {};
+  const Json* device = deviceIn(*list, id);
+  const Json* config = device == nullptr ? nullptr : find(device, "config");
+  std::string said;
+  for (const char* name : {"gravity_compensation", "filters"})
+    if (const Json* value = find(config, name)) said += (said.empty() ? "" : ", ") + std::string(name) + " " + value->dump();
+  return said;
+}
+
+std::string haplyForceCommand(const std::string& id, const Vec3& force) {
+  const Vec3 f = isFinite(force) ? force : Vec3{};
+  const Json command = {
+      {"inverse3",
+       Json::array({{{"device_id", id}, {"commands", {{"set_cursor_force", {{"values", {{"x", f.x}, {"y", f.y}, {"z", f.z}}}}}}}}})}};
+  return command.dump();
+}
+
+std::string haplyGreeting() { return R"({"session":{"configure":{"profile":{"name":"reachlab"}}}})"; }
+
+}  // namespace reachlab::devices

@@ -1,0 +1,138 @@
+#include "devices/mapping/guarded_device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace reachlab::devices {
+namespace {
+
+constexpr double kGravity = 9.80665;  // [m/s^2]
+
+using Quaternion = std::array<double, 4>;
+
+Quaternion product(const Quaternion& a, const Quaternion& b) noexcept {
+  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
+}
+
+/// Passes everything on; places, velocities and orientations into the world, forces out of it.
+class GuardedDevice final : public haptics::HapticDevice {
+ public:
+  GuardedDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options)
+      : device_(std::move(device)), options_(options), rows_(directions(options.mapping)) {
+    const Vec3& r = options.mapping.rotation;
+    const double angle = norm(r), half = angle > 0 ? std::sin(angle / 2) / angle : 0;
+    turn_ = {std::cos(angle / 2), half * r.x, half * r.y, half * r.z};
+  }
+
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info = device_->info();
+    const Mapping& m = options_.mapping;
+    info.workspaceRadius *= m.scale;
+    info.workspaceCentre = m.offset + m.scale * turned(info.workspaceCentre);
+    info.resolution *= m.scale;
+    info.speedLimit = options_.speedLimit.value_or(info.speedLimit * m.scale);
+    if (options_.mapped) info.mapping = toJson(m);
+    haptics::GuardSettings& guards = info.guards;
+    if (options_.wall) {
+      guards.wallCentre = info.workspaceCentre;
+      guards.wallRadius = *options_.wall > 0 ? *options_.wall : info.workspaceRadius;
+    }
+    if (options_.stylusMass) info.stylusMass = *options_.stylusMass;
+    if (options_.stylusMass) guards.compensation = turned({0, kGravity * info.stylusMass, 0});  // up is up at the device
+    guards.passivityControl = options_.passivityControl;
+    return info;
+  }
+
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample = device_->read();
+    const Mapping& m = options_.mapping;
+    sample.position = m.offset + m.scale * turned(sample.position);
+    sample.velocity = m.scale * turned(sample.velocity);
+    if (sample.hasOrientation) {
+      if (m.mirrorX) sample.orientation[2] = -sample.orientation[2], sample.orientation[3] = -sample.orientation[3];
+      sample.orientation = product(turn_, sample.orientation);
+    }
+    return sample;
+  }
+  void write(const Vec3& force) noexcept override {
+    device_->write(force.x * rows_[0] + force.y * rows_[1] + force.z * rows_[2]);  // the transpose
+  }
+
+  void prepareTrial(int index) override { device_->prepareTrial(index); }
+  void cue(haptics::Cue cue) noexcept override { device_->cue(cue); }
+  void see(std::span<const dynamics::MassState> masses) noexcept override { device_->see(masses); }
+  haptics::DeviceHealth health() const noexcept override { return device_->health(); }
+  std::string healthText() const override { return device_->healthText(); }
+  std::string calibrationHint() const override { return device_->calibrationHint(); }
+  void calibrate() override { device_->calibrate(); }
+  bool stopForce() noexcept override { return device_->stopForce(); }
+  void startClock(ClockTick tick, void* context) override { device_->startClock(tick, context); }
+  void stopClock() noexcept override { device_->stopClock(); }
+
+ private:
+  Vec3 turned(const Vec3& v) const noexcept { return {dot(rows_[0], v), dot(rows_[1], v), dot(rows_[2], v)}; }
+
+  std::unique_ptr<haptics::HapticDevice> device_;
+  HandOptions options_;
+  std::array<Vec3, 3> rows_;
+  Quaternion turn_{};
+};
+
+// "0.1/0/-0.05"
+std::optional<Vec3> takeVector(DeviceOptions& options, const std::string& key, double most) {
+  const auto text = options.take(key);
+  if (!text) return std::nullopt;
+  std::array<double, 3> parts{};
+  const char *at = text->data(), *const end = at + text->size();
+  bool good = true;
+  for (std::size_t i = 0; i < 3 && good; ++i) {
+    const auto [next, error] = std::from_chars(at, end, parts[i]);
+    good = error == std::errc() && std::abs(parts[i]) <= most && (i == 2 ? next == end : next != end && *next == '/');
+    at = next + (i < 2 ? 1 : 0);
+  }
+  if (!good) throw UsageError(fmt::format("{}={}: allowed: X/Y/Z, each within {}", key, *text, most));
+  return Vec3{parts[0], parts[1], parts[2]};
+}
+
+}  // namespace
+
+HandOptions takeHandOptions(DeviceOptions& options) {
+  HandOptions hand;
+  if (const auto file = options.take("mapping")) hand.mapping = readMapping(*file), hand.mapped = true;
+  const double scale = options.number("scale", -1, 0.01, 100);
+  if (scale > 0) hand.mapping.scale = scale, hand.mapped = true;
+  if (const auto offset = takeVector(options, "offset", 10)) hand.mapping.offset = *offset, hand.mapped = true;
+  if (const auto degrees = takeVector(options, "rotation", 360))
+    hand.mapping.rotation = std::numbers::pi / 180 * *degrees, hand.mapped = true;
+  if (options.word("mirror", {"no", "x"}) == "x") hand.mapping.mirrorX = hand.mapped = true;
+  if (const auto wall = options.take("wall")) {
+    double radius = 0;
+    const auto [end, error] = std::from_chars(wall->data(), wall->data() + wall->size(), radius);
+    const bool number = error == std::errc() && end == wall->data() + wall->size() && radius > 0 && radius <= 10;
+    if (*wall != "yes" && *wall != "no" && !number)
+      throw UsageError(fmt::format("wall={}: allowed: yes, no or a radius up to 10 m", *wall));
+    if (*wall != "no") hand.wall = number ? radius : 0;
+  }
+  const double speed = options.number("speed-limit", -1, 0.01, 20);
+  if (speed > 0) hand.speedLimit = speed;
+  const double mass = options.number("stylus-mass", -1, 0, 2);
+  if (mass >= 0) hand.stylusMass = mass;
+  hand.passivityControl = options.word("passivity", {"observe", "control"}) == "control";
+  return hand;
+}
+
+std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options) {
+  if (!options.any()) return device;
+  if (options.wall && *options.wall == 0 && !(device->info().workspaceRadius > 0))
+    throw UsageError(fmt::format("wall=yes: the workspace of {} is not known; allowed: wall=RADIUS_M", device->info().name));
+  return std::make_unique<GuardedDevice>(std::move(device), options);
+}
+
+}  // namespace reachlab::devices

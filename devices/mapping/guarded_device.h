@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/mapping/mapping.h"
+#include "devices/options.h"
+#include "sim/haptics/device.h"
+
+namespace reachlab::devices {
+
+/// What may be asked of every device beside its driver's own options.
+struct HandOptions {
+  Mapping mapping;
+  bool mapped = false;
+  std::optional<double> wall;        // [m] radius in the world; 0: the device's own workspace
+  std::optional<double> speedLimit;  // [m/s] of the hand in the world
+  std::optional<double> stylusMass;  // [kg] held against its weight
+  bool passivityControl = false;
+  bool any() const { return mapped || wall || speedLimit || stylusMass || passivityControl; }
+};
+
+/// Takes `mapping=FILE`, `scale=`, `offset=X/Y/Z` [m], `rotation=X/Y/Z` [deg], `mirror=x`, `wall=yes|RADIUS_M`, `speed-limit=M_PER_S`,
+/// `stylus-mass=KG`, `passivity=control`. Throws UsageError.
+HandOptions takeHandOptions(DeviceOptions& options);
+
+/// The device as the world sees it: mapped, with its guards. With nothing asked for, the device itself.
+std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options);
+
+}  // namespace reachlab::devices

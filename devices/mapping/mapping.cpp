@@ -1,0 +1,82 @@
+#include "devices/mapping/mapping.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/json_tree.h"
+
+namespace reachlab::devices {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kLeastScale = 0.01, kMostScale = 100, kFarthest = 10;
+
+double numberFrom(const Json& value, const std::string& where, double least, double most) {
+  const double x = value.is_number() ? value.get<double>() : NAN;
+  if (!(x >= least) || !(x <= most)) throw UsageError(fmt::format("{}: allowed: a number from {} to {}", where, least, most));
+  return x;
+}
+
+Vec3 vectorFrom(const Json& value, const std::string& where, double most) {
+  if (!value.is_array() || value.size() != 3) throw UsageError(fmt::format("{}: allowed: three numbers", where));
+  return {numberFrom(value[0], where, -most, most), numberFrom(value[1], where, -most, most), numberFrom(value[2], where, -most, most)};
+}
+
+}  // namespace
+
+// Rodrigues' formula on the (mirrored) unit vectors, transposed into rows.
+std::array<Vec3, 3> directions(const Mapping& mapping) noexcept {
+  const double angle = norm(mapping.rotation);
+  const Vec3 axis = angle > 0 ? mapping.rotation / angle : Vec3{1, 0, 0};
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto turned = [&](const Vec3& v) { return c * v + s * cross(axis, v) + (1 - c) * dot(axis, v) * axis; };
+  const Vec3 x = turned({mapping.mirrorX ? -1.0 : 1.0, 0, 0}), y = turned({0, 1, 0}), z = turned({0, 0, 1});
+  return {Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}};
+}
+
+std::string toJson(const Mapping& m) {
+  const Json json = {{"scale", m.scale},
+                     {"offset_m", {m.offset.x, m.offset.y, m.offset.z}},
+                     {"rotation_deg", {m.rotation.x / kDegree, m.rotation.y / kDegree, m.rotation.z / kDegree}},
+                     {"mirror_x", m.mirrorX}};
+  return json.dump();
+}
+
+Mapping mappingFromJson(const std::string& text, const std::string& origin) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) throw UsageError(fmt::format("{}: is no JSON object of a mapping", origin));
+  Mapping m;
+  for (const auto& [key, value] : json.items()) {
+    const std::string where = fmt::format("{}: {}", origin, key);
+    if (key == "scale") m.scale = numberFrom(value, where, kLeastScale, kMostScale);
+    else if (key == "offset_m") m.offset = vectorFrom(value, where, kFarthest);
+    else if (key == "rotation_deg") m.rotation = kDegree * vectorFrom(value, where, 360);
+    else if (key == "mirror_x" && value.is_boolean()) m.mirrorX = value.get<bool>();
+    else throw UsageError(fmt::format("{}: allowed: scale, offset_m, rotation_deg, mirror_x (true or false)", where));
+  }
+  return m;
+}
+
+Mapping readMapping(const std::string& file) { return mappingFromJson(readTextFile(file), file); }
+
+std::string mappingFile(const std::string& data, const std::string& subject, const std::string& device) {
+  return fmt::format("{}/sourcedata/mappings/sub-{}_{}.json", data, subject, device);
+}
+
+void saveMapping(const Mapping& mapping, const std::string& file) {
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
+  std::ofstream out(file, std::ios::binary);
+  out << toJson(mapping) << '\n' << std::flush;
+  if (!out) throw ResourceError(fmt::format("{}: the mapping cannot be saved{}", file, error ? ": " + error.message() : ""));
+}
+
+}  // namespace reachlab::devices

@@ -1,0 +1,184 @@
+#include "devices/preflight/preflight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "devices/preflight/reach_demand.h"
+#include "devices/virtual/loop_stability.h"
+#include "base/ticks.h"
+
+namespace reachlab::devices {
+namespace {
+
+constexpr double kRelaxedHandMass = 0.3;    // [kg] that moves with the handle
+constexpr double kRelaxedHandDamping = 3;   // [N s/m]; a held hand brings 1 to 10
+constexpr double kLightestHandDamping = 1;  // [N s/m]
+
+using experiment::Experiment;
+
+// What the hand feels of the springs that it holds: those of parallel masses act together.
+experiment::Coupling feltCoupling(const Experiment& experiment) {
+  if (experiment.coupling) return *experiment.coupling;
+  const experiment::Object& object = experiment.object;
+  return {std::accumulate(object.stiffness.begin(), object.stiffness.end(), 0.0),
+          std::accumulate(object.damping.begin(), object.damping.end(), 0.0)};
+}
+
+// The shortest T whose force keeps below `limit`, to 2 %: force falls about as 1/T^2, and each guess is computed again.
+std::optional<double> longerDuration(const Experiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& now) {
+  constexpr int kTries = 6;
+  constexpr double kMargin = 1.01;
+  double duration = now.duration, felt = now.*force;
+  for (int i = 0; i < kTries; ++i) {
+    if (felt <= limit) return duration;
+    duration *= kMargin * std::sqrt(felt / limit);
+    felt = computeReachDemand(experiment, duration).*force;
+  }
+  return felt <= limit ? std::optional(duration) : std::nullopt;
+}
+
+std::string forceRemedy(const Experiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& demand) {
+  const double scale = limit / (demand.*force);
+  const auto duration = longerDuration(experiment, limit, force, demand);
+  const std::string slower = duration ? fmt::format("a longer reach (duration_s {:.3g} instead of {:.3g})", *duration, demand.duration)
+                                      : std::string("a longer reach does not help (a force that rests on it stays)");
+  return fmt::format("{}, a reach or masses scaled by {:.2g}, or a device of {:.3g} N", slower, scale, demand.*force);
+}
+
+PreflightLine peakForce(const Experiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
+  PreflightLine line{"peak_force", Verdict::Fine, demand.peakForce, device.maxForce, "N", {}, {}};
+  if (experiment.forceLimit) line.limit = std::min(device.maxForce, *experiment.forceLimit);
+  line.sentence =
+      fmt::format("the reach needs {:.3g} N at its peak ({}); {} gives {:.3g} N", demand.peakForce, demand.law, device.name, *line.limit);
+  if (demand.peakForce <= *line.limit) return line;
+  line.verdict = Verdict::Warning;
+  line.sentence += ": the force will be clamped";
+  line.remedy = forceRemedy(experiment, *line.limit, &ReachDemand::peakForce, demand);
+  return line;
+}
+
+PreflightLine continuousForce(const Experiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
+  PreflightLine line{"continuous_force", Verdict::Unknown, demand.rmsForce, std::nullopt, "N", {}, {}};
+  if (!(device.maxContinuousForce > 0)) {
+    line.sentence =
+        fmt::format("the movement needs {:.3g} N (root mean square); what {} stands for ever is not known", demand.rmsForce, device.name);
+    return line;
+  }
+  line.limit = device.maxContinuousForce;
+  line.sentence =
+      fmt::format("the movement needs {:.3g} N (root mean square); {} stands {:.3g} N for ever", demand.rmsForce, device.name, *line.limit);
+  line.verdict = demand.rmsForce <= *line.limit ? Verdict::Fine : Verdict::Warning;
+  if (line.verdict == Verdict::Fine) return line;
+  const double share = *line.limit / demand.rmsForce;
+  line.sentence += ": its motors warm up, and the peak will be taken back";
+  line.remedy = fmt::format("pauses {:.2g} times as long as the movements, or {}", 1 / (share * share) - 1,
+                            forceRemedy(experiment, *line.limit, &ReachDemand::rmsForce, demand));
+  return line;
+}
+
+LoopSettings heldLoop(const experiment::Coupling& coupling, const haptics::DeviceInfo& device, const Experiment& experiment) {
+  LoopSettings loop;
+  loop.stiffness = coupling.stiffness;
+  loop.damping = coupling.damping;
+  loop.mass = device.apparentMass;
+  loop.friction = device.viscosity;
+  loop.period = std::max(kTickSeconds, device.rate > 0 ? 1 / device.rate : 0.0);
+  loop.estimator = experiment.velocityEstimator;
+  return loop;
+}
+
+PreflightLine passivity(const Experiment& experiment, const haptics::DeviceInfo& device) {
+  const experiment::Coupling coupling = feltCoupling(experiment);
+  const LoopSettings loop = heldLoop(coupling, device, experiment);
+  const double margin = passivityMargin(loop), asked = loop.friction - margin;
+  PreflightLine line{"passivity", Verdict::Fine, asked, device.viscosity, "N s/m", {}, {}};
+  line.sentence = fmt::format(
+      "k_h = {:.4g} N/m and b_h = {:.3g} N s/m at {:.4g} Hz ask for {:.3g} N s/m of viscous friction (K T/2 + |B|); "
+      "{} has {:.3g} of its own",
+      coupling.stiffness, coupling.damping, 1 / loop.period, asked, device.name, device.viscosity);
+  if (device.resolution > 0 && device.coulombFriction > 0) {
+    const double most = 2 * device.coulombFriction / device.resolution;
+    line.sentence += fmt::format("; its steps are swallowed by its dry friction up to k_h = {:.3g} N/m (2 c/resolution)", most);
+    if (coupling.stiffness > most) line.verdict = Verdict::Held;
+  }
+  if (margin < 0) {
+    line.verdict = -margin <= kLightestHandDamping ? Verdict::Held : Verdict::Warning;
+    line.sentence += fmt::format(": the hand must bring {:.3g} N s/m{}", -margin,
+                                 line.verdict == Verdict::Held ? ", as any hand that holds it does" : ", more than a light grasp does");
+  }
+  if (line.verdict == Verdict::Warning) {
+    const double softer = 2 * (kLightestHandDamping + device.viscosity - std::abs(coupling.damping)) / loop.period;
+    line.remedy = softer > 0 ? fmt::format("a coupling of k_h <= {:.4g} N/m", softer)
+                             : fmt::format("less coupling damping than b_h = {:.3g} N s/m", coupling.damping);
+  }
+  return line;
+}
+
+PreflightLine stability(const Experiment& experiment, const haptics::DeviceInfo& device) {
+  const experiment::Coupling coupling = feltCoupling(experiment);
+  PreflightLine line{"stability", Verdict::Unknown, coupling.stiffness, std::nullopt, "N/m", {}, {}};
+  if (!(device.apparentMass > 0)) {
+    line.sentence = fmt::format("the apparent mass of {} is not known, so how stiff a coupling it renders cannot be told", device.name);
+    return line;
+  }
+  LoopSettings loop = heldLoop(coupling, device, experiment);
+  loop.mass += kRelaxedHandMass;
+  loop.friction += kRelaxedHandDamping;
+  line.limit = largestStableStiffness(loop);
+  line.verdict = coupling.stiffness <= *line.limit ? Verdict::Fine : Verdict::Warning;
+  line.sentence = fmt::format("k_h = {:.4g} N/m; {} in a relaxed hand (0.3 kg, 3 N s/m) is stable up to {:.4g} N/m", coupling.stiffness,
+                              device.name, *line.limit);
+  if (line.verdict == Verdict::Warning) line.remedy = fmt::format("a coupling of k_h <= {:.4g} N/m", *line.limit);
+  return line;
+}
+
+PreflightLine workspace(const haptics::DeviceInfo& device, const ReachDemand& demand) {
+  PreflightLine line{"workspace", Verdict::Unknown, demand.farthest, std::nullopt, "m", {}, {}};
+  if (!(device.workspaceRadius > 0)) {
+    line.sentence = fmt::format("the hand goes {:.3g} m from its middle; the workspace of {} is not known", demand.farthest, device.name);
+    return line;
+  }
+  line.limit = device.workspaceRadius;
+  constexpr double kRounding = 1e-6;
+  line.verdict = demand.farthest <= *line.limit * (1 + kRounding) ? Verdict::Fine : Verdict::Warning;
+  line.sentence = fmt::format("the hand goes {:.3g} m from its middle; {} reaches {:.3g} m", demand.farthest, device.name, *line.limit);
+  if (line.verdict == Verdict::Warning)
+    line.remedy = fmt::format("a mapping of scale {:.3g} or more, or another offset", demand.farthest / *line.limit);
+  return line;
+}
+
+}  // namespace
+
+std::string_view nameOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Fine: return "fine";
+    case Verdict::Held: return "held";
+    case Verdict::Warning: return "warning";
+    case Verdict::Unknown: break;
+  }
+  return "unknown";
+}
+
+std::vector<PreflightLine> checkBeforeBlock(const Experiment& experiment, const haptics::DeviceInfo& device) {
+  const ReachDemand demand = computeReachDemand(experiment, std::nullopt, device.workspaceCentre);
+  std::vector<PreflightLine> lines;
+  if (device.rendersForce) {
+    lines.push_back(peakForce(experiment, device, demand));
+    lines.push_back(continuousForce(experiment, device, demand));
+    lines.push_back(passivity(experiment, device));
+    lines.push_back(stability(experiment, device));
+  }
+  lines.push_back(workspace(device, demand));
+  return lines;
+}
+
+std::string describe(const PreflightLine& line) {
+  std::string name = line.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return fmt::format("{}: {}{}", name, line.sentence, line.remedy.empty() ? "" : "; what helps: " + line.remedy);
+}
+
+}  // namespace reachlab::devices

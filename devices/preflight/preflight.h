@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/device.h"
+
+namespace reachlab::devices {
+
+/// How one number of an experiment stands against the device.
+enum class Verdict {
+  Fine,
+  Held,     // fine only while somebody holds the device
+  Warning,  // what is asked will not be felt as it is computed
+  Unknown,  // the device does not tell its number
+};
+std::string_view nameOf(Verdict verdict);  // "fine", "held", …
+
+/// One line of the check: what the experiment asks, what the device has, and what to do.
+struct PreflightLine {
+  std::string name;  // "peak_force", "continuous_force", "passivity", "stability", "workspace"
+  Verdict verdict = Verdict::Fine;
+  double asked = 0;             // in `unit`
+  std::optional<double> limit;  // nullopt: unknown
+  std::string unit;             // "N", "N s/m", "N/m", "m"
+  std::string sentence;         // numbers in words
+  std::string remedy;           // empty where nothing is to be done
+};
+
+/// What a block of this experiment will meet on this device:
+///   peak_force        largest force of a reach against DeviceInfo::maxForce (an experiment's lower limit holds)
+///   continuous_force  root mean square of the movement's force against what the motors stand for ever, trials without a pause
+///   passivity         Colgate and Schenkel: the friction K T/2 + |B| that is asked against the device's own viscous friction, T the slower
+///                     of tick and reports. Encoder steps: Abbott and Okamura 2005, K <= 2 c/resolution with Coulomb friction c
+///   stability         k_h against the largest that dies out on this device held by a relaxed hand (0.3 kg, 3 N s/m)
+///   workspace         farthest place of the hand against the device's radius
+/// A device without force is asked for its workspace only. Takes some milliseconds, on a curve up to seconds. Throws UsageError (no task),
+/// RefusedError (the scene cannot be computed).
+std::vector<PreflightLine> checkBeforeBlock(const experiment::Experiment& experiment, const haptics::DeviceInfo& device);
+
+/// One sentence of a line that is not fine, with its remedy: "peak force: …; …".
+std::string describe(const PreflightLine& line);
+
+}  // namespace reachlab::devices

@@ -1,0 +1,80 @@
+#include "devices/preflight/reach_demand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "devices/simulated/simulated_hand.h"
+#include "sim/haptics/tick_engine.h"
+
+namespace reachlab::devices {
+namespace {
+
+constexpr double kNoLimit = 1e9;               // [N] the engine's own clamp is out of the way
+constexpr std::uint64_t kMostTicks = 120'000;  // a task longer than two minutes is judged by its first two
+
+ReachDemand rigidBodyDemand(const experiment::Experiment& experiment, const trial::ProtocolSettings& settings, const Vec3& centre,
+                            const std::string& why) {
+  const double mass = std::accumulate(experiment.object.masses.begin(), experiment.object.masses.end(), 0.0);
+  const double unit = mass * norm(settings.target - settings.start) / (experiment.task->duration * experiment.task->duration);
+  const double weight = mass * norm(experiment.object.gravity);
+  ReachDemand demand;
+  demand.peakForce = 10 / std::sqrt(3.0) * unit + weight;
+  demand.rmsForce = std::hypot(std::sqrt(120.0 / 7) * unit, weight);
+  demand.farthest = std::max(norm(settings.start - centre), norm(settings.target - centre));
+  demand.law = "its whole mass as one rigid body (" + why + ")";
+  return demand;
+}
+
+ReachDemand simulatedDemand(const experiment::Experiment& experiment, haptics::TickEngine& engine, const Vec3& centre) {
+  SubjectSpec practised;
+  practised.noise = 0;
+  const auto hand = makeSimulatedHand(experiment, practised, 0);
+  hand->prepareTrial(0);
+  ReachDemand demand;
+  double squares = 0;
+  std::uint64_t moving = 0;
+  const haptics::TickState& state = engine.state();
+  for (std::uint64_t tick = 0; tick < kMostTicks && state.phase != trial::Phase::Done; ++tick) {
+    haptics::TickInput input;
+    input.device = hand->read();
+    if (tick == 0) input.command = trial::Command::NextTrial;
+    engine.tick(input);
+    if (const auto cue = engine.cue()) hand->cue(*cue);
+    if (!trial::isEngaged(state.phase)) continue;
+    const double force = norm(state.feedbackForce);
+    demand.peakForce = std::max(demand.peakForce, force);
+    demand.farthest = std::max(demand.farthest, norm(input.device.position - centre));
+    if (state.phase != trial::Phase::Moving) continue;
+    squares += force * force;
+    ++moving;
+  }
+  if (moving == 0) throw RefusedError("the simulated subject does not move the object");
+  demand.rmsForce = std::sqrt(squares / static_cast<double>(moving));
+  demand.law = "a practised reach, simulated";
+  return demand;
+}
+
+}  // namespace
+
+ReachDemand computeReachDemand(const experiment::Experiment& experiment, std::optional<double> duration, const Vec3& centre) {
+  experiment::Experiment asked = experiment;
+  asked.forceLimit.reset();
+  asked.forceLimitEndsTrial = false;
+  if (asked.task && duration) asked.task->duration = *duration;
+  haptics::EngineOptions options;
+  options.deviceMaxForce = kNoLimit;
+  options.virtualHand = true;
+  haptics::TickEngine engine(asked, options);
+  ReachDemand demand;
+  try {
+    demand = simulatedDemand(asked, engine, centre);
+  } catch (const Error& error) {  // a task that nobody can plan is still felt
+    demand = rigidBodyDemand(asked, engine.protocol(), centre, error.what());
+  }
+  demand.duration = asked.task->duration;
+  return demand;
+}
+
+}  // namespace reachlab::devices

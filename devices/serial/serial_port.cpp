@@ -1,0 +1,90 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/serial.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.h"
+#include "devices/serial/line_port.h"
+
+namespace reachlab::devices {
+namespace {
+
+class SerialPort final : public LinePort {
+ public:
+  explicit SerialPort(const std::string& path) : file_(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+    if (file_ < 0) {
+      const int error = errno;
+      throw ResourceError(fmt::format("{}: {}{}", path, std::strerror(error),
+                                      error == EACCES ? "; install packaging/udev/70-reachlab.rules and plug it in again" : ""));
+    }
+    termios line{};
+    if (::tcgetattr(file_, &line) != 0) {
+      const int error = errno;
+      ::close(file_);
+      throw ResourceError(fmt::format("{}: is no serial line: {}", path, std::strerror(error)));
+    }
+    ::cfmakeraw(&line);
+    ::cfsetspeed(&line, B115200);
+    line.c_cflag |= CLOCAL | CREAD;
+    ::tcsetattr(file_, TCSANOW, &line);
+    ::tcflush(file_, TCIOFLUSH);
+    serial_struct driver{};  // some drivers gather bytes for 16 ms unless told otherwise; one that does not know the wish needs none
+    if (::ioctl(file_, TIOCGSERIAL, &driver) == 0) {
+      driver.flags |= ASYNC_LOW_LATENCY;
+      (void)::ioctl(file_, TIOCSSERIAL, &driver);
+    }
+  }
+  ~SerialPort() override { ::close(file_); }
+  SerialPort(const SerialPort&) = delete;
+  SerialPort& operator=(const SerialPort&) = delete;
+
+  bool send(std::string_view line) noexcept override {
+    constexpr int kPatienceMs = 20;
+    while (!line.empty()) {
+      const ssize_t sent = ::write(file_, line.data(), line.size());
+      if (sent > 0) {
+        line.remove_prefix(static_cast<std::size_t>(sent));
+        continue;
+      }
+      pollfd at{file_, POLLOUT, 0};
+      if (sent < 0 && errno != EAGAIN && errno != EINTR) return false;
+      if (::poll(&at, 1, kPatienceMs) <= 0 || (at.revents & (POLLERR | POLLHUP)) != 0) return false;
+    }
+    return true;
+  }
+
+  Got receive(std::string& line, int milliseconds) noexcept override {
+    for (bool waited = false;; waited = true) {
+      if (const std::size_t end = waiting_.find('\n'); end != std::string::npos) {
+        line.assign(waiting_, 0, end);
+        waiting_.erase(0, end + 1);
+        return Got::Line;
+      }
+      if (waiting_.size() > kLongestLine) waiting_.clear();
+      pollfd at{file_, POLLIN, 0};
+      const int ready = ::poll(&at, 1, waited ? 1 : milliseconds);
+      if (ready < 0 && errno != EINTR) return Got::Gone;
+      if (ready <= 0) return Got::Nothing;
+      char bytes[kLongestLine];
+      const ssize_t got = ::read(file_, bytes, sizeof bytes);
+      if (got > 0) waiting_.append(bytes, static_cast<std::size_t>(got));
+      else if (got == 0 || (errno != EAGAIN && errno != EINTR)) return Got::Gone;
+    }
+  }
+
+ private:
+  int file_;
+  std::string waiting_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinePort> openSerial(const std::string& path) { return std::make_unique<SerialPort>(path); }
+
+}  // namespace reachlab::devices

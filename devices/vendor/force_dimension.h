@@ -1,0 +1,13 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "devices/io/polled_device.h"
+
+namespace reachlab::devices {
+
+/// The `index`-th device of Force Dimension's library; `words` for messages ("device forcedimension:0"). Throws ResourceError in the
+/// library's own words.
+std::shared_ptr<Transport> openForceDimension(int index, const std::string& words, bool deviceVelocity);
+
+}  // namespace reachlab::devices

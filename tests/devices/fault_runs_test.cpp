@@ -1,0 +1,566 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <rapidcheck.h>
+#include <thread>
+
+#include "base/error.h"
+#include "devices/haply/haply_device.h"
+#include "devices/hid/open_arm_device.h"
+#include "devices/hid/open_serial_arm.h"
+#include "devices/hid/stick_device.h"
+#include "devices/serial/polhem_device.h"
+#include "devices/serial/polhem_line.h"
+#include "devices/vendor/force_dimension.h"
+#include "devices/vendor/phantom_device.h"
+#include "devices/virtual/device_model.h"
+#include "devices/virtual/virtual_device.h"
+#include "sim/haptics/force_safety.h"
+#include "sim/haptics/loop_core.h"
+#include "sim/haptics/watchdog.h"
+#include "tests/devices/fakes/fake_dhd.h"
+#include "tests/devices/fakes/fake_hd.h"
+
+/// Every driver that renders force, behind the whole loop, on invented time, with faults mixed at random (seeded: RC_PARAMS). What must hold
+/// at every tick is in `Run`. RC_PARAMS="max_success=1000" runs a thousand of each (tests/long/fault_runs.sh).
+namespace reachlab::devices {
+namespace {
+
+const int kSeeded = ::setenv("RC_PARAMS", "seed=20260101 max_success=40", 0);
+
+constexpr std::int64_t kMs = 1'000'000;
+std::int64_t timeNs = 0;
+std::int64_t now() { return timeNs; }
+
+enum class Fault { NotANumber, Jump, Silence, Garbage, Unplug, Refusal, Gap, Stall };
+struct FaultEvent {
+  Fault kind = Fault::Gap;
+  int from = 0, ticks = 1;
+};
+struct Plan {
+  double stiffness = 600, mass = 1, limit = 0;  // limit [N] of the experiment, 0: none
+  double reach = 0.1, period = 1;               // [m], [s] of the hand
+  std::vector<FaultEvent> faults;
+  bool resets = false;  // the experimenter resets a latched fault when the faults are over
+};
+
+/// One driver on a model of its device.
+class Rig {
+ public:
+  virtual ~Rig() = default;
+  virtual std::shared_ptr<haptics::HapticDevice> open() = 0;
+  virtual void moveTo(const Vec3& world) = 0;
+  /// One millisecond of the device and its I/O; then `tick`, unless the tick hangs.
+  virtual void advance(const std::function<void()>& tick) = 0;
+  /// What the device's motors were last told, in its own unit: 0 is none.
+  virtual double told() const = 0;
+  virtual void set(Fault kind, bool active) = 0;
+  bool knows(Fault kind) const { return kind == Fault::Gap || kind == Fault::Stall || knowsOwn(kind); }
+  virtual bool knowsOwn(Fault kind) const = 0;
+  virtual double toldLimit() const = 0;
+  virtual bool refuses() const { return false; }
+};
+
+/// Behind a PolledDevice that is stepped.
+class PolledRig : public Rig {
+ public:
+  std::shared_ptr<haptics::HapticDevice> open() override {
+    polled_ = std::make_shared<PolledDevice>(transport(), now);
+    for (int i = 0; i < 3; ++i) advance({});
+    return polled_;
+  }
+  void advance(const std::function<void()>& tick) override {
+    serve();
+    polled_->step();
+    if (tick) tick();
+  }
+  void moveTo(const Vec3& world) override { place = world; }
+  void set(Fault kind, bool active) override { faults[static_cast<std::size_t>(kind)] = active; }
+  bool has(Fault kind) const { return faults[static_cast<std::size_t>(kind)]; }
+  bool refuses() const override { return has(Fault::Refusal); }
+
+ protected:
+  virtual std::shared_ptr<Transport> transport() = 0;
+  virtual void serve() = 0;  // the device's own millisecond
+  Vec3 seen() const {
+    Vec3 at = place;
+    if (has(Fault::Jump)) at += Vec3{0.05, 0, 0};
+    return at;
+  }
+  Vec3 place;
+  std::array<bool, 8> faults{};
+  std::shared_ptr<PolledDevice> polled_;
+};
+
+class ArmRig final : public PolledRig {
+ public:
+  bool knowsOwn(Fault kind) const override { return kind != Fault::NotANumber; }
+  double told() const override { return told_; }
+  double toldLimit() const override { return 2000; }
+
+ protected:
+  struct Port final : HidPort {
+    explicit Port(ArmRig& r) : rig(r) {}
+    int read(std::span<std::uint8_t> bytes, int) noexcept override {
+      if (rig.has(Fault::Unplug)) return -1;
+      if (rig.waiting_.empty()) return 0;
+      const auto report = rig.waiting_;
+      rig.waiting_.clear();
+      std::copy(report.begin(), report.end(), bytes.begin());
+      return static_cast<int>(report.size());
+    }
+    bool write(std::span<const std::uint8_t> bytes) noexcept override {
+      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
+      rig.told_ = 0;
+      for (const std::size_t at : {1, 3, 5})
+        rig.told_ = std::max(rig.told_, std::abs(1.0 * static_cast<std::int16_t>(bytes[at] | bytes[at + 1] << 8)));
+      rig.answered_ = timeNs;
+      return true;
+    }
+    ArmRig& rig;
+  };
+  std::shared_ptr<Transport> transport() override {
+    OpenArm::Options options;
+    options.model = findArmModel("woodenhaptics_v2015");
+    return std::make_shared<OpenArm>(options, "1", [this]() -> std::unique_ptr<HidPort> {
+      if (has(Fault::Unplug)) throw ResourceError("gone");
+      return std::make_unique<Port>(*this);
+    });
+  }
+  void serve() override {
+    if (timeNs - answered_ > 500 * kMs || has(Fault::Unplug)) told_ = 0;  // the firmware's watchdog; no current without a cable
+    if (has(Fault::Silence)) return;
+    const ArmModel& model = *findArmModel("woodenhaptics_v2015");
+    const Vec3 at = seen();
+    const auto counts = encoderCounts(model, anglesAt(model, {at.z, at.x, at.y}));
+    waiting_.assign(has(Fault::Garbage) ? 7 : 64, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(counts[i])));
+      waiting_[2 * i] = static_cast<std::uint8_t>(raw & 0xFF);
+      waiting_[2 * i + 1] = static_cast<std::uint8_t>(raw >> 8);
+    }
+  }
+  std::vector<std::uint8_t> waiting_;
+  double told_ = 0;  // [mA]
+  std::int64_t answered_ = 0;
+};
+
+class PolhemRig final : public PolledRig {
+ public:
+  bool knowsOwn(Fault) const override { return true; }
+  double told() const override { return told_; }
+  double toldLimit() const override { return 5.002; }  // each axis is rounded to a millinewton
+
+ protected:
+  struct Port final : LinePort {
+    explicit Port(PolhemRig& r) : rig(r) {}
+    bool send(std::string_view line) noexcept override {
+      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
+      int x = 0, y = 0, z = 0;
+      std::sscanf(std::string(line).c_str(), "%d %d %d", &x, &y, &z);
+      rig.told_ = std::hypot(1e-3 * x, 1e-3 * y, 1e-3 * z);
+      rig.asked_ = true;
+      rig.answered_ = timeNs;
+      return true;
+    }
+    Got receive(std::string& line, int) noexcept override {
+      if (rig.has(Fault::Unplug)) return Got::Gone;
+      if (!rig.asked_ || rig.has(Fault::Silence)) return Got::Nothing;
+      rig.asked_ = false;
+      const Vec3 at = rig.seen();
+      char text[80];
+      if (rig.has(Fault::Garbage)) line = "?? !!";
+      else if (rig.has(Fault::NotANumber)) line = "nan nan nan 0 0 0 0 0";
+      else {
+        std::snprintf(text, sizeof text, "%.3f %.3f %.3f 0 0 0 0 0", 1e3 * at.z, 1e3 * at.x, 1e3 * at.y);
+        line = text;
+      }
+      return Got::Line;
+    }
+    PolhemRig& rig;
+  };
+  std::shared_ptr<Transport> transport() override {
+    return std::make_shared<PolhemSerial>("Polhem", [this]() -> std::unique_ptr<LinePort> {
+      if (has(Fault::Unplug)) throw ResourceError("gone");
+      return std::make_unique<Port>(*this);
+    });
+  }
+  void serve() override {
+    if (timeNs - answered_ > 500 * kMs || has(Fault::Unplug)) told_ = 0;
+  }
+  double told_ = 0;  // [N]
+  bool asked_ = false;
+  std::int64_t answered_ = 0;
+};
+
+class HaplyRig final : public PolledRig {
+ public:
+  bool knowsOwn(Fault) const override { return true; }
+  double told() const override { return told_; }
+  double toldLimit() const override { return 10; }
+
+ protected:
+  struct Link final : MessageLink {
+    explicit Link(HaplyRig& r) : rig(r) {}
+    ~Link() override { rig.told_ = 0; }  // the service lets go of a client that is gone
+    bool send(std::string_view message) noexcept override {
+      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
+      double x = 0, y = 0, z = 0;
+      const std::string text(message);
+      const std::size_t at = text.find("\"values\":");
+      if (at != std::string::npos && std::sscanf(text.c_str() + at, "\"values\":{\"x\":%lf,\"y\":%lf,\"z\":%lf", &x, &y, &z) == 3)
+        rig.told_ = std::hypot(x, y, z);
+      rig.asked_ = true;
+      return true;
+    }
+    Got receive(std::string& message, int) noexcept override {
+      if (rig.has(Fault::Unplug)) return Got::Gone;
+      if (!rig.asked_ || rig.has(Fault::Silence)) return Got::Nothing;
+      rig.asked_ = false;
+      const Vec3 at = rig.seen();
+      char text[200];
+      std::snprintf(text, sizeof text, R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":%.17g,"y":%.17g,"z":%.17g}}}]})",
+                    at.x, -at.z, at.y);
+      message = rig.has(Fault::Garbage)      ? "}{"
+                : rig.has(Fault::NotANumber) ? R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":1e999}}}]})"
+                                             : text;
+      return Got::Message;
+    }
+    std::string fault() const override { return "gone"; }
+    HaplyRig& rig;
+  };
+  std::shared_ptr<Transport> transport() override {
+    return std::make_shared<HaplyInverse3>(HaplyInverse3::Options{}, [this]() -> std::unique_ptr<MessageLink> {
+      if (has(Fault::Unplug)) throw ResourceError("gone");
+      asked_ = true;  // it greets
+      return std::make_unique<Link>(*this);
+    });
+  }
+  void serve() override {
+    if (has(Fault::Unplug)) told_ = 0;  // the service lets go when its client is gone
+  }
+  double told_ = 0;  // [N]
+  bool asked_ = false;
+};
+
+class StickRig final : public PolledRig {
+ public:
+  bool knowsOwn(Fault kind) const override {
+    return kind == Fault::Jump || kind == Fault::Garbage || kind == Fault::Unplug || kind == Fault::Refusal;
+  }
+  double told() const override { return told_; }
+  double toldLimit() const override { return 127; }
+
+ protected:
+  struct Port final : HidPort {
+    explicit Port(StickRig& r) : rig(r) {}
+    int read(std::span<std::uint8_t> bytes, int) noexcept override {
+      if (rig.has(Fault::Unplug)) return -1;
+      if (!std::exchange(rig.due_, false)) return 0;
+      if (rig.has(Fault::Garbage)) return 1;
+      const auto raw = static_cast<std::int16_t>(std::lround(std::clamp(rig.seen().x / 0.2, -1.0, 1.0) * 32767));
+      bytes[0] = static_cast<std::uint8_t>(raw & 0xFF);
+      bytes[1] = static_cast<std::uint8_t>(raw >> 8 & 0xFF);
+      return 2;
+    }
+    bool write(std::span<const std::uint8_t> bytes) noexcept override {
+      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
+      rig.told_ = bytes[1] == 0x11 ? std::abs(bytes[3] - 0x80) : 0;
+      return true;
+    }
+    StickRig& rig;
+  };
+  std::shared_ptr<Transport> transport() override {
+    const std::vector<std::uint8_t> wheel{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x09, 0x30, 0x16, 0x01, 0x80,
+                                          0x26, 0xFF, 0x7F, 0x75, 0x10, 0x95, 0x01, 0x81, 0x02, 0xC0};
+    return std::make_shared<StickDevice>(StickDevice::Options{0.2, 3, false}, "wheel", parseReportDescriptor(wheel), makeWheelForce(),
+                                         [this]() -> std::unique_ptr<HidPort> {
+                                           if (has(Fault::Unplug)) throw ResourceError("gone");
+                                           return std::make_unique<Port>(*this);
+                                         });
+  }
+  void serve() override {
+    due_ = true;
+    if (has(Fault::Unplug)) told_ = 0;
+  }
+  double told_ = 0;  // of 127
+  bool due_ = false;
+};
+
+class ForceDimensionRig final : public PolledRig {
+ public:
+  ForceDimensionRig() { test::resetFakeDhd(); }
+  bool knowsOwn(Fault kind) const override {
+    return kind == Fault::NotANumber || kind == Fault::Jump || kind == Fault::Unplug || kind == Fault::Refusal;
+  }
+  double told() const override {
+    const auto& f = test::fakeDhd().force;
+    return test::fakeDhd().error != 0 || !test::fakeDhd().open ? 0 : std::hypot(f[0].load(), f[1].load(), f[2].load());
+  }
+  double toldLimit() const override { return 12; }
+
+ protected:
+  std::shared_ptr<Transport> transport() override { return openForceDimension(0, "device forcedimension:0", false); }
+  void serve() override {
+    const Vec3 at = seen();
+    auto& fake = test::fakeDhd();
+    fake.position[0] = has(Fault::NotANumber) ? std::numeric_limits<double>::quiet_NaN() : at.z;
+    fake.position[1] = at.x, fake.position[2] = at.y;
+    fake.error = has(Fault::Unplug) ? 5 : 0;
+    if (has(Fault::Refusal)) fake.failOnce = 2;
+  }
+};
+
+class PhantomRig final : public Rig {
+ public:
+  PhantomRig() { test::resetFakeHd(); }
+  bool knowsOwn(Fault kind) const override {
+    return kind == Fault::NotANumber || kind == Fault::Jump || kind == Fault::Unplug || kind == Fault::Refusal;
+  }
+  std::shared_ptr<haptics::HapticDevice> open() override {
+    device_ = std::make_shared<PhantomDevice>(PhantomDevice::Options{});
+    device_->startClock(
+        [](void* self) noexcept {
+          auto& rig = *static_cast<PhantomRig*>(self);
+          if (rig.tick_) rig.tick_();
+        },
+        this);
+    return device_;
+  }
+  ~PhantomRig() override {
+    if (!device_) return;
+    tick_ = nullptr;
+    const std::jthread servo([](const std::stop_token& stop) {  // the last frames, which stopping waits for
+      while (!stop.stop_requested()) {
+        test::stepFakeHd();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+    device_.reset();
+  }
+  void advance(const std::function<void()>& tick) override {
+    auto& fake = test::fakeHd();
+    Vec3 at = place_;
+    if (faults_[static_cast<std::size_t>(Fault::Jump)]) at += Vec3{0.05, 0, 0};
+    auto& one = fake.devices[""];
+    one.position[0] = faults_[static_cast<std::size_t>(Fault::NotANumber)] ? std::numeric_limits<double>::quiet_NaN() : 1e3 * at.x;
+    one.position[1] = 1e3 * at.y, one.position[2] = 1e3 * at.z;
+    if (faults_[static_cast<std::size_t>(Fault::Unplug)]) fake.failures["hdEndFrame"] = 0x0302;
+    if (faults_[static_cast<std::size_t>(Fault::Refusal)]) fake.failures["hdSetDoublev"] = 0x0203;
+    tick_ = tick;
+    if (tick) test::stepFakeHd();  // a tick that hangs holds the scheduler
+    tick_ = nullptr;
+  }
+  void moveTo(const Vec3& world) override { place_ = world; }
+  double told() const override {
+    const auto& f = test::fakeHd().devices[""].force;
+    return std::hypot(f[0], f[1], f[2]);
+  }
+  double toldLimit() const override { return 3.3; }
+  void set(Fault kind, bool active) override { faults_[static_cast<std::size_t>(kind)] = active; }
+
+ private:
+  std::shared_ptr<PhantomDevice> device_;
+  std::function<void()> tick_;
+  Vec3 place_;
+  std::array<bool, 8> faults_{};
+};
+
+class VirtualRig final : public Rig {
+ public:
+  bool knowsOwn(Fault kind) const override { return kind == Fault::Silence || kind == Fault::Jump; }
+  std::shared_ptr<haptics::HapticDevice> open() override {
+    VirtualDevice::Options options;
+    options.hand = {1, 300, 30};
+    auto hand = std::make_unique<Hand>(*this);
+    return device_ = std::make_shared<VirtualDevice>(*findDeviceModel("premium15"), options, std::move(hand));
+  }
+  void advance(const std::function<void()>& tick) override {
+    if (tick) tick();
+  }
+  void moveTo(const Vec3& world) override { place_ = world; }
+  double told() const override { return 0; }
+  double toldLimit() const override { return 8.5; }
+  void set(Fault kind, bool active) override { faults_[static_cast<std::size_t>(kind)] = active; }
+
+ private:
+  struct Hand final : haptics::HapticDevice {
+    explicit Hand(VirtualRig& r) : rig(r) {}
+    haptics::DeviceInfo info() const override { return {}; }
+    haptics::DeviceSample read() noexcept override {
+      haptics::DeviceSample sample;
+      sample.position = rig.place_;
+      if (rig.faults_[static_cast<std::size_t>(Fault::Jump)]) sample.position += Vec3{0.05, 0, 0};
+      sample.valid = !rig.faults_[static_cast<std::size_t>(Fault::Silence)];
+      return sample;
+    }
+    void write(const Vec3&) noexcept override {}
+    VirtualRig& rig;
+  };
+  std::shared_ptr<VirtualDevice> device_;
+  Vec3 place_;
+  std::array<bool, 8> faults_{};
+};
+
+/// What the loop tells the device, tick for tick.
+class Tapped final : public haptics::HapticDevice {
+ public:
+  Tapped(std::shared_ptr<haptics::HapticDevice> device, bool guarded) : device_(std::move(device)), guarded_(guarded) {}
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info = device_->info();
+    info.rendersForce = guarded_;
+    return info;
+  }
+  void prepareTrial(int index) override { device_->prepareTrial(index); }
+  void cue(haptics::Cue cue) noexcept override { device_->cue(cue); }
+  haptics::DeviceSample read() noexcept override { return device_->read(); }
+  void write(const Vec3& force) noexcept override {
+    if (!isFinite(force)) notFinite = true;
+    largest = std::max(largest, norm(force));
+    last = force;
+    device_->write(force);
+  }
+  haptics::DeviceHealth health() const noexcept override { return device_->health(); }
+  bool stopForce() noexcept override { return device_->stopForce(); }
+  Vec3 last;
+  double largest = 0;
+  bool notFinite = false;
+
+ private:
+  std::shared_ptr<haptics::HapticDevice> device_;
+  bool guarded_;
+};
+
+bool isLoss(Fault kind) { return kind == Fault::Silence || kind == Fault::Unplug || kind == Fault::Garbage; }
+
+/// One run. At every tick: the force is finite, within the limit, changes by no more than the slew limit or goes to zero; it is zero from
+/// the 20th tick of any loss on; after a latch nothing until the experimenter resets it; the motors hear no more than they may.
+void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
+  experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  experiment.object = {};
+  experiment.object.masses = {plan.mass};
+  experiment.coupling = {plan.stiffness, 0};
+  if (plan.limit > 0) experiment.forceLimit = plan.limit;
+  timeNs = 1'000'000 * kMs;
+  rig.moveTo({-0.1, 0, 0});
+  const auto device = std::make_shared<Tapped>(rig.open(), guarded);
+  const haptics::DeviceInfo info = device->info();
+  auto engine = std::make_unique<haptics::TickEngine>(experiment, haptics::engineOptions(info));
+  haptics::LoopCore core(std::move(engine), device, nullptr);
+  const double limit = plan.limit > 0 ? std::min(plan.limit, info.maxForce) : info.maxForce;
+  constexpr int kTicks = 600;
+  constexpr double kRounding = 1e-9;
+  Vec3 before;
+  int lostFor = 0, latchedFor = 0, goneFor = 0;
+  double moved = 0;  // [s] of the hand's own time, while it is engaged
+  for (int tick = 0; tick < kTicks; ++tick) {
+    std::uint32_t missed = 0;
+    bool lost = false, any = false;
+    for (const FaultEvent& fault : plan.faults) {
+      const bool active = tick >= fault.from && tick < fault.from + fault.ticks;
+      any = any || active;
+      if (!rig.knows(fault.kind)) continue;
+      if (fault.kind == Fault::Gap && active && (tick - fault.from) % 50 == 0) missed += static_cast<std::uint32_t>(fault.ticks % 30);
+      if (fault.kind == Fault::Stall && tick == fault.from) {
+        // The tick hangs; device and watchdog go on.
+        const std::int64_t since = timeNs;
+        for (int ms = 0; ms < 25 + fault.ticks % 50; ++ms, timeNs += kMs, ++missed) {
+          rig.advance({});
+          const auto latched = haptics::judgeLoop({timeNs, since, core.forceOn.load(), info.drivesClock});
+          if (latched != haptics::DeviceFault::None) {
+            core.latch(latched);
+            device->stopForce();
+          }
+          if (timeNs - since > 21 * kMs && !info.drivesClock && !rig.refuses()) RC_ASSERT(rig.told() == 0);
+        }
+      }
+      if (fault.kind == Fault::Gap || fault.kind == Fault::Stall) continue;
+      bool other = false;  // two of one kind may overlap
+      for (const FaultEvent& one : plan.faults)
+        other = other || (one.kind == fault.kind && tick >= one.from && tick < one.from + one.ticks);
+      rig.set(fault.kind, other);
+      lost = lost || (other && isLoss(fault.kind));
+    }
+    lostFor = lost ? lostFor + 1 + static_cast<int>(missed) : 0;
+    const haptics::TickState& state = core.engine->state();
+    if (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Done) {
+      core.commands.tryPush({trial::Command::NextTrial, {}});
+      moved = 0;
+    }
+    if (trial::isEngaged(state.phase)) moved += 1e-3;
+    rig.moveTo({-0.1 + plan.reach * 0.5 * (1 - std::cos(2 * M_PI * moved / plan.period)), 0, 0});
+    if (plan.resets && !any && core.fault.load() != haptics::DeviceFault::None && latchedFor > 50) core.resetAsked = true;
+    timeNs += kMs * (1 + missed);
+
+    const bool latchedBefore = core.fault.load() != haptics::DeviceFault::None && !core.resetAsked.load();
+    device->largest = 0;
+    bool ticked = false;
+    rig.advance([&] {
+      core.tick(missed, timeNs);
+      ticked = true;
+    });
+    if (!ticked) continue;
+    const Vec3 force = device->last;
+    RC_ASSERT(!device->notFinite);
+    RC_ASSERT(device->largest <= limit + kRounding);
+    RC_ASSERT((norm(force - before) <= haptics::ForceSafety::kSlewPerTick + kRounding || force == Vec3{}));
+    if (lostFor >= 20) RC_ASSERT(force == Vec3{});
+    if (latchedBefore) RC_ASSERT(device->largest == 0);
+    RC_ASSERT(rig.told() <= rig.toldLimit() + kRounding);
+    // A device that is lost but still takes reports is told zero; one that refuses them can only be left to its own watchdog.
+    const bool refuses = rig.refuses();
+    goneFor = device->health() == haptics::DeviceHealth::Lost && !refuses ? goneFor + 1 : 0;
+    if (goneFor >= 20) RC_ASSERT(rig.told() == 0);
+    latchedFor = core.fault.load() != haptics::DeviceFault::None ? latchedFor + 1 : 0;
+    before = force;
+  }
+}
+
+Plan anyPlan() {
+  Plan plan;
+  plan.stiffness = *rc::gen::element(1.0, 120.0, 600.0, 2000.0, 1e5);
+  plan.mass = *rc::gen::element(1e-3, 0.6, 3.0, 1000.0);
+  plan.limit = *rc::gen::element(0.0, 0.0, 0.05, 2.0, 1e6);
+  plan.reach = *rc::gen::element(0.0, 0.02, 0.1, 0.2);
+  plan.period = *rc::gen::element(0.2, 0.7, 2.0);
+  plan.resets = *rc::gen::arbitrary<bool>();
+  const int count = *rc::gen::inRange(0, 6);
+  for (int i = 0; i < count; ++i)
+    plan.faults.push_back({static_cast<Fault>(*rc::gen::inRange(0, 8)), *rc::gen::inRange(1, 600), *rc::gen::inRange(1, 250)});
+  return plan;
+}
+
+template <class AnyRig>
+void check() {
+  ASSERT_TRUE(rc::check([] {
+    AnyRig rig;
+    const Plan plan = anyPlan();
+    runPlan(rig, plan);
+  }));
+}
+
+TEST(FaultRuns, OpenArm) { check<ArmRig>(); }
+TEST(FaultRuns, Polhem) { check<PolhemRig>(); }
+TEST(FaultRuns, Haply) { check<HaplyRig>(); }
+TEST(FaultRuns, Stick) { check<StickRig>(); }
+TEST(FaultRuns, ForceDimension) { check<ForceDimensionRig>(); }
+TEST(FaultRuns, Phantom) { check<PhantomRig>(); }
+TEST(FaultRuns, Virtual) { check<VirtualRig>(); }
+
+// The check itself can fail: where nothing looks after a device, a silent one goes on being told the force.
+TEST(FaultRuns, SilenceIsFoundWhereNothingLooksAfterTheDevice) {
+  Plan plan;
+  plan.faults = {{Fault::Silence, 300, 250}};
+  plan.mass = 1000;  // does not follow: the force stands
+  plan.reach = 0.02;
+  ArmRig guarded, unguarded;
+  EXPECT_NO_THROW(runPlan(guarded, plan));
+  EXPECT_THROW(runPlan(unguarded, plan, false), rc::detail::CaseResult);
+}
+
+}  // namespace
+}  // namespace reachlab::devices

@@ -1,0 +1,165 @@
+#include "devices/haply/haply_device.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "devices/make_device.h"
+#include "devices/registry.h"
+#include "tests/devices/fakes/fake_haply.h"
+#include "tests/until.h"
+
+namespace reachlab::devices {
+namespace {
+
+using test::FakeHaply;
+using test::until;
+
+std::unique_ptr<haptics::HapticDevice> open(const FakeHaply& service, const std::string& id = "") {
+  return makeDevice(fmt::format("haply:{}{}port={}", id, id.empty() ? "" : ",", service.port()), experiment::readExperiment("chain-slow"),
+                    1);
+}
+
+std::string refusal(const FakeHaply& service, const std::string& id = "") {
+  try {
+    open(service, id);
+  } catch (const ResourceError& error) {
+    return error.what();
+  }
+  return "it was opened";
+}
+
+TEST(HaplyMessage, PlacesAndForcesKeepTheirAxes) {
+  const Vec3 device{1, 2, 3};  // 2 away from the user, 3 up
+  EXPECT_EQ(haplyToWorld(device), (Vec3{1, 3, -2}));
+  EXPECT_EQ(worldToHaply(haplyToWorld(device)), device);
+  const Vec3 force{4, 5, 6};
+  EXPECT_EQ(dot(worldToHaply(force), device), dot(force, haplyToWorld(device))) << "the same work in both frames";
+}
+
+TEST(HaplyMessage, TheCommandIsThePublishedOne) {
+  EXPECT_EQ(haplyForceCommand("049D", {0.5, -1, 0}),
+            R"({"inverse3":[{"commands":{"set_cursor_force":{"values":{"x":0.5,"y":-1.0,"z":0.0}}},"device_id":"049D"}]})");
+}
+
+TEST(HaplyMessage, AForceThatIsNoNumberIsNone) { EXPECT_EQ(haplyForceCommand("1", {NAN, 1, 1}), haplyForceCommand("1", {})); }
+
+TEST(HaplyMessage, WhatIsNoStateIsNotBelieved) {
+  HaplyState state;
+  EXPECT_EQ(readHaplyMessage("", "", state), HaplyAnswer::NotJson);
+  EXPECT_EQ(readHaplyMessage("[1, 2]", "", state), HaplyAnswer::NotJson);
+  EXPECT_EQ(readHaplyMessage("{\"inverse3\": {\"049D\": {}}}", "", state), HaplyAnswer::OtherVersion);
+  EXPECT_EQ(readHaplyMessage("{\"inverse3\": []}", "", state), HaplyAnswer::NoDevice);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{}}]})", "", state), HaplyAnswer::OtherVersion);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":"left"}}}]})", "", state),
+            HaplyAnswer::NotJson);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":1e999}}}]})", "", state),
+            HaplyAnswer::NotJson);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"z":0.1}}}]})", "B", state),
+            HaplyAnswer::NoDevice);
+  ASSERT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"z":0.1}}}]})", "", state), HaplyAnswer::State);
+  EXPECT_EQ(state.position, (Vec3{0, 0, 0.1})) << "what is left out is zero";
+}
+
+TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {
+  for (const auto speaks : {FakeHaply::Speaks::AnswersOnly, FakeHaply::Speaks::GreetsFirst}) {
+    FakeHaply service(speaks);
+    service.moveTo({0.01, -0.02, 0.03});
+    const auto device = open(service, "049D");
+    ASSERT_TRUE(until([&] { return norm(device->read().position - Vec3{0.01, 0.03, 0.02}) < 1e-12; }));
+    const haptics::DeviceSample sample = device->read();
+    EXPECT_EQ(sample.buttons, 0b101u);
+    EXPECT_FALSE(sample.hasVelocity);
+    ASSERT_TRUE(sample.hasOrientation);
+    EXPECT_NEAR(sample.orientation[2], 0.8, 1e-12) << "z of the grip is y of the world";
+    EXPECT_NEAR(sample.orientation[3], -0.6, 1e-12);
+    ASSERT_TRUE(until([&] {
+      device->write({1, 2, 3});
+      return service.lastForce() == Vec3{1, -3, 2};
+    }));
+    EXPECT_TRUE(until([&] { return service.lastForce() == Vec3{}; })) << "a force that is not renewed is taken back";
+    EXPECT_NE(device->info().version.find("gravity_compensation"), std::string::npos) << device->info().version;
+  }
+}
+
+TEST(Haply, ItsLastWordIsZero) {
+  FakeHaply service;
+  {
+    const auto device = open(service);
+    ASSERT_TRUE(until([&] {
+      device->write({0, 0, 1});
+      return norm(service.lastForce()) > 0;
+    }));
+  }
+  EXPECT_TRUE(until([&] { return service.lastForce() == Vec3{}; }));
+}
+
+TEST(Haply, AServiceThatEndsIsALossWithASentence) {
+  FakeHaply service;
+  const auto device = open(service);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  service.end();
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost);
+  EXPECT_FALSE(device->healthText().empty());
+}
+
+TEST(Haply, AnUnpluggedDeviceIsLostThoughItsServiceAnswersAndComesBack) {
+  FakeHaply service;
+  const auto device = open(service);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  service.unplugged = true;
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_NE(device->healthText().find("049D"), std::string::npos) << device->healthText();
+  service.unplugged = false;
+  EXPECT_TRUE(until([&] { return device->read().valid; }));
+}
+
+TEST(Haply, ASentenceOfGarbageIsPassedOverAndMuchOfItIsALoss) {
+  FakeHaply service;
+  const auto device = open(service);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  service.garbles = true;
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_NE(device->healthText().find("cannot be understood"), std::string::npos) << device->healthText();
+}
+
+TEST(Haply, AServiceThatFallsSilentGivesNoNewReportAndHoldsNothingUp) {
+  FakeHaply service;
+  const auto device = open(service);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  service.silent = true;
+  std::uint64_t reports = 0;
+  until([&] { return std::exchange(reports, device->read().reports) == device->read().reports; });
+  const std::uint64_t forces = service.forces();
+  ASSERT_TRUE(until([&] { return service.forces() > forces + 2; })) << "it goes on being told";
+  EXPECT_LE(device->read().reports, reports + 1);
+  service.silent = false;
+  EXPECT_TRUE(until([&] { return device->read().reports > reports + 5; }));
+}
+
+TEST(Haply, WhatCannotBeHadIsRefusedInWords) {
+  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::OldObjects)).find("another version"), std::string::npos);
+  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::Garbage)).find("no Inverse service"), std::string::npos);
+  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::NoDevice)).find("no Inverse3 is connected"), std::string::npos);
+  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::NoWebsocket)).find("not as a websocket"), std::string::npos);
+  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::ClosesAtOnce)).find("closed"), std::string::npos);
+  EXPECT_NE(refusal(FakeHaply(), "FFFF").find("there is: 049D"), std::string::npos);
+}
+
+TEST(Haply, NobodyThereIsSaidInTheSystemsWords) {
+  const auto gone = [] {
+    FakeHaply service;
+    return service.port();
+  }();
+  try {
+    makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1);
+    FAIL() << "it was opened";
+  } catch (const ResourceError& error) {
+    EXPECT_NE(std::string(error.what()).find("refused"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::devices

@@ -1,0 +1,194 @@
+#include "devices/serial/polhem_device.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "base/error.h"
+#include "devices/make_device.h"
+#include "devices/serial/polhem_line.h"
+#include "tests/until.h"
+
+namespace reachlab::devices {
+namespace {
+
+using test::until;
+
+/// The arm's firmware at the other end of a serial line: answers each line of 64 bytes by its place, switches its motors off when none came
+/// for half a second.
+class Firmware {
+ public:
+  Firmware() {
+    int wire = -1, slave = -1;
+    char name[128] = {};
+    if (::openpty(&wire, &slave, name, nullptr, nullptr) != 0) throw std::runtime_error("openpty");
+    wire_ = wire;
+    path = name;
+    slave_ = slave;
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+  }
+  ~Firmware() {
+    thread_.request_stop();
+    thread_.join();
+    unplug();
+  }
+  void unplug() {
+    if (slave_ >= 0) ::close(slave_);
+    slave_ = -1;
+    gone_ = true;
+    if (const int wire = wire_.exchange(-1); wire >= 0) ::close(wire);
+  }
+  Vec3 force() const {  // [N], its own axes; zero once its watchdog has bitten
+    const std::lock_guard lock(mutex_);
+    return force_;
+  }
+
+  std::string path;
+  std::atomic<bool> garbles{false}, silent{false}, replays{false};
+  std::atomic<int> lines{0}, bitten{0};
+  std::atomic<double> x{25.0};  // [mm] towards the user
+
+ private:
+  void run(const std::stop_token& stop) {
+    std::string heard;
+    auto last = std::chrono::steady_clock::now();
+    while (!stop.stop_requested() && !gone_) {
+      pollfd at{wire_, POLLIN, 0};
+      if (::poll(&at, 1, 2) > 0 && (at.revents & POLLIN) != 0) {
+        char bytes[256];
+        const ssize_t got = ::read(wire_, bytes, sizeof bytes);
+        if (got > 0) heard.append(bytes, static_cast<std::size_t>(got));
+      }
+      if (heard.size() >= kPolhemLineBytes) {
+        take(heard.substr(0, kPolhemLineBytes));
+        heard.erase(0, kPolhemLineBytes);
+        last = std::chrono::steady_clock::now();
+      } else if (std::chrono::steady_clock::now() - last > std::chrono::milliseconds(500)) {
+        const std::lock_guard lock(mutex_);
+        if (!(force_ == Vec3{})) ++bitten;
+        force_ = {};
+      }
+    }
+  }
+  void take(const std::string& line) {
+    short fx = 0, fy = 0, fz = 0, command = 0;
+    if (line.back() != '\n' || std::sscanf(line.c_str(), "%hd %hd %hd %hd", &fx, &fy, &fz, &command) != 4 || command != 2) return;
+    {
+      const std::lock_guard lock(mutex_);
+      force_ = 1e-3 * Vec3{static_cast<double>(fx), static_cast<double>(fy), static_cast<double>(fz)};
+    }
+    ++lines;
+    if (silent) return;
+    char answer[kPolhemLineBytes + 1];
+    std::snprintf(answer, sizeof answer, "%8.3f %8.3f %8.3f %7.4f %7.4f %7.4f %7.4f %d", x.load(), -10.0, 40.0, 0.0, 0.0, 0.0, 0.0, 0);
+    std::string text = garbles ? "#!garbage" : answer;
+    text.resize(kPolhemLineBytes - 1, ' ');
+    text += '\n';
+    (void)!::write(wire_, text.data(), text.size());
+  }
+
+  std::atomic<int> wire_{-1};
+  int slave_ = -1;
+  std::atomic<bool> gone_{false};
+  mutable std::mutex mutex_;
+  Vec3 force_;
+  std::jthread thread_;
+};
+
+std::unique_ptr<haptics::HapticDevice> open(const Firmware& firmware) {
+  return makeDevice("polhem:" + firmware.path, experiment::readExperiment("chain-slow"), 1);
+}
+
+TEST(PolhemLine, PlacesAreReadInMetresAndGarbageIsNot) {
+  const auto state = readPolhemLine("  25.000  -10.500   40.000  0.1000 -0.2000  0.0000  0.0000 1     ");
+  ASSERT_TRUE(state.has_value());
+  EXPECT_LT(norm(state->place - Vec3{0.025, -0.0105, 0.04}), 1e-15);
+  EXPECT_EQ(state->info, 1);
+  for (const char* line :
+       {"", "   ", "1 2 3", "1 2 3 4 5 6 7 8 9", "a b c d e f g h", "nan 0 0 0 0 0 0 0", "1e9 0 0 0 0 0 0 0", "1,5 0 0 0 0 0 0 0"})
+    EXPECT_FALSE(readPolhemLine(line).has_value()) << line;
+}
+
+TEST(PolhemLine, ForcesAreWholeMillinewtonsOfSixteenBitsWithTheirDirection) {
+  EXPECT_EQ(polhemForceLine({1, -2.5, 0.0004}).substr(0, 20), "1000 -2500 0 2 0 0 0");
+  EXPECT_EQ(polhemForceLine({0, 0, 0}).size(), kPolhemLineBytes);
+  EXPECT_EQ(polhemForceLine({NAN, 1, 1}), polhemForceLine({}));
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(-100, 100);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 force{any(random), any(random), any(random)};
+    int x = 0, y = 0, z = 0;
+    ASSERT_EQ(std::sscanf(polhemForceLine(force).c_str(), "%d %d %d", &x, &y, &z), 3);
+    const Vec3 told{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+    ASSERT_LE(norm(told), 32768);
+    ASSERT_GT(dot(told, force), (1 - 1e-3) * norm(told) * norm(force)) << "rounding to a millinewton turns it that little";
+  }
+}
+
+TEST(Polhem, GivesItsPlaceAndGetsItsForce) {
+  Firmware firmware;
+  const auto device = open(firmware);
+  ASSERT_TRUE(until([&] { return norm(device->read().position - Vec3{-0.01, 0.04, 0.025}) < 1e-12; }));
+  ASSERT_TRUE(until([&] {
+    device->write({1, 2, 3});
+    return firmware.force() == Vec3{3, 1, 2};
+  }));
+  EXPECT_TRUE(until([&] { return firmware.force() == Vec3{}; })) << "a force that is not renewed is taken back";
+  EXPECT_EQ(firmware.bitten, 0) << "by us, long before its own watchdog";
+}
+
+TEST(Polhem, GarbageIsPassedOverAndItsReportsStop) {
+  Firmware firmware;
+  const auto device = open(firmware);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  firmware.garbles = true;
+  const int heard = firmware.lines;
+  ASSERT_TRUE(until([&] { return firmware.lines > heard + 5; })) << "it goes on being asked";
+  firmware.garbles = false;
+  const std::uint64_t reports = device->read().reports;
+  EXPECT_TRUE(until([&] { return device->read().reports > reports + 5; }));
+  EXPECT_LT(norm(device->read().position - Vec3{-0.01, 0.04, 0.025}), 1e-12);
+}
+
+TEST(Polhem, SilentForHalfASecondItIsLostAndComesBack) {
+  Firmware firmware;
+  const auto device = open(firmware);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  firmware.silent = true;
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_NE(device->healthText().find("does not answer"), std::string::npos) << device->healthText();
+  firmware.silent = false;
+  EXPECT_TRUE(until([&] { return device->read().valid; }));
+}
+
+TEST(Polhem, UnpluggedItIsLost) {
+  Firmware firmware;
+  const auto device = open(firmware);
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  firmware.unplug();
+  EXPECT_TRUE(until([&] { return !device->read().valid; }));
+}
+
+TEST(Polhem, WhatIsNoSerialLineIsRefusedInTheSystemsWords) {
+  const auto experiment = experiment::readExperiment("chain-slow");
+  EXPECT_THROW(makeDevice("polhem:/dev/null", experiment, 1), ResourceError);
+  try {
+    makeDevice("polhem:/dev/ttyNowhere", experiment, 1);
+    FAIL();
+  } catch (const ResourceError& error) {
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::devices

@@ -1,0 +1,133 @@
+#include "devices/preflight/preflight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "devices/make_device.h"
+#include "devices/preflight/reach_demand.h"
+#include "devices/virtual/loop_stability.h"
+
+namespace reachlab::devices {
+namespace {
+
+haptics::DeviceInfo infoOf(const std::string& device, const experiment::Experiment& experiment) {
+  return makeDevice(device, experiment, 1)->info();
+}
+
+PreflightLine lineOf(const std::vector<PreflightLine>& lines, const std::string& name) {
+  for (const PreflightLine& line : lines)
+    if (line.name == name) return line;
+  ADD_FAILURE() << "no line " << name;
+  return {};
+}
+
+experiment::Experiment stiffPoint(double mass, double duration) {
+  experiment::Experiment e = experiment::readExperiment("chain-slow");
+  e.object = {};
+  e.object.masses = {mass};
+  e.coupling = {20'000, 20};
+  e.task->duration = duration;
+  return e;
+}
+
+// Newton's law on a minimum-jerk reach: F = m (10/sqrt 3) d/T^2, rms sqrt(120/7) of the same unit. A coupling of 20 kN/m is stiff beside a
+// reach of 1 s (the hand leads the mass by 0.2 mm of 200), so 2 % hold.
+TEST(ReachDemand, OfAPointOnAStiffCouplingIsNewtonsLaw) {
+  const ReachDemand demand = computeReachDemand(stiffPoint(0.7, 1.0));
+  const double unit = 0.7 * 0.2 / (1.0 * 1.0);
+  EXPECT_NEAR(demand.peakForce, 10 / std::sqrt(3.0) * unit, 0.02 * 10 / std::sqrt(3.0) * unit);
+  // Onset (1 mm) to end, not 0 to T: the still parts that are left out raise the mean.
+  EXPECT_GT(demand.rmsForce, std::sqrt(120.0 / 7) * unit * 0.98);
+  EXPECT_LT(demand.rmsForce, std::sqrt(120.0 / 7) * unit * 1.25);
+  EXPECT_NEAR(demand.farthest, 0.1, 2e-3);
+}
+
+TEST(Preflight, ChainFastOnAnOmniIsWarnedAboutWithTheForceItNeeds) {
+  const auto experiment = experiment::readExperiment("chain-fast");
+  const auto lines = checkBeforeBlock(experiment, infoOf("virtual:omni", experiment));
+  const PreflightLine peak = lineOf(lines, "peak_force");
+  EXPECT_EQ(peak.verdict, Verdict::Warning);
+  EXPECT_EQ(peak.limit, 3.3);
+  // As a rigid body: 3 kg (10/sqrt 3) 0.2 m/(0.68 s)^2 = 7.5 N; a chain sways, so it may be more or less, but not by half.
+  EXPECT_GT(peak.asked, 5.0);
+  EXPECT_LT(peak.asked, 11.3);
+  EXPECT_NE(peak.remedy.find("duration_s"), std::string::npos) << peak.remedy;
+}
+
+TEST(Preflight, TheLongerReachItNamesIsFine) {
+  experiment::Experiment experiment = experiment::readExperiment("chain-fast");
+  const auto info = infoOf("virtual:omni", experiment);
+  const std::string remedy = lineOf(checkBeforeBlock(experiment, info), "peak_force").remedy;
+  const std::size_t at = remedy.find("duration_s ");
+  ASSERT_NE(at, std::string::npos) << remedy;
+  experiment.task->duration = std::stod(remedy.substr(at + 11)) * 1.005;  // it is written with three digits
+  const PreflightLine again = lineOf(checkBeforeBlock(experiment, info), "peak_force");
+  EXPECT_EQ(again.verdict, Verdict::Fine) << describe(again);
+  EXPECT_GT(again.asked, 0.8 * 3.3) << "and it is not much longer than it must be";
+}
+
+TEST(Preflight, ChainSlowOnAPremiumIsFine) {
+  const auto experiment = experiment::readExperiment("chain-slow");
+  for (const PreflightLine& line : checkBeforeBlock(experiment, infoOf("virtual:premium15", experiment)))
+    EXPECT_TRUE(line.verdict == Verdict::Fine || line.verdict == Verdict::Held) << describe(line);
+}
+
+TEST(Preflight, AnExperimentsLowerLimitHoldsItsHigherOneDoesNot) {
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  const auto info = infoOf("virtual:premium15", experiment);
+  experiment.forceLimit = 0.5;
+  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "peak_force").verdict, Verdict::Warning);
+  experiment.forceLimit = 20;
+  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "peak_force").limit, 8.5);
+}
+
+TEST(Preflight, ColgatesFrictionFollowsTheDevicesRate) {
+  const auto experiment = experiment::readExperiment("chain-moderate");  // 600 N/m
+  haptics::DeviceInfo info = infoOf("virtual:premium15", experiment);
+  EXPECT_NEAR(lineOf(checkBeforeBlock(experiment, info), "passivity").asked, 600 * 0.001 / 2, 1e-12);
+  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "passivity").verdict, Verdict::Held);
+  info.rate = 125;
+  const PreflightLine slow = lineOf(checkBeforeBlock(experiment, info), "passivity");
+  EXPECT_NEAR(slow.asked, 600 * 0.008 / 2, 1e-12);
+  EXPECT_EQ(slow.verdict, Verdict::Warning);
+  EXPECT_NE(slow.remedy.find("k_h <= 250"), std::string::npos) << slow.remedy;  // 2 * 1 N s/m / 8 ms
+  info.viscosity = 3;
+  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "passivity").verdict, Verdict::Fine);
+}
+
+TEST(Preflight, AStiffnessBeyondTheStableOneIsWarnedAbout) {
+  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  const auto info = infoOf("virtual:premium15", experiment);
+  const PreflightLine fine = lineOf(checkBeforeBlock(experiment, info), "stability");
+  ASSERT_TRUE(fine.limit.has_value());
+  EXPECT_EQ(fine.verdict, Verdict::Fine);
+  experiment.coupling->stiffness = *fine.limit * 1.1;
+  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "stability").verdict, Verdict::Warning);
+}
+
+TEST(Preflight, AReachBeyondTheWorkspaceNamesTheScale) {
+  const auto experiment = experiment::readExperiment("chain-slow");
+  const PreflightLine line = lineOf(checkBeforeBlock(experiment, infoOf("virtual:omega3", experiment)), "workspace");
+  EXPECT_EQ(line.verdict, Verdict::Warning) << "0.1 m on a radius of 0.08 m";
+  EXPECT_NE(line.remedy.find("scale 1.25"), std::string::npos) << line.remedy;
+}
+
+TEST(Preflight, EveryShippedExperimentIsJudged) {
+  for (const std::string& name : experiment::shippedExperiments()) {
+    const auto experiment = experiment::readExperiment(name);
+    if (!experiment.task) continue;
+    haptics::DeviceInfo info;
+    info.name = "device";
+    info.rendersForce = true;
+    const auto lines = checkBeforeBlock(experiment, info);
+    ASSERT_EQ(lines.size(), 5u) << name;
+    EXPECT_TRUE(std::isfinite(lines[0].asked)) << name;
+    EXPECT_GT(lines[0].asked, 0) << name;
+    EXPECT_EQ(lines[1].verdict, Verdict::Unknown) << name << ": what the device does not tell is not called fine";
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::devices
