@@ -1,9 +1,39 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/seed_option.h"
 #include "cli/session_runner.h"
 #include "devices/make_device.h"
 
 namespace reachlab::cli {
+namespace {
+
+// The device as it was asked for, with the mapping that is kept for this subject where none was asked for.
+std::string withKeptMapping(const session::SessionRequest& request, bool save) {
+  const devices::HandOptions hand = devices::handOptionsOf(request.device);
+  const std::string kind = request.device.substr(0, request.device.find_first_of(":,"));
+  const std::string& subject = request.place.subject;
+  const bool label = !subject.empty() && std::all_of(subject.begin(), subject.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+  if (!label) return request.device;  // refused by the run, in its own words
+  const std::string file = devices::mappingFile(request.place.data, subject, kind);
+  if (save) {
+    if (!hand.mapped)
+      throw UsageError("--save-mapping: the device has no mapping; allowed with scale=, offset=, rotation=, mirror= or mapping=");
+    devices::saveMapping(hand.mapping, file);
+    fmt::print(stderr, "mapping kept in {}\n", file);
+  }
+  std::error_code error;
+  if (hand.mapped || kind == "replay" || !std::filesystem::exists(file, error)) return request.device;
+  fmt::print(stderr, "mapping of {}\n", file);
+  return request.device + (request.device.size() == kind.size() ? "," : request.device.back() == ':' ? "" : ",") + "mapping=" + file;
+}
+
+}  // namespace
 
 void addRunCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Records a run of an experiment, or a session of a plan");
@@ -20,6 +50,9 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--seed", r->seed, "Seed of noise and order; default: one is drawn, printed and stored")->check(wholeSeed());
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
   command->add_flag("--resume", r->resume, "Goes on with the trial at which this session broke off, in the same order");
+  const auto saveMapping = std::make_shared<bool>(false);
+  command->add_flag("--save-mapping", *saveMapping,
+                    "Keeps the device's mapping (scale=, mirror=, …) for this device and subject in the dataset");
   command->add_flag("--every-tick", r->everyTick, "Samples at 1 kHz instead of 100 Hz");
   command
       ->add_option_function<double>(
@@ -45,8 +78,9 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       "  reach run chain-moderate --device simulated --trials 20 --seed 1 --fast\n"
       "  reach run chain-moderate --device replay:resources/reaches --fast\n"
       "  reach run paper --device simulated --subject 03 --session 01 --age 24 --sex F --handedness R --fast");
-  command->callback([r, &exitCode] {
+  command->callback([r, saveMapping, &exitCode] {
     r->trialsOnOffer = devices::trialsOnOffer(r->device);
+    r->device = withKeptMapping(*r, *saveMapping);
     exitCode = runSession(*r);
   });
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "cli/preflight_output.h"
 #include "cli/request_options.h"
 #include "cli/stop_signals.h"
 #include "cli/success_table.h"
@@ -25,10 +26,17 @@ void printRun(const session::RecordedRun& run) {
              run.trialCount() == 1 ? "" : "s", c.practice ? " of practice" : "", c.method, run.logPath());
 }
 
+// Before anybody feels it: what this experiment will meet on this device.
+std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                         std::uint64_t seed) {
+  auto device = devices::makeDevice(spec, experiment, seed);
+  if (const haptics::DeviceInfo info = device->info(); info.rendersForce && experiment.experiment().task)
+    fmt::print(stderr, "{}", preflightWarnings(devices::checkBeforeBlock(experiment.experiment(), info)));
+  return device;
+}
+
 int conductSession(const session::SessionRequest& request) {
-  session::RecordedSession session(
-      session::readProgramme(request.what), request,
-      [](const auto& device, const auto& experiment, auto seed) { return devices::makeDevice(device, experiment, seed); });
+  session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice);
   printNotice(session.notice());
   if (session.notice().seedDrawn) fmt::print("seed={}\n", session.seed());
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");

@@ -4,11 +4,13 @@
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "cli/preflight_output.h"
 #include "constraints/definition.h"
 #include "base/error.h"
 #include "base/json_reader.h"
+#include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
-#include "sim/session/plan.h"
+#include "sim/session/programme.h"
 #include "sim/trial/task_check.h"
 #include "sim/trial/task_places.h"
 
@@ -63,18 +65,41 @@ void validateFile(const std::string& fileOrName) {
   }
 }
 
+struct Request {
+  std::vector<std::string> files;
+  std::string device;
+  bool json = false;
+};
+
+// Every experiment of the file against the device, before anybody holds it.
+void checkOnDevice(const Request& r, const std::string& file) {
+  const session::Programme programme = session::readProgramme(file);
+  for (const experiment::CompiledExperiment& block : programme.experiments) {
+    const auto device = devices::makeDevice(r.device, block, 0);
+    const auto lines = devices::checkBeforeBlock(block.experiment(), device->info());
+    if (r.json) fmt::print("{}", preflightJson(lines));
+    else fmt::print("{} on {}:\n{}", block.experiment().name, device->info().name, preflightText(lines));
+  }
+}
+
 }  // namespace
 
 void addValidateCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions and session plans");
-  const auto files = std::make_shared<std::vector<std::string>>();
-  command->add_option("files", *files, "files to check, or names of shipped ones; every fault of every file is named at once")->required();
-  command->footer("Examples:\n  reach validate my-experiment.json\n  reach validate *.json\n  reach validate chain-moderate");
-  command->callback([files, &exitCode] {
-    for (const std::string& file : *files) {
+  const auto r = std::make_shared<Request>();
+  command->add_option("files", r->files, "files to check, or names of shipped ones; every fault of every file is named at once")
+      ->required();
+  CLI::Option* device = command->add_option(
+      "--device", r->device, "checks also what the experiment asks of this device: forces, stability, workspace; as for reach run");
+  command->add_flag("--json", r->json, "with --device: an array of {name, verdict, asked, limit, unit, sentence, remedy}")->needs(device);
+  command->footer(
+      "Examples:\n  reach validate my-experiment.json\n  reach validate *.json\n  reach validate chain-fast --device virtual:omni");
+  command->callback([r, &exitCode] {
+    for (const std::string& file : r->files) {
       try {
         validateFile(file);
-        fmt::print("{}: fine\n", file);
+        if (!r->json) fmt::print("{}: fine\n", file);
+        if (!r->device.empty()) checkOnDevice(*r, file);
       } catch (const UsageError& e) {
         fmt::print(stderr, "{}\n", e.what());
         exitCode = 2;

@@ -54,6 +54,7 @@ int run(const Arguments& arguments, int argc, char** argv) {
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+  QCoreApplication::setAttribute(Qt::AA_CompressHighFrequencyEvents, false);  // each move of the pointer is a sample of the hand
   reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
   QApplication::setOrganizationName(QStringLiteral("reachlab"));

@@ -84,7 +84,7 @@ void MainWindow::wireDocks() {
 }
 
 void MainWindow::wireSession() {
-  connect(screens_, &Screens::handDragged, this, [this](double x, double y, double z) { session_.pointTo(x, y, z); });
+  connect(screens_, &Screens::handDragged, this, [this](double x, double y, double z, qint64 eventMs) { session_.pointTo({x, y, z}, eventMs); });
   connect(&forecast_, &plot::LiveForecast::changed, this, [this] {
     predictions().setForecasts(forecast_.forecasts());
     drawPredictions();

@@ -44,7 +44,7 @@ class Screens : public QObject {
 
  Q_SIGNALS:
   /// As SceneView::handDragged, from whichever picture.
-  void handDragged(double x, double y, double z);
+  void handDragged(double x, double y, double z, qint64 eventMs);
 
  private:
   void rebuild();

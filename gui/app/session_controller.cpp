@@ -6,6 +6,7 @@
 #include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
+#include "devices/preflight/preflight.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::gui::app {
@@ -70,7 +71,13 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
                                                                          const experiment::CompiledExperiment& experiment,
                                                                          std::uint64_t seed) {
   mouse_ = nullptr;
-  if (spec != "mouse") return devices::makeDevice(spec, experiment, seed);
+  if (spec != "mouse") {
+    auto device = devices::makeDevice(spec, experiment, seed);
+    if (const haptics::DeviceInfo info = device->info(); info.rendersForce)
+      for (const devices::PreflightLine& line : devices::checkBeforeBlock(experiment.experiment(), info))
+        if (line.verdict == devices::Verdict::Warning) Q_EMIT told(QString::fromStdString(describe(line)));
+    return device;
+  }
   auto mouse = std::make_unique<devices::MouseDevice>(trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start);
   mouse_ = mouse.get();
   return mouse;
@@ -145,8 +152,9 @@ void SessionController::endRun() {
   Q_EMIT runClosed();
 }
 
-void SessionController::pointTo(double x, double y, double z) {
-  if (mouse_ != nullptr) mouse_->setTarget({x, y, z});
+void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
+  constexpr std::int64_t kNsPerMs = 1'000'000;
+  if (mouse_ != nullptr) mouse_->point(place, eventMs * kNsPerMs);
 }
 
 void SessionController::poll() {

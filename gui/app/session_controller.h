@@ -47,7 +47,7 @@ class SessionController : public QObject {
   bool repeat();
   void note(const QString& text);
   void endRun();
-  void pointTo(double x, double y, double z);
+  void pointTo(const Vec3& place, qint64 eventMs);
   /// Looks at the newest state. From the frame timer.
   void poll();
   /// The oldest point of the trace not yet taken.

@@ -9,10 +9,13 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QSpinBox>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include "base/error.h"
+#include "devices/hot_plug.h"
 #include "devices/registry.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/scene/trial_texts.h"
@@ -59,6 +62,10 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   device_->setObjectName(QStringLiteral("device"));
   device_->setEditable(true);
   device_->addItems({QStringLiteral("mouse"), QStringLiteral("simulated"), QStringLiteral("simulated:noise=0"), QStringLiteral("replay:")});
+  offered_ = device_->count();
+  auto* look = new QTimer(this);
+  connect(look, &QTimer::timeout, this, &SessionDock::offerPlugged);
+  look->start(1000);
   trials_ = new QSpinBox;
   trials_->setRange(1, 100000);
   auto* hands = new QHBoxLayout;
@@ -132,6 +139,21 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   for (QLineEdit* field : {subject_, session_, age_, data_}) connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
   clearTally();
   setStage(Stage::Closed);
+}
+
+// What was plugged in or out is offered or not any more; what is typed stays.
+void SessionDock::offerPlugged() {
+  const std::uint64_t now = devices::pluggedFingerprint();
+  if (!who_->isEnabled() || now == plugged_) return;
+  plugged_ = now;
+  const QString typed = device_->currentText();
+  const QSignalBlocker quiet(device_);
+  while (device_->count() > offered_) device_->removeItem(offered_);
+  for (const devices::FoundDevice& found : devices::findPlugged()) {
+    device_->addItem(QString::fromStdString(found.name));
+    device_->setItemData(device_->count() - 1, QString::fromStdString(found.description), Qt::ToolTipRole);
+  }
+  device_->setCurrentText(typed);
 }
 
 void SessionDock::check() {

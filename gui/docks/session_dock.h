@@ -58,6 +58,7 @@ class SessionDock : public Dock {
 
  private:
   void check();
+  void offerPlugged();
 
   session::SessionRequest request_;
   QLineEdit *subject_, *session_, *data_, *note_, *age_;
@@ -70,6 +71,8 @@ class SessionDock : public Dock {
   QPushButton *next_, *abort_, *repeat_, *end_;
   int successes_ = 0, failures_ = 0, others_ = 0;
   std::map<trial::Reason, int> reasons_;
+  std::uint64_t plugged_ = 0;  // devices::pluggedFingerprint
+  int offered_ = 0;            // entries of `device_` that are always there
 };
 
 }  // namespace reachlab::gui::docks

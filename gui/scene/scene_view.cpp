@@ -262,7 +262,7 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
         const Vec3 from = pointUnder(d.camera, d.handAtPress, d.pressedAt.x(), d.pressedAt.y(), d.width(), d.height());
         const Vec3 to = pointUnder(d.camera, d.handAtPress, now.x(), now.y(), d.width(), d.height());
         const Vec3 hand = d.handAtPress + (to - from);
-        Q_EMIT handDragged(hand.x, hand.y, hand.z);
+        Q_EMIT handDragged(hand.x, hand.y, hand.z, static_cast<qint64>(mouse->timestamp()));
         return true;
       }
       if (mouse->buttons() == Qt::NoButton) return true;

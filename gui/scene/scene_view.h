@@ -51,7 +51,8 @@ class SceneView : public QWidget {
 
  Q_SIGNALS:
   /// The pointer with the left button down: where the hand is asked to be [m], in the plane through the hand that faces the viewer.
-  void handDragged(double x, double y, double z);
+  /// `eventMs`: when, by the window system's own clock.
+  void handDragged(double x, double y, double z, qint64 eventMs);
   void handReleased();
 
  protected:

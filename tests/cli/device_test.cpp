@@ -66,5 +66,52 @@ TEST(Devices, AVirtualDeviceRunsFastAndItsRecordingReplaysToTheBit) {
   EXPECT_EQ(replay.exitCode, 0) << replay.out << replay.err;
 }
 
+TEST(Devices, ValidateSaysBeforehandWhatADeviceCannotGive) {
+  const Ended checked = reach("validate chain-fast --device virtual:omni");
+  EXPECT_EQ(checked.exitCode, 0) << checked.err;
+  EXPECT_NE(checked.out.find("warning  peak force: the reach needs "), std::string::npos) << checked.out;
+  const Json rows = Json::parse(reach("validate chain-fast --device virtual:omni --json").out);
+  EXPECT_EQ(rows[0]["name"], "peak_force");
+  EXPECT_EQ(rows[0]["verdict"], "warning");
+  EXPECT_EQ(rows[0]["limit"], 3.3);
+  EXPECT_GT(rows[0]["asked"], 3.3);
+}
+
+TEST(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
+  const Folder folder;
+  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.string();
+  const Ended weak = reach("run chain-fast --device virtual:omni" + rest);
+  EXPECT_EQ(weak.exitCode, 0) << weak.err;
+  EXPECT_NE(weak.err.find("warning: peak force: "), std::string::npos) << weak.err;
+  const Ended strong = reach("run chain-slow --device virtual:premium15" + rest);
+  EXPECT_EQ(strong.err.find("warning: "), std::string::npos) << strong.err;
+}
+
+TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
+  const Folder folder;
+  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.string();
+  EXPECT_EQ(reach("run chain-slow --device virtual:premium15 --subject 03 --save-mapping" + rest).exitCode, 2) << "there is none to keep";
+  const Ended first = reach("run chain-slow --device virtual:premium15,scale=1.25,wall=yes --subject 03 --save-mapping" + rest);
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  const Json kept = Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual.json"));
+  EXPECT_EQ(kept["scale"], 1.25);
+  const Ended again = reach("run chain-slow --device virtual:premium15 --subject 03" + rest);
+  EXPECT_NE(again.err.find("mapping of "), std::string::npos) << again.err;
+  const Ended other = reach("run chain-slow --device virtual:premium15 --subject 04" + rest);
+  EXPECT_EQ(other.err.find("mapping of "), std::string::npos) << other.err;
+  const Ended replay = reach("replay " + folder.string() + "/sourcedata/*.reach --check");
+  EXPECT_EQ(replay.exitCode, 0) << replay.out << replay.err;
+  const std::string log = contentOf(folder / "sourcedata/sub-03_ses-01_task-reach_run-01_log.reach");
+  EXPECT_NE(log.find("port_energy_j"), std::string::npos);
+  EXPECT_NE(log.find("\\\"scale\\\":1.25"), std::string::npos) << "the mapping is in the recording";
+  EXPECT_NE(log.find("engaged"), std::string::npos) << "and so are the device's states";
+}
+
+TEST(Devices, EstimatorsOfVelocityAreComparedByOneCommand) {
+  const Ended table = reach("velocity --json");
+  ASSERT_EQ(table.exitCode, 0) << table.err;
+  EXPECT_EQ(Json::parse(table.out).size(), 15u) << "five estimators on three resolutions";
+}
+
 }  // namespace
 }  // namespace reachlab::test
