@@ -269,8 +269,10 @@ void run(const AnalyzeOptions& o) {
   if (o.duration == "auto") fmt::print(stderr, "note: --prediction-duration auto means task now: the fits choose durations of their own\n");
   analyze::StudyBuilder builder(options);
   const analyze::DatasetIndex dataset = analyze::readDataset(
-      o.dataset, [&](analyze::TrialData&& trial, std::size_t condition) { builder.add(std::move(trial), condition); }, o.experiment,
-      [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
+      o.dataset,
+      {[&](analyze::TrialData&& trial, std::size_t condition) { builder.add(std::move(trial), condition); },
+       [&](std::size_t count) { builder.takeBack(count); }},
+      o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
   const analyze::StudyResult study =
       builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); });
   std::optional<analyze::Recovery> recovery;
@@ -284,6 +286,9 @@ void run(const AnalyzeOptions& o) {
   const analyze::AnalysisFiles files = atOption("--out", [&] { return analyze::writeAnalysis(study, dataset, header, out, recovery); });
   if (o.json) fmt::print("{}", summaryJson(study, dataset, files, recovery));
   else printSummary(study, dataset, files, recovery);
+  if (!dataset.unreadable.empty())
+    throw ResourceError(fmt::format("{} of {} runs could not be read and are not in these results: {}", dataset.unreadable.size(),
+                                    dataset.unreadable.size() + dataset.runs.size(), fmt::join(dataset.unreadable, "; ")));
 }
 
 }  // namespace

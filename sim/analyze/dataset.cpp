@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/ticks.h"
@@ -169,9 +170,45 @@ void addRun(const RunSource& run, const experiment::Experiment& experiment, Data
         if (recorded.meanForce > 0) trial.meanForce = recorded.meanForce;
       }
     }
-    sink(std::move(trial), condition);
+    sink.add(std::move(trial), condition);
   }
 }
+
+namespace {
+
+/// A run that fails half-way is taken back: its trials, and what the index says because of it.
+class WholeRun {
+ public:
+  WholeRun(DatasetIndex& index, const TrialSink& sink)
+      : index_(index), sink_(sink), conditions_(index.conditions.size()), runs_(index.runs.size()), notes_(index.notes.size()) {}
+
+  void add(const RunSource& run, const experiment::Experiment& experiment) {
+    addRun(run, experiment, index_,
+           {[this](TrialData&& trial, std::size_t condition) {
+              ++trials_;
+              handing_ = true;
+              sink_.add(std::move(trial), condition);
+              handing_ = false;
+            },
+            {}});
+  }
+  /// It was not the reading that failed.
+  bool refused() const { return handing_; }
+  void takeBack() {
+    if (trials_ > 0) sink_.takeBack(std::exchange(trials_, 0));
+    index_.conditions.resize(conditions_);
+    index_.runs.resize(runs_);
+    index_.notes.resize(notes_);
+  }
+
+ private:
+  DatasetIndex& index_;
+  const TrialSink& sink_;
+  std::size_t conditions_, runs_, notes_, trials_ = 0;
+  bool handing_ = false;
+};
+
+}  // namespace
 
 DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile,
                          const DatasetProgress& progress) {
@@ -186,6 +223,12 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
   EqualRuns equalRuns;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
+    WholeRun whole(dataset, sink);
+    const auto leaveOut = [&](const Error& error) {
+      whole.takeBack();
+      equalRuns.forget(logs[i]);
+      dataset.notes.push_back(fmt::format("{}: left out: {}", logs[i], error.what()));
+    };
     try {
       const record::RunLog log = record::RunLog::open(logs[i]);
       const record::RunConfiguration& c = log.configuration();
@@ -202,12 +245,16 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
         dataset.notes.push_back(
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
-      addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment, dataset, sink);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
+    } catch (const ResourceError& error) {
+      if (whole.refused()) throw;
+      leaveOut(error);
+      dataset.unreadable.emplace_back(error.what());
     } catch (const Error& error) {
-      dataset.notes.push_back(fmt::format("{}: left out: {}", logs[i], error.what()));
+      leaveOut(error);
     }
   }
   if (logs.empty()) {
@@ -237,6 +284,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
   if (dataset.runs.empty()) {
     std::string why = folder + ": nothing to analyse";
     for (const std::string& note : dataset.notes) why += "\n" + note;
+    if (!dataset.unreadable.empty()) throw ResourceError(why);
     throw UsageError(why);
   }
   noteMixedDevices(dataset);
@@ -246,13 +294,16 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
 Dataset openDataset(const std::string& folder, const std::string& experimentFile, const DatasetProgress& progress) {
   Dataset dataset;
   StudyInput input;
-  static_cast<DatasetIndex&>(dataset) = readDataset(
-      folder,
-      [&](TrialData&& trial, std::size_t condition) {
-        input.trials.push_back(std::move(trial));
-        input.conditionOf.push_back(condition);
-      },
-      experimentFile, progress);
+  static_cast<DatasetIndex&>(dataset) = readDataset(folder,
+                                                    {[&](TrialData&& trial, std::size_t condition) {
+                                                       input.trials.push_back(std::move(trial));
+                                                       input.conditionOf.push_back(condition);
+                                                     },
+                                                     [&](std::size_t count) {
+                                                       input.trials.resize(input.trials.size() - count);
+                                                       input.conditionOf.resize(input.trials.size());
+                                                     }},
+                                                    experimentFile, progress);
   input.conditions = dataset.conditions;
   dataset.input = std::move(input);
   return dataset;

@@ -25,21 +25,26 @@ struct RunProvenance {
 struct DatasetIndex {
   std::vector<StudyCondition> conditions;
   std::vector<RunProvenance> runs;
-  std::vector<std::string> notes;  // what was left out or mended, one sentence each
+  std::vector<std::string> notes;       // what was left out or mended, one sentence each
+  std::vector<std::string> unreadable;  // of those the runs that the disk did not give
 };
 /// A dataset read into memory.
 struct Dataset : DatasetIndex {
   StudyInput input;
 };
 
-/// Takes one trial of the condition with that index; sees them run by run, so that none need stay in memory.
-using TrialSink = std::function<void(TrialData&& trial, std::size_t condition)>;
+/// Takes the trials run by run, so that none need stay in memory.
+struct TrialSink {
+  std::function<void(TrialData&& trial, std::size_t condition)> add;  // of the condition with that index
+  std::function<void(std::size_t count)> takeBack;                    // the last so many: their run could not be read to its end
+};
 
 using DatasetProgress = std::function<void(std::size_t done, std::size_t of, const std::string& file)>;
 
 /// Reads the dataset at `folder` (a session's folder or a single log do too): from the logs in sourcedata/, or where there are none from
 /// the BIDS files, whose experiment must then be a shipped one or given in `experimentFile`. A damaged log is read to its last good
-/// record and noted. Throws UsageError when there is nothing to read.
+/// record and noted. A run is in or out: one that cannot be read to its end (a disk that fails) leaves no trial behind. Throws UsageError
+/// when there is nothing to read.
 DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile = "",
                          const DatasetProgress& progress = {});
 /// The same with every trial kept.

@@ -29,6 +29,10 @@ std::string EqualRuns::twinOf(const std::string& file, const record::RunConfigur
   return isNew ? std::string() : known->second;
 }
 
+void EqualRuns::forget(const std::string& file) {
+  std::erase_if(fileOf_, [&](const auto& known) { return known.second == file; });
+}
+
 int countRepeats(const std::vector<record::RecordedTrial>& trials) {
   std::set<std::string> seen;
   int repeats = 0;

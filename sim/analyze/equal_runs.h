@@ -15,6 +15,8 @@ class EqualRuns {
   /// The file of an earlier run that this one repeats, else empty; the run is then known under `file`.
   std::string twinOf(const std::string& file, const record::RunConfiguration& configuration,
                      const std::vector<record::RecordedTrial>& trials);
+  /// The run does not count after all: who repeats it is the first.
+  void forget(const std::string& file);
 
  private:
   std::map<std::string, std::string> fileOf_;

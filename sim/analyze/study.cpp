@@ -406,16 +406,17 @@ void StudyBuilder::add(TrialData&& data, std::size_t condition) {
       trial.windowBegin = window->begin;
       trial.windowRate = window->rate;
     }
-  if (study_.results.size() <= condition) study_.results.resize(condition + 1);
-  countTrial(trial, study_.results[condition]);
   study_.trials.push_back(std::move(trial));
 }
+
+void StudyBuilder::takeBack(std::size_t count) { study_.trials.resize(study_.trials.size() - std::min(count, study_.trials.size())); }
 
 StudyResult StudyBuilder::finish(std::vector<StudyCondition> conditions, const StudyProgress& fitting) {
   StudyResult study = std::move(study_);
   study.signals = signals_;
   study.conditions = std::move(conditions);
   study.results.resize(study.conditions.size());
+  for (const StudyTrial& trial : study.trials) countTrial(trial, study.results[trial.condition]);
   orderConditions(study);
   numberDays(study.trials);
   useFailuresWhereNothingSucceeded(study);

@@ -151,6 +151,8 @@ class StudyBuilder {
  public:
   explicit StudyBuilder(const StudyOptions& options);
   void add(TrialData&& trial, std::size_t condition);
+  /// Forgets the last so many trials.
+  void takeBack(std::size_t count);
   StudyResult finish(std::vector<StudyCondition> conditions, const StudyProgress& fitting = {});
 
  private:

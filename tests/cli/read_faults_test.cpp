@@ -1,0 +1,82 @@
+// A disk that fails while it is read: tests/long/fault_shim.c is preloaded and lets one read fail.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tests/cli/program.h"
+
+using namespace reachlab::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Tables = std::map<std::string, std::string>;
+
+Tables tablesIn(const fs::path& folder) {
+  Tables tables;
+  if (!fs::exists(folder)) return tables;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".csv") tables[entry.path().filename()] = contentOf(entry.path());
+  return tables;
+}
+
+class ReadFaults : public testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer's own library has to be the first that is loaded";
+#endif
+    for (const int run : {1, 2}) {
+      const std::string number = std::to_string(run);
+      record("both", number);
+      record(run == 1 ? "first" : "second", number);
+    }
+  }
+  void record(const std::string& dataset, const std::string& number) const {
+    const Ended ended = reach("run dingwell --device simulated --trials 3 --fast --run " + number + " --seed " + number + " --data " +
+                              (folder_ / dataset).string());
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  }
+  // `reach analyze` of the dataset, with that read failing; 0: none fails. The dataset's name is the same each time: it stands in tables.
+  Ended analyse(const std::string& dataset, int failing) {
+    fs::remove_all(folder_ / "out");
+    fs::rename(folder_ / dataset, folder_ / "data");
+    const Ended ended =
+        reach("analyze " + (folder_ / "data").string() + " --out " + (folder_ / "out").string(),
+              "LD_PRELOAD=" REACHLAB_BINARY_DIR "/tests/libfault_shim.so FAULT_KIND=read FAULT_AT=" + std::to_string(failing) +
+                  " FAULT_COUNT=" + (folder_ / "count").string());
+    fs::rename(folder_ / "data", folder_ / dataset);
+    tables_ = tablesIn(folder_ / "out");
+    return ended;
+  }
+  int reads() const { return std::abs(std::stoi(contentOf(folder_ / "count"))); }
+
+  Folder folder_;
+  Tables tables_;  // of the latest analysis
+};
+
+TEST_F(ReadFaults, LeaveARunInTheAnalysisWholeOrNotAtAll) {
+  std::map<Tables, std::string> whole{{Tables{}, "none"}};
+  for (const char* which : {"first", "second", "both"}) {
+    const Ended ended = analyse(which, 0);
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+    whole[tables_] = which;
+  }
+  ASSERT_EQ(whole.size(), 4u);
+  const int all = reads();
+  ASSERT_GT(all, 5);
+  std::set<std::string> seen;
+  for (int n = 1; n <= all; ++n) {
+    const Ended ended = analyse("both", n);
+    const auto known = whole.find(tables_);
+    ASSERT_NE(known, whole.end()) << "read " << n << " of " << all << ": a part of a run was counted: " << ended.err;
+    seen.insert(known->second);
+    EXPECT_EQ(ended.exitCode, known->second == "both" ? 0 : 3)
+        << "read " << n << " of " << all << ": " << known->second << ": " << ended.err;
+    if (ended.exitCode != 0) EXPECT_NE(ended.err.find("cannot be"), std::string::npos) << ended.err;
+  }
+  EXPECT_TRUE(seen.contains("first") && seen.contains("second")) << "each of the two was left out once";
+}
+
+}  // namespace
