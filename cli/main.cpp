@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/standard_streams.h"
-#include "cli/stop_signals.h"
+#include "base/stop_signals.h"
 #include "base/os.h"
 
 namespace {
@@ -48,6 +48,6 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   reachlab::os::holdStandardDescriptors();
   reachlab::cli::guardStandardStreams();
-  reachlab::cli::endOnSignals();
+  reachlab::endOnSignals();
   return reachlab::cli::finishStandardOutput(run(argc, argv));
 }

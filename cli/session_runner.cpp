@@ -6,7 +6,7 @@
 
 #include "cli/preflight_output.h"
 #include "cli/request_options.h"
-#include "cli/stop_signals.h"
+#include "base/stop_signals.h"
 #include "cli/success_table.h"
 #include "devices/make_device.h"
 #include "sim/session/recorded_session.h"
@@ -42,7 +42,7 @@ int conductSession(const session::SessionRequest& request) {
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
   SuccessTable table;
-  std::optional<cli::StopRequest> stop;
+  std::optional<StopRequest> stop;
   session::SessionWords words;
   words.opened = [&](const session::RecordedRun& run) {
     printRun(run);
@@ -59,10 +59,10 @@ int conductSession(const session::SessionRequest& request) {
     stop->allInOrder();
   };
   words.closed = [&](const session::RecordedRun&) { stop.reset(); };
-  const bool done = session::conduct(session, cli::StopRequest::asked(), words);
+  const bool done = session::conduct(session, StopRequest::asked(), words);
   fmt::print("{}", table.text());
   std::fflush(stdout);
-  return done ? 0 : cli::StopRequest::exitCode();
+  return done ? 0 : StopRequest::exitCode();
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "cli/bench/run_bench.h"
 #include "cli/exit_code.h"
 #include "cli/standard_streams.h"
-#include "cli/stop_signals.h"
+#include "base/stop_signals.h"
 
 /// What `reach bench` starts. A program of its own, because it replaces operator new to count allocations, and the program that records
 /// people runs under the system's.
@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   using namespace reachlab::cli;
   reachlab::os::holdStandardDescriptors();
   guardStandardStreams();
-  endOnSignals();
+  reachlab::endOnSignals();
   BenchOptions options;
   CLI::App app{kBenchSummary, "reach bench"};
   addBenchOptions(app, options);

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/os.h"
+#include "base/stop_signals.h"
 #include "gui/app/main_window.h"
 #include "gui/scene/picture_sheet.h"
 #include "gui/scene/scene_view.h"
@@ -35,7 +37,8 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--session", r.place.session, "Session's label, letters and digits [01]");
   app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
   app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
-  app.add_option("--seed", r.seed, "Seed of noise and order; default: one is drawn and stored");
+  app.add_option("--seed", r.seed, "Seed of noise and order; default: one is drawn and stored")
+      ->check(CLI::Validator([](std::string& text) { return reachlab::session::seedFault(text); }, "SEED"));
   app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
   app.footer(
@@ -84,6 +87,8 @@ int sayFault(const char* sentence, int status, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reachlab::os::holdStandardDescriptors();
+  reachlab::endOnSignals();
   CLI::App app{"reachlab: the window of Reachlab", "reachlab"};
   try {
     return run(parse(app, argc, argv), argc, argv);

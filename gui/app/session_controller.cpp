@@ -2,6 +2,7 @@
 #include "sim/dynamics/compiled_scene.h"
 
 #include <QStringList>
+#include <utility>
 
 #include "base/fault.h"
 #include "devices/make_device.h"
@@ -99,6 +100,8 @@ void SessionController::openRun(const session::SessionRequest& request) {
     if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) Q_EMIT told(words);
   }
   if (!recorded_->openNext()) return;
+  stop_.emplace();
+  timingTold_ = false;
   numberUsed_ = true;
   for (plot::TracePoint left; trace_.tryTake(left);) {}  // of the run before
   last_.reset();
@@ -145,10 +148,17 @@ void SessionController::endRun() {
   endAfterTrial_ = false;
   mouse_ = nullptr;
   try {
+    run()->closeLog();  // first what cannot be done again: zero force, the trial marked
+    stop_->allInOrder();
+  } catch (const std::exception& e) {
+    Q_EMIT failed(QString::fromUtf8(e.what()));
+  }
+  try {
     recorded_->closeRun();
   } catch (const std::exception& e) {
     Q_EMIT failed(QString::fromUtf8(e.what()));
   }
+  stop_.reset();
   Q_EMIT runClosed();
 }
 
@@ -158,9 +168,11 @@ void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
 }
 
 void SessionController::poll() {
+  if (StopRequest::asked()) return stopInOrder();
   if (run() == nullptr) return;
   try {
     const auto ended = run()->poll();
+    tellTiming();
     if (!ended) return;
     last_ = *ended;
     Q_EMIT trialEnded();
@@ -174,11 +186,24 @@ void SessionController::poll() {
   }
 }
 
+// A machine that keeps time well needs no word.
+void SessionController::tellTiming() {
+  const auto& verdict = run()->timingVerdict();
+  if (!verdict || std::exchange(timingTold_, true) || (verdict->good && verdict->realTime)) return;
+  Q_EMIT told(QString::fromStdString(verdict->sentence));
+}
+
+void SessionController::stopInOrder() {
+  endRun();
+  Q_EMIT stopped(StopRequest::exitCode());
+}
+
 // The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
 void SessionController::fail(const std::exception& fault) {
   const QString sentence = QString::fromUtf8(fault.what());
   mouse_ = nullptr;
   recorded_.reset();
+  stop_.reset();
   resume_ = isPlan();  // its other blocks are still to be done
   Q_EMIT failed(sentence);
   Q_EMIT runClosed();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "base/stop_signals.h"
 #include "gui/plot/trial_trace.h"
 #include "sim/session/recorded_session.h"
 
@@ -69,6 +70,8 @@ class SessionController : public QObject {
   void failed(const QString& sentence);
   /// Worth a word, and no fault.
   void told(const QString& sentence);
+  /// A signal asked the program to end: the run is closed in order, its trial kept as interrupted.
+  void stopped(int exitCode);
 
  private:
   void openRun(const session::SessionRequest& request);
@@ -76,10 +79,14 @@ class SessionController : public QObject {
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                         std::uint64_t seed);
   void fail(const std::exception& fault);
+  void tellTiming();
+  void stopInOrder();
 
   session::Programme programme_;
   experiment::CompiledExperiment shown_;
   bool endAfterTrial_ = false, resume_ = false;
+  bool timingTold_ = false;                // of the run that is open
+  std::optional<StopRequest> stop_;        // while a run is open a signal ends its trial first; at other times the program, at once
   bool numberUsed_ = false;                // the run number that was asked for holds for one run
   session::SessionRequest asked_;          // what `recorded_` was planned for
   devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open

@@ -2,15 +2,21 @@
 
 #include <QLabel>
 #include <QStatusBar>
+#include <cmath>
 
 #include "sim/session/recorded_session.h"
 
 namespace reachlab::gui::app {
 
-StatusLine::StatusLine(QStatusBar& bar) : rate_(new QLabel), ticks_(new QLabel), method_(new QLabel), recording_(new QLabel) {
+StatusLine::StatusLine(QStatusBar& bar)
+    : rate_(new QLabel), ticks_(new QLabel), trial_(new QLabel), method_(new QLabel), recording_(new QLabel) {
   recording_->setObjectName(QStringLiteral("recording"));
   recording_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  for (QLabel* label : {rate_, ticks_, method_}) bar.addWidget(label);
+  trial_->setObjectName(QStringLiteral("trialTime"));
+  trial_->setToolTip(QStringLiteral(
+      "The last trial from its go signal to its end, by the computer's clock; ticks of 1 ms that it missed, and that were not "
+      "recorded"));
+  for (QLabel* label : {rate_, ticks_, trial_, method_}) bar.addWidget(label);
   bar.addPermanentWidget(recording_);
   runClosed();
 }
@@ -34,12 +40,23 @@ void StatusLine::refresh(session::RecordedRun& run) {
                         .arg(QString::fromStdString(report.mode))
                         .arg(report.latenessP50, 0, 'f', 0)
                         .arg(report.latenessP99, 0, 'f', 0)
-                        .arg(report.latenessMax, 0, 'f', 0));
+                        .arg(report.latenessMax, 0, 'f', 0) +
+                    (run.timingVerdict() ? QLatin1Char('\n') + QString::fromStdString(run.timingVerdict()->sentence) : QString()));
   ticks_->setText(QStringLiteral("late %1  missed %2  clamped %3%4")
                       .arg(s.faults.lateTicks)
                       .arg(s.faults.missedTicks)
                       .arg(s.faults.clampedTicks)
                       .arg(s.faults.droppedRecords > 0 ? QStringLiteral("  not recorded %1").arg(s.faults.droppedRecords) : QString()));
+  showTrial(run.lastTrial());
+}
+
+// By the computer's clock: longer than the ticks say where some were missed.
+void StatusLine::showTrial(const record::RecordedTrial& trial) {
+  if (trial.trial == 0 || !std::isfinite(trial.elapsed)) return trial_->clear();
+  QString text = QStringLiteral("trial %1: %2 s").arg(trial.trial).arg(trial.elapsed, 0, 'f', 3);
+  if (trial.missedTicks > 0) text += QStringLiteral(", missed %1").arg(trial.missedTicks);
+  if (trial.droppedTicks > 0) text += QStringLiteral(", not recorded %1").arg(trial.droppedTicks);
+  trial_->setText(text);
 }
 
 }  // namespace reachlab::gui::app

@@ -3,13 +3,16 @@
 class QLabel;
 class QStatusBar;
 
+namespace reachlab::record {
+struct RecordedTrial;
+}
 namespace reachlab::session {
 class RecordedRun;
 }
 
 namespace reachlab::gui::app {
 
-/// What the status bar tells of a run: rate, late ticks, method, the file that is written. The labels are the bar's.
+/// What the status bar tells of a run: rate, late ticks, the last trial's true time, method, the file that is written. The labels are the bar's.
 class StatusLine {
  public:
   explicit StatusLine(QStatusBar& bar);
@@ -19,7 +22,9 @@ class StatusLine {
   void refresh(session::RecordedRun& run);
 
  private:
-  QLabel *rate_, *ticks_, *method_, *recording_;
+  void showTrial(const record::RecordedTrial& trial);
+
+  QLabel *rate_, *ticks_, *trial_, *method_, *recording_;
 };
 
 }  // namespace reachlab::gui::app

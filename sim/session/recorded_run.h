@@ -79,6 +79,8 @@ class RecordedRun {
   const record::RunConfiguration& configuration() const { return block_.configuration; }
   const experiment::CompiledExperiment& experiment() const { return block_.experiment; }
   const std::string& logPath() const { return block_.logPath; }
+  /// The last trial that is safe on the disk, with what the clock says of it.
+  record::RecordedTrial lastTrial() const { return recorder_->lastTrial(); }
   /// How the timing was before the first trial; nullopt until it was checked, and on the virtual clock. Also a note in the log.
   const std::optional<haptics::TimingVerdict>& timingVerdict() const { return timingVerdict_; }
   /// How well the loop kept time, in one line; empty until the log is closed, and on the virtual clock.

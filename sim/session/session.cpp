@@ -126,6 +126,12 @@ void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, Ses
 
 }  // namespace
 
+std::string seedFault(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  return fault == std::errc{} && end == text.data() + text.size() ? std::string() : "is " + text + "; allowed: 0 to 18446744073709551615";
+}
+
 std::uint64_t drawSeed() {
   std::random_device entropy;
   return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact

@@ -60,6 +60,9 @@ SessionToRun planSession(const SessionRequest& request);
 /// refused then (UsageError). Call it under a FolderHold that lasts until the log is created.
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);
 
+/// What is wrong with a seed's text, empty when it is a whole number from 0 to 2^64 - 1; a sign or a larger number would be turned into another
+/// seed without a word.
+std::string seedFault(const std::string& text);
 /// A seed for a session that was given none, from the system's entropy.
 std::uint64_t drawSeed();
 

@@ -1,4 +1,4 @@
-#include "cli/stop_signals.h"
+#include "base/stop_signals.h"
 
 #include <sys/time.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <csignal>
 #include <cstring>
 
-namespace reachlab::cli {
+namespace reachlab {
 namespace {
 
 constexpr int kPatienceUs = 800'000;  // so that the program has ended within a second of the signal
@@ -75,4 +75,4 @@ int StopRequest::exitCode() {
   return signal == 0 ? 0 : 128 + signal;
 }
 
-}  // namespace reachlab::cli
+}  // namespace reachlab

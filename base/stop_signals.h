@@ -1,7 +1,7 @@
 #pragma once
 #include <atomic>
 
-namespace reachlab::cli {
+namespace reachlab {
 
 /// From here on SIGINT, SIGTERM and SIGHUP end the program at once, with 128 + their number (130, 143, 129): files are replaced in one step
 /// and logs only grow, so nothing is lost by that. Unless a StopRequest is waiting for them. SIGHUP that was ignored (nohup) stays so.
@@ -24,4 +24,4 @@ class StopRequest {
   static int exitCode();
 };
 
-}  // namespace reachlab::cli
+}  // namespace reachlab
