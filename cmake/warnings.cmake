@@ -15,7 +15,7 @@ endif()
 # What a laboratory runs is hardened: fortified string functions, stack protector, full RELRO, control-flow protection where there is one.
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag(-fcf-protection REACHLAB_HAS_CF_PROTECTION)
-if(NOT REACHLAB_SANITIZE)
+if(REACHLAB_HARDENING AND NOT REACHLAB_SANITIZE)
   add_compile_options($<$<CONFIG:Release>:-fstack-protector-strong> $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
   if(REACHLAB_HAS_CF_PROTECTION)
     add_compile_options($<$<CONFIG:Release>:-fcf-protection>)
