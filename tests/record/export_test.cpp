@@ -178,6 +178,7 @@ TEST(ExportedExperiment, SaysWhatWasMovedAndAsked) {
   c.experimentName = recorded.name;
   c.experimentText = recorded.text;
   c.definitionText = experiment::definitionTextOf(recorded);
+  c.timing = recorded.timing;
   const std::string log = folder / "sourcedata/sub-01_ses-01_task-made_run-01_log.reach";
   writeMadeRun(log, 2, c);
   const RunLog run = RunLog::open(log);
