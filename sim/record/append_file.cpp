@@ -61,6 +61,7 @@ void lockExclusively(int descriptor, const std::string& path) {
 }
 
 constexpr std::string_view kTemporaryEnding = ".reachlab-tmp";
+constexpr std::size_t kBytesAWrite = 1 << 16;
 
 // Beside `path`, with a name that nobody can have put there before.
 int openTemporary(const std::string& path, std::string& name) {
@@ -130,23 +131,49 @@ void AppendFile::sync() {
     throw ResourceError(path_ + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run");
 }
 
-void writeFileAtomically(const std::string& path, std::string_view text) {
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   makeFolders(std::filesystem::path(path).parent_path().string());
-  std::string temporary;
-  const int descriptor = openTemporary(path, temporary);
-  if (descriptor < 0) fail("cannot be created", path);
-  const auto* data = reinterpret_cast<const std::uint8_t*>(text.data());
-  const bool good = writeAll(descriptor, data, text.size()) && os::syncFile(descriptor);
-  const int fault = errno;
-  ::close(descriptor);
+  descriptor_ = openTemporary(path, temporary_);
+  if (descriptor_ < 0) fail("cannot be created", path);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::giveUp() {
+  const int reason = errno;
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  ::unlink(temporary_.c_str());
+  errno = reason;
+  fail("cannot be written", path_);
+}
+
+void AtomicFile::append(std::string_view piece) {
+  waiting_ += piece;
+  if (waiting_.size() >= kBytesAWrite) flush();
+}
+
+void AtomicFile::flush() {
+  if (!writeAll(descriptor_, reinterpret_cast<const std::uint8_t*>(waiting_.data()), waiting_.size())) giveUp();
+  waiting_.clear();
+}
+
+void AtomicFile::commit() {
+  flush();
+  if (!os::syncFile(descriptor_)) giveUp();
+  ::close(std::exchange(descriptor_, -1));
   // A rename puts the new name in place of a link, never through it.
-  if (!good || ::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int reason = good ? errno : fault;
-    ::unlink(temporary.c_str());
-    errno = reason;
-    fail("cannot be written", path);
-  }
-  syncFolderOf(path);
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) giveUp();
+  syncFolderOf(path_);
+}
+
+void writeFileAtomically(const std::string& path, std::string_view text) {
+  AtomicFile file(path);
+  file.append(text);
+  file.commit();
 }
 
 std::string readWholeFile(const std::string& path) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,8 +34,28 @@ class AppendFile {
   std::uint64_t size_ = 0;
 };
 
-/// Replaces `path` by `text` in one step (temporary file, fsync, rename): a reader sees the old file or the new one, never a
-/// part. Makes the folders above it. Throws ResourceError.
+/// Takes a long text piece by piece.
+using TakePiece = std::function<void(std::string_view piece)>;
+
+/// Replaces `path` in one step (temporary file, fsync, rename) by what is appended piece by piece: a reader sees the old file or the new
+/// one, never a part. Makes the folders above it. Without `commit` nothing is left of it. One thread; members throw ResourceError.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void append(std::string_view piece);
+  void commit();
+
+ private:
+  void flush();
+  [[noreturn]] void giveUp();
+  std::string path_, temporary_, waiting_;
+  int descriptor_ = -1;
+};
+/// The same with the whole text at once.
 void writeFileAtomically(const std::string& path, std::string_view text);
 /// Removes what programs that were killed while they wrote left behind in a folder and those below it (`.….reachlab-tmp`, older than ten
 /// minutes). Throws nothing: what cannot be removed stays.

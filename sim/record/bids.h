@@ -30,12 +30,12 @@ std::string describeTask(const RunConfiguration& configuration);
 /// The experiment's name in such a description; empty where there is none.
 std::string experimentNameIn(const std::string& description);
 
-// The texts of the files, for who wants to look at them before they are written.
-std::string motionTsv(const RunLog& run);
+// The texts of the files, for who wants to look at them before they are written; what grows with the run is given piece by piece.
+void motionTsv(const RunLog& run, const TakePiece& take);
 std::string motionJson(const RunLog& run);
 std::string channelsTsv(const RunConfiguration& configuration);
 std::string channelsJson();
-std::string eventsTsv(const RunLog& run);
+void eventsTsv(const RunLog& run, const TakePiece& take);
 std::string eventsJson(const RunConfiguration& configuration);
 
 }  // namespace reachlab::record

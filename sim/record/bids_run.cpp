@@ -19,10 +19,22 @@ using Json = nlohmann::ordered_json;
 std::string orUnknown(const std::string& text) { return text.empty() ? "n/a" : text; }
 
 // The dataset's clock is the tick; rows lie a sampling period apart wherever nothing was dropped.
-double effectiveFrequency(const SampleRows& rows, double nominal) {
-  if (rows.size() < 2) return nominal;
-  const double seconds = secondsBetween(rows.ticks.front(), rows.ticks.back());
-  return seconds > 0 ? static_cast<double>(rows.size() - 1) / seconds : nominal;
+struct RowSpan {
+  std::uint64_t first = 0, last = 0;  // ticks
+  std::size_t rows = 0;
+  double seconds() const { return secondsBetween(first, last); }
+  double frequency(double nominal) const { return seconds() > 0 ? static_cast<double>(rows - 1) / seconds() : nominal; }
+};
+
+RowSpan spanOf(const RunLog& run) {
+  RowSpan span;
+  run.eachBlock([&](const SampleRows& block) {
+    if (block.size() == 0) return;
+    if (span.rows == 0) span.first = block.ticks.front();
+    span.last = block.ticks.back();
+    span.rows += block.size();
+  });
+  return span;
 }
 
 bool isSpatial(const Channel& channel) { return channel.component != "n/a"; }
@@ -35,19 +47,12 @@ Json described(const std::string& description, const std::string& units = "") {
 
 }  // namespace
 
-std::string motionTsv(const RunLog& run) {
-  TableText table('\t', "n/a");  // no header: the columns are those of channels.tsv
-  const SampleRows rows = run.allRows();
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    for (std::size_t column = 0; column < rows.columns; ++column) table.number(rows.at(row, column));
-    table.endRow();
-  }
-  return table.text();
-}
+// No header: the columns are those of channels.tsv.
+void motionTsv(const RunLog& run, const TakePiece& take) { writeRows(run, TableText('\t', "n/a"), take); }
 
 std::string motionJson(const RunLog& run) {
   const RunConfiguration& c = run.configuration();
-  const SampleRows rows = run.allRows();
+  const RowSpan span = spanOf(run);
   const auto count = [&](const std::string& type) {
     return std::count_if(c.table.channels.begin(), c.table.channels.end(), [&](const Channel& channel) { return channel.type == type; });
   };
@@ -59,8 +64,8 @@ std::string motionJson(const RunLog& run) {
   j["TaskDescription"] = describeTask(c);
   j["Instructions"] = "Move the object to the target in the prescribed time and bring it to rest there";
   j["SamplingFrequency"] = c.samplingHz;
-  j["SamplingFrequencyEffective"] = effectiveFrequency(rows, c.samplingHz);
-  j["RecordingDuration"] = rows.size() == 0 ? 0 : secondsBetween(rows.ticks.front(), rows.ticks.back());
+  j["SamplingFrequencyEffective"] = span.frequency(c.samplingHz);
+  j["RecordingDuration"] = span.seconds();
   j["TrackingSystemName"] = "haptic";
   j["Manufacturer"] = "n/a";
   j["ManufacturersModelName"] = orUnknown(c.deviceName);
@@ -100,7 +105,7 @@ std::string channelsJson() {
   return j.dump(2) + "\n";
 }
 
-std::string eventsTsv(const RunLog& run) {
+void eventsTsv(const RunLog& run, const TakePiece& take) {
   const RunConfiguration& c = run.configuration();
   TableText table('\t', "n/a");
   table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
@@ -124,8 +129,9 @@ std::string eventsTsv(const RunLog& run) {
     table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed - begin).number(trial.meanForce).whole(c.day);
     table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed);
     table.endRow();
+    take(table.takeText());
   }
-  return table.text();
+  take(table.takeText());
 }
 
 std::string eventsJson(const RunConfiguration& c) {
@@ -169,16 +175,21 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
   const std::string session = fmt::format("{}/sub-{}/ses-{}", folder, c.subject, c.session);
   const std::string tracked = runName(c, "tracksys-haptic_");
   std::vector<std::string> written;
-  const auto write = [&](const std::string& path, const std::string& text) {
-    writeFileAtomically(path, text);
+  const auto writePieces = [&](const std::string& path, const auto& writer) {
+    AtomicFile file(path);
+    writer([&](std::string_view piece) { file.append(piece); });
+    file.commit();
     written.push_back(path);
   };
+  const auto write = [&](const std::string& path, const std::string& text) {
+    writePieces(path, [&](const TakePiece& take) { take(text); });
+  };
   const std::string base = session + "/motion/" + tracked;
-  write(base + "_motion.tsv", motionTsv(run));
+  writePieces(base + "_motion.tsv", [&](const TakePiece& take) { motionTsv(run, take); });
   write(base + "_motion.json", motionJson(run));
   write(base + "_channels.tsv", channelsTsv(c));
   write(base + "_channels.json", channelsJson());
-  write(base + "_events.tsv", eventsTsv(run));
+  writePieces(base + "_events.tsv", [&](const TakePiece& take) { eventsTsv(run, take); });
   write(base + "_events.json", eventsJson(c));
   write(folder + "/" + experimentPath(c), experimentJson(c));
   return written;

@@ -84,6 +84,9 @@ LogWriter LogWriter::resume(const std::string& path, std::uint64_t size, std::ui
 }
 
 std::uint64_t LogWriter::append(RecordType type, std::span<const std::uint8_t> payload) {
+  if (payload.size() > kMaxPayloadBytes)
+    throw UsageError(
+        fmt::format("{}: a record of {} bytes; allowed: up to {}: plan fewer trials a run", path(), payload.size(), kMaxPayloadBytes));
   frame_.resize(kRecordFrameBytes + payload.size());
   const auto length = static_cast<std::uint32_t>(payload.size());
   const auto number = static_cast<std::uint16_t>(type);

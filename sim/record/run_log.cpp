@@ -201,6 +201,19 @@ SampleRows RunLog::rows(std::uint64_t firstTick, std::uint64_t lastTick) const {
 
 SampleRows RunLog::allRows() const { return rows(0, kNoTick); }
 
+void RunLog::eachBlock(const std::function<void(const SampleRows& block)>& take) const {
+  SampleRows block;
+  block.columns = configuration_.table.size();
+  visit(0, [&](const RecordView& record) {
+    if (record.type != RecordType::Samples) return true;
+    block.ticks.clear();
+    block.values.clear();
+    decodeSamples(record.payload, 0, kNoTick, block);
+    take(block);
+    return true;
+  });
+}
+
 std::vector<RecordedTick> RunLog::ticks() const {
   std::vector<RecordedTick> ticks;
   visit(0, [&](const RecordView& record) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -105,6 +106,8 @@ class RunLog {
   /// Rows of a trial (from trials()), from where it was put up to its end.
   SampleRows rows(const RecordedTrial& trial) const { return rows(trial.startTick, trial.lastTick); }
   SampleRows allRows() const;
+  /// The rows block by block as they were written, for runs longer than memory; a block is gone when `take` returns.
+  void eachBlock(const std::function<void(const SampleRows& block)>& take) const;
   std::vector<RecordedTick> ticks() const;
   std::vector<RecordedEvent> events() const;
   std::vector<TrialSetup> setups() const;

@@ -103,42 +103,56 @@ std::string runName(const RunConfiguration& c, const std::string& between) {
   return fmt::format("sub-{}_ses-{}_task-{}_{}run-{:02}", c.subject, c.session, c.task, between, c.run);
 }
 
-std::string trialsCsv(const std::vector<RunLog>& runs) {
+void writeRows(const RunLog& run, TableText table, const TakePiece& take) {
+  run.eachBlock([&](const SampleRows& block) {
+    for (std::size_t row = 0; row < block.size(); ++row) {
+      for (std::size_t column = 0; column < block.columns; ++column) table.number(block.at(row, column));
+      table.endRow();
+    }
+    take(table.takeText());
+  });
+}
+
+void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take) {
   TableText table(',', "");
   table.row(kTrialColumns);
   for (const RunLog& run : runs) {
     const experiment::Task task = taskOf(run.configuration());
-    for (const RecordedTrial& trial : run.trials()) addTrial(table, run.configuration(), task, trial);
+    for (const RecordedTrial& trial : run.trials()) {
+      addTrial(table, run.configuration(), task, trial);
+      take(table.takeText());
+    }
   }
-  return table.text();
+  take(table.takeText());
 }
 
-std::string samplesCsv(const RunLog& run) {
+void samplesCsv(const RunLog& run, const TakePiece& take) {
   TableText table(',', "");
   for (const Channel& channel : run.configuration().table.channels) table.cell(channel.column);
   table.endRow();
-  const SampleRows rows = run.allRows();
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    for (std::size_t column = 0; column < rows.columns; ++column) table.number(rows.at(row, column));
-    table.endRow();
-  }
-  return table.text();
+  take(table.takeText());
+  writeRows(run, std::move(table), take);
 }
 
 std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder) {
   std::vector<std::string> written;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    written.push_back(fmt::format("{}/{}", folder, name));
-    writeFileAtomically(written.back(), text);
+  // The table, and beside it its dictionary, which asks for the table's first line.
+  const auto write = [&](const std::string& name, const auto& writer, const auto& dictionaryOf) {
+    std::string header;
+    AtomicFile table(written.emplace_back(fmt::format("{}/{}", folder, name)));
+    writer([&](std::string_view piece) {
+      if (header.empty()) header = piece.substr(0, piece.find('\n'));
+      table.append(piece);
+    });
+    table.commit();
+    writeFileAtomically(written.emplace_back(fmt::format("{}/{}", folder, dictionaryPathOf(name))), dictionaryOf(header));
   };
-  for (const RunLog& run : runs) {
-    const std::string name = runName(run.configuration()) + "_samples.csv", samples = samplesCsv(run);
-    write(name, samples);
-    write(dictionaryPathOf(name), samplesDictionary(run.configuration().table, samples));
-  }
-  const std::string trials = trialsCsv(runs);
-  write("trials.csv", trials);
-  write("trials.json", trialsDictionary(trials));
+  for (const RunLog& run : runs)
+    write(
+        runName(run.configuration()) + "_samples.csv", [&](const TakePiece& take) { samplesCsv(run, take); },
+        [&](const std::string& header) { return samplesDictionary(run.configuration().table, header); });
+  write(
+      "trials.csv", [&](const TakePiece& take) { trialsCsv(runs, take); }, trialsDictionary);
   return written;
 }
 

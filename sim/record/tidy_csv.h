@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/table_text.h"
 #include "sim/record/run_log.h"
 
 namespace reachlab::record {
@@ -11,9 +12,11 @@ namespace reachlab::record {
 /// R, JASP, SPSS, pandas; beside each a dictionary of its columns (`trials.json` …). Returns the files written. Throws ResourceError.
 std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder);
 
-/// The text of trials.csv.
-std::string trialsCsv(const std::vector<RunLog>& runs);
-std::string samplesCsv(const RunLog& run);
+// The texts of the files, given piece by piece: they grow with the run, memory does not.
+void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take);
+void samplesCsv(const RunLog& run, const TakePiece& take);
+/// Every row of the run as a line of `table`, which may have a header already.
+void writeRows(const RunLog& run, TableText table, const TakePiece& take);
 /// What each column of these files is, in words, with its unit.
 std::string trialsDictionary(std::string_view csv);
 std::string samplesDictionary(const ChannelTable& table, std::string_view csv);

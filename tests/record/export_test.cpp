@@ -36,6 +36,14 @@ bool isNumber(const std::string& text) {
   return fault == std::errc{} && end == text.data() + text.size();
 }
 
+// A text that is given piece by piece.
+template <typename Write, typename Of>
+std::string textOf(Write&& write, const Of& of) {
+  std::string text;
+  write(of, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
 class Exported : public testing::Test {
  protected:
   void SetUp() override {
@@ -52,7 +60,7 @@ class Exported : public testing::Test {
 
 // No validator looks at these: a header row in motion.tsv, decimal commas, units, doubled channels, counts, the task's name.
 TEST_F(Exported, MotionHasNoHeaderAndANumberInEveryCell) {
-  const auto rows = cellsOf(motionTsv(RunLog::open(path_)), '\t');
+  const auto rows = cellsOf(textOf(motionTsv, RunLog::open(path_)), '\t');
   ASSERT_EQ(rows.size(), 3 * MadeRun::kTicksPerTrial / 10 + 1);
   for (const auto& row : rows) {
     ASSERT_EQ(row.size(), configuration_.table.size());
@@ -62,7 +70,7 @@ TEST_F(Exported, MotionHasNoHeaderAndANumberInEveryCell) {
 
 TEST_F(Exported, MotionCellsReadBackAsTheRecordedNumbers) {
   const RunLog log = RunLog::open(path_);
-  const auto rows = cellsOf(motionTsv(log), '\t');
+  const auto rows = cellsOf(textOf(motionTsv, log), '\t');
   const std::size_t x = configuration_.table.indexOf("hand_pos_x");
   for (std::size_t row = 0; row < rows.size(); ++row) {
     double value = 0;
@@ -99,7 +107,7 @@ TEST_F(Exported, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
 
 TEST_F(Exported, EventsGiveOneRowATrialInOrderWithinTheRecording) {
   const RunLog log = RunLog::open(path_);
-  const auto rows = cellsOf(eventsTsv(log), '\t');
+  const auto rows = cellsOf(textOf(eventsTsv, log), '\t');
   const json described = json::parse(eventsJson(configuration_));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0][0], "onset");
@@ -114,7 +122,7 @@ TEST_F(Exported, EventsGiveOneRowATrialInOrderWithinTheRecording) {
 TEST_F(Exported, TrialsCsvBeginsWithThePromisedColumns) {
   std::vector<RunLog> runs;
   runs.push_back(RunLog::open(path_));
-  const std::string text = trialsCsv(runs);
+  const std::string text = textOf(trialsCsv, runs);
   EXPECT_TRUE(text.starts_with("subject,session,run,block,trial,phase,condition,outcome,reason,mass,movement_time_s,")) << text;
   const auto rows = cellsOf(text, ',');
   ASSERT_EQ(rows.size(), 4u);
@@ -123,7 +131,7 @@ TEST_F(Exported, TrialsCsvBeginsWithThePromisedColumns) {
 }
 
 TEST_F(Exported, SamplesCsvHasUniqueColumnsThatCarryTheirUnits) {
-  const auto rows = cellsOf(samplesCsv(RunLog::open(path_)), ',');
+  const auto rows = cellsOf(textOf(samplesCsv, RunLog::open(path_)), ',');
   std::set<std::string> columns(rows[0].begin(), rows[0].end());
   EXPECT_EQ(columns.size(), rows[0].size());
   for (const char* column :
