@@ -1,5 +1,7 @@
 #include "devices/simulated/reach_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -155,15 +157,23 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
 
 }  // namespace
 
-ReachPlan makeReachPlan(const experiment::Experiment& experiment, predict::Criterion criterion, std::optional<double> handMass) {
+ReachPlan makeReachPlan(const experiment::Experiment& experiment, std::optional<predict::Criterion> criterion,
+                        std::optional<double> handMass) {
   const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
   const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment, constraint);
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (flat && place.start == place.target) throw UsageError("task: start and target are the same place");
-  if (flat) return planAlongChord(experiment, place.start, place.target, criterion, handMass);
+  constexpr auto kUsual = predict::Criterion::MinHandJerk;
+  if (flat) return planAlongChord(experiment, place.start, place.target, criterion.value_or(kUsual), handMass);
+  if (criterion || handMass)
+    throw UsageError(fmt::format(
+        "device simulated: {}: the simulated subject plans by a criterion on a straight line and free in space, not on {} '{}'; "
+        "allowed here: neither criterion nor hand-mass",
+        criterion ? fmt::format("criterion={}", predict::nameOf(*criterion)) : fmt::format("hand-mass={}", *handMass),
+        constraint.kind == constraints::ConstraintKind::Curve ? "the curve" : "the surface", experiment.constraint.name));
   const bool flexible =
       experiment.object.kind == experiment::ObjectKind::Chain || experiment.object.kind == experiment::ObjectKind::Parallel;
-  if (flexible && constraint.kind == constraints::ConstraintKind::Curve) return planAlongCurve(experiment, constraint, criterion, handMass);
+  if (flexible && constraint.kind == constraints::ConstraintKind::Curve) return planAlongCurve(experiment, constraint, kUsual, handMass);
   if (flexible) throw RefusedError("the simulated subject has no plan for several masses on a surface; use one mass, or a curve");
   if (!experiment.coupling || !(experiment.coupling->stiffness > 0))
     throw RefusedError("coupling.stiffness_n_per_m: 0; nothing joins the simulated subject to the object");

@@ -13,7 +13,7 @@ struct ReachPlan {
 };
 
 /// The reach from start to target of this task, planned for this very object:
-///   - on a straight line, and free in space along the chord: what the criterion predicts;
+///   - on a straight line, and free in space along the chord: what the criterion predicts (nullopt: minimum hand jerk);
 ///   - chain or parallel masses on a curve: the prediction for a line as long as the curve between start and target, laid along the arc;
 ///     beyond the target the curve goes on;
 ///   - one mass on a curve or surface: the mass is to follow the minimum-jerk law in the constraint's parameters, so the hand leads it by
@@ -22,7 +22,8 @@ struct ReachPlan {
 /// creeps into a wide tolerance long before T): a subject who has practised takes longer, so that it is judged to take T.
 /// Gravity is not compensated, and a body is taken for a point: held ahead of its centre on the line of the reach it follows, held more
 /// than some millimetres beside that line it swings and does not come to rest. Throws UsageError (no task, start and target are one
-/// place), RefusedError from predict.
-ReachPlan makeReachPlan(const experiment::Experiment& experiment, predict::Criterion criterion, std::optional<double> handMass);
+/// place, a criterion or a hand mass where no criterion is followed), RefusedError from predict.
+ReachPlan makeReachPlan(const experiment::Experiment& experiment, std::optional<predict::Criterion> criterion,
+                        std::optional<double> handMass);
 
 }  // namespace reachlab::devices

@@ -15,8 +15,8 @@ struct SubjectSpec {
   double timeSd = 0.07;   // movement time: the plan is run through faster or slower by a factor 1 + timeSd z (paper: 0.09 of 1.35 s)
   double speedSd = 0.07;  // smooth noise proportional to speed, as a part of it, along the path and across
   double reaction = 0.2;  // [s] from go to the first movement, 15 % SD
-  predict::Criterion criterion = predict::Criterion::MinHandJerk;
-  std::optional<double> handMass;  // [kg] for the criterion; nullopt: the experiment's
+  std::optional<predict::Criterion> criterion;  // nullopt: minimum hand jerk; only straight ways are planned by a criterion
+  std::optional<double> handMass;               // [kg] for the criterion; nullopt: the experiment's
 };
 
 /// Reads `noise=0,criterion=min-hand-force-change,hand-mass=1,time-sd=0.07,speed-sd=0.07,reaction=0.2` (all optional). Throws UsageError.

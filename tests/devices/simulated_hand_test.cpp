@@ -121,6 +121,21 @@ TEST(SimulatedHand, ItsVelocityIsTheDerivativeOfItsPosition) {
   }
 }
 
+TEST(SimulatedHand, RefusesACriterionWhereItFollowsNone) {
+  for (const char* bent : {"ellipse", "chain-on-ellipse", "torus"}) {
+    const experiment::Experiment experiment = experiment::readExperiment(bent);
+    EXPECT_NO_THROW(makeDevice("simulated:noise=0", experiment, 1)) << bent;
+    for (const char* device : {"simulated:criterion=min-hand-jerk", "simulated:criterion=min-crackle", "simulated:hand-mass=1"}) {
+      try {
+        makeDevice(device, experiment, 1);
+        ADD_FAILURE() << bent << " takes " << device;
+      } catch (const UsageError& error) {
+        EXPECT_NE(std::string(error.what()).find("straight line"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
 TEST(SimulatedHand, SaysWhatItDoesNotUnderstand) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   for (const char* bad : {"simulated:nois=0", "simulated:noise=-1", "simulated:noise=nan", "simulated:noise=", "simulated:criterion=best",
