@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/minimum_jerk.h"
+#include "sim/analyze/near_predictions.h"
 
 namespace reachlab::analyze {
 namespace {
@@ -38,9 +39,7 @@ Shape shapeOf(const experiment::Experiment& experiment, predict::Criterion crite
   const auto prediction = predict::predict(experiment, criterion, how);
   Shape shape;
   shape.phi.resize(kCompared);
-  std::vector<double> object(kCompared);
-  prediction->sampleVelocities(shape.phi, object);
-  for (double& v : shape.phi) v *= prediction->duration / prediction->distance;
+  sampleProfile(*prediction, shape.phi);
   shape.fastest = (prediction->scanCount() - 48) / (1.2 * prediction->duration);
   return shape;
 }
@@ -54,21 +53,26 @@ bool same(const Shape& a, const Shape& b) {
   return apart <= kSame * peak;
 }
 
-ProfileFamily::Sampler samplerOf(const experiment::Experiment& experiment, predict::Criterion criterion, double mass, double damping) {
-  return [&experiment, criterion, mass, damping](double duration, std::span<double> phi) {
+Predictor predictorOf(const experiment::Experiment& experiment, predict::Criterion criterion, double mass, double damping) {
+  return [&experiment, criterion, mass, damping](double duration,
+                                                 std::span<const predict::Prediction* const> near) -> std::unique_ptr<predict::Prediction> {
     predict::PredictOptions how;
     how.duration = duration;
     how.handMass = mass;
     how.handDamping = damping;
+    how.near = near;
     try {
-      const auto prediction = predict::predict(experiment, criterion, how);
-      std::vector<double> object(phi.size());
-      prediction->sampleVelocities(phi, object);
-      for (double& v : phi) v *= prediction->duration / prediction->distance;
-      return std::all_of(phi.begin(), phi.end(), [](double v) { return std::isfinite(v); });
+      return predict::predict(experiment, criterion, how);
     } catch (const Error&) {
-      return false;  // too short to be carried out
+      return nullptr;  // too short to be carried out
     }
+  };
+}
+
+ProfileFamily::Sampler samplerOf(Predictor predictor) {
+  return [predictor = std::move(predictor)](double duration, std::span<double> phi) {
+    const auto prediction = predictor(duration, {});
+    return prediction && sampleProfile(*prediction, phi);
   };
 }
 
@@ -81,19 +85,22 @@ bool referenceProfile(double, std::span<double> phi) {
 }
 
 /// Joint torque change takes a hundred times as long to predict as the others, so its durations lie as far apart as they may.
-std::unique_ptr<ProfileFamily> sparseFamily(const ProfileFamily::Sampler& sampler, const RecordingFilter& filter, ProfileFamily::Grid grid,
+std::unique_ptr<ProfileFamily> costlyFamily(const Predictor& predictor, const RecordingFilter& filter, ProfileFamily::Grid grid,
                                             double duration) {
   const double finest = grid.spacing;
-  for (const double factor : {8.0, 6.0, 4.0, 3.0, 2.0}) {
+  const auto familyAt = [&](double factor) {
     grid.spacing = factor * finest;
-    auto family = std::make_unique<ProfileFamily>(sampler, filter, grid);
+    return std::make_unique<ProfileFamily>(sampleNearPredictions(predictor, duration, grid.spacing), filter, grid);
+  };
+  for (const double factor : {3.0, 2.5, 2.0}) {
+    auto family = familyAt(factor);
     // Half-way between two of them, where the interpolation is worst, and at a shorter movement, where the profile changes fastest.
     const auto between = [&](double t) { return (std::floor(t / grid.spacing) + 0.5) * grid.spacing; };
-    if (duration > 6 * grid.spacing && family->errorAt(between(0.85 * duration)) <= kSame && family->errorAt(between(duration)) <= kSame)
+    if (duration > 9 * grid.spacing && family->errorAt(between(0.7 * duration)) <= kSame / 2 &&
+        family->errorAt(between(duration)) <= kSame / 2)
       return family;
   }
-  grid.spacing = finest;
-  return std::make_unique<ProfileFamily>(sampler, filter, grid);
+  return familyAt(1);
 }
 
 struct Draft {
@@ -150,10 +157,10 @@ CandidateSet makeCandidates(const experiment::Experiment& experiment, const Cand
     candidate.criteria = {draft.criterion};
     if (dependsOnHandMass(draft.criterion)) candidate.masses = draft.masses;
     for (const double mass : draft.masses) {
-      const auto sampler = samplerOf(experiment, draft.criterion, mass, options.handDamping);
+      const Predictor predictor = predictorOf(experiment, draft.criterion, mass, options.handDamping);
       candidate.families.push_back(draft.criterion == predict::Criterion::MinTorqueChange
-                                       ? sparseFamily(sampler, filter, grid, T)
-                                       : std::make_unique<ProfileFamily>(sampler, filter, grid));
+                                       ? costlyFamily(predictor, filter, grid, T)
+                                       : std::make_unique<ProfileFamily>(samplerOf(predictor), filter, grid));
     }
     out.candidates.push_back(std::move(candidate));
   }

@@ -68,7 +68,14 @@ class Fitter {
     const auto at = [&](int step) -> const Fits& {
       const auto known = out.plans.find(step);
       if (known != out.plans.end()) return known->second;
-      return out.plans.emplace(step, held(family, centre * std::exp(kPlanStep * step), out.anew.trials, scratch)).first->second;
+      // What was fitted with the nearest plan is the best start.
+      const auto after = out.plans.lower_bound(step);
+      auto nearest = after;
+      if (after != out.plans.begin() && (after == out.plans.end() || step - std::prev(after)->first < after->first - step))
+        nearest = std::prev(after);
+      const bool none = nearest == out.plans.end() || nearest->second.trials.empty();
+      const std::vector<MovementFit>& starts = none ? out.anew.trials : nearest->second.trials;
+      return out.plans.emplace(step, held(family, centre * std::exp(kPlanStep * step), starts, scratch)).first->second;
     };
     // The consistent plan: the one whose fitted durations have it for their median.
     int consistent = 0;
@@ -80,7 +87,8 @@ class Fitter {
       if (next == consistent) break;
       consistent = next;
     }
-    for (int k = -kPlansAside; k <= kPlansAside; ++k) at(k), at(consistent + k);
+    for (int k = 0; k <= kPlansAside; ++k)
+      for (const int step : {k, -k, consistent + k, consistent - k}) at(step);
     std::erase_if(out.plans, [](const auto& entry) { return entry.second.trials.empty(); });
     if (const double plan = leastCost(out.plans, centre); plan > 0) out.between = held(family, plan, out.anew.trials, scratch);
     return out;

@@ -150,15 +150,15 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
     place.amplitude = 1;
     place.found = true;
   }
-  std::vector<std::vector<double>> laid(n);
+  std::vector<double> laid;  // one trial at a time: there may be many thousands
   Mean mean;
   const auto average = [&] {
     mean.sum.assign(gridSize(), 0.0);
     mean.count.assign(gridSize(), 0);
     for (std::size_t i = 0; i < n; ++i) {
-      layOver(windows[i], out.place[i], laid[i]);
-      for (std::size_t k = 0; k < laid[i].size(); ++k)
-        if (std::isfinite(laid[i][k])) mean.sum[k] += laid[i][k] / out.place[i].amplitude, ++mean.count[k];
+      layOver(windows[i], out.place[i], laid);
+      for (std::size_t k = 0; k < laid.size(); ++k)
+        if (std::isfinite(laid[k])) mean.sum[k] += laid[k] / out.place[i].amplitude, ++mean.count[k];
     }
     out.mean = profileOf(mean);
   };
@@ -174,8 +174,9 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
   }
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<float> apart(gridSize(), 0.0F);
+    layOver(windows[i], out.place[i], laid);
     for (std::size_t k = 0; k < apart.size(); ++k)
-      if (std::isfinite(laid[i][k])) apart[k] = static_cast<float>(laid[i][k] - out.place[i].amplitude * out.mean.value[k]);
+      if (std::isfinite(laid[k])) apart[k] = static_cast<float>(laid[k] - out.place[i].amplitude * out.mean.value[k]);
     out.apart.push_back(std::move(apart));
   }
   out.scatter = scatterOf(out.apart, mean);
@@ -184,8 +185,9 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
   double left = 0, whole = 0;
   for (std::size_t i = 0; i < n; ++i) {  // the mean without the trial itself
     Mean others = mean;
-    for (std::size_t k = 0; k < laid[i].size(); ++k)
-      if (std::isfinite(laid[i][k])) others.sum[k] -= laid[i][k] / out.place[i].amplitude, --others.count[k];
+    layOver(windows[i], out.place[i], laid);
+    for (std::size_t k = 0; k < laid.size(); ++k)
+      if (std::isfinite(laid[k])) others.sum[k] -= laid[k] / out.place[i].amplitude, --others.count[k];
     const MovementFit fit = fitMovement(windows[i], profileOf(others), out.place[i]);
     const double rest = restCost(windows[i]);
     left += fit.cost;

@@ -1,5 +1,6 @@
 #include "sim/analyze/profile_family.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +33,11 @@ double Profile::at(double s) const {
 ProfileFamily::ProfileFamily(Sampler sampler, const RecordingFilter& filter, const Grid& grid)
     : sampler_(std::move(sampler)), filter_(filter), grid_(grid), published_(new std::atomic<const Node*>[kNodes]), count_(kNodes) {
   for (int i = 0; i < count_; ++i) published_[static_cast<std::size_t>(i)].store(nullptr, std::memory_order_relaxed);
-  margin_ = static_cast<std::size_t>(std::ceil(filter.reach() / grid.shortest * static_cast<double>(grid.parts))) + 2;
+  margin_ = marginAt(grid.shortest);
+}
+
+std::size_t ProfileFamily::marginAt(double duration) const {
+  return static_cast<std::size_t>(std::ceil(filter_.reach() / duration * static_cast<double>(grid_.parts))) + 2;
 }
 
 ProfileFamily::Node ProfileFamily::exactAt(double duration) const {
@@ -48,9 +53,10 @@ double ProfileFamily::errorAt(double duration) const {
   const Node exact = exactAt(duration);
   if (!exact.possible || !at(duration, between)) return 1;
   double peak = 0, apart = 0;
-  for (std::size_t i = 0; i < exact.value.size(); ++i) {
-    peak = std::max(peak, std::abs(exact.value[i]));
-    apart = std::max(apart, std::abs(exact.value[i] - between.value[i]));
+  const std::size_t skipped = margin_ - marginAt(duration);  // where the filter does not reach
+  for (std::size_t i = 0; i < between.value.size(); ++i) {
+    peak = std::max(peak, std::abs(exact.value[i + skipped]));
+    apart = std::max(apart, std::abs(exact.value[i + skipped] - between.value[i]));
   }
   return peak > 0 ? apart / peak : 1;
 }
@@ -90,17 +96,21 @@ bool ProfileFamily::at(double duration, Profile& out) const {
     w[static_cast<std::size_t>(j)] = product / denominator;
     dw[static_cast<std::size_t>(j)] = derivative / denominator * x;  // d/d ln T = T d/dT = x d/dx
   }
-  const std::size_t size = grid_.parts + 1 + 2 * margin_;
+  const std::size_t margin = marginAt(duration), size = grid_.parts + 1 + 2 * margin;
   out.step = 1 / static_cast<double>(grid_.parts);
-  out.first = -static_cast<double>(margin_) * out.step;
+  out.first = -static_cast<double>(margin) * out.step;
   out.value.resize(size);
   out.change.resize(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    double v = 0, c = 0;
-    for (std::size_t j = 0; j < kPoints; ++j) v += w[j] * values[j][i], c += dw[j] * values[j][i];
-    out.value[i] = v;
-    out.change[i] = c;
-  }
+  const auto row = [&](std::size_t j) {
+    return Eigen::Map<const Eigen::ArrayXd>(values[j] + (margin_ - margin), static_cast<Eigen::Index>(size));
+  };
+  const auto sum = [&](const std::array<double, kPoints>& weight, std::vector<double>& to) {
+    Eigen::Map<Eigen::ArrayXd>(to.data(), static_cast<Eigen::Index>(size)) = weight[0] * row(0) + weight[1] * row(1) + weight[2] * row(2) +
+                                                                             weight[3] * row(3) + weight[4] * row(4) + weight[5] * row(5) +
+                                                                             weight[6] * row(6) + weight[7] * row(7);
+  };
+  sum(w, out.value);
+  sum(dw, out.change);
   return true;
 }
 

@@ -49,6 +49,7 @@ class ProfileFamily {
   };
   Node exactAt(double duration) const;
   const Node& node(int index) const;
+  std::size_t marginAt(double duration) const;  // cells on either side of [0, 1] that the filter reaches
 
   Sampler sampler_;
   RecordingFilter filter_;

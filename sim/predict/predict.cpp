@@ -52,14 +52,15 @@ std::optional<StraightTask> findStraightTask(const constraints::Constraint& cons
 
 // The arm moves in the plane of x, along, and -z, away from the chest.
 std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
-                                              const StraightTask& straight, const LineObject& object, double duration, int unknowns) {
+                                              const StraightTask& straight, const LineObject& object, double duration,
+                                              const PredictOptions& options) {
   const ArmTask task{{straight.start.x, -straight.start.z}, {straight.target.x, -straight.target.z}, duration};
   if (constraint.kind == constraints::ConstraintKind::Free)
-    return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), unknowns);
+    return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), options.unknowns);
   const Vec3 way = straight.target - straight.start;
   if (std::hypot(way.y, way.z) > 1e-9 * norm(way))
     throw RefusedError("min-torque-change: the line must lie along x, as the arm's task plane does");
-  return makeLineArmPrediction(experiment.arm, task, object, unknowns);
+  return makeLineArmPrediction(experiment.arm, task, object, options.unknowns, options.near);
 }
 
 // A point that is the hand itself, along a line.
@@ -177,9 +178,8 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Cr
       prediction = makeStraightHandPrediction(*object, criterion, way.distance, duration);
       object.reset();
     } else {
-      prediction = criterion == Criterion::MinTorqueChange
-                       ? makeArmPrediction(experiment, constraint, way, *object, duration, options.unknowns)
-                       : makeLinearPrediction(*object, criterion, way.distance, duration);
+      prediction = criterion == Criterion::MinTorqueChange ? makeArmPrediction(experiment, constraint, way, *object, duration, options)
+                                                           : makeLinearPrediction(*object, criterion, way.distance, duration);
     }
     prediction->distance = way.distance;
   } else {

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 
 #include "sim/experiment/experiment.h"
 #include "sim/predict/prediction.h"
@@ -12,6 +13,9 @@ struct PredictOptions {
   double handDamping = 0;          // [N s/m] of the hand itself
   int unknowns = 0;                // transcribed cases; 0: chosen for 1e-8
   std::optional<PointIs> point;    // nullopt: as the constraint means it
+  /// Predictions of the same experiment, criterion and hand at other durations, or none: what is found by iteration (joint torque change
+  /// along a line) starts from the polynomial in T through their unknowns and has as many, unless those turn out too few.
+  std::span<const Prediction* const> near;
 };
 
 /// Throws RefusedError (uncontrollable, condition > 1e12 …) and UsageError (no task, criterion not defined here).

@@ -48,6 +48,7 @@ class Prediction {
   std::optional<double> handJump, handVelocityJump;  // [m], [m/s] at t = 0+; nullopt where a pulse makes it meaningless
   std::optional<PointIs> point;                      // nullopt: the object is no point
   std::vector<std::string> warnings;                 // T < T*, condition, merged frequencies …
+  std::vector<double> unknowns;                      // of an iteration, in its own basis; empty where there was none
 
  protected:
   int massCount_ = 0;

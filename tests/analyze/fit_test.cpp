@@ -4,6 +4,7 @@
 #include <random>
 
 #include "sim/analyze/filter.h"
+#include "sim/analyze/near_predictions.h"
 #include "sim/analyze/person_fit.h"
 #include "tests/analyze/synthetic.h"
 
@@ -66,6 +67,28 @@ TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
           const double between = (std::floor(t / family->grid().spacing) + 0.5) * family->grid().spacing;
           EXPECT_LT(family->errorAt(between), 1e-6);
         }
+  }
+}
+
+// Joint torque change is predicted at few durations, each started from its neighbours: against predictions of its own for each duration.
+TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother) {
+  experiment::Experiment chain = experiment::readExperiment("chain-moderate");
+  const CandidateSet set = makeCandidates(chain, of({Criterion::MinTorqueChange}));
+  const ProfileFamily& family = *set.candidates.front().families.front();
+  for (const double t :
+       {0.9, 1.0, 1.35, 1.4, 1.77}) {  // exact where one of its durations is, between two of them, and asked for in any order
+    const double node = std::floor(t / family.grid().spacing) * family.grid().spacing;
+    predict::PredictOptions how;
+    how.duration = node + 0.5 * family.grid().spacing;
+    const auto exact = predict::predict(chain, Criterion::MinTorqueChange, how);
+    std::vector<double> phi(family.grid().parts + 1);
+    ASSERT_TRUE(sampleProfile(*exact, phi));
+    Profile between;
+    ASSERT_TRUE(family.at(how.duration, between));
+    const std::size_t margin = (between.value.size() - phi.size()) / 2;
+    const std::vector<double> filtered = RecordingFilter(10, 100).apply(phi, how.duration, margin);
+    const double peak = *std::max_element(filtered.begin(), filtered.end());
+    for (std::size_t i = 0; i < filtered.size(); ++i) ASSERT_NEAR(between.value[i], filtered[i], 2e-6 * peak) << t << " s, sample " << i;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "sim/predict/line/flat_output.h"
@@ -69,6 +70,18 @@ void store(const std::array<HyperDual<Locals>, 2>& rates, double* r, double* ra,
   for (int k = 0; k < 2; ++k) rates[k].store(r + k, ra + k * Locals, raa + k * Locals * Locals);
 }
 
+// Whether the last terms of a series are nothing beside its largest: more unknowns would not change it.
+bool isResolved(const LegendreSeries& velocity) {
+  constexpr double kNothing = 1e-10;
+  constexpr size_t kLast = 6;
+  double largest = 0, last = 0;
+  for (size_t k = 0; k < velocity.size(); ++k) {
+    largest = std::max(largest, std::abs(velocity[k]));
+    if (k + kLast >= velocity.size()) last = std::max(last, std::abs(velocity[k]));
+  }
+  return last <= kNothing * largest;
+}
+
 void requireReach(const experiment::Arm& arm, double x, double y) {
   const double distance = std::hypot(x, y), shortest = std::abs(arm.length[0] - arm.length[1]), longest = arm.length[0] + arm.length[1];
   constexpr double kMargin = 1e-3;  // [m] at a stretched elbow the joint speeds have no bound
@@ -127,7 +140,8 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, co
   return prediction;
 }
 
-std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns) {
+std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns,
+                                                  std::span<const Prediction* const> near) {
   constexpr int kLocals = 6;  // h, h', h'', h''', F, F'
   const int n = object.count();
   const double along = task.target[0] > task.start[0] ? 1 : -1, across = task.start[1] - arm.shoulder[1];
@@ -175,20 +189,32 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, co
     const JointMotion<S> m = computeJointMotion<S>(arm, start + along * v(0), across, along * v(1), along * v(2), along * v(3));
     store<kLocals>(computeTorqueRates<S>(arm, m, along * v(4), along * v(5)), r, ra, raa);
   };
-  const TranscribedMotion motion = solveFromStarts(problem, unknowns);
-
   std::vector<LegendreSeries> derivative;
-  for (int m = 0; m <= problem.order; ++m) derivative.push_back(motion.derivative(0, m));
+  const auto differentiate = [&](const TranscribedMotion& motion) {
+    derivative.clear();
+    for (int m = 0; m <= problem.order; ++m) derivative.push_back(motion.derivative(0, m));
+  };
   const auto apply = [&](const FlatPolynomial& row, int shift) {
     LegendreSeries sum(derivative[0].size(), 0);
     for (size_t k = 0; k < row.size(); ++k)
       for (size_t c = 0; c < derivative[k + shift].size(); ++c) sum[c] += static_cast<double>(row[k]) * derivative[k + shift][c];
     return sum;
   };
+  std::optional<TranscribedMotion> found = solveFromNeighbours(problem, near);
+  if (found) {
+    differentiate(*found);
+    if (!isResolved(apply(node[0], 1))) found.reset();  // they were too few for this duration
+  }
+  if (!found) {
+    found = solveFromStarts(problem, unknowns);
+    differentiate(*found);
+  }
+  const TranscribedMotion& motion = *found;
   std::vector<MotionSeries> masses;
   for (const int i : object.source) masses.push_back({apply(node[i + 1], 0), apply(node[i + 1], 1), {}});
   auto prediction = makeLegendrePrediction({apply(node[0], 0), apply(node[0], 1), apply(node[0], 2)}, std::move(masses), task.duration);
   describeMotion(motion, *prediction);
+  prediction->unknowns.assign(motion.coefficient[0].begin() + 1, motion.coefficient[0].end());
   return prediction;
 }
 

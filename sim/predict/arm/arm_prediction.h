@@ -17,7 +17,9 @@ struct ArmTask {
 /// not convex: the lowest of the minima found from several starts is given. `unknowns` 0: chosen for 1e-8 of the peak. Free arm:
 /// positions are those along the chord from start to target; the masses go with the hand and load nothing.
 std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, const ArmTask& task, int massCount, int unknowns);
-/// Along the straight line of the task with the object (and the hand's own mass and damping); no force across the line.
-std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns);
+/// Along the straight line of the task with the object (and the hand's own mass and damping); no force across the line. Starts from what is
+/// `near` (PredictOptions::near), where given.
+std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, const ArmTask& task, const LineObject& object, int unknowns,
+                                                  std::span<const Prediction* const> near = {});
 
 }  // namespace reachlab::predict

@@ -1,38 +1,83 @@
 #include "sim/predict/transcription/transcribed_cost.h"
 
+#include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace reachlab::predict {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+/// A basis at the nodes of its rule, derivatives by x: what depends on neither the problem nor its duration.
+struct BasisTable {
+  int order = 0, columns = 0;
+  GaussRule rule;
+  std::vector<Matrix> at;  // of each node: (order + 1) x columns
+};
+
+namespace {
+
+std::shared_ptr<const BasisTable> makeTable(const RestToRestBasis& basis) {
+  auto table = std::make_shared<BasisTable>();
+  table->order = basis.order();
+  table->columns = basis.columns();
+  table->rule = makeGaussRule(3 * (basis.columns() - 1 + basis.order()) / 2 + 8);
+  for (const double x : table->rule.node) {
+    table->at.emplace_back(basis.order() + 1, basis.columns());
+    basis.tabulate(x, 1, table->at.back().data());
+  }
+  return table;
+}
+
+/// The last few are kept: a family of durations asks for the same ones again and again.
+std::shared_ptr<const BasisTable> tableOf(const RestToRestBasis& basis) {
+  constexpr size_t kKept = 8;
+  static std::mutex mutex;
+  static std::vector<std::shared_ptr<const BasisTable>> kept;  // the latest last
+  const std::lock_guard lock(mutex);
+  const auto known = std::find_if(kept.begin(), kept.end(),
+                                  [&](const auto& table) { return table->order == basis.order() && table->columns == basis.columns(); });
+  if (known != kept.end()) {
+    std::rotate(known, known + 1, kept.end());
+    return kept.back();
+  }
+  if (kept.size() == kKept) kept.erase(kept.begin());
+  kept.push_back(makeTable(basis));
+  return kept.back();
+}
+
+}  // namespace
+
 TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestToRestBasis& basis)
-    : problem_(problem), rule_(makeGaussRule(3 * (basis.columns() - 1 + problem.order) / 2 + 8)) {
-  const int unknowns = basis.columns() - 1, motions = static_cast<int>(problem.from.size()), nodes = static_cast<int>(rule_.node.size());
+    : problem_(problem), table_(tableOf(basis)) {
+  const int unknowns = basis.columns() - 1, motions = static_cast<int>(problem.from.size()), nodes = static_cast<int>(table_->at.size());
   const int locals = problem.locals, width = problem.order + 1;
   rows_.resize(nodes * locals, motions * unknowns);
   fixed_ = Vector::Zero(nodes * locals);
-  Matrix table(width, basis.columns());
-  for (int node = 0; node < nodes; ++node) {
-    basis.tabulate(rule_.node[static_cast<size_t>(node)], 2 / problem.duration, table.data());
-    for (int motion = 0; motion < motions; ++motion) {
-      const auto m = static_cast<size_t>(motion);
-      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> local(problem.local[m].data(), locals,
-                                                                                                           width);
-      const Matrix all = local * table;
+  Matrix all(locals, basis.columns());
+  for (int motion = 0; motion < motions; ++motion) {
+    const auto m = static_cast<size_t>(motion);
+    Matrix local =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(problem.local[m].data(), locals, width);
+    double rate = 1;  // d^m/dt^m = (2/T)^m d^m/dx^m
+    for (int k = 0; k < width; ++k, rate *= 2 / problem.duration) local.col(k) *= rate;
+    for (int node = 0; node < nodes; ++node) {
+      all.noalias() = local * table_->at[static_cast<size_t>(node)];
       fixed_.segment(node * locals, locals) += all.col(0) * (problem.to[m] - problem.from[m]) + local.col(0) * problem.from[m];
       rows_.block(node * locals, motion * unknowns, locals, unknowns) = all.rightCols(unknowns);
     }
   }
 }
 
+double TranscribedCost::weight(int node) const { return table_->rule.weight[static_cast<size_t>(node)] * problem_.duration / 2; }
+
 double TranscribedCost::evaluate(const Vector& unknowns) const {
   Vector a = fixed_;
   a.noalias() += rows_ * unknowns;
   std::vector<double> r(static_cast<size_t>(problem_.residuals));
   double sum = 0;
-  for (int node = 0; node < static_cast<int>(rule_.node.size()); ++node) {
+  for (int node = 0; node < static_cast<int>(table_->at.size()); ++node) {
     problem_.residual(&a[node * problem_.locals], r.data(), nullptr, nullptr);
     for (const double value : r) sum += weight(node) * value * value;
   }
@@ -40,7 +85,7 @@ double TranscribedCost::evaluate(const Vector& unknowns) const {
 }
 
 double TranscribedCost::expand(const Vector& unknowns, Vector& gradient, Matrix& hessian) const {
-  const int l = problem_.locals, nodes = static_cast<int>(rule_.node.size());
+  const int l = problem_.locals, nodes = static_cast<int>(table_->at.size());
   std::vector<double> r(problem_.residuals), ra(problem_.residuals * l), raa(problem_.residuals * l * l);
   Vector a = fixed_, g = Vector::Zero(a.size());
   a.noalias() += rows_ * unknowns;

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Dense>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "base/gauss_legendre.h"
@@ -31,10 +32,10 @@ class TranscribedCost {
   double expand(const Eigen::VectorXd& unknowns, Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) const;
 
  private:
-  double weight(int node) const { return rule_.weight[static_cast<size_t>(node)] * problem_.duration / 2; }
+  double weight(int node) const;
 
   const TranscribedProblem& problem_;
-  GaussRule rule_;
+  std::shared_ptr<const struct BasisTable> table_;
   Eigen::MatrixXd rows_;   // the local variables at all nodes, node by node, of one unknown each
   Eigen::VectorXd fixed_;  // what the ends alone make of them
 };

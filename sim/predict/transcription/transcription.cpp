@@ -201,6 +201,31 @@ TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknown
   return raiseUnknowns(problem, *std::move(found), placeOf);
 }
 
+std::optional<TranscribedMotion> solveFromNeighbours(const TranscribedProblem& problem, std::span<const Prediction* const> near) {
+  constexpr size_t kMost = 6;
+  std::vector<const Prediction*> used;
+  for (const Prediction* p : near)
+    if (!p->unknowns.empty()) used.push_back(p);
+  const auto apart = [&](const Prediction* p) { return std::abs(p->duration - problem.duration); };
+  std::stable_sort(used.begin(), used.end(), [&](const Prediction* a, const Prediction* b) { return apart(a) < apart(b); });
+  // A polynomial that is continued beyond its points goes astray the sooner the more of them there are.
+  if (used.size() > kMost) used.resize(kMost);
+  std::erase_if(used, [&](const Prediction* p) { return p->unknowns.size() != used.front()->unknowns.size(); });
+  if (used.empty()) return std::nullopt;
+  std::vector<double> guess(used.front()->unknowns.size(), 0.0);
+  for (const Prediction* p : used) {
+    double weight = 1;
+    for (const Prediction* other : used)
+      if (other != p) weight *= (problem.duration - other->duration) / (p->duration - other->duration);
+    for (size_t k = 0; k < guess.size(); ++k) guess[k] += weight * p->unknowns[k];
+  }
+  try {
+    return solveTranscription(problem, static_cast<int>(guess.size()), {guess});
+  } catch (const RefusedError&) {
+    return std::nullopt;
+  }
+}
+
 MotionSeries makeSeriesOfSpeed(const std::function<double(double)>& speed, int columns, double duration) {
   const GaussRule rule = makeGaussRule(3 * columns + 40);
   std::vector<double> values;
@@ -241,6 +266,15 @@ class LegendrePrediction final : public Prediction {
     const double x = 2 * t / duration - 1;
     for (size_t i = 0; i < masses_.size(); ++i)
       position[i] = valueAt(masses_[i].position, x), velocity[i] = valueAt(masses_[i].velocity, x);
+  }
+  double objectVelocityAt(double t) const override { return valueAt(masses_.back().velocity, 2 * t / duration - 1); }
+  void sampleVelocities(std::span<double> hand, std::span<double> object) const override {
+    const auto last = static_cast<double>(hand.size() - 1);
+    for (size_t i = 0; i < hand.size(); ++i) {
+      const double x = 2 * (static_cast<double>(i) / last) - 1;
+      hand[i] = valueAt(hand_.velocity, x);
+      object[i] = valueAt(masses_.back().velocity, x);
+    }
   }
 
  private:

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/predict/transcription/path_check.h"
@@ -46,6 +48,10 @@ double boundError(double change, double before);
 /// `unknowns` > 0 as given. Where 450 are not enough the result says how far it is known; above 1e-2, and where the movement is not
 /// smooth, it is refused. `placeOf` (may be empty) is the hand in space at time t.
 TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknowns, const HandInSpace& placeOf = {});
+
+/// From the unknowns of predictions `near` in duration, which all have equally many: those of the six nearest, continued to this duration as
+/// polynomials. nullopt where there are none, or Newton's method does not settle. One unknown motion.
+std::optional<TranscribedMotion> solveFromNeighbours(const TranscribedProblem& problem, std::span<const Prediction* const> near);
 
 /// Hand and masses given as Legendre series in x = 2t/T - 1.
 struct MotionSeries {
