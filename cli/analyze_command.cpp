@@ -188,7 +188,7 @@ std::string summaryJson(const analyze::StudyResult& study, const analyze::Datase
     }
     if (r.success)
       condition["success_percent"] = {
-          {"mean", 100 * r.success->mean},
+          {"typical", 100 * r.success->mean},
           {"interval", jsonOf(analyze::Interval{100 * r.success->interval.low, 100 * r.success->interval.high})}};
     condition["conclusion"] = jsonOf(r.conclusion, analyze::candidatesOf(r), r.candidates.masses);
     condition["hand_ranking"] = jsonOf(r.handEpsilon, r, r.conclusion.decided());

@@ -1,6 +1,7 @@
 #include "sim/analyze/comparison.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -89,6 +90,18 @@ Interval computeMeanInterval(std::span<const double> values, double level) {
   if (values.size() < 2) return {-kInfinity, kInfinity};
   const double quantile = boost::math::quantile(boost::math::students_t(test.freedom), 0.5 + level / 2);
   return {test.mean - quantile * test.error, test.mean + quantile * test.error};
+}
+
+PeopleMean computePeopleMean(std::span<const double> values, std::span<const double> variance, double level) {
+  PeopleMean out{computeTTest(values), computeMeanInterval(values, level)};
+  if (values.size() < 2) return out;
+  const boost::math::normal normal;
+  const double own = std::sqrt(std::accumulate(variance.begin(), variance.end(), 0.0)) / static_cast<double>(values.size());
+  const double half = boost::math::quantile(normal, 0.5 + level / 2) * own;
+  out.interval.low = std::min(out.interval.low, out.test.mean - half);
+  out.interval.high = std::max(out.interval.high, out.test.mean + half);
+  if (own > 0) out.test.p = std::max(out.test.p, 2 * boost::math::cdf(boost::math::complement(normal, std::abs(out.test.mean) / own)));
+  return out;
 }
 
 double computeSignFlipP(std::span<const double> values) {

@@ -26,6 +26,14 @@ TTest computeSerialTTest(std::span<const double> values);
 /// The mean of several conditions' means, each judged as above; degrees of freedom by Welch and Satterthwaite.
 TTest combineTTests(std::span<const TTest> conditions);
 
+/// The mean over people of numbers that are estimates themselves, `variance` each (shares of few trials): by t as above, but never narrower, and
+/// p never smaller, than those variances alone make it (normal distribution). Else two people whose shares agree by chance were certain.
+struct PeopleMean {
+  TTest test;
+  Interval interval;  // infinite for fewer than two people
+};
+PeopleMean computePeopleMean(std::span<const double> values, std::span<const double> variance, double level = 0.95);
+
 /// mean -+ t * standard error at `level`; infinite for fewer than two values.
 Interval computeMeanInterval(std::span<const double> values, double level = 0.95);
 

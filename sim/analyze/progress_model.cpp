@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -48,35 +49,50 @@ std::vector<LearningPoint> learningCurves(const std::vector<Attempt>& attempts, 
   return out;
 }
 
-std::vector<double> sharesOf(const std::vector<SuccessCell>& cells, std::size_t condition) {
-  std::map<std::string, std::pair<std::size_t, std::size_t>> people;
-  for (const SuccessCell& cell : cells)
-    if (cell.condition == condition) people[cell.subject].first += cell.successes, people[cell.subject].second += cell.trials;
-  std::vector<double> out;
-  for (const auto& [subject, n] : people) out.push_back(static_cast<double>(n.first) / static_cast<double>(n.second));
-  return out;
-}
-
 namespace {
 
-double logitOf(const SuccessCell& cell) {
-  return std::log((static_cast<double>(cell.successes) + 0.5) / (static_cast<double>(cell.trials - cell.successes) + 0.5));
-}
+/// A share of trials with half a success and half a failure added, so that none and all have a logit and a variance too.
+struct Share {
+  double successes = 0.5, failures = 0.5;
+  explicit Share(const SuccessCell& cell)
+      : successes(static_cast<double>(cell.successes) + 0.5), failures(static_cast<double>(cell.trials - cell.successes) + 0.5) {}
+  double logit() const { return std::log(successes / failures); }
+  double logitVariance() const { return 1 / successes + 1 / failures; }
+  double variance() const {
+    const double n = successes + failures;
+    return successes * failures / (n * n) / (n - 1);
+  }
+};
+
+/// Estimates and the variance of each.
+struct Estimates {
+  std::vector<double> value, variance;
+  void add(double v, double var) { value.push_back(v), variance.push_back(var); }
+  /// One number for what was added: the mean, its variance.
+  void addMeanOf(const Estimates& others) {
+    const double k = static_cast<double>(others.value.size());
+    add(std::accumulate(others.value.begin(), others.value.end(), 0.0) / k,
+        std::accumulate(others.variance.begin(), others.variance.end(), 0.0) / k / k);
+  }
+};
 
 struct Paired {
-  std::vector<double> points, logits;
+  Estimates points, logits;
   void add(const SuccessCell& before, const SuccessCell& after) {
-    points.push_back(100 * (after.share() - before.share()));
-    logits.push_back(logitOf(after) - logitOf(before));
+    const Share a(before), b(after);
+    points.add(100 * (after.share() - before.share()), 1e4 * (a.variance() + b.variance()));
+    logits.add(b.logit() - a.logit(), a.logitVariance() + b.logitVariance());
   }
 };
 
 void judge(Effect& effect, const Paired& paired) {
-  effect.people = paired.points.size();
-  effect.points = computeTTest(paired.points);
-  effect.pointsInterval = computeMeanInterval(paired.points);
-  effect.logit = computeTTest(paired.logits);
-  effect.logitInterval = computeMeanInterval(paired.logits);
+  effect.people = paired.points.value.size();
+  const PeopleMean points = computePeopleMean(paired.points.value, paired.points.variance);
+  const PeopleMean logits = computePeopleMean(paired.logits.value, paired.logits.variance);
+  effect.points = points.test;
+  effect.pointsInterval = points.interval;
+  effect.logit = logits.test;
+  effect.logitInterval = logits.interval;
 }
 
 void correct(std::vector<Effect>& effects, bool ofDay) {
@@ -90,6 +106,21 @@ void correct(std::vector<Effect>& effects, bool ofDay) {
 }
 
 }  // namespace
+
+std::optional<MeanInterval> typicalShare(const std::vector<SuccessCell>& cells, std::size_t condition, std::optional<int> day) {
+  std::map<std::string, SuccessCell> people;
+  for (const SuccessCell& cell : cells) {
+    if (cell.condition != condition || (day && cell.day != *day)) continue;
+    people[cell.subject].successes += cell.successes;
+    people[cell.subject].trials += cell.trials;
+  }
+  if (people.size() < 2) return std::nullopt;
+  Estimates logits;
+  for (const auto& [subject, cell] : people) logits.add(Share(cell).logit(), Share(cell).logitVariance());
+  const PeopleMean mean = computePeopleMean(logits.value, logits.variance);
+  const auto back = [](double logit) { return 1 / (1 + std::exp(-logit)); };
+  return MeanInterval{back(mean.test.mean), {back(mean.interval.low), back(mean.interval.high)}, people.size()};
+}
 
 std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t conditions) {
   std::vector<Effect> out;
@@ -110,7 +141,7 @@ std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t
         const auto before = at.find({subject, c, effect.from}), after = at.find({subject, c, effect.to});
         if (before != at.end() && after != at.end()) paired.add(*before->second, *after->second);
       }
-      if (paired.points.empty()) continue;
+      if (paired.points.value.empty()) continue;
       judge(effect, paired);
       out.push_back(effect);
     }
@@ -126,11 +157,11 @@ std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t
           const auto first = at.find({subject, a, day}), second = at.find({subject, b, day});
           if (first != at.end() && second != at.end()) own.add(*first->second, *second->second);
         }
-        if (own.points.empty()) continue;
-        paired.points.push_back(computeTTest(own.points).mean);
-        paired.logits.push_back(computeTTest(own.logits).mean);
+        if (own.points.value.empty()) continue;
+        paired.points.addMeanOf(own.points);
+        paired.logits.addMeanOf(own.logits);
       }
-      if (paired.points.empty()) continue;
+      if (paired.points.value.empty()) continue;
       judge(effect, paired);
       out.push_back(effect);
     }
@@ -144,21 +175,24 @@ std::vector<LearningSlope> learningSlopes(const std::vector<Attempt>& attempts, 
   for (const Attempt& attempt : attempts) series[attempt.condition][attempt.subject].push_back(attempt.success ? 1 : 0);
   std::vector<LearningSlope> out;
   for (std::size_t c = 0; c < conditions; ++c) {
-    std::vector<double> slopes;
+    Estimates slopes;
     for (const auto& [subject, y] : series[c]) {
       const double n = static_cast<double>(y.size());
       if (y.size() < 3) continue;
       double sxy = 0, sxx = 0;
+      SuccessCell whole;
+      whole.trials = y.size();
       for (std::size_t i = 0; i < y.size(); ++i) {
         const double x = static_cast<double>(i) - (n - 1) / 2;
         sxy += x * y[i];
         sxx += x * x;
+        if (y[i] > 0) ++whole.successes;
       }
-      slopes.push_back(100 * 100 * sxy / sxx);
+      slopes.add(100 * 100 * sxy / sxx, 1e8 * Share(whole).variance() * n / sxx);
     }
-    if (slopes.empty()) continue;
-    const TTest test = computeTTest(slopes);
-    out.push_back({c, slopes.size(), test.mean, computeMeanInterval(slopes), test.p});
+    if (slopes.value.empty()) continue;
+    const PeopleMean mean = computePeopleMean(slopes.value, slopes.variance);
+    out.push_back({c, slopes.value.size(), mean.test.mean, mean.interval, mean.test.p});
   }
   return out;
 }

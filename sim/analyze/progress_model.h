@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,18 +38,19 @@ struct LearningPoint {
 /// Success over consecutive groups of `bin` attempts of one subject and condition; a group never spans two sessions.
 std::vector<LearningPoint> learningCurves(const std::vector<Attempt>& attempts, int bin);
 
-/// A mean over people with its 95 % t interval.
+/// A mean over people with its 95 % interval.
 struct MeanInterval {
   double mean = 0;
   Interval interval;
   std::size_t people = 0;
 };
-/// Share of successes of each person in one condition (days pooled), its mean over people. nullopt for fewer than two.
-std::vector<double> sharesOf(const std::vector<SuccessCell>& cells, std::size_t condition);
+/// The share of a typical person in one condition, on one day or on all: the mean over people of the empirical logits ln((s + 1/2) / (f + 1/2)),
+/// back as a share. (About the mean of shares a t interval covers too seldom where some are near 0 or 1.) nullopt for fewer than two people.
+std::optional<MeanInterval> typicalShare(const std::vector<SuccessCell>& cells, std::size_t condition, std::optional<int> day = {});
 
 /// A paired difference over people: D2 - D1 within a condition, or one condition against another. In percentage points, and as the
 /// logarithm of an odds ratio from a logistic model of two stages: the empirical logit ln((s + 1/2) / (f + 1/2)) of each person's cell,
-/// then a paired t over people.
+/// then a paired t over people, never surer than the binomial scatter of their own trials allows.
 struct Effect {
   bool ofDay = false;  // day `to` - day `from` of condition `condition`; else condition `to` - `from` on all common days
   std::size_t condition = 0;

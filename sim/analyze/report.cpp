@@ -25,7 +25,7 @@ tbody tr.first td { font-weight: bold; } td.text, th.text { text-align: left; } 
 figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: .87rem; color: #444; }
 .answer { font-size: 1.12rem; line-height: 1.45; } .finding { background: #eef4fa; border-left: 4px solid #0072b2; padding: .6rem .9rem; } .warning { background: #fdf3e7; border-left: 4px solid #d55e00; padding: .6rem .9rem; }
 @page { size: A4; margin: 16mm 14mm; }
-@media print { body { max-width: none; margin: 0; padding: 0; font-size: 9.5pt; } figure, table, p { break-inside: avoid; } h2, h3 { break-after: avoid; } .finding, .warning, tbody tr:nth-child(even) { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+@media print { body { max-width: none; margin: 0; padding: 0; font-size: 9.5pt; } th, td { padding: .15rem .4rem; } figure, table, p { break-inside: avoid; } h2, h3 { break-after: avoid; } .finding, .warning, tbody tr:nth-child(even) { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
 
 struct Html {
@@ -64,7 +64,8 @@ std::string real(const std::string& number) {  // a minus is no hyphen
 
 std::string percentInterval(double mean, const Interval& i) {
   std::string text = real(fmt::format("{:.0f}", mean));
-  if (std::isfinite(i.low) && std::isfinite(i.high)) text += real(fmt::format(" [{:.0f}, {:.0f}]", i.low, i.high));
+  // On a line of its own, so that nine columns fit a page.
+  if (std::isfinite(i.low) && std::isfinite(i.high)) text += real(fmt::format("<br>[{:.0f}, {:.0f}]", i.low, i.high));
   return text;
 }
 
@@ -111,14 +112,13 @@ void addSuccessTable(Html& html, const StudyResult& study) {
     html.add("</tr>");
   }
   if (study.subjects.size() > 1) {
-    html.add("<tr class=\"first\"><td>mean</td>");
+    html.add("<tr class=\"first\"><td>typical</td>");
     for (std::size_t c = 0; c < study.conditions.size(); ++c) {
       for (const int day : days) {
-        std::vector<double> shares;
-        for (const SuccessCell& cell : study.success)
-          if (cell.condition == c && cell.day == day) shares.push_back(100 * cell.share());
-        html.add(shares.empty() ? "<td>–</td>"
-                                : "<td>" + percentInterval(computeTTest(shares).mean, computeMeanInterval(shares)) + "</td>");
+        const auto typical = typicalShare(study.success, c, day);
+        html.add(!typical ? "<td>–</td>"
+                          : "<td>" + percentInterval(100 * typical->mean, {100 * typical->interval.low, 100 * typical->interval.high}) +
+                                "</td>");
       }
       if (!progress) continue;
       const auto effect =
@@ -131,7 +131,9 @@ void addSuccessTable(Html& html, const StudyResult& study) {
   html.add("</tbody></table>");
   html.paragraph(
       "Percent of the trials that ended as success or failure (their number behind the stroke); aborted and interrupted trials are no "
-      "attempts. In brackets 95 % t intervals over subjects; each subject's own exact interval is in success_table.csv.",
+      "attempts. The last row is a typical subject's share (mean of the subjects' logits) and the subjects' mean difference, in brackets "
+      "95 % "
+      "intervals over subjects; each subject's own exact interval is in success_table.csv.",
       "quiet");
 }
 

@@ -320,10 +320,7 @@ void addProgress(StudyResult& study) {
   study.learning = learningCurves(attempts, study.options.learningBin);
   study.effects = effectsOf(study.success, study.conditions.size());
   study.slopes = learningSlopes(attempts, study.conditions.size());
-  for (std::size_t c = 0; c < study.results.size(); ++c) {
-    const std::vector<double> shares = sharesOf(study.success, c);
-    if (shares.size() > 1) study.results[c].success = MeanInterval{computeTTest(shares).mean, computeMeanInterval(shares), shares.size()};
-  }
+  for (std::size_t c = 0; c < study.results.size(); ++c) study.results[c].success = typicalShare(study.success, c);
 }
 
 void check(const StudyOptions& options) {

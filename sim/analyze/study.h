@@ -114,7 +114,7 @@ struct ConditionResult {
   EpsilonTable handEpsilon, objectEpsilon;
   CandidateSet candidates;              // of the fits
   Conclusion conclusion;                // indexes `candidates`
-  std::optional<MeanInterval> success;  // share over people
+  std::optional<MeanInterval> success;  // share of a typical person
 };
 
 /// RMS error of one series: one subject, session, run.

@@ -212,9 +212,12 @@ std::string describeMethods(const StudyResult& study) {
       "to "
       "the prediction with the distance kept, over 101 samples of every trial; fitted ε is that of the fits, unweighted. Intervals are 95 "
       "%: t over "
-      "subjects for means, differences and slopes (those of differences of ε Bonferroni-corrected), Clopper and Pearson's for one "
-      "subject's "
-      "share of successes. Effects of day and pace are paired over subjects, their odds ratios from the subjects' empirical logits, p "
+      "subjects for means, differences and slopes (those of differences of ε Bonferroni-corrected; those of success never narrower than "
+      "the "
+      "binomial scatter of the subjects' own trials makes them), Clopper and Pearson's for one subject's share of successes. The share of "
+      "a "
+      "typical subject is the mean of the subjects' empirical logits, back as a share. Effects of day and pace are paired over subjects, "
+      "their odds ratios from the subjects' empirical logits, p "
       "corrected by "
       "Holm's method.",
       filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
@@ -239,7 +242,7 @@ std::string describeCounts(const ConditionResult& r) {
   std::string text = fmt::format("{} of {} succeeded", r.counts.success, plural(attempts, "trial"));
   if (attempts > 0) text += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.counts.success) / static_cast<double>(attempts));
   if (r.success)
-    text += fmt::format("; mean over {} {:.0f} % {}", plural(r.success->people, "subject"), 100 * r.success->mean,
+    text += fmt::format("; a typical one of the {} {:.0f} % {}", plural(r.success->people, "subject"), 100 * r.success->mean,
                         intervalText({100 * r.success->interval.low, 100 * r.success->interval.high}));
   std::vector<std::string> rest;
   if (r.counts.aborted > 0) rest.push_back(fmt::format("{} aborted", r.counts.aborted));
