@@ -62,6 +62,34 @@ TEST(Study, OfOneSubjectSaysNothingAboutOtherPeople) {
   EXPECT_NE(describeConclusion(study.overall, study.common).find("nothing follows about other people"), std::string::npos);
 }
 
+// People whose hands ignore the object, and of whom it is not asked whether they succeeded.
+TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
+  const auto blind = [](const experiment::Experiment& e) {
+    return std::make_unique<ObjectBlindPlan>(e.task->duration, e.object.masses.size());
+  };
+  for (const auto& e :
+       {chainExperiment(1.35), parallelExperiment(2.5), lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)}) {
+    const StudyResult study = analyzeStudy(simulatedStudy({{"blind", e}}, blind, 5, 1, 15, 11), quickOptions());
+    EXPECT_EQ(followed(study.overall, study.common), "undecided: reference") << describeConclusion(study.overall, study.common);
+    EXPECT_TRUE(study.overall.referenceFirst);
+    for (const PersonResult& person : study.people) EXPECT_FALSE(person.follows) << person.subject;
+  }
+}
+
+TEST(Study, OfTwoCampsIsNeverDecided) {
+  const std::vector<StudyCondition> moderate{{"moderate", chainExperiment(1.35)}};
+  StudyInput camps = simulatedStudy(moderate, predict::Criterion::MinHandJerk, 0, 3, 1, 20, 1);
+  StudyInput others = simulatedStudy(moderate, predict::Criterion::MinHandForceChange, 1, 2, 1, 20, 2);
+  for (TrialData& trial : others.trials) {
+    trial.key.subject = "T" + trial.key.subject;
+    camps.trials.push_back(std::move(trial));
+    camps.conditionOf.push_back(0);
+  }
+  const StudyResult study = analyzeStudy(std::move(camps), quickOptions());
+  EXPECT_EQ(study.overall.subjects, 5u);
+  EXPECT_FALSE(study.overall.decided()) << describeConclusion(study.overall, study.common);
+}
+
 TEST(Study, OfTooFewTrialsConcludesNothing) {
   const StudyResult study =
       analyzeStudy(simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 5, 1, 10, 3), quickOptions());

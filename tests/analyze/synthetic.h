@@ -1,6 +1,8 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <random>
 
 #include "sim/analyze/study.h"
@@ -39,6 +41,24 @@ inline experiment::Experiment parallelExperiment(double duration) {
   return lineExperiment(experiment::ObjectKind::Parallel, {3, 3}, {50, 250}, 0, duration);
 }
 
+/// A hand that ignores the object: 0.2 m by minimum jerk; every mass is thought to go with it.
+class ObjectBlindPlan final : public predict::Prediction {
+ public:
+  ObjectBlindPlan(double seconds, std::size_t masses) {
+    duration = seconds;
+    distance = 0.2;
+    massCount_ = static_cast<int>(masses);
+  }
+  predict::PredictedHand handAt(double t) const override {
+    const double s = t / duration;
+    return {distance * s * s * s * (10 - 15 * s + 6 * s * s), distance / duration * 30 * s * s * (1 - s) * (1 - s), 0};
+  }
+  void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
+    std::fill(position.begin(), position.end(), handAt(t).position);
+    std::fill(velocity.begin(), velocity.end(), handAt(t).velocity);
+  }
+};
+
 /// A movement that follows `plan`, slower or faster and with a slow wave on it, with `rest` seconds of stillness before and after.
 inline TrialData followPlan(const predict::Prediction& plan, const Scatter& scatter, std::mt19937_64& random, double rest = 0.4) {
   std::normal_distribution<double> normal;
@@ -71,16 +91,16 @@ inline TrialData followPlan(const predict::Prediction& plan, const Scatter& scat
   return trial;
 }
 
+using PlanOf = std::function<std::unique_ptr<predict::Prediction>(const experiment::Experiment&)>;
+
 /// `subjects` x `days` x conditions, `trials` each, every movement planned by `criterion`.
-inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, predict::Criterion criterion, double handMass, int subjects,
-                                 int days, int trials, std::uint64_t seed, const Scatter& scatter = {}) {
+inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, const PlanOf& planOf, int subjects, int days, int trials,
+                                 std::uint64_t seed, const Scatter& scatter = {}) {
   StudyInput input;
   input.conditions = conditions;
   std::mt19937_64 random(seed);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
-    predict::PredictOptions how;
-    how.handMass = handMass;
-    const auto plan = predict::predict(conditions[c].experiment, criterion, how);
+    const auto plan = planOf(conditions[c].experiment);
     for (int s = 1; s <= subjects; ++s)
       for (int d = 1; d <= days; ++d)
         for (int t = 1; t <= trials; ++t) {
@@ -95,6 +115,15 @@ inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, 
         }
   }
   return input;
+}
+inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, predict::Criterion criterion, double handMass, int subjects,
+                                 int days, int trials, std::uint64_t seed, const Scatter& scatter = {}) {
+  const auto planOf = [&](const experiment::Experiment& e) {
+    predict::PredictOptions how;
+    how.handMass = handMass;
+    return predict::predict(e, criterion, how);
+  };
+  return simulatedStudy(conditions, planOf, subjects, days, trials, seed, scatter);
 }
 
 }  // namespace reachlab::analyze
