@@ -17,10 +17,6 @@ StudyOptions quickOptions() {
   return options;
 }
 
-std::vector<StudyCondition> threePaces() {
-  return {{"slow", chainExperiment(2.26)}, {"moderate", chainExperiment(1.35)}, {"fast", chainExperiment(0.68)}};
-}
-
 std::string followed(const Conclusion& c, const std::vector<std::vector<predict::Criterion>>& names) {
   return c.follows ? nameOfCandidate(names[*c.follows]) : "undecided: " + std::string(nameOf(c.reason));
 }
