@@ -3,13 +3,15 @@
 namespace reachlab {
 
 std::string toText(const Fault& fault) {
-  std::string text;
-  if (fault.place) {
+  std::string text, key = fault.key;
+  if (fault.place && fault.place->file.empty()) {
+    key += (key.empty() ? "character " : ", character ") + std::to_string(fault.place->column);
+  } else if (fault.place) {
     text += fault.place->file;
     if (fault.place->line > 0) text += ":" + std::to_string(fault.place->line) + ":" + std::to_string(fault.place->column);
     text += ": ";
   }
-  if (!fault.key.empty()) text += fault.key + ": ";
+  if (!key.empty()) text += key + ": ";
   text += fault.what;
   if (!fault.allowed.empty()) text += "; allowed: " + fault.allowed;
   return text;
@@ -20,6 +22,8 @@ std::string toText(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + toText(fault);
   return text;
 }
+
+std::string keyIn(const std::string& outer, const std::string& inner) { return outer.empty() ? inner : outer + "." + inner; }
 
 std::vector<Fault> faultsOf(const UsageError& error) {
   if (const auto* told = dynamic_cast<const FaultError*>(&error)) return told->faults;

@@ -7,7 +7,7 @@
 
 namespace reachlab {
 
-/// Where something stands in a file; lines and columns count from 1, 0: not known.
+/// Where something stands in a file; lines and columns count from 1, 0: not known. Without a file: the character of a text (a formula).
 struct FilePlace {
   std::string file;
   int line = 0, column = 0;
@@ -28,6 +28,9 @@ struct Fault {
 std::string toText(const Fault& fault);
 /// A line each.
 std::string toText(const std::vector<Fault>& faults);
+
+/// "constraint.shape" of "constraint" and "shape"; without an outer one the inner.
+std::string keyIn(const std::string& outer, const std::string& inner);
 
 /// Wrong input, fault by fault.
 struct FaultError : UsageError {

@@ -3,15 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <charconv>
+#include <string_view>
+#include <utility>
 
 #include "base/fault.h"
 
 namespace reachlab {
 namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// "object.masses_kg[1]" is inside of "object.masses_kg" and of "object".
+bool isInside(std::string_view key, std::string_view outer) {
+  return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.' || key[outer.size()] == '[');
 }
+
+struct Found {
+  const JsonNode* node = nullptr;  // what stands at the key, or the nearest that it would stand in
+  bool missing = false;            // a member that an object has not
+};
+
+Found findKey(const JsonNode& root, std::string_view key) {
+  const JsonNode* node = &root;
+  while (!key.empty()) {
+    if (key.front() == '[') {
+      const std::size_t end = std::min(key.find(']'), key.size() - 1);
+      std::size_t index = node->items.size();
+      std::from_chars(key.data() + 1, key.data() + end, index);
+      if (index >= node->items.size()) return {node};
+      node = &node->items[index];
+      key.remove_prefix(end + 1);
+    } else {
+      if (key.front() == '.') key.remove_prefix(1);
+      const std::size_t end = std::min(key.find_first_of(".["), key.size());
+      const JsonNode* member = node->find(std::string(key.substr(0, end)));
+      if (member == nullptr) return {node, node->kind == JsonNode::Kind::Object};
+      node = member;
+      key.remove_prefix(end);
+    }
+  }
+  return {node};
+}
+
+}  // namespace
 
 std::string FaultList::place(const JsonNode& where) const { return fmt::format("{}:{}:{}", file_, where.line, where.column); }
 
@@ -20,22 +53,40 @@ void FaultList::add(const JsonNode& where, const std::string& key, const std::st
   faults_.push_back({key, what, allowed, FilePlace{file_, where.line, where.column}});
 }
 
-void FaultList::addLine(std::string line) {
+bool FaultList::isAbout(const std::string& key) const {
+  return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& f) { return isInside(key, f.key) || isInside(f.key, key); });
+}
+
+void FaultList::addOfValue(const JsonNode& root, Fault fault) {
+  if (ofFile_ == kNone) ofFile_ = faults_.size();
+  if (std::any_of(faults_.begin(), faults_.begin() + static_cast<std::ptrdiff_t>(ofFile_),
+                  [&](const Fault& f) { return isInside(fault.key, f.key) || isInside(f.key, fault.key); }))
+    return;
   if (isFull()) return static_cast<void>(++more_);
-  faults_.push_back({.what = std::move(line)});
+  const Found found = findKey(root, fault.key);
+  if (found.missing) fault.what = "is missing";
+  FilePlace place{file_, found.node->line, found.node->column};
+  if (fault.place && fault.place->file.empty()) place.column += fault.place->column;  // behind the string's opening quote
+  fault.place = place;
+  faults_.push_back(std::move(fault));
 }
 
 void FaultList::throwIfAny() const {
   if (faults_.empty()) return;
   std::vector<Fault> all = faults_;
+  const auto at = [](const Fault& f) { return std::pair(f.place->line, f.place->column); };
+  std::stable_sort(all.begin(), all.end(), [&](const Fault& a, const Fault& b) { return at(a) < at(b); });
   if (more_ > 0) all.push_back({.what = fmt::format("and {} more faults", more_), .place = FilePlace{file_}});
   throw FaultError(std::move(all));
 }
 
-NumberRange anyNumber() { return {-kInfinity, kInfinity, true, "any finite number"}; }
-NumberRange positive(const std::string& unit) { return {0, kInfinity, false, fmt::format("more than 0 {}", unit)}; }
-NumberRange atLeastZero(const std::string& unit) { return {0, kInfinity, true, fmt::format("0 {} or more", unit)}; }
-NumberRange wholeNumber(double lo, double hi) { return {lo, hi, true, fmt::format("a whole number from {} to {}", lo, hi)}; }
+std::vector<Fault> atTheirPlaces(std::vector<Fault> faults, const std::string& text, const std::string& file) {
+  if (text.empty() || faults.empty()) return faults;
+  const JsonNode root = parseJson(text, file);
+  FaultList list(file);
+  for (Fault& fault : faults) list.addOfValue(root, std::move(fault));
+  return list.faults();
+}
 
 ObjectReader::ObjectReader(FaultList& faults, const JsonNode& node, std::string path)
     : faults_(faults), node_(node), path_(std::move(path)) {
@@ -61,8 +112,7 @@ bool ObjectReader::readNumber(const JsonNode& node, const std::string& path, con
     faults_.add(node, path, fmt::format("is {}", nameOf(node.kind)), range.allowed);
     return false;
   }
-  const bool inside = (range.loIncluded ? node.number >= range.lo : node.number > range.lo) && node.number <= range.hi;
-  if (!inside || !std::isfinite(node.number)) {
+  if (!isWithin(range, node.number)) {
     faults_.add(node, path, fmt::format("is {}", node.number), range.allowed);
     return false;
   }
@@ -84,12 +134,7 @@ void ObjectReader::integer(const std::string& key, int lo, int hi, int& value) {
   if (node == nullptr) return;
   const NumberRange range = wholeNumber(lo, hi);
   double read = 0;
-  if (!readNumber(*node, keyPath(key), range, read)) return;
-  if (read != std::floor(read)) {
-    faults_.add(*node, keyPath(key), fmt::format("is {}", read), range.allowed);
-    return;
-  }
-  value = static_cast<int>(read);
+  if (readNumber(*node, keyPath(key), range, read)) value = static_cast<int>(read);
 }
 
 void ObjectReader::boolean(const std::string& key, bool& value) {
@@ -171,8 +216,8 @@ bool ObjectReader::strings(const JsonNode& node, const std::string& key, int len
 void ObjectReader::finish() {
   for (const auto& [key, value] : node_.members) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    if (faults_.isFull()) {
-      faults_.addLine({});
+    if (faults_.isFull()) {  // only counted: no names need be compared
+      faults_.add(value, keyPath(key), {});
       continue;
     }
     const std::string nearest = nearestName(key, known_);

@@ -8,41 +8,39 @@
 #include "base/fault.h"
 #include "base/json_tree.h"
 #include "base/names.h"
+#include "base/number_range.h"
 
 namespace reachlab {
 
-/// Faults of one file, in the order found; each `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+/// Faults of one file, told in its order; each `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 class FaultList {
  public:
   explicit FaultList(std::string file) : file_(std::move(file)) {}
   void add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed = {});
-  void addLine(std::string line);
+  /// A fault of the value that was read from `root`, at the place of its key there, or that it is missing there. Left out where the file
+  /// itself is at fault about that key, what it has inside or what it is inside of: the value then has a default.
+  void addOfValue(const JsonNode& root, Fault fault);
+  /// True when there is a fault about that key, what it has inside or what it is inside of.
+  bool isAbout(const std::string& key) const;
   /// More than a person reads: further faults are only counted.
   bool isFull() const { return faults_.size() >= kMostFaults; }
   /// `FILE:LINE:COLUMN` of a node.
   std::string place(const JsonNode& where) const;
   const std::vector<Fault>& faults() const { return faults_; }
   bool empty() const { return faults_.empty(); }
-  /// Throws FaultError with all faults when there are any.
+  /// Throws FaultError with all faults, in the file's order, when there are any.
   void throwIfAny() const;
 
  private:
-  static constexpr std::size_t kMostFaults = 100;
+  static constexpr std::size_t kMostFaults = 100, kNone = static_cast<std::size_t>(-1);
   std::string file_;
   std::vector<Fault> faults_;
   std::size_t more_ = 0;
+  std::size_t ofFile_ = kNone;  // so many faults are of the file itself, before any of its value
 };
 
-/// Range of a number, with the words that a message uses.
-struct NumberRange {
-  double lo, hi;
-  bool loIncluded = true;
-  std::string allowed;
-};
-NumberRange anyNumber();
-NumberRange positive(const std::string& unit);
-NumberRange atLeastZero(const std::string& unit);
-NumberRange wholeNumber(double lo, double hi);
+/// Faults of a value at the places of their keys in the text that it was read from; unchanged where there is no text.
+std::vector<Fault> atTheirPlaces(std::vector<Fault> faults, const std::string& text, const std::string& file);
 
 /// Reads one JSON object key by key and remembers which keys were asked for: `finish` reports the others as unknown, with the nearest
 /// known name. Faults are collected; a faulty value reads as its default.

@@ -10,7 +10,7 @@
 #include "constraints/geometry/arc_length.h"
 #include "constraints/cpp_writer.h"
 #include "constraints/definition.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/json_tree.h"
 #include "constraints/places.h"
 #include "constraints/surface_branches.h"
@@ -205,26 +205,39 @@ void eval(const Options& o) {
   if (o.json) fmt::print("}}\n");
 }
 
+// What a definition refuses is told with its file and the shape at which it does so.
+constraints::Constraint makeIn(const std::string& file, const constraints::Definition& d, const std::map<std::string, double>& shape) {
+  try {
+    return constraints::makeConstraint(d, shape, "");
+  } catch (const UsageError& error) {
+    std::vector<Fault> faults = faultsOf(error);
+    for (Fault& fault : faults) {
+      for (const auto& [name, value] : shape) fault.what = fmt::format("with {} = {}: {}", name, value, fault.what);
+      fault.place = FilePlace{file};
+    }
+    throw FaultError(std::move(faults));
+  }
+}
+
 // A definition is fine when it can be used at its defaults and at both ends of each shape parameter.
 void check(const Options& o) {
-  std::string faults;
+  std::vector<Fault> faults;
   for (const std::string& file : o.files) {
     try {
       const std::string text = readTextFile(file);
       if (parseJson(text, file).find("object") != nullptr)
         throw UsageError(fmt::format("{}: is an experiment file, no constraint definition; `reach validate` checks it", file));
       const constraints::Definition d = constraints::parseDefinition(text, file);
-      const constraints::Constraint c = constraints::makeConstraint(d, {}, file);
+      const constraints::Constraint c = makeIn(file, d, {});
       for (const constraints::ShapeParameter& p : d.shape)
-        for (const double value : {p.min, p.max})
-          constraints::makeConstraint(d, {{p.name, value}}, fmt::format("{}: with {} = {}", file, p.name, value));
+        for (const double value : {p.min, p.max}) makeIn(file, d, {{p.name, value}});
       fmt::print("{}: fine: {} {}\n", file, isCurve(d) ? "curve" : "surface", d.name);
       showPlaces(c);
     } catch (const UsageError& e) {
-      faults += (faults.empty() ? "" : "\n") + std::string(e.what());
+      for (Fault& fault : faultsOf(e)) faults.push_back(std::move(fault));
     }
   }
-  if (!faults.empty()) throw UsageError(faults);
+  if (!faults.empty()) throw FaultError(std::move(faults));
 }
 
 void code(const Options& o) {

@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "base/ending.h"
+#include "base/fault.h"
 #include "base/names.h"
+#include "cli/option_words.h"
+#include "sim/session/recorded_run.h"
 
 namespace reachlab::cli {
 namespace {
@@ -39,17 +42,16 @@ int exitCodeOf(CLI::App& app, const std::function<int()>& work) {
     std::fprintf(stderr, "reach: %s%s\n", e.what(), proposal(app).c_str());
     return 2;
   } catch (const UsageError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
+    std::fprintf(stderr, "%s\n", toText(inOptionWords(faultsOf(e))).c_str());
     return 2;
-  } catch (const ResourceError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
+  } catch (const session::DatasetError& e) {
+    std::fprintf(stderr, "%s: %s\n", optionOf("data").c_str(), e.what());
     return 3;
-  } catch (const RefusedError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 4;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "reach: %s\n", e.what());
-    return 3;
+    const Ending ending = endingOf(e);
+    const bool own = dynamic_cast<const Error*>(&e) != nullptr;
+    std::fprintf(stderr, "%s%s\n", own ? "" : "reach: ", ending.sentence.c_str());
+    return ending.exitCode;
   }
 }
 

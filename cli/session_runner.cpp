@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "cli/preflight_output.h"
-#include "cli/request_options.h"
 #include "base/stop_signals.h"
 #include "cli/success_table.h"
 #include "devices/make_device.h"
@@ -35,7 +34,9 @@ std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec
   return device;
 }
 
-int conductSession(const session::SessionRequest& request) {
+}  // namespace
+
+int runSession(const session::SessionRequest& request) {
   session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice);
   printNotice(session.notice());
   if (session.notice().seedDrawn) fmt::print("seed={}\n", session.seed());
@@ -63,12 +64,6 @@ int conductSession(const session::SessionRequest& request) {
   fmt::print("{}", table.text());
   std::fflush(stdout);
   return done ? 0 : StopRequest::exitCode();
-}
-
-}  // namespace
-
-int runSession(const session::SessionRequest& request) {
-  return cli::withOptionNames([&] { return conductSession(request); });
 }
 
 }  // namespace reachlab::cli

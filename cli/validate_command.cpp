@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/json_reader.h"
 #include "devices/make_device.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/session/programme.h"
 #include "sim/trial/task_check.h"
 #include "sim/trial/task_places.h"
@@ -52,16 +52,14 @@ void validateFile(const std::string& fileOrName) {
   checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
-    std::string faults;
-    for (const std::string& fault : session::planProblems(file)) faults += (faults.empty() ? "" : "\n") + fault;
-    if (!faults.empty()) throw UsageError(faults);
+    if (std::vector<Fault> faults = session::planProblems(file); !faults.empty()) throw FaultError(std::move(faults));
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     constraints::parseDefinition(text, file);
   } else {
-    const experiment::Experiment experiment = experiment::parseExperiment(text, file);
-    if (experiment.task) trial::checkTask(experiment, file);
-    for (const std::string& warning : trial::implausibleNumbers(experiment, file)) fmt::print(stderr, "warning: {}\n", warning);
-    for (const std::string& place : trial::describeWay(experiment, file)) fmt::print(stderr, "warning: {}\n", place);
+    const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
+    if (experiment.experiment().task) trial::checkTask(experiment, file);
+    for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)})
+      for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "warning: {}\n", toText(warning));
   }
 }
 

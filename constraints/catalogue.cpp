@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "constraints/definition.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "constraints/generated_catalogue.h"
 #include "base/names.h"
 
@@ -43,7 +43,7 @@ const Definition* findInCatalogue(const std::string& name) {
   return nullptr;
 }
 
-Definition findDefinition(const std::string& name, const std::string& origin) {
+Definition findDefinition(const std::string& name, const std::string& key) {
   if (const Definition* definition = findInCatalogue(name)) return *definition;
   // A user's own, saved under its name; a name with a path in it is none.
   const std::string file = userDefinitionFolder() + "/" + name + ".json";
@@ -53,9 +53,9 @@ Definition findDefinition(const std::string& name, const std::string& origin) {
   std::vector<std::string> known{"free"};
   for (const Definition& definition : catalogue()) known.push_back(definition.name);
   const std::string near = nearestName(name, known);
-  throw UsageError(origin + ": there is no constraint '" + name.substr(0, 60) +
-                   "'; allowed: free, or a name that `reach list constraints` tells" +
-                   (near.empty() ? "" : "; did you mean " + near + "?"));
+  throw FaultError(Fault{keyIn(key, "name"),
+                         "there is no constraint '" + name.substr(0, 60) + "'" + (near.empty() ? "" : "; did you mean " + near + "?"),
+                         "free, or a name of the catalogue"});
 }
 
 GeneratedFunctions generatedFunctions(const Definition& definition) {

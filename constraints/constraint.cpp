@@ -7,8 +7,8 @@
 
 #include "constraints/definition.h"
 #include "constraints/analysis.h"
-#include "base/error.h"
 #include "base/names.h"
+#include "base/number_range.h"
 #include "constraints/places.h"
 #include "constraints/surface_branches.h"
 
@@ -44,98 +44,115 @@ std::string findBarrier(const Constraint& c, const std::array<Domain, 2>& range)
   return {};
 }
 
-void requireMoving(const Constraint& c, const std::array<Domain, 2>& range, const std::string& origin) {
+void requireMoving(const Constraint& c, const std::array<Domain, 2>& range, const std::string& key) {
   // A path along a pole's line sees nothing but the pole: the surface as a whole decides.
   if (degeneratesEverywhere(c, range) && degeneratesEverywhere(c, boundedDomain(c)))
-    throw UsageError(origin + (c.kind == ConstraintKind::Curve
-                                   ? ": degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi"
-                                   : ": degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface"));
+    throw FaultError(c.kind == ConstraintKind::Curve
+                         ? Fault{key, "degenerates everywhere: r_phi is zero at every phi", "a formula that moves with phi"}
+                         : Fault{key, "degenerates everywhere: r_u x r_v is zero at every u, v", "a formula that spans a surface"});
 }
 
-void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, bool watched, const std::string& origin) {
+void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, bool watched, const std::string& key) {
   if (const std::string place = findBarrier(c, range); !place.empty())
-    throw UsageError(origin + ": " + place +
-                     ", which no mass can cross; allowed: a range (from start to target, or the domain) without such a place");
+    throw FaultError(Fault{key, place + ", which no mass can cross", "a range (from start to target, or the domain) without such a place"});
   // Places with a limit, and a surface's ends, are met as a mass moves.
   const bool passed = c.kind == ConstraintKind::Curve
                           ? range[0].lo < range[0].hi && !computeRegularityWithin(c, range[0].lo, range[0].hi).places.empty()
                           : watched && !computeBranches(c)->smooth();
   if (const std::string place = passed ? "" : findNonFinite(c, range); !place.empty())
-    throw UsageError(origin + ": " + place + "; allowed: a formula that is finite, with its first and second derivatives, on its domain");
-  requireMoving(c, range, origin);
+    throw FaultError(Fault{key, place, "a formula that is finite, with its first and second derivatives, on its domain"});
+  requireMoving(c, range, key);
 }
 
 }  // namespace
 
 std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape,
-                                                const std::string& origin) {
+                                                const std::string& key) {
   std::array<double, kMaxShapeParameters> values{};
   const FormulaText text = formulaOf(definition);
-  std::string faults;
-  const auto fault = [&](const std::string& what) { faults += (faults.empty() ? "" : "\n") + origin + ": " + what; };
-  for (const auto& [key, value] : shape) {
+  std::vector<Fault> faults;
+  for (const auto& [name, value] : shape) {
     std::size_t i = 0;
-    while (i < definition.shape.size() && definition.shape[i].name != key) ++i;
+    while (i < definition.shape.size() && definition.shape[i].name != name) ++i;
     if (i == definition.shape.size()) {
-      const std::string near = nearestName(key, text.parameters);
-      fault("shape." + key.substr(0, 40) + ": " + definition.name + " has no such parameter; allowed: " +
-            (text.parameters.empty() ? "none" : listOf(text.parameters)) + (near.empty() ? "" : "; did you mean " + near + "?"));
+      const std::string near = nearestName(name, text.parameters);
+      faults.push_back({keyIn(key, "shape." + name.substr(0, 40)),
+                        definition.name + " has no such parameter" + (near.empty() ? "" : "; did you mean " + near + "?"),
+                        text.parameters.empty() ? "none" : listOf(text.parameters)});
     }
   }
   for (std::size_t i = 0; i < definition.shape.size() && i < kMaxShapeParameters; ++i) {
     const ShapeParameter& p = definition.shape[i];
     const auto given = shape.find(p.name);
     values[i] = given == shape.end() ? p.defaultValue : given->second;
-    if (!(values[i] >= p.min && values[i] <= p.max))
-      fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is out of range; allowed: " + fmt::format("{}", p.min) + " to " +
-            fmt::format("{}", p.max) + (p.unit == "1" ? "" : " " + p.unit));
-    else if (p.whole && values[i] != std::floor(values[i]))
-      fault("shape." + p.name + ": " + fmt::format("{}", values[i]) + " is not whole; allowed: a whole number");
+    NumberRange range{p.min, p.max, true, fmt::format("{} to {}{}", p.min, p.max, p.unit == "1" ? "" : " " + p.unit), p.whole};
+    if (p.whole) range.allowed = "a whole number, " + range.allowed;
+    checkNumber(keyIn(key, "shape." + p.name), values[i], range, faults);
   }
-  if (!faults.empty()) throw UsageError(faults);
+  if (!faults.empty()) throw FaultError(std::move(faults));
   return values;
 }
 
-Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape, const std::string& origin) {
-  const std::array<double, kMaxShapeParameters> values = shapeOf(definition, shape, origin);
-  Constraint c = assemble(compileFormula(formulaOf(definition), origin), values, generatedFunctions(definition));
+Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape, const std::string& key) {
+  const std::array<double, kMaxShapeParameters> values = shapeOf(definition, shape, key);
+  Constraint c = assemble(compileFormula(formulaOf(definition), key), values, generatedFunctions(definition));
   c.name = definition.name;
   c.domain = domainOf(definition, values);
-  requireUsable(c, boundedDomain(c), false, origin);
+  requireUsable(c, boundedDomain(c), false, key);
   return c;
 }
 
-Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin) {
+namespace {
+
+Constraint make(const ConstraintSpec& spec, const std::string& key) {
   if (spec.curve.empty() && spec.surface.empty()) {
     if (spec.name == "free") {
-      if (!spec.shape.empty()) throw UsageError(origin + ": shape: free has no shape; allowed: no shape");
+      if (!spec.shape.empty()) throw FaultError(Fault{keyIn(key, "shape"), "free has no shape", "no shape"});
       Constraint c;
       c.name = "free";
       return c;
     }
-    return makeConstraint(spec.definition.empty() ? findDefinition(spec.name, origin) : parseDefinition(spec.definition, origin),
-                          spec.shape, origin);
+    return makeConstraint(spec.definition.empty() ? findDefinition(spec.name, key) : parseDefinition(spec.definition, key), spec.shape,
+                          key);
   }
   const std::vector<std::string>& lines = spec.curve.empty() ? spec.surface : spec.curve;
-  if (lines.size() != 3) throw UsageError(origin + ": has " + std::to_string(lines.size()) + " formulas; allowed: three, one a coordinate");
+  if (lines.size() != 3) throw FaultError(Fault{key, fmt::format("has {} formulas", lines.size()), "three, one a coordinate"});
   FormulaText text;
   text.kind = spec.curve.empty() ? ConstraintKind::Surface : ConstraintKind::Curve;
   std::copy(lines.begin(), lines.end(), text.coordinates.begin());
   std::array<double, kMaxShapeParameters> values{};
-  std::string faults;
-  for (const auto& [key, value] : spec.shape) {
+  std::vector<Fault> faults;
+  for (const auto& [name, value] : spec.shape) {
     if (text.parameters.size() < kMaxShapeParameters) values[text.parameters.size()] = value;
-    text.parameters.push_back(key);
-    if (!std::isfinite(value))
-      faults += (faults.empty() ? "" : "\n") + origin + ": shape." + key + ": is not finite; allowed: a finite number";
+    text.parameters.push_back(name);
+    checkNumber(keyIn(key, "shape." + name), value, anyNumber(), faults);
   }
-  if (!faults.empty()) throw UsageError(faults);
-  Constraint c = assemble(compileFormula(text, origin), values, {});
+  if (!faults.empty()) throw FaultError(std::move(faults));
+  Constraint c = assemble(compileFormula(text, key), values, {});
   c.name = text.kind == ConstraintKind::Curve ? "curve" : "surface";
   // Without a task nobody knows yet where a mass will be: its start decides.
-  if (spec.inUse) requireUsable(c, *spec.inUse, true, origin);
-  else requireMoving(c, boundedDomain(c), origin);
+  if (spec.inUse) requireUsable(c, *spec.inUse, true, key);
+  else requireMoving(c, boundedDomain(c), key);
   return c;
+}
+
+/// What deeper rooms refuse without knowing where it stands is told under the constraint's key.
+template <class Work>
+Constraint under(const std::string& key, Work&& work) {
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    std::vector<Fault> faults = faultsOf(error);
+    for (Fault& fault : faults)
+      if (fault.key.empty()) fault.key = key;
+    throw FaultError(std::move(faults));
+  }
+}
+
+}  // namespace
+
+Constraint makeConstraint(const ConstraintSpec& spec, const std::string& key) {
+  return under(key, [&] { return make(spec, key); });
 }
 
 }  // namespace reachlab::constraints

@@ -99,7 +99,7 @@ struct Constraint {
 
 /// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws UsageError (unknown name or shape key,
 /// value out of range, syntax with the character's place, degenerate everywhere, non-finite in the domain).
-/// `origin` ("FILE:LINE:COLUMN: constraint") stands before each message.
-Constraint makeConstraint(const ConstraintSpec& spec, const std::string& origin = "constraint");
+/// Each fault stands under `key` or what it has inside: "constraint.curve[1]", "constraint.shape.a".
+Constraint makeConstraint(const ConstraintSpec& spec, const std::string& key = "constraint");
 
 }  // namespace reachlab::constraints

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fault.h"
 #include "constraints/constraint.h"
 #include "constraints/formula.h"
 
@@ -40,12 +41,14 @@ struct Definition {
 const std::vector<Definition>& catalogue();
 /// A definition of the catalogue; null when there is none.
 const Definition* findInCatalogue(const std::string& name);
-/// A definition of the catalogue, else NAME.json of the user's folder. Throws UsageError naming the nearest known one.
-Definition findDefinition(const std::string& name, const std::string& origin);
+/// A definition of the catalogue, else NAME.json of the user's folder. Throws FaultError naming the nearest known one.
+Definition findDefinition(const std::string& name, const std::string& key);
 
 /// Reads a definition file. Throws UsageError with every fault, one a line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Definition parseDefinition(const std::string& text, const std::string& file);
 Definition readDefinition(const std::string& file);
+/// Every fault of a definition as a value, each under its key; empty when fine.
+std::vector<Fault> problems(const Definition& definition);
 /// The definition as a file that reads back equal.
 std::string toJson(const Definition& definition);
 
@@ -56,17 +59,19 @@ std::string userDefinitionFolder();
 
 /// The constraint of a definition with some shape values changed from their defaults. Throws UsageError as makeConstraint does.
 Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape = {},
-                          const std::string& origin = "constraint");
+                          const std::string& key = "constraint");
 /// Parameters in the order of Curve::shape and Surface::shape.
 FormulaText formulaOf(const Definition& definition);
 /// The shape's values in that order. Throws UsageError on an unknown key or a value out of range.
 std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape,
-                                                const std::string& origin);
-/// The domain for a shape.
+                                                const std::string& key);
+/// The shape as it is when nothing is changed, in that order.
+std::array<double, kMaxShapeParameters> defaultsOf(const Definition& definition);
+/// The domain for a shape. Throws FaultError under `domain`.
 std::array<Domain, 2> domainOf(const Definition& definition, const std::array<double, kMaxShapeParameters>& shape);
 /// Value of a constant expression that may name the definition's shape parameters. Throws UsageError.
 double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
-                  const std::string& origin);
+                  const std::string& key);
 
 /// The definition's generated code if it is of the catalogue; all null otherwise.
 struct GeneratedFunctions {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "constraints/definition.h"
-#include "base/error.h"
 #include "base/json_reader.h"
 
 namespace reachlab::constraints {
@@ -13,11 +12,6 @@ namespace {
 
 const std::vector<std::string> kKinds{"curve", "surface"};
 const std::vector<std::string> kEnds{"stop", "bounce"};
-
-bool isDefinitionName(const std::string& name) {
-  return !name.empty() && name.size() <= 60 && name != "free" && name.front() != '-' &&
-         std::all_of(name.begin(), name.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
-}
 
 class DefinitionReader {
  public:
@@ -29,20 +23,19 @@ class DefinitionReader {
     readName();
     readCoordinates();
     readShape();
-    if (faults_.empty()) checkFormula();
+    readDomain();
+    readPerParameter();
     if (faults_.empty()) {
-      names_ = formulaOf(definition_);
-      for (std::size_t i = 0; i < definition_.shape.size(); ++i) defaults_[i] = definition_.shape[i].defaultValue;
-      readDomain();
-      readPerParameter();
       readPlace("start", definition_.start);
       readPlace("target", definition_.target);
-    } else {
-      for (const char* key : {"domain", "periodic", "at_end", "start", "target"}) root_.optional(key);
+    } else {  // their expressions may name what could not be read
+      for (const char* key : {"start", "target"}) root_.optional(key);
     }
     root_.text("sentence", definition_.sentence);
     root_.text("source", definition_.source);
     root_.finish();
+    if (faults_.empty())
+      for (Fault& fault : problems(definition_)) faults_.addOfValue(tree_, std::move(fault));
     return definition_;
   }
 
@@ -51,11 +44,7 @@ class DefinitionReader {
   const char* kindName() const { return definition_.kind == ConstraintKind::Curve ? "curve" : "surface"; }
 
   void readName() {
-    const JsonNode* node = root_.required("name", "the definition's name");
-    if (node == nullptr) return;
-    root_.text("name", definition_.name);
-    if (node->kind == JsonNode::Kind::String && !isDefinitionName(definition_.name))
-      faults_.add(*node, "name", "is no name of a definition", "lower-case letters, digits and '-', at most 60, not free");
+    if (root_.required("name", "the definition's name") != nullptr) root_.text("name", definition_.name);
   }
 
   void readCoordinates() {
@@ -88,43 +77,16 @@ class DefinitionReader {
       reader.text("meaning", p.meaning);
       reader.boolean("whole", p.whole);
       reader.finish();
-      if (!(p.min <= p.defaultValue && p.defaultValue <= p.max))
-        faults_.add(value, "shape." + key, fmt::format("default {} is not within min {} and max {}", p.defaultValue, p.min, p.max),
-                    "min <= default <= max");
       definition_.shape.push_back(p);
     }
   }
 
-  void checkFormula() {
-    const JsonNode& node = *tree_.find(kindName());
-    for (const FormulaFault& fault : formulaFaults(formulaOf(definition_))) {
-      const bool inLine = fault.coordinate >= 0 && node.items.size() == 3;
-      // A string without escapes: the fault's column is that of the line's opening quote plus the character.
-      JsonNode place = inLine ? node.items[static_cast<std::size_t>(fault.coordinate)] : node;
-      if (inLine) place.column += static_cast<int>(fault.character);
-      faults_.add(place, inLine ? fmt::format("{}[{}]", kindName(), fault.coordinate) : kindName(), fault.what);
-    }
-  }
-
-  // A number, or a constant expression in the shape's names.
-  bool readConstant(const JsonNode& node, const std::string& key, std::string& text, double& value) {
-    if (node.kind == JsonNode::Kind::Number) {
-      text = fmt::format("{}", node.number);
-      value = node.number;
-      return true;
-    }
-    if (node.kind != JsonNode::Kind::String) {
-      faults_.add(node, key, fmt::format("is {}", nameOf(node.kind)), "a number, or an expression such as \"2*pi\"");
-      return false;
-    }
-    text = node.string;
-    try {
-      value = constantOf(text, names_, defaults_, faults_.place(node) + ": " + key);
-      return true;
-    } catch (const UsageError& e) {
-      faults_.addLine(e.what());
-      return false;
-    }
+  // A number, or a constant expression in the shape's names, as text.
+  bool readText(const JsonNode& node, const std::string& key, std::string& text) {
+    if (node.kind == JsonNode::Kind::Number) text = fmt::format("{}", node.number);
+    else if (node.kind == JsonNode::Kind::String) text = node.string;
+    else faults_.add(node, key, fmt::format("is {}", nameOf(node.kind)), "a number, or an expression such as \"2*pi\"");
+    return !text.empty();
   }
 
   void readDomain() {
@@ -139,10 +101,8 @@ class DefinitionReader {
   void readRange(const JsonNode& node, const std::string& key, DomainText& domain) {
     if (node.kind != JsonNode::Kind::Array || node.items.size() != 2)
       return faults_.add(node, key, "is not a range", "[lo, hi], null for no end");
-    double lo = -INFINITY, hi = INFINITY;
-    if (node.items[0].kind != JsonNode::Kind::Null && !readConstant(node.items[0], key, domain.lo, lo)) return;
-    if (node.items[1].kind != JsonNode::Kind::Null && !readConstant(node.items[1], key, domain.hi, hi)) return;
-    if (!(lo < hi)) faults_.add(node, key, fmt::format("runs from {} to {}", lo, hi), "lo < hi");
+    if (node.items[0].kind != JsonNode::Kind::Null) readText(node.items[0], key + "[0]", domain.lo);
+    if (node.items[1].kind != JsonNode::Kind::Null) readText(node.items[1], key + "[1]", domain.hi);
   }
 
   // `periodic` and `at_end`: one value, or one a parameter.
@@ -152,8 +112,6 @@ class DefinitionReader {
         if (value.kind != JsonNode::Kind::Boolean)
           return faults_.add(value, key, fmt::format("is {}", nameOf(value.kind)), "true or false");
         definition_.domain[k].periodic = value.boolean;
-        if (value.boolean && (definition_.domain[k].lo.empty() || definition_.domain[k].hi.empty()))
-          faults_.add(value, key, "is true without a range", "a domain with two ends");
       });
     if (const JsonNode* node = root_.optional("at_end"))
       forEach(*node, "at_end", [&](const JsonNode& value, std::size_t k, const std::string& key) {
@@ -178,14 +136,14 @@ class DefinitionReader {
     if (node == nullptr) return;
     if (node->kind != JsonNode::Kind::Array || node->items.size() != dimensions())
       return faults_.add(*node, key, "is no place", dimensions() == 1 ? "[phi]" : "[u, v]");
-    const std::array<Domain, 2> domain = domainOf(definition_, defaults_);
     for (std::size_t k = 0; k < dimensions(); ++k) {
       std::string text;
-      double value = 0;
-      if (!readConstant(node->items[k], key, text, value)) return;
-      if (!domain[k].periodic && !(value >= domain[k].lo && value <= domain[k].hi))
-        faults_.add(node->items[k], key, fmt::format("is {}", value), fmt::format("{} to {}", domain[k].lo, domain[k].hi));
-      place.push_back(value);
+      if (!readText(node->items[k], fmt::format("{}[{}]", key, k), text)) return;
+      try {
+        place.push_back(constantOf(text, formulaOf(definition_), defaultsOf(definition_), fmt::format("{}[{}]", key, k)));
+      } catch (const FaultError& error) {
+        for (const Fault& fault : error.faults) faults_.addOfValue(tree_, fault);
+      }
     }
   }
 
@@ -193,8 +151,6 @@ class DefinitionReader {
   const JsonNode& tree_;
   ObjectReader root_;
   Definition definition_;
-  FormulaText names_;
-  std::array<double, kMaxShapeParameters> defaults_{};
 };
 
 }  // namespace
@@ -206,12 +162,12 @@ FormulaText formulaOf(const Definition& definition) {
 }
 
 double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
-                  const std::string& origin) {
+                  const std::string& key) {
   ExpressionGraph graph;
   const ParsedFormula parsed = parseFormula(expression, {{}, names.parameters}, graph);
-  if (parsed.fault) throw UsageError(fmt::format("{}, character {}: {}", origin, parsed.fault->character, parsed.fault->what));
+  if (parsed.fault) throw FaultError(Fault{key, parsed.fault->what, {}, FilePlace{{}, 0, static_cast<int>(parsed.fault->character)}});
   const double value = evaluateNodes(graph, std::array{parsed.root}, shape.data(), nullptr)[0];
-  if (!std::isfinite(value)) throw UsageError(origin + ": is not finite; allowed: a finite number");
+  if (!std::isfinite(value)) throw FaultError(Fault{key, "is not finite", "a finite number"});
   return value;
 }
 
@@ -220,8 +176,9 @@ std::array<Domain, 2> domainOf(const Definition& definition, const std::array<do
   const FormulaText names = formulaOf(definition);
   for (std::size_t k = 0; k < 2; ++k) {
     const DomainText& text = definition.domain[k];
-    if (!text.lo.empty()) domain[k].lo = constantOf(text.lo, names, shape, definition.name + ": domain");
-    if (!text.hi.empty()) domain[k].hi = constantOf(text.hi, names, shape, definition.name + ": domain");
+    const std::string key = definition.kind == ConstraintKind::Curve ? "domain" : fmt::format("domain[{}]", k);
+    if (!text.lo.empty()) domain[k].lo = constantOf(text.lo, names, shape, key + "[0]");
+    if (!text.hi.empty()) domain[k].hi = constantOf(text.hi, names, shape, key + "[1]");
     domain[k].periodic = text.periodic;
     domain[k].atEnd = text.atEnd;
   }

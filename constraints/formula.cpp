@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "constraints/guards.h"
 
 namespace reachlab::constraints {
@@ -66,13 +66,19 @@ std::vector<std::string> variablesOf(ConstraintKind kind) {
   return {};
 }
 
+Fault toFault(const FormulaFault& fault, ConstraintKind kind, const std::string& key) {
+  const std::string formula = keyIn(key, kind == ConstraintKind::Curve ? "curve" : "surface");
+  if (fault.coordinate < 0) return {formula, fault.what};
+  return {formula + "[" + std::to_string(fault.coordinate) + "]", fault.what, {}, FilePlace{{}, 0, static_cast<int>(fault.character)}};
+}
+
 std::vector<FormulaFault> formulaFaults(const FormulaText& text) {
   if (std::vector<FormulaFault> faults = parameterFaults(text); !faults.empty()) return faults;
   ExpressionGraph graph;
   return parseCoordinates(text, graph).faults;
 }
 
-std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& origin) {
+std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& key) {
   auto formula = std::make_shared<CompiledFormula>();
   formula->text = text;
   ExpressionGraph& graph = formula->graph;
@@ -83,15 +89,9 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
     faults = parsed.faults;
   }
   if (!faults.empty()) {
-    const char* what = text.kind == ConstraintKind::Curve ? "curve" : "surface";
-    std::string message;
-    for (const FormulaFault& fault : faults) {
-      message += (message.empty() ? "" : "\n") + origin + ": ";
-      if (fault.coordinate >= 0)
-        message += std::string(what) + "[" + std::to_string(fault.coordinate) + "], character " + std::to_string(fault.character) + ": ";
-      message += fault.what;
-    }
-    throw UsageError(message);
+    std::vector<Fault> told;
+    for (const FormulaFault& fault : faults) told.push_back(toFault(fault, text.kind, key));
+    throw FaultError(std::move(told));
   }
 
   const std::vector<int> r(parsed.roots.begin(), parsed.roots.end());
@@ -103,7 +103,7 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
       try {
         order = graph.differentiate(order, 0);
       } catch (const UsageError&) {
-        if (k <= 2) throw UsageError(origin + ": the formula with its derivatives is too large; allowed: a shorter formula");
+        if (k <= 2) throw FaultError(Fault{key, "the formula with its derivatives is too large", "a shorter formula"});
         break;  // the third and fourth are extras of small formulas
       }
       formula->derivatives.push_back({order[0], order[1], order[2]});

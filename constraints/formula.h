@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fault.h"
 #include "constraints/constraint.h"
 #include "constraints/expression.h"
 #include "constraints/parser.h"
@@ -38,8 +39,11 @@ std::vector<std::string> variablesOf(ConstraintKind kind);
 /// Every fault of the text: syntax with its place, names, parameters that no coordinate uses. Empty when fine. For live checking.
 std::vector<FormulaFault> formulaFaults(const FormulaText& text);
 
-/// Throws UsageError with every fault, one a line, each after `origin`.
-std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& origin);
+/// The same for a file or an editor, under `key`: "constraint.curve[1]", the place being a character of that text.
+Fault toFault(const FormulaFault& fault, ConstraintKind kind, const std::string& key);
+
+/// Throws FaultError with every fault, each under `key`.
+std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& key);
 
 /// Values of graph nodes, with the operations of the compiled forms. Allocates: not for the haptic thread.
 std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables);

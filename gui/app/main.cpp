@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "base/ending.h"
 #include "base/error.h"
 #include "base/os.h"
 #include "base/stop_signals.h"
@@ -96,11 +97,8 @@ int main(int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     return sayFault((std::string("reachlab: ") + e.what()).c_str(), 2, argc, argv);
-  } catch (const reachlab::UsageError& e) {
-    return sayFault(e.what(), 2, argc, argv);
-  } catch (const reachlab::RefusedError& e) {
-    return sayFault(e.what(), 4, argc, argv);
   } catch (const std::exception& e) {
-    return sayFault(e.what(), 3, argc, argv);
+    const reachlab::Ending ending = reachlab::endingOf(e);
+    return sayFault(ending.sentence.c_str(), ending.exitCode, argc, argv);
   }
 }

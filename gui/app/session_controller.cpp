@@ -4,6 +4,7 @@
 #include <QStringList>
 #include <utility>
 
+#include "base/ending.h"
 #include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
@@ -156,7 +157,7 @@ void SessionController::endRun() {
   try {
     recorded_->closeRun();
   } catch (const std::exception& e) {
-    Q_EMIT failed(QString::fromUtf8(e.what()));
+    Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
   }
   stop_.reset();
   Q_EMIT runClosed();
@@ -200,7 +201,7 @@ void SessionController::stopInOrder() {
 
 // The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
 void SessionController::fail(const std::exception& fault) {
-  const QString sentence = QString::fromUtf8(fault.what());
+  const QString sentence = QString::fromStdString(endingOf(fault).sentence);
   mouse_ = nullptr;
   recorded_.reset();
   stop_.reset();

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "base/ending.h"
 #include "base/error.h"
 #include "gui/docks/formula_editor.h"
 #include "gui/scene/scene_view.h"
@@ -364,7 +365,7 @@ void ConstraintChooser::save() {
     for (std::size_t i = 0; i < definitions_.size(); ++i)
       if (definitions_[i].name == name) list_->setCurrentRow(static_cast<int>(i));
   } catch (const std::exception& e) {
-    saved_->setText(QString::fromUtf8(e.what()));
+    saved_->setText(QString::fromStdString(endingOf(e).sentence));
   }
 }
 

@@ -18,6 +18,7 @@
 #include "devices/hot_plug.h"
 #include "devices/registry.h"
 #include "gui/widgets/fault_label.h"
+#include "gui/widgets/fault_words.h"
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/record/run_configuration.h"
@@ -163,12 +164,8 @@ void SessionDock::check() {
     return fault;
   };
   const auto labelFault = [](QLineEdit* field, const char* name) {
-    try {
-      record::checkLabel(field->text().trimmed().toStdString(), name);
-    } catch (const UsageError& e) {
-      return QString::fromUtf8(e.what());
-    }
-    return QString();
+    const auto fault = record::labelFault(field->text().trimmed().toStdString(), name);
+    return fault ? widgets::inWords(*fault) : QString();
   };
   bool isNumber = false;
   const QString age = age_->text().trimmed();

@@ -38,6 +38,8 @@ QString inWords(const Fault& fault) {
   if (const auto name = fieldNames().find(key); name != fieldNames().end()) key = name->second;
   if (!key.isEmpty()) key += number + QStringLiteral(": ");
   QString words = key + QString::fromStdString(fault.what);
+  if (fault.place && fault.place->file.empty())  // within the text that was typed
+    words = key + QStringLiteral("character %1: ").arg(fault.place->column) + QString::fromStdString(fault.what);
   if (!fault.allowed.empty()) words += QStringLiteral("; allowed: ") + QString::fromStdString(fault.allowed);
   return words;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::bench {
 namespace {
@@ -170,7 +170,7 @@ BenchScene benchScene(const std::string& name) {
     if (scene.name == name) return std::move(scene);
     names += (names.empty() ? "" : ", ") + scene.name;
   }
-  throw UsageError("bench: --scene " + name + " is not known; allowed: " + names + ", constraint-eval");
+  throw FaultError(Fault{"scene", "is " + name, names + ", constraint-eval"});
 }
 
 }  // namespace reachlab::bench

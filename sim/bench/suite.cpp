@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "sim/bench/peers.h"
 
@@ -36,9 +36,8 @@ void checkNames(const SuiteOptions& options) {
     for (const std::string& name : list) allowed += (allowed.empty() ? "" : ", ") + name;
   for (const std::string& m : options.methods) {
     if (contains(peerNames(), m) && !peersBuilt())
-      throw ResourceError("bench: --method " + m + " is another library; configure the build with -DREACHLAB_BENCH_PEERS=ON to measure it");
-    if (!contains(methodNames(), m) && !contains(peerNames(), m))
-      throw UsageError("bench: --method " + m + " is not known; allowed: " + allowed);
+      throw ResourceError("method " + m + " is another library; configure the build with -DREACHLAB_BENCH_PEERS=ON to measure it");
+    if (!contains(methodNames(), m) && !contains(peerNames(), m)) throw FaultError(Fault{"method", "is " + m, allowed});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fault.h"
 #include "constraints/constraint.h"
 
 namespace reachlab::experiment {
@@ -99,8 +100,8 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
 std::string definitionTextOf(const Experiment& experiment);
 /// The experiment as a file that reads back equal (for saving from the window, and for the log).
 std::string toJson(const Experiment& experiment);
-/// Every fault of a value that did not come through the reader (edited in the window); empty when fine.
-std::vector<std::string> problems(const Experiment& experiment);
+/// Every fault of the value, each under its key as in the files; empty when fine. The reader adds the places.
+std::vector<Fault> problems(const Experiment& experiment);
 
 /// Names of the shipped experiments, sorted.
 std::vector<std::string> shippedExperiments();

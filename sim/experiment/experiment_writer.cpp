@@ -1,5 +1,4 @@
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "constraints/definition.h"
 #include "base/error.h"
@@ -94,18 +93,6 @@ std::string definitionTextOf(const Experiment& experiment) {
   if (!spec.definition.empty()) return spec.definition;
   if (!spec.curve.empty() || !spec.surface.empty() || spec.name == "free") return {};
   return constraints::toJson(constraints::findDefinition(spec.name, "constraint"));
-}
-
-std::vector<std::string> problems(const Experiment& experiment) {
-  try {
-    parseExperiment(toJson(experiment), experiment.name.empty() ? "experiment" : experiment.name);
-    return {};
-  } catch (const UsageError& e) {
-    std::vector<std::string> lines;
-    std::istringstream text(e.what());
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
-    return lines;
-  }
 }
 
 }  // namespace reachlab::experiment

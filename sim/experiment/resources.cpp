@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/compiled_experiment.h"
 
@@ -41,13 +41,12 @@ CompiledExperiment openExperiment(const std::string& fileOrName) {
     const std::string file = (fs::path(resourceFolder()) / "experiments" / (fileOrName + ".json")).string();
     return openExperimentText(readTextFile(file), file);
   }
-  if (fs::is_directory(fileOrName, ignored))
-    throw UsageError(fmt::format("{}: is a folder; allowed: an experiment file or name", fileOrName));
-  if (looksLikeFile)
-    throw UsageError(fmt::format("{}: there is no such file; allowed: an experiment file, or one of {}", fileOrName, listOf(names)));
+  if (fs::is_directory(fileOrName, ignored)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
+  if (looksLikeFile) throw FaultError(Fault{fileOrName, "there is no such file", "an experiment file, or one of " + listOf(names)});
   const std::string nearest = nearestName(fileOrName, names);
-  throw UsageError(fmt::format("{}: is neither a file nor a shipped experiment{}; allowed: a file, or one of {}", fileOrName,
-                               nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest), listOf(names)));
+  throw FaultError(Fault{
+      fileOrName, "is neither a file nor a shipped experiment" + (nearest.empty() ? std::string() : "; did you mean " + nearest + "?"),
+      "a file, or one of " + listOf(names)});
 }
 
 Experiment readExperiment(const std::string& fileOrName) { return openExperiment(fileOrName).experiment(); }

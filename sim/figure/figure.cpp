@@ -9,7 +9,7 @@
 #include <memory>
 #include <string_view>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/figure/panel_painter.h"
 
 namespace reachlab::figure {
@@ -174,7 +174,7 @@ void writeFigure(const Figure& figure, const std::string& path) {
   if (endsWith(".svg")) bytes = renderSvg(figure);
   else if (endsWith(".pdf")) bytes = renderPdf(figure);
   else if (endsWith(".png")) bytes = renderPng(figure);
-  else throw UsageError(path + ": unknown kind of figure; allowed: .svg, .pdf, .png");
+  else throw FaultError(Fault{path, "unknown kind of figure", ".svg, .pdf, .png"});
   std::FILE* file = std::fopen(path.c_str(), "wb");
   const bool written = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   const bool closed = file && std::fclose(file) == 0;

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/dynamics/compiled_scene.h"
 
 namespace reachlab::haptics {
@@ -13,7 +13,8 @@ namespace {
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
 std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, const HapticDevice& device) {
-  if (!experiment.experiment().task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
+  if (!experiment.experiment().task)
+    throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
   return std::make_unique<TickEngine>(experiment.experiment(), dynamics::compileScene(experiment), engineOptions(device.info()));
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
 
@@ -13,7 +13,7 @@ constexpr double kJump = 0.02;  // [m] in one tick: 20 m/s, no hand does that; t
 
 // The task's parameters, so that a scene is never compiled for an experiment without one.
 const experiment::Task& taskOf(const experiment::Experiment& experiment) {
-  if (!experiment.task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
+  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
   return *experiment.task;
 }
 

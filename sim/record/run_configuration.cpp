@@ -6,7 +6,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/record/checked_json.h"
 
 namespace reachlab::record {
@@ -217,6 +217,10 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   }
 }
 
+experiment::Experiment recordedValues(const RunConfiguration& c) {
+  return experiment::readUnchecked(c.experimentText, c.experimentName, c.definitionText);
+}
+
 experiment::Experiment recordedExperiment(const RunConfiguration& c) {
   experiment::Experiment experiment = experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
   experiment.timing = c.timing;  // what held then, which the text may leave to a default
@@ -224,24 +228,25 @@ experiment::Experiment recordedExperiment(const RunConfiguration& c) {
 }
 
 void checkConfiguration(const RunConfiguration& c) {
-  checkLabel(c.subject, "subject");
-  checkLabel(c.session, "session");
-  checkLabel(c.task, "task");
+  std::vector<Fault> faults;
+  for (const auto& [key, label] : {std::pair{"subject", c.subject}, std::pair{"session", c.session}, std::pair{"task", c.task}})
+    if (const auto fault = labelFault(label, key)) faults.push_back(*fault);
   const std::size_t columns = rowWidth(c.table.massCount, c.table.parameterCount, c.table.body, c.table.portEnergy);
   if (c.table.size() != columns)
-    throw UsageError(fmt::format("table: has {} channels; allowed: {}, as its masses have", c.table.size(), columns));
+    faults.push_back({"table", fmt::format("has {} channels", c.table.size()), fmt::format("{}, as its masses have", columns)});
+  if (!faults.empty()) throw FaultError(std::move(faults));
 }
 
-void checkLabel(const std::string& label, const std::string& what) {
+std::optional<Fault> labelFault(const std::string& label, const std::string& key) {
   constexpr std::size_t kLongestLabel = 60;  // file names join three of them and may have 255 bytes
   const bool good = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
-  if (!good || label.size() > kLongestLabel)
-    throw UsageError(fmt::format("{} \"{}\": not a label; allowed: up to 60 letters and digits", what, label));
+  if (good && label.size() <= kLongestLabel) return std::nullopt;
+  return Fault{key, fmt::format("\"{}\" is not a label", label), fmt::format("up to {} letters and digits", kLongestLabel)};
 }
 
-void checkParticipant(const Participant& participant) {
-  if (participant.age && !(*participant.age >= 0 && *participant.age <= 130))
-    throw UsageError(fmt::format("--age {}: allowed: 0 to 130 years", *participant.age));
+std::vector<Fault> problems(const Participant& participant) {
+  if (!participant.age || (*participant.age >= 0 && *participant.age <= 130)) return {};
+  return {{"participant.age", fmt::format("is {}", *participant.age), "0 to 130 years"}};
 }
 
 }  // namespace reachlab::record

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/fault.h"
 #include "sim/record/channels.h"
 #include "sim/trial/planned_trial.h"
 
@@ -49,7 +50,7 @@ struct RunConfiguration {
   std::string method, methodReason;                               // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds
-  std::string clock = "steady";  // virtual with --fast
+  std::string clock = "steady";  // or virtual: as fast as the processor allows
   double samplingHz = 100;       // of the sample rows
   std::uint32_t sampleEveryTicks = 10;
   Participant participant;
@@ -64,14 +65,16 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws UsageError when its text cannot be understood.
 experiment::Experiment recordedExperiment(const RunConfiguration& configuration);
+/// The same for who only tells what it said: its constraint is not compiled. Throws FaultError when its text cannot be understood.
+experiment::Experiment recordedValues(const RunConfiguration& configuration);
 
 /// What a configuration from a file says of itself holds: labels are labels (they become names of files), every count within its bounds, and
-/// the table has the channels that its counts ask for. Throws UsageError `KEY: …`.
+/// the table has the channels that its counts ask for. Throws FaultError.
 void checkConfiguration(const RunConfiguration& configuration);
 
-/// Labels are letters and digits only (BIDS), at most 60. Throws UsageError otherwise.
-void checkLabel(const std::string& label, const std::string& what);
-/// An age is 0 to 130 years, so that the record can be written and read. Throws UsageError otherwise.
-void checkParticipant(const Participant& participant);
+/// Labels are letters and digits only (BIDS), at most 60: what is wrong with the one under `key`, if anything.
+std::optional<Fault> labelFault(const std::string& label, const std::string& key);
+/// An age is 0 to 130 years, so that the record can be written and read; empty when fine.
+std::vector<Fault> problems(const Participant& participant);
 
 }  // namespace reachlab::record

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
-#include "base/error.h"
 #include "base/json_reader.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::session {
@@ -16,22 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMaxTrials = 1'000'000, kMaxDay = 10'000;
+
 void readForeperiod(ObjectReader& reader, PlanBlock& block) {
   const JsonNode* node = reader.optional("foreperiod_s");
   std::vector<double> range;
-  if (node == nullptr || !reader.numbers(*node, "foreperiod_s", 2, atLeastZero("s"), range)) return;
-  if (range[0] > range[1] || range[1] > 60)
-    reader.faults().add(*node, reader.keyPath("foreperiod_s"), "is no range", "[from, to] in s, from <= to <= 60");
+  if (node == nullptr || !reader.numbers(*node, "foreperiod_s", 2, anyNumber(), range)) return;
   block.foreperiodMin = range[0];
   block.foreperiodMax = range[1];
 }
 
 // The settings that may stand for the whole plan or for one block.
 void readSettings(ObjectReader& reader, PlanBlock& block) {
-  reader.integer("trials", 1, 1000000, block.trials);
+  reader.integer("trials", 1, kMaxTrials, block.trials);
   reader.boolean("practice", block.practice);
-  reader.number("pause_s", atLeastZero("s"), block.pauseSeconds);
-  reader.number("catch_share", {0, 0.5, true, "a share from 0 to 0.5"}, block.catchShare);
+  reader.number("pause_s", anyNumber(), block.pauseSeconds);
+  reader.number("catch_share", anyNumber(), block.catchShare);
   reader.boolean("repeat_aborted", block.repeatAborted);
   readForeperiod(reader, block);
 }
@@ -51,18 +49,40 @@ void readBlock(ObjectReader& plan, const JsonNode& node, std::size_t index, cons
   if (plan.node().find("trials") == nullptr) static_cast<void>(reader.required("trials", "a whole number from 1"));
   readSettings(reader, block);
   reader.text("condition", block.condition);
-  reader.integer("day", 1, 10000, block.day);
+  reader.integer("day", 1, kMaxDay, block.day);
   reader.finish();
   out.blocks.push_back(block);
 }
 
 void readOrderSeed(ObjectReader& reader, Plan& plan) {
   double seed = 0;  // a JSON number is read as a double: whole up to 2^53
-  const NumberRange range = wholeNumber(0, 9007199254740992.0);
-  reader.number("order_seed", range, seed);
-  if (seed != std::floor(seed))
-    reader.faults().add(*reader.optional("order_seed"), "order_seed", fmt::format("is {}", seed), range.allowed);
+  reader.number("order_seed", wholeNumber(0, 9007199254740992.0), seed);
   plan.orderSeed = static_cast<std::uint64_t>(seed);
+}
+
+void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Fault>& faults) {
+  if (block.experiment.empty()) faults.push_back({key + ".experiment", "is empty", "a file, or the name of a shipped experiment"});
+  checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
+  checkNumber(key + ".pause_s", block.pauseSeconds, atLeastZero("s"), faults);
+  checkNumber(key + ".catch_share", block.catchShare, {0, 0.5, true, "a share from 0 to 0.5"}, faults);
+  if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
+  if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= 60))
+    faults.push_back({key + ".foreperiod_s", "is no range", "[from, to] in s, 0 <= from <= to <= 60"});
+}
+
+/// What the file gives for the plan as a whole is told once, where it stands.
+void addProblems(const JsonNode& root, const Plan& plan, FaultList& faults) {
+  std::vector<Fault> told;
+  for (Fault fault : problems(plan)) {
+    const std::size_t dot = fault.key.find("].");
+    const std::string setting = dot == std::string::npos ? "" : fault.key.substr(dot + 2);
+    const std::size_t index = setting.empty() ? 0 : static_cast<std::size_t>(std::stoul(fault.key.substr(fault.key.find('[') + 1)));
+    if (!setting.empty() && root.find(setting) != nullptr && root.find("blocks")->items.at(index).find(setting) == nullptr)
+      fault.key = setting;
+    if (std::find(told.begin(), told.end(), fault) != told.end()) continue;
+    told.push_back(fault);
+    faults.addOfValue(root, std::move(fault));
+  }
 }
 
 }  // namespace
@@ -95,36 +115,49 @@ Plan parsePlan(const std::string& text, const std::string& file) {
   PlanBlock defaults;
   readSettings(reader, defaults);
   if (const JsonNode* blocks = reader.required("blocks", "an array of blocks")) {
-    if (blocks->kind != JsonNode::Kind::Array || blocks->items.empty())
-      faults.add(*blocks, "blocks", blocks->kind == JsonNode::Kind::Array ? "is empty" : "is no array", "an array of blocks");
+    if (blocks->kind != JsonNode::Kind::Array) faults.add(*blocks, "blocks", "is no array", "an array of blocks");
     for (std::size_t i = 0; i < blocks->items.size(); ++i) readBlock(reader, blocks->items[i], i, file, defaults, plan);
   }
   reader.finish();
+  addProblems(root, plan, faults);
   faults.throwIfAny();
   return plan;
 }
 
+std::vector<Fault> problems(const Plan& plan) {
+  std::vector<Fault> faults;
+  if (plan.blocks.empty()) faults.push_back({"blocks", "is empty", "an array of blocks"});
+  for (std::size_t i = 0; i < plan.blocks.size(); ++i) checkBlock(fmt::format("blocks[{}]", i), plan.blocks[i], faults);
+  return faults;
+}
+
 Plan readPlan(const std::string& file) { return parsePlan(readTextFile(file), file); }
 
-std::vector<std::string> planProblems(const std::string& file) {
-  std::vector<std::string> found;
+std::vector<Fault> planProblems(const std::string& file) {
+  const std::string text = readTextFile(file);
   Plan plan;
   try {
-    plan = readPlan(file);
+    plan = parsePlan(text, file);
   } catch (const UsageError& error) {
-    found.emplace_back(error.what());
-    return found;
+    return faultsOf(error);
   }
+  std::vector<Fault> found, here;
   std::vector<std::string> seen;
-  for (const PlanBlock& block : plan.blocks) {
-    if (std::find(seen.begin(), seen.end(), block.experiment) != seen.end()) continue;
-    seen.push_back(block.experiment);
+  for (std::size_t i = 0; i < plan.blocks.size(); ++i) {
+    const std::string& name = plan.blocks[i].experiment;
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
+    seen.push_back(name);
     try {
-      trial::checkTask(experiment::readExperiment(block.experiment), file + ": blocks: " + block.experiment);
+      trial::checkTask(experiment::openExperiment(name), name);
     } catch (const UsageError& error) {
-      found.emplace_back(error.what());
+      for (Fault& fault : faultsOf(error)) {  // those of the experiment's file stand there
+        if (fault.place) found.push_back(std::move(fault));
+        else here.push_back({fmt::format("blocks[{}].experiment", i), toText(fault)});
+      }
     }
   }
+  here = atTheirPlaces(std::move(here), text, file);
+  found.insert(found.begin(), here.begin(), here.end());
   return found;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/fault.h"
+
 namespace reachlab::session {
 
 /// A series of trials with the same settings; recorded as one run.
@@ -38,8 +40,10 @@ std::optional<std::string> findPlan(const std::string& fileOrName);
 /// Throws UsageError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Plan parsePlan(const std::string& text, const std::string& file);
 Plan readPlan(const std::string& file);
-/// Every fault of a plan file and of the experiments it names; empty when fine.
-std::vector<std::string> planProblems(const std::string& file);
+/// Every fault of a plan as a value, each under its key; empty when fine.
+std::vector<Fault> problems(const Plan& plan);
+/// Every fault of a plan file and of the experiments it names, each at its place; empty when fine.
+std::vector<Fault> planProblems(const std::string& file);
 
 /// The blocks of `day` (every block when 0) in the order that this subject does them: indices into plan.blocks. A function of the
 /// plan and the subject's label alone.

@@ -140,9 +140,10 @@ std::uint64_t drawSeed() {
 SessionToRun planSession(const SessionRequest& request) { return planSession(request, readProgramme(request.what)); }
 
 SessionToRun planSession(const SessionRequest& request, const Programme& programme) {
-  record::checkLabel(request.place.subject, "subject");
-  record::checkLabel(request.place.session, "session");
-  record::checkParticipant(request.participant);
+  std::vector<Fault> faults = record::problems(request.participant);
+  for (const auto& [key, label] : {std::pair{"subject", request.place.subject}, std::pair{"session", request.place.session}})
+    if (const auto fault = record::labelFault(label, key)) faults.push_back(*fault);
+  if (!faults.empty()) throw FaultError(std::move(faults));
   const Plan plan = planOf(request, programme);
   const int day = dayOf(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
@@ -160,8 +161,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   std::vector<const BlockProgress*> recorded;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const experiment::CompiledExperiment& experiment = programme.experiments.at(static_cast<std::size_t>(order[k]));
-    trial::checkTask(experiment.experiment(),
-                     programme.isPlan() ? plan.blocks[static_cast<std::size_t>(order[k])].experiment : request.what);
+    trial::checkTask(experiment, programme.isPlan() ? plan.blocks[static_cast<std::size_t>(order[k])].experiment : request.what);
     recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiment.experiment()));
   }
   const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "constraints/geometry/task_path.h"
 #include "sim/trial/protocol.h"
@@ -13,13 +13,13 @@ constexpr double kWholeTick = 1e-6;  // [ticks] a decimal time such as 1.35 s is
 }  // namespace
 
 ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
-  if (!experiment.task) throw UsageError("task: missing; a trial needs a start, a target and a duration");
+  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
   const experiment::Task& task = *experiment.task;
   ProtocolSettings s;
   s.start = constraints::placeOn(constraint, task.start);
   s.target = constraints::placeOn(constraint, task.target);
-  if (!isFinite(s.start)) throw UsageError("task.start: no place on the constraint");
-  if (!isFinite(s.target)) throw UsageError("task.target: no place on the constraint");
+  if (!isFinite(s.start)) throw FaultError(Fault{"task.start", "is no place on the constraint", "where the formula has a value"});
+  if (!isFinite(s.target)) throw FaultError(Fault{"task.target", "is no place on the constraint", "where the formula has a value"});
   s.armRadius = task.armRadius;
   s.onset = task.onset;
   s.positionTolerance = task.tolerance.position;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "constraints/constraint.h"
-#include "base/error.h"
+#include "base/json_reader.h"
 #include "constraints/geometry/arc_length.h"
 #include "sim/trial/protocol.h"
 
@@ -21,36 +21,43 @@ double wayOf(const constraints::Constraint& constraint, const experiment::Task& 
 
 }  // namespace
 
-void checkTask(const experiment::Experiment& experiment, const std::string& file) {
-  if (!experiment.task) throw UsageError(file + ": task: is missing, and a run needs one; allowed: { start, target, … }");
-  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
-  const ProtocolSettings place = [&] {
-    try {
-      return makeProtocolSettings(experiment, constraint);
-    } catch (const UsageError& fault) {
-      throw UsageError(file + ": " + fault.what());
-    }
-  }();
+std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) {
+  const experiment::Experiment& experiment = compiled.experiment();
+  if (!experiment.task) return {{"task", "is missing, and a run needs one", "{ start, target, … }"}};
+  const constraints::Constraint& constraint = compiled.constraint();
+  ProtocolSettings place;
+  try {
+    place = makeProtocolSettings(experiment, constraint);
+  } catch (const UsageError& error) {
+    return faultsOf(error);
+  }
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (experiment.task->start == experiment.task->target || (flat && place.start == place.target))
-    throw UsageError(file + ": task.target: start and target are the same place; allowed: two places");
+    return {{"task.target", "start and target are the same place", "two places"}};
+  return {};
 }
 
-std::vector<std::string> implausibleNumbers(const experiment::Experiment& experiment, const std::string& file) {
-  std::vector<std::string> found;
+void checkTask(const experiment::CompiledExperiment& experiment, const std::string& file) {
+  std::vector<Fault> faults = atTheirPlaces(taskProblems(experiment), experiment.experiment().text, file);
+  if (!faults.empty()) throw FaultError(std::move(faults));
+}
+
+std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& compiled) {
+  const experiment::Experiment& experiment = compiled.experiment();
+  std::vector<Fault> found;
   const std::vector<double>& masses = experiment.object.masses;
   for (std::size_t i = 0; i < masses.size(); ++i)
     if (masses[i] > kHeavyMass)
-      found.push_back(fmt::format("{}: object.masses_kg[{}]: is {} kg; more than {} kg is hardly meant", file, i, masses[i], kHeavyMass));
+      found.push_back(
+          {fmt::format("object.masses_kg[{}]", i), fmt::format("is {} kg; more than {} kg is hardly meant", masses[i], kHeavyMass)});
   if (!experiment.task) return found;
   const experiment::Task& task = *experiment.task;
   if (task.duration > kLongTask)
-    found.push_back(fmt::format("{}: task.duration_s: is {} s; more than {} s is hardly meant", file, task.duration, kLongTask));
-  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
-  const double way = wayOf(constraint, task, makeProtocolSettings(experiment, constraint));
+    found.push_back({"task.duration_s", fmt::format("is {} s; more than {} s is hardly meant", task.duration, kLongTask)});
+  const double way = wayOf(compiled.constraint(), task, makeProtocolSettings(experiment, compiled.constraint()));
   if (task.tolerance.position > way)
-    found.push_back(fmt::format("{}: task.tolerance.position_m: is {} m, more than the way of {:.4g} m from start to target", file,
-                                task.tolerance.position, way));
+    found.push_back({"task.tolerance.position_m",
+                     fmt::format("is {} m, more than the way of {:.4g} m from start to target", task.tolerance.position, way)});
   return found;
 }
 

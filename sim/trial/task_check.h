@@ -2,15 +2,18 @@
 #include <string>
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "base/fault.h"
+#include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::trial {
 
-/// Whether the experiment's task can be carried out as a reach: start and target on the constraint, and not the same place. Asked before
-/// a run and by `reach validate`; who only simulates or predicts has rules of his own. Throws UsageError naming `file`.
-void checkTask(const experiment::Experiment& experiment, const std::string& file);
+/// Why the experiment's task cannot be carried out as a reach, if so: start and target on the constraint, and not the same place. Asked before
+/// a run and by `reach validate`; who only simulates or predicts has rules of his own.
+std::vector<Fault> taskProblems(const experiment::CompiledExperiment& experiment);
+/// Throws these as FaultError, with their places in `file`.
+void checkTask(const experiment::CompiledExperiment& experiment, const std::string& file);
 
-/// Numbers that are allowed but hardly meant, one sentence each: a tolerance larger than the way, more than a minute, more than 100 kg.
-std::vector<std::string> implausibleNumbers(const experiment::Experiment& experiment, const std::string& file);
+/// Numbers that are allowed but hardly meant: a tolerance larger than the way, more than a minute, more than 100 kg.
+std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& experiment);
 
 }  // namespace reachlab::trial

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kAcross = 1e-6;  // cosine below which the pull along the constraint is rounding and a hand's tremor
 
-void addPlaces(const constraints::Constraint& c, const experiment::Task& task, const std::string& file, std::vector<std::string>& found) {
+void addPlaces(const constraints::Constraint& c, const experiment::Task& task, std::vector<Fault>& found) {
   if (c.kind == constraints::ConstraintKind::Curve) {
     for (const constraints::Place& place :
          constraints::placesBetween(constraints::computeRegularity(c, task.start[0]), task.start[0], task.target[0]))
-      found.push_back(fmt::format("{}: task: between start and target: {} ({})", file, describe(place, c.kind),
-                                  constraints::isPassed(place.kind) ? "passed with the speed along the curve" : "never crossed"));
+      found.push_back({"task", fmt::format("between start and target: {} ({})", describe(place, c.kind),
+                                           constraints::isPassed(place.kind) ? "passed with the speed along the curve" : "never crossed")});
     return;
   }
   const auto branches = constraints::computeBranches(c);
@@ -32,17 +32,16 @@ void addPlaces(const constraints::Constraint& c, const experiment::Task& task, c
     for (int i = 1; i <= kLooks; ++i) {
       const double before = sides((i - 1) / double{kLooks})[k].value, after = sides(i / double{kLooks})[k].value;
       if (before * after > 0) continue;
-      found.push_back(fmt::format("{}: task: the straight way in u and v from start to target meets a {}: {} ({})", file, nameOf(line.kind),
-                                  line.because,
-                                  constraints::isPassed(line.kind) ? "passed as a geodesic passes a crease" : "never crossed"));
+      found.push_back(
+          {"task", fmt::format("the straight way in u and v from start to target meets a {}: {} ({})", nameOf(line.kind), line.because,
+                               constraints::isPassed(line.kind) ? "passed as a geodesic passes a crease" : "never crossed")});
       break;
     }
   }
 }
 
 /// The chord from start to target has no part along the constraint at the start, and nothing else pulls there.
-void addTie(const experiment::Experiment& experiment, const constraints::Constraint& c, const std::string& file,
-            std::vector<std::string>& found) {
+void addTie(const experiment::Experiment& experiment, const constraints::Constraint& c, std::vector<Fault>& found) {
   const experiment::Task& task = *experiment.task;
   Vec3 chord;
   std::array<Vec3, 2> along;
@@ -63,22 +62,21 @@ void addTie(const experiment::Experiment& experiment, const constraints::Constra
     if (std::abs(dot(tangent, experiment.object.gravity)) > kAcross * size) return;
   }
   found.push_back(
-      fmt::format("{}: task: the chord from start to target stands at right angles to the {} at the start: a hand that goes straight to "
-                  "the target pulls the mass to neither side, and rounding decides which way it leaves; choose another start or target",
-                  file, c.kind == constraints::ConstraintKind::Curve ? "curve" : "surface"));
+      {"task",
+       fmt::format("the chord from start to target stands at right angles to the {} at the start: a hand that goes straight to "
+                   "the target pulls the mass to neither side, and rounding decides which way it leaves; choose another start or target",
+                   c.kind == constraints::ConstraintKind::Curve ? "curve" : "surface")});
 }
 
 }  // namespace
 
-std::vector<std::string> describeWay(const experiment::Experiment& experiment, const std::string& file) {
-  std::vector<std::string> found;
-  if (!experiment.task) return found;
-  const constraints::Constraint c = constraints::makeConstraint(experiment.constraint);
-  const std::size_t wanted = static_cast<std::size_t>(c.parameterCount());
-  if (c.kind == constraints::ConstraintKind::Free || experiment.task->start.size() != wanted || experiment.task->target.size() != wanted)
-    return found;
-  addPlaces(c, *experiment.task, file, found);
-  addTie(experiment, c, file, found);
+std::vector<Fault> describeWay(const experiment::CompiledExperiment& compiled) {
+  std::vector<Fault> found;
+  const experiment::Experiment& experiment = compiled.experiment();
+  const constraints::Constraint& c = compiled.constraint();
+  if (!experiment.task || c.kind == constraints::ConstraintKind::Free) return found;
+  addPlaces(c, *experiment.task, found);
+  addTie(experiment, c, found);
   return found;
 }
 

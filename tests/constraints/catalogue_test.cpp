@@ -139,5 +139,41 @@ TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
   EXPECT_NE(message({.name = "../secret", .curve = {}, .surface = {}, .shape = {}}).find("there is no constraint"), std::string::npos);
 }
 
+TEST(Definition, HasTheSameFaultsAsAValueAndAsAFile) {
+  const auto keysOf = [](const std::vector<Fault>& faults) {
+    std::vector<std::string> keys;
+    for (const Fault& fault : faults) keys.push_back(fault.key);
+    return keys;
+  };
+  const Definition good = *findInCatalogue("ellipse");
+  ASSERT_TRUE(problems(good).empty());
+  struct Edit {
+    const char* key;
+    void (*change)(Definition&);
+  };
+  for (const Edit& edit :
+       {Edit{"name", [](Definition& d) { d.name = "An Ellipse"; }}, Edit{"shape.a_m", [](Definition& d) { d.shape[0].min = 10; }},
+        Edit{"curve[1]", [](Definition& d) { d.coordinates[1] = "a_m*cos(phj)"; }},
+        Edit{"curve",
+             [](Definition& d) {
+               d.coordinates = {"0", "cos(phi)", "sin(phi)"};
+             }},
+        Edit{"domain", [](Definition& d) { std::swap(d.domain[0].lo, d.domain[0].hi); }},
+        Edit{"domain[1]", [](Definition& d) { d.domain[0].hi = "2*pj"; }}}) {
+    Definition changed = good;
+    edit.change(changed);
+    const std::vector<Fault> value = problems(changed);
+    ASSERT_FALSE(value.empty()) << edit.key;
+    EXPECT_EQ(value[0].key, edit.key) << toText(value);
+    try {
+      parseDefinition(toJson(changed), "d.json");
+      ADD_FAILURE() << edit.key;
+    } catch (const FaultError& error) {
+      EXPECT_EQ(keysOf(error.faults), keysOf(value)) << error.what();
+      for (const Fault& fault : error.faults) EXPECT_GT(fault.place.value_or(FilePlace{}).line, 0) << toText(fault);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace reachlab::constraints

@@ -88,7 +88,7 @@ TEST(Plan, KnowsTheEdgesOfWhatItTakes) {
 
 TEST(Plan, ThePapersProtocolIsThreePacesOnTwoDaysWithAHundredTrialsEach) {
   const std::string file = std::string(REACHLAB_SOURCE_DIR) + "/resources/plans/paper.json";
-  EXPECT_EQ(planProblems(file), std::vector<std::string>{});
+  EXPECT_TRUE(planProblems(file).empty());
   const Plan plan = readPlan(file);
   std::map<std::pair<int, std::string>, int> trials;
   for (const PlanBlock& block : plan.blocks)
@@ -192,6 +192,28 @@ TEST(BlockSeed, OfTheFirstBlockIsTheRunsOwn) {
   EXPECT_EQ(blockSeed(42, 1), 42u);
   EXPECT_NE(blockSeed(42, 2), 42u);
   EXPECT_NE(blockSeed(42, 2), blockSeed(42, 3));
+}
+
+// Values that no file gave, as a program or an editor makes them.
+TEST(Plan, HasTheSameFaultsAsAValue) {
+  Plan plan = parsePlan(R"({ "schema_version": 1, "blocks": [ { "experiment": "chain-slow", "trials": 3 } ] })", "p.json");
+  EXPECT_TRUE(problems(plan).empty());
+  plan.blocks[0].trials = 0;
+  plan.blocks[0].day = -1;
+  plan.blocks[0].foreperiodMin = 2;
+  plan.blocks[0].foreperiodMax = 1;
+  plan.blocks[0].experiment.clear();
+  std::vector<std::string> keys;
+  for (const Fault& fault : problems(plan)) keys.push_back(fault.key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"blocks[0].experiment", "blocks[0].trials", "blocks[0].day", "blocks[0].foreperiod_s"}));
+  plan.blocks.clear();
+  EXPECT_EQ(problems(plan).at(0).key, "blocks");
+}
+
+TEST(Plan, TellsWhatStandsForAllBlocksOnceAndThere) {
+  const std::string text = R"({ "schema_version": 1, "trials": 1,
+    "catch_share": 0.9, "blocks": [ { "experiment": "chain-slow" }, { "experiment": "chain-fast" } ] })";
+  EXPECT_EQ(faultsOf(text), "p.json:2:20: catch_share: is 0.9; allowed: a share from 0 to 0.5");
 }
 
 }  // namespace

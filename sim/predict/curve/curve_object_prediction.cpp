@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/predict/curve/curve_motion.h"
 #include "sim/predict/curve/curve_prediction.h"
 #include "sim/predict/line/modes.h"
@@ -241,7 +241,8 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurv
                                    search.fastest(), duration, kMaxIntervals * kIntervalPhase));
   int intervals = static_cast<int>(std::ceil(asked));
   int n = unknowns > 0 ? unknowns : std::max(conditions + 14, static_cast<int>(kUnknownsPerPhase * phase));
-  if (n <= conditions) throw UsageError(fmt::format("--unknowns: allowed: more than {} here, twice the number of masses", conditions));
+  if (n <= conditions)
+    throw FaultError(Fault{"unknowns", fmt::format("are {}", n), fmt::format("more than {} here, twice the number of masses", conditions)});
 
   Optimum best = continueFromStraight(curve, object, duration, n, intervals);
   MotionSeries hand = seriesOf(best, curve.length(), duration);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::predict {
 namespace {
@@ -34,7 +34,7 @@ double LineObject::totalMass() const { return std::accumulate(masses.begin(), ma
 LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping) {
   const experiment::Object& object = experiment.object;
   if (object.kind == experiment::ObjectKind::Body)
-    throw UsageError("object: the criteria are defined for point, chain and parallel objects, not for a body that turns");
+    throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   LineObject line;
   line.parallel = object.kind == experiment::ObjectKind::Parallel;
   line.masses = object.masses;
@@ -43,17 +43,20 @@ LineObject makeLineObject(const experiment::Experiment& experiment, double handM
   line.handDamping = handDamping;
   const size_t n = line.masses.size();
   if (!line.parallel) {
-    if (!experiment.coupling) throw UsageError("coupling: missing; the prediction needs the spring between hand and object");
+    if (!experiment.coupling)
+      throw FaultError(Fault{"coupling", "is missing, and the prediction needs the spring between hand and object", {}});
     line.springs.push_back(experiment.coupling->stiffness);
     line.dampers.push_back(experiment.coupling->damping);
   }
   line.springs.insert(line.springs.end(), object.stiffness.begin(), object.stiffness.end());
   line.dampers.insert(line.dampers.end(), object.damping.begin(), object.damping.end());
   line.dampers.resize(n, 0.0);
-  if (n == 0 || line.springs.size() != n) throw UsageError("object: as many springs to the hand as masses are needed");
+  if (n == 0 || line.springs.size() != n)
+    throw FaultError(Fault{"object.stiffness_n_per_m", "has not as many springs to the hand as there are masses", {}});
   requirePositive(line.masses, "mass", "kg");
   requirePositive(line.springs, line.parallel ? "spring" : "spring (the coupling is number 1)", "N/m");
-  if (!(handMass >= 0) || !(handDamping >= 0)) throw UsageError("hand mass and hand damping: 0 or more");
+  if (!(handMass >= 0) || !(handDamping >= 0))
+    throw FaultError(Fault{handMass >= 0 ? "hand_damping" : "hand_mass", "is negative", "0 or more"});
   line.source.resize(n);
   std::iota(line.source.begin(), line.source.end(), 0);
   return line;

@@ -1,0 +1,28 @@
+#include "base/ending.h"
+
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace reachlab {
+
+Ending endingOf(const std::exception& error) {
+  const auto* own = dynamic_cast<const Error*>(&error);
+  if (dynamic_cast<const UsageError*>(own) != nullptr) return {own->what(), 2};
+  if (dynamic_cast<const RefusedError*>(own) != nullptr) return {own->what(), 4};
+  if (own != nullptr) return {own->what(), 3};
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const std::length_error*>(&error) != nullptr)
+    return {"there is not enough memory for this; what was recorded is safe", 3};
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return {file->path1().string() + (file->path1().empty() ? "" : ": ") + "cannot be used: " + file->code().message(), 3};
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error))
+    return {"the operating system refuses: " + system->code().message(), 3};
+  if (dynamic_cast<const nlohmann::json::exception*>(&error) != nullptr)
+    return {"a file that was read does not hold what Reachlab wrote there, or should find there", 2};
+  return {"stopped by a fault of the program itself; what was recorded is safe. Please report what was asked for", kOwnFaultExit};
+}
+
+}  // namespace reachlab

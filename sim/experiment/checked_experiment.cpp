@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/number_range.h"
+#include "base/ticks.h"
+#include "sim/experiment/checked_experiment.h"
+
+namespace reachlab::experiment {
+namespace {
+
+constexpr double kLongestDuration = 3600, kLongestTimeout = 86400;  // [s]
+
+void checkInertia(const Object& object, std::vector<Fault>& faults) {
+  const auto& m = object.inertia;
+  const std::size_t before = faults.size();
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) checkNumber(fmt::format("object.inertia_kg_m2[{}][{}]", i, j), m[i][j], anyNumber(), faults);
+  if (faults.size() > before) return;
+  const double minor2 = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  const bool symmetric = m[0][1] == m[1][0] && m[0][2] == m[2][0] && m[1][2] == m[2][1];
+  if (!symmetric || !(m[0][0] > 0 && minor2 > 0 && determinant > 0))
+    faults.push_back({"object.inertia_kg_m2", "is not a symmetric positive matrix",
+                      "an inertia tensor: [Ix, Iy, Iz] above 0 kg m^2, or a symmetric positive 3 x 3 matrix"});
+}
+
+void checkVector(const std::string& key, const Vec3& v, std::vector<Fault>& faults) {
+  checkNumbers(key, {v.x, v.y, v.z}, 3, anyNumber(), faults);
+}
+
+void checkObject(const Object& object, std::vector<Fault>& faults) {
+  const bool one = object.kind == ObjectKind::Point || object.kind == ObjectKind::Body;
+  const std::size_t count = object.masses.size(), before = faults.size();
+  if (one) checkNumbers("object.masses_kg", object.masses, 1, positive("kg"), faults);
+  else if (count < 1 || count > kMaxMasses)
+    faults.push_back({"object.masses_kg", fmt::format("has {} elements", count), fmt::format("1 to {} masses", kMaxMasses)});
+  else checkNumbers("object.masses_kg", object.masses, -1, positive("kg"), faults);
+  const bool countIsRight = faults.size() == before || (count >= 1 && faults.back().key != "object.masses_kg");
+  if (countIsRight) {
+    const int springs = static_cast<int>(count) - (object.kind == ObjectKind::Parallel ? 0 : 1);
+    checkNumbers("object.stiffness_n_per_m", object.stiffness, springs, atLeastZero("N/m"), faults);
+    checkNumbers("object.damping_n_s_per_m", object.damping, springs, atLeastZero("N s/m"), faults);
+  }
+  checkNumber("object.viscosity_n_s_per_m", object.viscosity, atLeastZero("N s/m"), faults);
+  checkVector("object.gravity_m_per_s2", object.gravity, faults);
+  if (object.kind != ObjectKind::Body) return;
+  checkInertia(object, faults);
+  checkVector("object.fp_offset_m", object.fpOffset, faults);
+}
+
+void checkCoupling(const Experiment& e, std::vector<Fault>& faults) {
+  const bool parallel = e.object.kind == ObjectKind::Parallel;
+  if (parallel && e.coupling)
+    return faults.push_back({"coupling", "stands beside a parallel object, whose own springs are the hand's", "no coupling"});
+  if (!parallel && !e.coupling)
+    return faults.push_back({"coupling", "is missing", "{ \"stiffness_n_per_m\": …, \"damping_n_s_per_m\": … }"});
+  if (!e.coupling) return;
+  checkNumber("coupling.stiffness_n_per_m", e.coupling->stiffness, atLeastZero("N/m"), faults);
+  checkNumber("coupling.damping_n_s_per_m", e.coupling->damping, atLeastZero("N s/m"), faults);
+}
+
+/// `coordinates` < 0: the constraint is at fault itself, and how many there are is not known.
+void checkTask(const Task& task, int coordinates, std::vector<Fault>& faults) {
+  for (const auto& [key, place] : {std::pair{"task.start", &task.start}, std::pair{"task.target", &task.target}}) {
+    if (place->empty()) faults.push_back({key, "is missing", "constraint parameters, or three metres when free"});
+    else checkNumbers(key, *place, coordinates, anyNumber(), faults);
+  }
+  checkNumber("task.duration_s", task.duration, positiveUpTo(kLongestDuration, "s"), faults);
+  checkNumber("task.tolerance.position_m", task.tolerance.position, positive("m"), faults);
+  checkNumber("task.tolerance.velocity_m_per_s", task.tolerance.velocity, positive("m/s"), faults);
+  checkNumber("task.tolerance.time_s", task.tolerance.time, positiveUpTo(kLongestDuration, "s"), faults);
+  checkNumber("task.onset_m", task.onset, positive("m"), faults);
+  checkNumber("task.arm_radius_m", task.armRadius, positive("m"), faults);
+  checkNumber("task.timeout_s", task.timeout, positiveUpTo(kLongestTimeout, "s"), faults);
+}
+
+void checkTiming(const TimingLimits& timing, std::vector<Fault>& faults) {
+  checkNumber("timing.max_missed_ticks", timing.maxMissedTicks, wholeNumber(0, kNoTimingLimits.maxMissedTicks), faults);
+  // A gap between two ticks is never shorter than one.
+  const std::string allowed = fmt::format("{} s to {:.0f} s", kTickSeconds, kNoTimingLimits.maxGap);
+  checkNumber("timing.max_gap_s", timing.maxGap, {kTickSeconds, kNoTimingLimits.maxGap, true, allowed}, faults);
+}
+
+void checkArm(const Arm& arm, std::vector<Fault>& faults) {
+  const auto pair = [&](const char* key, const std::array<double, 2>& value, const NumberRange& range) {
+    checkNumbers(fmt::format("arm.{}", key), {value[0], value[1]}, 2, range, faults);
+  };
+  pair("link_length_m", arm.length, positive("m"));
+  pair("link_centre_m", arm.centre, positive("m"));
+  pair("link_mass_kg", arm.mass, positive("kg"));
+  pair("link_inertia_kg_m2", arm.inertia, positive("kg m^2"));
+  pair("joint_damping_n_m_s_per_rad", arm.damping, atLeastZero("N m s/rad"));
+  pair("shoulder_m", arm.shoulder, anyNumber());
+}
+
+void checkShape(const constraints::ConstraintSpec& spec, std::vector<Fault>& faults) {
+  for (const auto& [key, value] : spec.shape) checkNumber("constraint.shape." + key, value, anyNumber(), faults);
+}
+
+void checkObjectOnConstraint(const Object& object, const constraints::Constraint& constraint, std::vector<Fault>& faults) {
+  using constraints::ConstraintKind;
+  if (object.kind == ObjectKind::Body && constraint.kind != ConstraintKind::Free)
+    faults.push_back({"object.kind", "is body, which moves free", "constraint { \"name\": \"free\" }"});
+  if (constraint.kind != ConstraintKind::Surface) return;
+  if (object.masses.size() > 1)
+    faults.push_back({"object.masses_kg", fmt::format("has {} masses on a surface", object.masses.size()),
+                      "one mass on a surface; chains and parallel objects on curves or free"});
+  if (object.kind == ObjectKind::Parallel) faults.push_back({"object.kind", "is parallel on a surface", "parallel on curves or free"});
+}
+
+}  // namespace
+
+const std::vector<std::string>& methodNames() {
+  static const std::vector<std::string> names{"auto", "rk4", "exact", "abm", "adaptive", "stiff"};
+  return names;
+}
+
+const std::vector<std::string>& velocityEstimatorNames() {
+  static const std::vector<std::string> names{"auto", "difference", "low-pass", "butterworth", "kalman", "adaptive-window", "device"};
+  return names;
+}
+
+std::optional<std::array<constraints::Domain, 2>> placesInUse(const std::optional<Task>& task) {
+  if (!task || task->start.empty() || task->start.size() > 2 || task->start.size() != task->target.size()) return {};
+  std::array<constraints::Domain, 2> range{constraints::Domain{0, 0}, constraints::Domain{0, 0}};
+  for (std::size_t k = 0; k < task->start.size(); ++k) {
+    const double a = task->start[k], b = task->target[k];
+    if (!isWithin(anyNumber(), a) || !isWithin(anyNumber(), b)) return {};
+    range[k] = {std::min(a, b), std::max(a, b)};
+  }
+  return range;
+}
+
+CheckedExperiment check(const Experiment& experiment) {
+  CheckedExperiment checked;
+  std::vector<Fault>& faults = checked.faults;
+  if (experiment.schemaVersion != 1)
+    faults.push_back({"schema_version", fmt::format("is {}", experiment.schemaVersion), "1, the version that this program reads"});
+  checkShape(experiment.constraint, faults);
+  if (faults.empty()) {
+    constraints::ConstraintSpec spec = experiment.constraint;
+    spec.inUse = placesInUse(experiment.task);
+    try {
+      checked.constraint = constraints::makeConstraint(spec);
+    } catch (const UsageError& error) {
+      for (Fault& fault : faultsOf(error)) faults.push_back(std::move(fault));
+    }
+  }
+  checkObject(experiment.object, faults);
+  checkCoupling(experiment, faults);
+  if (experiment.task) {
+    const auto& constraint = checked.constraint;
+    checkTask(*experiment.task,
+              !constraint                                             ? -1
+              : constraint->kind == constraints::ConstraintKind::Free ? 3
+                                                                      : constraint->parameterCount(),
+              faults);
+  }
+  checkChoice("method", experiment.method, methodNames(), faults);
+  checkNumber("hand_mass_kg", experiment.handMass, atLeastZero("kg"), faults);
+  if (experiment.forceLimit) checkNumber("force_limit_n", *experiment.forceLimit, positive("N"), faults);
+  checkTiming(experiment.timing, faults);
+  checkChoice("velocity_estimator.kind", experiment.velocityEstimator.kind, velocityEstimatorNames(), faults);
+  checkNumber("velocity_estimator.cutoff_hz", experiment.velocityEstimator.cutoff, positiveUpTo(400, "Hz"), faults);
+  checkArm(experiment.arm, faults);
+  if (checked.constraint && faults.empty()) checkObjectOnConstraint(experiment.object, *checked.constraint, faults);
+  return checked;
+}
+
+std::vector<Fault> problems(const Experiment& experiment) { return check(experiment).faults; }
+
+}  // namespace reachlab::experiment

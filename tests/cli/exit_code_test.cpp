@@ -1,0 +1,130 @@
+#include "cli/exit_code.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <variant>
+
+#include "cli/option_words.h"
+#include "tests/cli/program.h"
+
+using namespace reachlab;
+
+namespace {
+
+struct Said {
+  int code = 0;
+  std::string words;
+};
+
+template <class Work>
+Said endOf(Work&& work) {
+  CLI::App app;
+  testing::internal::CaptureStderr();
+  const int code = cli::exitCodeOf(app, [&]() -> int {
+    work();
+    return 0;
+  });
+  return {code, testing::internal::GetCapturedStderr()};
+}
+
+}  // namespace
+
+TEST(ExitCode, OfWhatLibrariesThrowHasWordsOfOurOwn) {
+  struct Case {
+    std::function<void()> work;
+    int code;
+    std::string words;
+  };
+  const Case cases[] = {
+      {[] { throw std::bad_alloc(); }, 3, "not enough memory"},
+      {[] { std::vector<int>().reserve(std::size_t(-1)); }, 3, "not enough memory"},
+      {[] { (void)std::filesystem::file_size("/not/there"); }, 3, "/not/there: cannot be used: No such file or directory"},
+      {[] { throw std::filesystem::filesystem_error("x", std::make_error_code(std::errc::no_space_on_device)); }, 3, "No space left"},
+      {[] { throw std::system_error(EAGAIN, std::generic_category(), "thread"); }, 3, "operating system refuses: Resource temporarily"},
+      {[] { (void)nlohmann::json::parse("{"); }, 2, "does not hold what"},
+      {[] { (void)nlohmann::json::parse("{}").at("x"); }, 2, "does not hold what"},
+      {[] { (void)std::vector<int>{1}.at(3); }, 70, "fault of the program itself"},
+      {[] { (void)std::stoi("x"); }, 70, "fault of the program itself"},
+      {[] { (void)std::optional<int>().value(); }, 70, "fault of the program itself"},
+      {[] { (void)std::get<0>(std::variant<int, char>('c')); }, 70, "fault of the program itself"},
+      {[] { std::promise<int>().get_future().get(); }, 70, "fault of the program itself"},
+  };
+  for (const Case& c : cases) {
+    const Said said = endOf(c.work);
+    EXPECT_EQ(said.code, c.code) << said.words;
+    EXPECT_NE(said.words.find(c.words), std::string::npos) << said.words;
+    for (const char* foreign : {"bad_alloc", "filesystem error", "json.exception", "std::", "basic_string", "vector", "stoi", "what()"})
+      EXPECT_EQ(said.words.find(foreign), std::string::npos) << said.words;
+  }
+}
+
+TEST(ExitCode, OfOurOwnIsTheOneBehindEach) {
+  EXPECT_EQ(endOf([] { throw UsageError("x: bad"); }).code, 2);
+  EXPECT_EQ(endOf([] { throw ResourceError("no disk"); }).code, 3);
+  EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).code, 4);
+  EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).words, "stiff\n");
+}
+
+TEST(OptionWords, TellAFaultOfTheRequestByItsOption) {
+  EXPECT_EQ(endOf([] {
+              throw FaultError(Fault{"participant.age", "is 200", "0 to 130 years"});
+            }).words,
+            "--age: is 200; allowed: 0 to 130 years\n");
+  EXPECT_EQ(cli::optionOf("disk_reserve"), "--disk-reserve");
+  EXPECT_EQ(cli::optionOf("object.masses_kg"), "");
+  const Said inFile = endOf([] { throw FaultError(Fault{"method", "is x", "auto", FilePlace{"e.json", 3, 4}}); });
+  EXPECT_EQ(inFile.words, "e.json:3:4: method: is x; allowed: auto\n") << "what stands in a file was not given by an option";
+}
+
+/// Every option of the table is one that some command has.
+TEST(OptionWords, AreOptionsThatThereAre) {
+  std::string help;
+  for (const char* command : {"run", "predict", "simulate", "bench", "analyze"}) help += test::reach(std::string(command) + " --help").out;
+  for (const char* key : {"subject",
+                          "session",
+                          "trials",
+                          "run",
+                          "seed",
+                          "day",
+                          "data",
+                          "device",
+                          "fast",
+                          "resume",
+                          "disk_reserve",
+                          "sweep",
+                          "hand_mass",
+                          "unknowns",
+                          "duration",
+                          "hand_damping",
+                          "point",
+                          "scene",
+                          "method",
+                          "cutoff",
+                          "until",
+                          "participant.age",
+                          "participant.sex",
+                          "participant.handedness"}) {
+    const std::string option = cli::optionOf(key);
+    ASSERT_FALSE(option.empty()) << key;
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+  }
+}
+
+TEST(OptionWords, AreWhatAPersonReads) {
+  const test::Folder folder;
+  const std::string data = " --data " + folder.string();
+  const test::Ended labels = test::reach("run dingwell --device simulated --fast --subject a_b --session c-d" + data);
+  EXPECT_EQ(labels.exitCode, 2);
+  EXPECT_EQ(labels.err,
+            "--subject: \"a_b\" is not a label; allowed: up to 60 letters and digits\n"
+            "--session: \"c-d\" is not a label; allowed: up to 60 letters and digits\n");
+  EXPECT_TRUE(
+      test::reach("predict chain-slow --criterion min-hand-jerk --sweep n=1:2").err.starts_with("--sweep: is n=1:2; allowed: KEY=FROM"));
+  EXPECT_TRUE(test::reach("predict ellipse --criterion min-hand-jerk --point behind-spring --unknowns 1").err.starts_with("--unknowns: "));
+  EXPECT_TRUE(test::reach("bench --scene S99 --quick").err.starts_with("--scene: is S99; allowed: S1"));
+}

@@ -1,0 +1,161 @@
+#include "sim/experiment/checked_experiment.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "sim/experiment/compiled_experiment.h"
+
+namespace reachlab::experiment {
+namespace {
+
+std::vector<Fault> faultsOfText(const std::string& text) {
+  try {
+    openExperimentText(text, "x.json");
+    return {};
+  } catch (const UsageError& error) {
+    return faultsOf(error);
+  }
+}
+
+struct Edit {
+  const char* name;
+  std::string key;  // of the first fault
+  std::function<void(Experiment&)> change;
+};
+
+std::vector<Edit> edits() {
+  return {
+      {"mass", "object.masses_kg[1]", [](Experiment& e) { e.object.masses[1] = -1; }},
+      {"no masses", "object.masses_kg", [](Experiment& e) { e.object.masses.clear(); }},
+      {"a spring too many", "object.stiffness_n_per_m", [](Experiment& e) { e.object.stiffness.push_back(600); }},
+      {"spring", "object.stiffness_n_per_m[0]", [](Experiment& e) { e.object.stiffness[0] = -600; }},
+      {"damper", "object.damping_n_s_per_m[0]", [](Experiment& e) { e.object.damping[0] = -1; }},
+      {"viscosity", "object.viscosity_n_s_per_m", [](Experiment& e) { e.object.viscosity = -1; }},
+      {"coupling", "coupling.stiffness_n_per_m", [](Experiment& e) { e.coupling->stiffness = -5; }},
+      {"coupling beside parallel", "coupling",
+       [](Experiment& e) {
+         e.object.kind = ObjectKind::Parallel;
+         e.object.stiffness.assign(e.object.masses.size(), 50);
+         e.object.damping.assign(e.object.masses.size(), 0);
+       }},
+      {"body on a line", "object.kind",
+       [](Experiment& e) {
+         e.object = {};
+         e.object.kind = ObjectKind::Body;
+         e.object.masses = {1};
+         for (std::size_t i = 0; i < 3; ++i) e.object.inertia[i][i] = 0.01;
+       }},
+      {"inertia", "object.inertia_kg_m2",
+       [](Experiment& e) {
+         e.object = {};
+         e.object.kind = ObjectKind::Body;
+         e.object.masses = {1};
+         e.constraint.name = "free";
+         e.constraint.shape.clear();
+         e.task.reset();
+       }},
+      {"two coordinates on a line", "task.start",
+       [](Experiment& e) {
+         e.task->start = {0, 1};
+       }},
+      {"duration", "task.duration_s", [](Experiment& e) { e.task->duration = 0; }},
+      {"tolerance", "task.tolerance.position_m", [](Experiment& e) { e.task->tolerance.position = -0.1; }},
+      {"timeout", "task.timeout_s", [](Experiment& e) { e.task->timeout = 1e6; }},
+      {"method", "method", [](Experiment& e) { e.method = "euler"; }},
+      {"hand mass", "hand_mass_kg", [](Experiment& e) { e.handMass = -1; }},
+      {"force limit", "force_limit_n", [](Experiment& e) { e.forceLimit = 0; }},
+      {"missed ticks", "timing.max_missed_ticks", [](Experiment& e) { e.timing.maxMissedTicks = -1; }},
+      {"gap", "timing.max_gap_s", [](Experiment& e) { e.timing.maxGap = 1e6; }},
+      {"estimator", "velocity_estimator.kind", [](Experiment& e) { e.velocityEstimator.kind = "guess"; }},
+      {"cutoff", "velocity_estimator.cutoff_hz", [](Experiment& e) { e.velocityEstimator.cutoff = 500; }},
+      {"arm", "arm.link_mass_kg[1]", [](Experiment& e) { e.arm.mass[1] = 0; }},
+      {"shape", "constraint.shape.length_m", [](Experiment& e) { e.constraint.shape["length_m"] = -1; }},
+      {"unknown shape", "constraint.shape.lenght_m", [](Experiment& e) { e.constraint.shape["lenght_m"] = 1; }},
+      {"unknown constraint", "constraint.name", [](Experiment& e) { e.constraint.name = "lime"; }},
+      {"formula", "constraint.curve[1]",
+       [](Experiment& e) {
+         e.constraint = {};
+         e.constraint.curve = {"0", "0.1*cos(phi", "0.1*sin(phi)"};
+       }},
+      {"not finite where it moves", "constraint",
+       [](Experiment& e) {
+         e.constraint = {};
+         e.constraint.curve = {"phi/10", "1/(phi - 1)", "0"};
+       }},
+  };
+}
+
+}  // namespace
+
+TEST(CheckedExperiment, AValueAndItsFileHaveTheSameFaults) {
+  for (const Edit& edit : edits()) {
+    Experiment e = readExperiment("chain-moderate");
+    edit.change(e);
+    const std::vector<Fault> value = check(e).faults, file = faultsOfText(toJson(e));
+    ASSERT_FALSE(value.empty()) << edit.name;
+    EXPECT_EQ(value[0].key, edit.key) << edit.name << ": " << toText(value);
+    ASSERT_EQ(value.size(), file.size()) << edit.name << "\n" << toText(value) << "\n" << toText(file);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      EXPECT_EQ(value[i].key, file[i].key) << edit.name;
+      EXPECT_EQ(value[i].what, file[i].what) << edit.name;
+      EXPECT_EQ(value[i].allowed, file[i].allowed) << edit.name;
+      ASSERT_TRUE(file[i].place) << edit.name << ": the reader says where it stands";
+      EXPECT_EQ(file[i].place->file, "x.json");
+      EXPECT_GT(file[i].place->line, 1) << edit.name;
+    }
+    EXPECT_THROW(CompiledExperiment{e}, FaultError) << edit.name;
+  }
+}
+
+TEST(CheckedExperiment, OfAValueThatIsNotFinite) {
+  Experiment e = readExperiment("chain-moderate");
+  e.object.masses[0] = std::numeric_limits<double>::quiet_NaN();
+  e.task->target[0] = std::numeric_limits<double>::infinity();
+  const std::vector<Fault> faults = check(e).faults;
+  ASSERT_EQ(faults.size(), 2u) << toText(faults);
+  EXPECT_EQ(toText(faults[0]), "object.masses_kg[0]: is nan; allowed: more than 0 kg");
+  EXPECT_EQ(toText(faults[1]), "task.target[0]: is inf; allowed: any finite number");
+}
+
+// An editor has no file: the character stands for the place.
+TEST(CheckedExperiment, NamesTheCharacterOfAFormula) {
+  Experiment e = readExperiment("chain-moderate");
+  e.constraint = {};
+  e.constraint.curve = {"0", "0.1*cos(phi)", "0.1*sni(phi)"};
+  const std::vector<Fault> value = check(e).faults;
+  ASSERT_EQ(value.size(), 1u) << toText(value);
+  EXPECT_TRUE(toText(value[0]).starts_with("constraint.curve[2], character 5: ")) << toText(value);
+  const std::vector<Fault> file =
+      faultsOfText(R"json({ "schema_version": 1, "object": { "kind": "point", "masses_kg": [1] }, "coupling": { "stiffness_n_per_m": 600 },
+"constraint": { "curve": ["0", "0.1*cos(phi)", "0.1*sni(phi)"]
+}
+})json");
+  ASSERT_EQ(file.size(), 1u) << toText(file);
+  EXPECT_TRUE(toText(file[0]).starts_with("x.json:2:53: constraint.curve[2]: ")) << toText(file);
+}
+
+TEST(CheckedExperiment, WhatCannotBeReadHasNoFaultsThatFollowFromIt) {
+  const std::vector<Fault> kind = faultsOfText(R"({ "schema_version": 1, "constraint": { "name": "line" },
+"object": { "kind": "chian", "masses_kg": [1, 1, 1], "stiffness_n_per_m": [1, 1] }, "hand_mass_kg": -1 })");
+  ASSERT_EQ(kind.size(), 2u) << toText(kind);
+  EXPECT_EQ(kind[0].key, "object.kind");
+  EXPECT_EQ(kind[1].key, "hand_mass_kg");
+  const std::vector<Fault> masses = faultsOfText(R"({ "schema_version": 1, "constraint": { "name": "line" },
+"object": { "kind": "chain", "masses_kg": "three", "stiffness_n_per_m": [1, 1] }, "coupling": { "stiffness_n_per_m": -1 } })");
+  ASSERT_EQ(masses.size(), 2u) << toText(masses);
+  EXPECT_EQ(masses[0].key, "object.masses_kg");
+  EXPECT_EQ(masses[1].key, "coupling.stiffness_n_per_m");
+}
+
+TEST(CheckedExperiment, CompilesWhatIsInOrder) {
+  for (const std::string& name : shippedExperiments()) {
+    const CheckedExperiment checked = check(readExperiment(name));
+    EXPECT_TRUE(checked.faults.empty()) << toText(checked.faults);
+    ASSERT_TRUE(checked.constraint);
+    EXPECT_EQ(checked.constraint->kind, openExperiment(name).constraint().kind);
+  }
+}
+
+}  // namespace reachlab::experiment
