@@ -38,7 +38,7 @@ void writeText(const std::string& text, const std::string& path) {
 }
 
 // Median of repeated computations, on stderr: a figure for the machine at hand.
-void reportTime(const experiment::Experiment& experiment, predict::Criterion criterion, const predict::PredictOptions& options) {
+void reportTime(const experiment::CompiledExperiment& experiment, predict::Criterion criterion, const predict::PredictOptions& options) {
   constexpr int kRuns = 21;
   std::vector<double> microseconds;
   for (int i = 0; i < kRuns; ++i) {
@@ -51,7 +51,7 @@ void reportTime(const experiment::Experiment& experiment, predict::Criterion cri
 }
 
 // A prediction on a thread of its own; who waits longer than a moment is told so, on a terminal.
-std::unique_ptr<predict::Prediction> predictPatiently(const experiment::Experiment& experiment, predict::Criterion criterion,
+std::unique_ptr<predict::Prediction> predictPatiently(const experiment::CompiledExperiment& experiment, predict::Criterion criterion,
                                                       const predict::PredictOptions& options) {
   using namespace std::chrono_literals;
   const auto begin = std::chrono::steady_clock::now();
@@ -66,7 +66,7 @@ std::unique_ptr<predict::Prediction> predictPatiently(const experiment::Experime
   return result.get();
 }
 
-void runSweep(const PredictArguments& arguments, const experiment::Experiment& experiment, predict::Criterion criterion,
+void runSweep(const PredictArguments& arguments, const experiment::CompiledExperiment& experiment, predict::Criterion criterion,
               const predict::PredictOptions& options) {
   const predict::Sweep sweep = predict::parseSweep(arguments.sweep);
   const auto begin = std::chrono::steady_clock::now();
@@ -90,7 +90,7 @@ void runPredict(const PredictArguments& arguments) {
   if (arguments.duration > kLongestDuration)
     throw UsageError(fmt::format("--duration: {} s; allowed: more than 0, at most {:.0f} s", arguments.duration, kLongestDuration));
   if (arguments.json && !arguments.sweep.empty()) throw UsageError("--sweep: writes CSV rows; --json is for a single prediction");
-  const experiment::Experiment experiment = experiment::readExperiment(arguments.experiment);
+  const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
   predict::PredictOptions options;
   options.duration = arguments.duration;
   options.handDamping = arguments.handDamping;

@@ -9,7 +9,7 @@
 #include "cli/hand_laws.h"
 #include "cli/standard_streams.h"
 #include "base/error.h"
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/compiled_scene.h"
 
 namespace reachlab::cli {
 namespace {
@@ -130,7 +130,8 @@ dynamics::StepStatus stepInHalves(dynamics::Plant& plant, const HandLaw& law, do
 }
 
 void simulate(const Request& request) {
-  experiment::Experiment experiment = experiment::readExperiment(request.experiment);
+  const experiment::CompiledExperiment compiled = experiment::openExperiment(request.experiment);
+  experiment::Experiment experiment = compiled.experiment();
   const auto positive = [](double value, const char* option) {
     if (!(value > 0) || !std::isfinite(value))
       throw UsageError(fmt::format("{}: {} s; allowed: a positive number of seconds", option, value));
@@ -147,7 +148,7 @@ void simulate(const Request& request) {
                     kMostRows, kMostSteps));
   if (!request.method.empty()) experiment.method = request.method;
 
-  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
+  const constraints::Constraint& constraint = compiled.constraint();
   const int parameters = constraint.kind == constraints::ConstraintKind::Free ? 0 : constraint.parameterCount();
   const std::size_t coordinates = parameters == 0 ? 3 : static_cast<std::size_t>(parameters);
   if (!experiment.task && request.at.empty()) throw RefusedError("simulate needs a start: give task.start, or --at");
@@ -173,7 +174,7 @@ void simulate(const Request& request) {
   // The longest equal step that divides a row and is no longer than asked.
   const double within = std::min(request.every, until > 0 ? until : request.every);
   const double step = within / std::max(1.0, std::ceil(within / request.step * (1 - 1e-12)));
-  dynamics::Scene scene = dynamics::compileScene(experiment, {request.method, step, 0});
+  dynamics::Scene scene = dynamics::compileScene(experiment, constraint, {request.method, step, 0});
   dynamics::Plant& plant = *scene.plant;
   const bool coupled = request.hand != "none";
   if (!request.force.empty()) plant.setExtraForce({request.force[0], request.force[1], request.force[2]});

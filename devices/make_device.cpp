@@ -1,6 +1,6 @@
 #include "devices/make_device.h"
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "devices/registry.h"
 #include "devices/replay/replayed_reach.h"
 
@@ -21,8 +21,8 @@ Spec parse(const std::string& spec) {
 // What a replayed file is called is its own business.
 bool takesHandOptions(const Spec& asked) { return asked.name != "replay"; }
 
-std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked, const experiment::Experiment& experiment,
-                                              std::uint64_t seed) {
+std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked,
+                                              const experiment::CompiledExperiment& experiment, std::uint64_t seed) {
   if (!takesHandOptions(asked)) return driver.make({asked.name, asked.argument, experiment, seed});
   DeviceOptions options(asked.argument, "device " + asked.name);
   const HandOptions hand = takeHandOptions(options);
@@ -33,17 +33,17 @@ std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const 
 
 }  // namespace
 
-std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                  std::uint64_t seed) {
   const Spec asked = parse(spec);
   if (const DeviceDriver* driver = findDriver(asked.name)) return makeBy(*driver, asked, experiment, seed);
   std::string known;
   for (const DeviceDriver& driver : deviceDrivers()) known += (known.empty() ? "" : ", ") + driver.usage;
-  throw UsageError("device " + spec + ": unknown; allowed: " + known);
+  throw FaultError(Fault{"device", "is " + spec + ", which is unknown", known});
 }
 
-std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
-                                                  std::uint64_t seed) {
-  return makeDevice(spec, experiment.experiment(), seed);
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {
+  return makeDevice(spec, experiment::CompiledExperiment(experiment), seed);
 }
 
 HandOptions handOptionsOf(const std::string& spec) {

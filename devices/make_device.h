@@ -10,12 +10,12 @@
 namespace reachlab::devices {
 
 /// Makes the device that `NAME[:ARGUMENT]` names, for this experiment; `deviceDrivers` (registry.h) has all that there are. Of a virtual
-/// hand, trial i depends on (seed, i) alone. Throws UsageError (unknown name, key or value, a file that cannot be understood),
+/// hand, trial i depends on (seed, i) alone. Throws FaultError (unknown name, key or value, a file that cannot be understood),
 /// ResourceError (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
-std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
-/// The same for an experiment that is compiled already.
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed);
+/// Checks and compiles the experiment first.
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
 /// What is asked of the device beside its driver's own options: mapping and guards (docs/devices.md). Throws UsageError.
 HandOptions handOptionsOf(const std::string& spec);

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::devices {
 
@@ -24,7 +24,7 @@ DeviceOptions::DeviceOptions(const std::string& text, std::string device) : devi
     }
     const std::string key = item.substr(0, equals);
     const bool twice = std::any_of(items_.begin(), items_.end(), [&](const auto& other) { return other.first == key; });
-    if (twice) throw UsageError(fmt::format("{}: {}: given twice", device_, key));
+    if (twice) throw FaultError(Fault{"device", fmt::format("{}: {} is given twice", device_, key), {}});
     items_.emplace_back(key, equals == std::string::npos ? "" : item.substr(equals + 1));
   }
 }
@@ -44,7 +44,7 @@ double DeviceOptions::number(const std::string& key, double otherwise, double le
   double value = 0;
   const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
   if (error != std::errc() || end != text->data() + text->size() || !(value >= least) || !(value <= most))
-    throw UsageError(fmt::format("{}: {}={}: allowed: a number from {} to {}", device_, key, *text, least, most));
+    throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("a number from {} to {}", least, most)});
   return value;
 }
 
@@ -52,7 +52,7 @@ std::string DeviceOptions::word(const std::string& key, const std::vector<std::s
   const auto text = take(key);
   if (!text) return allowed.front();
   if (std::find(allowed.begin(), allowed.end(), *text) == allowed.end())
-    throw UsageError(fmt::format("{}: {}={}: allowed: {}", device_, key, *text, fmt::join(allowed, ", ")));
+    throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("{}", fmt::join(allowed, ", "))});
   return *text;
 }
 
@@ -65,8 +65,8 @@ std::string DeviceOptions::rest() {
 
 void DeviceOptions::done() const {
   if (items_.empty()) return;
-  throw UsageError(fmt::format("{}: {}: unknown; allowed: {}", device_, items_.front().first,
-                               known_.empty() ? std::string("no options") : fmt::format("{}", fmt::join(known_, ", "))));
+  throw FaultError(Fault{"device", fmt::format("{}: {} is not known", device_, items_.front().first),
+                         known_.empty() ? std::string("nothing behind the name") : fmt::format("{}", fmt::join(known_, ", "))});
 }
 
 }  // namespace reachlab::devices

@@ -28,9 +28,9 @@ std::vector<FoundDevice> findDevices() {
   return found;
 }
 
-Vec3 startOf(const experiment::Experiment& experiment) {
-  if (!experiment.task) return {};
-  return trial::makeProtocolSettings(experiment, constraints::makeConstraint(experiment.constraint)).start;
+Vec3 startOf(const experiment::CompiledExperiment& experiment) {
+  if (!experiment.experiment().task) return {};
+  return trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start;
 }
 
 std::vector<FoundDevice> alwaysThere(const DeviceDriver& self) {

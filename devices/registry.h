@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
@@ -14,7 +14,7 @@ namespace reachlab::devices {
 /// What a driver is given to make a device: NAME:ARGUMENT, and the run it is for.
 struct DeviceRequest {
   std::string name, argument;  // argument: behind the colon, empty without one
-  const experiment::Experiment& experiment;
+  const experiment::CompiledExperiment& experiment;
   std::uint64_t seed = 0;
   /// For messages: "device phantom:Left".
   std::string words() const { return "device " + name + (argument.empty() ? "" : ":" + argument); }
@@ -53,7 +53,7 @@ const DeviceDriver* findDriver(const std::string& name);
 std::vector<FoundDevice> findDevices();
 
 /// Where the hand of this experiment is to begin [m], world frame; the origin without a task.
-Vec3 startOf(const experiment::Experiment& experiment);
+Vec3 startOf(const experiment::CompiledExperiment& experiment);
 /// For drivers whose device is always there.
 std::vector<FoundDevice> alwaysThere(const DeviceDriver& self);
 /// A row of `self` that fills in what `info` says.

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/cubic_spline.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
@@ -59,7 +59,8 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
   const Vec3 chord = far - first, wanted = target - start;
   const double length = norm(chord), asked = norm(wanted);
   if (!(length > 0)) throw UsageError(reach.file + ": the hand does not move");
-  if (!(asked > 0)) throw UsageError("task: start and target are the same place; a recorded reach cannot be laid onto them");
+  if (!(asked > 0))
+    throw FaultError(Fault{"task.target", "start and target are the same place; a recorded reach cannot be laid onto them", "two places"});
 
   std::vector<Vec3> laid;
   laid.reserve(reach.position.size());
@@ -91,9 +92,8 @@ std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& path, c
 namespace {
 
 std::unique_ptr<haptics::HapticDevice> makeReplay(const DeviceRequest& request) {
-  if (request.argument.empty()) throw UsageError("device replay: what to replay is missing; allowed: replay:FILE, replay:FOLDER");
-  const trial::ProtocolSettings task =
-      trial::makeProtocolSettings(request.experiment, constraints::makeConstraint(request.experiment.constraint));
+  if (request.argument.empty()) throw FaultError(Fault{"device", "replay: what to replay is missing", "replay:FILE, replay:FOLDER"});
+  const trial::ProtocolSettings task = trial::makeProtocolSettings(request.experiment.experiment(), request.experiment.constraint());
   return makeReplayHand(request.argument, task.start, task.target);
 }
 

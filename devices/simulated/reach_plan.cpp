@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
 #include "constraints/geometry/arc_length.h"
@@ -67,12 +67,13 @@ ReachPlan planByPrediction(const experiment::Experiment& experiment, double leng
   // Ways that no line has are predicted on the nearest one: the reaches of an object on springs scale with the distance.
   const double lineLength = std::clamp(length, kShortestLine, kLongestLine), scale = length / lineLength;
   const experiment::Experiment line = onLine(experiment, lineLength);
+  const constraints::Constraint lineConstraint = constraints::makeConstraint(line.constraint);
   const experiment::Task& task = *line.task;
   return timeForTask(task, [&](double duration) {
     predict::PredictOptions options;
     options.handMass = handMass;
     options.duration = duration;
-    const std::shared_ptr<const predict::Prediction> prediction = predict::predict(line, criterion, options);
+    const std::shared_ptr<const predict::Prediction> prediction = predict::predict(line, lineConstraint, criterion, options);
     std::vector<double> x(line.object.masses.size()), v(x.size());
     const auto hasLeft = [&](double t) { return scale * std::abs(prediction->handAt(t).position) > task.onset; };
     const auto isThere = [&](double t) {
@@ -97,7 +98,7 @@ ReachPlan planAlongCurve(const experiment::Experiment& experiment, const constra
                          std::optional<double> handMass) {
   const double from = experiment.task->start[0], to = experiment.task->target[0];
   const auto way = std::make_shared<const constraints::ArcLength>(constraint, from, to);
-  if (!(way->length() > 0)) throw UsageError("task: start and target are the same place");
+  if (!(way->length() > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
   // Beyond both ends at their own pace, since a hand that carries springs passes the target.
   const auto perMetre = [&](double phi) { return (to < from ? -1 : 1) / norm(constraints::evaluate(constraint.curve, phi).rPhi); };
   const double before = perMetre(from), after = perMetre(to);
@@ -139,7 +140,7 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
     reach.from[k] = task.start[k];
     reach.by[k] = task.target[k] - task.start[k];
   }
-  if (reach.by[0] == 0 && reach.by[1] == 0) throw UsageError("task: start and target are the same place");
+  if (reach.by[0] == 0 && reach.by[1] == 0) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
   return timeForTask(task, [&](double duration) {
     const auto handAt = [=](double t) {
       const Motion m = reach.at(t, duration);
@@ -157,20 +158,22 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
 
 }  // namespace
 
-ReachPlan makeReachPlan(const experiment::Experiment& experiment, std::optional<predict::Criterion> criterion,
+ReachPlan makeReachPlan(const experiment::CompiledExperiment& compiled, std::optional<predict::Criterion> criterion,
                         std::optional<double> handMass) {
-  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
+  const experiment::Experiment& experiment = compiled.experiment();
+  const constraints::Constraint& constraint = compiled.constraint();
   const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment, constraint);
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
-  if (flat && place.start == place.target) throw UsageError("task: start and target are the same place");
+  if (flat && place.start == place.target) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
   constexpr auto kUsual = predict::Criterion::MinHandJerk;
   if (flat) return planAlongChord(experiment, place.start, place.target, criterion.value_or(kUsual), handMass);
   if (criterion || handMass)
-    throw UsageError(fmt::format(
-        "device simulated: {}: the simulated subject plans by a criterion on a straight line and free in space, not on {} '{}'; "
-        "allowed here: neither criterion nor hand-mass",
-        criterion ? fmt::format("criterion={}", predict::nameOf(*criterion)) : fmt::format("hand-mass={}", *handMass),
-        constraint.kind == constraints::ConstraintKind::Curve ? "the curve" : "the surface", experiment.constraint.name));
+    throw FaultError(
+        Fault{"device",
+              fmt::format("simulated: {}: the simulated subject plans by a criterion on a straight line and free in space, not on {} '{}'",
+                          criterion ? fmt::format("criterion={}", predict::nameOf(*criterion)) : fmt::format("hand-mass={}", *handMass),
+                          constraint.kind == constraints::ConstraintKind::Curve ? "the curve" : "the surface", experiment.constraint.name),
+              "neither criterion nor hand-mass here"});
   const bool flexible =
       experiment.object.kind == experiment::ObjectKind::Chain || experiment.object.kind == experiment::ObjectKind::Parallel;
   if (flexible && constraint.kind == constraints::ConstraintKind::Curve) return planAlongCurve(experiment, constraint, kUsual, handMass);

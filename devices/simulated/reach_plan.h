@@ -23,7 +23,7 @@ struct ReachPlan {
 /// Gravity is not compensated, and a body is taken for a point: held ahead of its centre on the line of the reach it follows, held more
 /// than some millimetres beside that line it swings and does not come to rest. Throws UsageError (no task, start and target are one
 /// place, a criterion or a hand mass where no criterion is followed), RefusedError from predict.
-ReachPlan makeReachPlan(const experiment::Experiment& experiment, std::optional<predict::Criterion> criterion,
+ReachPlan makeReachPlan(const experiment::CompiledExperiment& experiment, std::optional<predict::Criterion> criterion,
                         std::optional<double> handMass);
 
 }  // namespace reachlab::devices

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
 #include "devices/simulated/played_hand.h"
@@ -103,13 +103,13 @@ double readNumber(const std::string& key, const std::string& text, double most) 
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= 0) || !(value <= most))
-    throw UsageError(fmt::format("device simulated: {}={}: allowed: a number from 0 to {}", key, text, most));
+    throw FaultError(Fault{"device", fmt::format("simulated: {}={}", key, text), fmt::format("a number from 0 to {}", most)});
   return value;
 }
 
 predict::Criterion readCriterion(const std::string& text) {
   if (const auto criterion = predict::criterionFromName(text)) return *criterion;
-  throw UsageError(fmt::format("device simulated: criterion={}: allowed: the names of `reach list criteria`", text));
+  throw FaultError(Fault{"device", "simulated: criterion=" + text, "the name of a criterion"});
 }
 
 }  // namespace
@@ -130,13 +130,13 @@ SubjectSpec parseSubject(const std::string& text) {
     else if (key == "hand-mass") subject.handMass = readNumber(key, value, 1000);
     else if (key == "criterion") subject.criterion = readCriterion(value);
     else
-      throw UsageError(
-          fmt::format("device simulated: {}: unknown; allowed: noise, criterion, hand-mass, time-sd, speed-sd, reaction", key));
+      throw FaultError(
+          Fault{"device", fmt::format("simulated: {} is not known", key), "noise, criterion, hand-mass, time-sd, speed-sd, reaction"});
   }
   return subject;
 }
 
-std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::Experiment& experiment, const SubjectSpec& subject,
+std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,
                                                          std::uint64_t seed) {
   const ReachPlan plan = makeReachPlan(experiment, subject.criterion, subject.handMass);
   haptics::DeviceInfo info;

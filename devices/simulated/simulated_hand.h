@@ -23,7 +23,7 @@ struct SubjectSpec {
 SubjectSpec parseSubject(const std::string& text);
 
 /// Throws UsageError, RefusedError from the plan. Trial i is a function of (seed, i) alone.
-std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::Experiment& experiment, const SubjectSpec& subject,
+std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,
                                                          std::uint64_t seed);
 
 }  // namespace reachlab::devices

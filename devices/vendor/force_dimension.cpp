@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "devices/drivers.h"
 #include "devices/io/polled_device.h"
 #include "devices/options.h"
@@ -156,7 +156,7 @@ std::unique_ptr<haptics::HapticDevice> makeForceDimension(const DeviceRequest& r
   const std::string& plain = options.plain();
   if (!plain.empty()) {
     if (plain.size() > 2 || plain.find_first_not_of("0123456789") != std::string::npos)
-      throw UsageError(fmt::format("{}: allowed: forcedimension:N with N = 0, 1, …", request.words()));
+      throw FaultError(Fault{"device", "is " + request.words(), "forcedimension:N with N = 0, 1, …"});
     index = std::stoi(plain);
   }
   const bool deviceVelocity = options.word("velocity", {"estimated", "device"}) == "device";

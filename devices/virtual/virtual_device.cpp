@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
 #include "devices/options.h"
@@ -101,7 +101,8 @@ std::string modelNames() {
 std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request) {
   DeviceOptions options(request.argument, request.words());
   const DeviceModel* model = findDeviceModel(options.plain());
-  if (model == nullptr) throw UsageError(fmt::format("{}: allowed: virtual:MODEL with MODEL one of {}", request.words(), modelNames()));
+  if (model == nullptr)
+    throw FaultError(Fault{"device", "is " + request.words(), fmt::format("virtual:MODEL with MODEL one of {}", modelNames())});
   VirtualDevice::Options chosen;
   chosen.hand.mass = options.number("arm-mass", chosen.hand.mass, 0, 50);
   chosen.hand.stiffness = options.number("arm-stiffness", chosen.hand.stiffness, 0, 1e5);

@@ -9,6 +9,7 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include "base/ending.h"
 #include "base/error.h"
 #include "gui/app/key_focus.h"
 #include "gui/app/message_bar.h"
@@ -120,7 +121,7 @@ void MainWindow::showExperiment() {
   trace_.setPath(task ? constraints::TaskPath(compiled.constraint(), task->start, task->target) : constraints::TaskPath());
   screens_->showExperiment(compiled);
   showOverlay();
-  forecast_.setExperiment(compiled.experiment());
+  forecast_.setExperiment(compiled);
   setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(QString::fromStdString(compiled.experiment().name)));
 }
 
@@ -207,7 +208,7 @@ void MainWindow::nextTrial() {
     message_->say({});
     if (!session_.next(docks_.session->request()) && session_.run() == nullptr) message_->say(QStringLiteral("The session is complete."));
   } catch (const std::exception& e) {
-    message_->say(QString::fromUtf8(e.what()));
+    message_->say(QString::fromStdString(endingOf(e).sentence));
   }
   showStage();
 }

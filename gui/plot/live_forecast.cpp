@@ -9,7 +9,7 @@ namespace reachlab::gui::plot {
 
 LiveForecast::~LiveForecast() { stop_.request_stop(); }
 
-void LiveForecast::setExperiment(const experiment::Experiment& experiment) {
+void LiveForecast::setExperiment(const experiment::CompiledExperiment& experiment) {
   experiment_ = experiment;
   forecasts_.clear();
   ended_.reset();
@@ -31,11 +31,11 @@ void LiveForecast::poll() {
   if (stale_ && !computing_.valid()) {
     stale_ = false;
     computing_ =
-        std::async(std::launch::async, [experiment = experiment_, stop = stop_.get_token()] { return forecastAll(experiment, stop); });
+        std::async(std::launch::async, [experiment = *experiment_, stop = stop_.get_token()] { return forecastAll(experiment, stop); });
   }
   if (ended_ && isReady()) {
     const Trial trial = *std::exchange(ended_, {});
-    const experiment::Task task = experiment_.task.value_or(experiment::Task{});
+    const experiment::Task task = experiment_->experiment().task.value_or(experiment::Task{});
     Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, task, trial.span), trial.succeeded);
   }
 }

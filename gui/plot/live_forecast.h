@@ -17,7 +17,7 @@ class LiveForecast : public QObject {
   ~LiveForecast() override;
 
   /// Begins anew for this experiment; what was being computed is dropped.
-  void setExperiment(const experiment::Experiment& experiment);
+  void setExperiment(const experiment::CompiledExperiment& experiment);
   /// Takes over what has been computed. From the frame timer; never waits.
   void poll();
   /// All have been computed for the experiment that holds.
@@ -43,7 +43,7 @@ class LiveForecast : public QObject {
     bool succeeded = false;
   };
 
-  experiment::Experiment experiment_;
+  std::optional<experiment::CompiledExperiment> experiment_;
   std::vector<CriterionForecast> forecasts_;
   std::stop_source stop_;
   std::future<std::vector<CriterionForecast>> computing_;

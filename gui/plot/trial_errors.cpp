@@ -9,7 +9,7 @@
 
 namespace reachlab::gui::plot {
 
-std::vector<CriterionForecast> forecastAll(const experiment::Experiment& experiment, const std::stop_token& stop) {
+std::vector<CriterionForecast> forecastAll(const experiment::CompiledExperiment& experiment, const std::stop_token& stop) {
   std::vector<CriterionForecast> forecasts;
   for (int i = 0; i < predict::kCriterionCount && !stop.stop_requested(); ++i) {
     CriterionForecast forecast;

@@ -9,7 +9,7 @@
 
 #include "constraints/geometry/task_path.h"
 #include "gui/plot/trial_trace.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/predict/predict.h"
 
 /// Theory beside the trial: each criterion's prediction for an experiment, and how far a hand was from it. No widget here.
@@ -23,7 +23,7 @@ struct CriterionForecast {
 };
 /// All seven, in Table 1's order; may take a second on curved constraints: not for the window's thread. Asked to stop, it leaves out the
 /// rest.
-std::vector<CriterionForecast> forecastAll(const experiment::Experiment& experiment, const std::stop_token& stop = {});
+std::vector<CriterionForecast> forecastAll(const experiment::CompiledExperiment& experiment, const std::stop_token& stop = {});
 
 /// What of a trial is compared: the ticks that are in the recording, up to the end as the task saw it.
 struct TrialSpan {

@@ -223,6 +223,10 @@ Scene compileScene(const experiment::CompiledExperiment& experiment, const Scene
   return compile(experiment.experiment(), experiment.constraint(), options);
 }
 
+Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
+  return compile(experiment, constraint, options);
+}
+
 Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options) {
   return compile(experiment, constraints::makeConstraint(experiment.constraint), options);
 }

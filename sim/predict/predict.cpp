@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/predict/arm/arm_prediction.h"
 #include "sim/predict/condition.h"
 #include "sim/predict/line/crackle_prediction.h"
@@ -142,31 +142,39 @@ std::unique_ptr<Prediction> makeBentPrediction(const experiment::Experiment& exp
 }  // namespace
 
 std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options) {
-  if (!experiment.task) throw UsageError("task: missing; a prediction needs a start and a target");
+  return predict(experiment, constraints::makeConstraint(experiment.constraint), criterion, options);
+}
+
+std::unique_ptr<Prediction> predict(const experiment::CompiledExperiment& experiment, Criterion criterion, const PredictOptions& options) {
+  return predict(experiment.experiment(), experiment.constraint(), criterion, options);
+}
+
+std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                    Criterion criterion, const PredictOptions& options) {
+  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a prediction needs one", "{ start, target, … }"});
   const experiment::Task& task = *experiment.task;
-  const constraints::Constraint constraint = constraints::makeConstraint(experiment.constraint);
   const auto parameters = static_cast<size_t>(constraint.kind == constraints::ConstraintKind::Free ? 3 : constraint.parameterCount());
   if (task.start.size() != parameters || task.target.size() != parameters)
-    throw UsageError(fmt::format("task: start and target need {} numbers each", parameters));
-  if (task.start == task.target) throw UsageError("task: start and target are the same place");
+    throw FaultError(Fault{"task", "has start and target of another length", fmt::format("{} numbers each", parameters)});
+  if (task.start == task.target) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
   const double duration = options.duration > 0 ? options.duration : task.duration;
-  if (!(duration > 0) || !std::isfinite(duration)) throw UsageError("duration: allowed: above 0 s");
+  if (!(duration > 0) || !std::isfinite(duration)) throw FaultError(Fault{"duration", fmt::format("is {}", duration), "more than 0 s"});
 
   std::unique_ptr<Prediction> prediction;
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
   std::optional<PointIs> point;
   const bool isPoint = experiment.object.kind == experiment::ObjectKind::Point;
-  if (options.point && !isPoint) throw UsageError("point: the object is none; allowed: only with an object of kind point");
+  if (options.point && !isPoint) throw FaultError(Fault{"point", "the object is none", "only with an object of kind point"});
   if (experiment.object.kind == experiment::ObjectKind::Body)
-    throw UsageError("object: the criteria are not defined for a body that turns");
+    throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   const auto makeObject = [&] {
     return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
                                  warnings);
   };
   if (const std::optional<StraightTask> straight = findStraightTask(constraint, task)) {
     const StraightTask& way = *straight;
-    if (!(way.distance > 0)) throw UsageError("task: start and target are the same place");
+    if (!(way.distance > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
     object = makeObject();
     if (std::abs(dot(experiment.object.gravity, way.target - way.start)) > 0)
       warnings.push_back(

@@ -2,7 +2,7 @@
 #include <memory>
 #include <span>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/predict/prediction.h"
 
 namespace reachlab::predict {
@@ -18,7 +18,13 @@ struct PredictOptions {
   std::span<const Prediction* const> near;
 };
 
-/// Throws RefusedError (uncontrollable, condition > 1e12 …) and UsageError (no task, criterion not defined here).
+/// Throws RefusedError (uncontrollable, condition > 1e12 …) and FaultError (no task, criterion not defined here).
+std::unique_ptr<Prediction> predict(const experiment::CompiledExperiment& experiment, Criterion criterion,
+                                    const PredictOptions& options = {});
+/// The same for an experiment that was changed but for its constraint, which is compiled already.
+std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                    Criterion criterion, const PredictOptions& options = {});
+/// Compiles the constraint first.
 std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options = {});
 
 }  // namespace reachlab::predict

@@ -21,7 +21,7 @@ Json orNull(const std::string& text) { return text.empty() ? Json() : Json(text)
 /// Empty where this program no longer understands what an earlier one recorded.
 std::optional<experiment::Experiment> understood(const RunConfiguration& c) {
   try {
-    return recordedExperiment(c);
+    return recordedValues(c);
   } catch (const UsageError&) {
     return std::nullopt;
   }
@@ -68,8 +68,9 @@ experiment::Experiment experimentFromJson(const std::string& text, const std::st
   try {
     const Json j = Json::parse(text);
     return experiment::parseExperiment(j.at("experiment").dump(2), origin, j.at("definition").is_null() ? "" : j.at("definition").dump(2));
-  } catch (const nlohmann::json::exception& e) {
-    throw UsageError(origin + ": no experiment of a dataset: " + e.what());
+  } catch (const nlohmann::json::exception&) {
+    throw FaultError(Fault{
+        .what = "is no experiment of a dataset", .allowed = "what reach export writes into code/experiments", .place = FilePlace{origin}});
   }
 }
 

@@ -62,7 +62,7 @@ experiment::Task taskOf(const RunConfiguration& configuration) {
   unknown.duration = kUnknown;
   unknown.tolerance = {kUnknown, kUnknown, kUnknown};
   try {
-    return recordedExperiment(configuration).task.value_or(unknown);
+    return recordedValues(configuration).task.value_or(unknown);
   } catch (const std::runtime_error&) {
     return unknown;
   }

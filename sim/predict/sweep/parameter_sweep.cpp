@@ -10,13 +10,14 @@
 #include <numeric>
 #include <thread>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::predict {
 namespace {
 
 constexpr double kRipple = 1e-9;  // of the peak
 constexpr int kMaxValues = 100000;
+constexpr const char* kForm = "KEY=FROM:TO:STEP";
 
 constexpr std::array<SweepKey, 12> kKeys{{
     {"duration_s", "movement time"},
@@ -37,14 +38,15 @@ double parseNumber(std::string_view text, const std::string& whole) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw UsageError(fmt::format("--sweep {}: '{}' is not a number; allowed: KEY=FROM:TO:STEP", whole, text));
+    throw FaultError(Fault{"sweep", fmt::format("is {}, where '{}' is no number", whole, text), kForm});
   return value;
 }
 
 void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {
   experiment::Object& object = experiment.object;
   if (value != std::floor(value) || value < 1 || value > experiment::kMaxMasses)
-    throw UsageError(fmt::format("n = {}: the number of masses is a whole number from 1 to {}", value, experiment::kMaxMasses));
+    throw FaultError(
+        Fault{"sweep", fmt::format("is n = {}", value), fmt::format("whole numbers of masses from 1 to {}", experiment::kMaxMasses)});
   const auto n = static_cast<size_t>(value);
   const double total = std::accumulate(object.masses.begin(), object.masses.end(), 0.0);
   const bool parallel = object.kind == experiment::ObjectKind::Parallel;
@@ -92,31 +94,32 @@ std::vector<double> Sweep::values() const {
 Sweep parseSweep(const std::string& text) {
   const std::string_view all = text;
   const size_t equal = all.find('='), first = all.find(':', equal), second = first == all.npos ? all.npos : all.find(':', first + 1);
-  if (equal == all.npos || second == all.npos) throw UsageError(fmt::format("--sweep {}: allowed: KEY=FROM:TO:STEP", text));
+  if (equal == all.npos || second == all.npos) throw FaultError(Fault{"sweep", "is " + text, kForm});
   Sweep sweep;
   sweep.key = all.substr(0, equal);
   if (std::none_of(kKeys.begin(), kKeys.end(), [&](const SweepKey& k) { return k.name == sweep.key; })) {
     std::string names;
     for (const SweepKey& k : kKeys) names += (names.empty() ? "" : ", ") + std::string(k.name);
-    throw UsageError(fmt::format("--sweep: '{}' is not a key; allowed: {}", sweep.key, names));
+    throw FaultError(Fault{"sweep", fmt::format("has '{}', which is no key", sweep.key), names});
   }
   sweep.from = parseNumber(all.substr(equal + 1, first - equal - 1), text);
   sweep.to = parseNumber(all.substr(first + 1, second - first - 1), text);
   sweep.step = parseNumber(all.substr(second + 1), text);
   if (!(sweep.step > 0) || sweep.to < sweep.from || (sweep.to - sweep.from) / sweep.step > kMaxValues)
-    throw UsageError(fmt::format("--sweep {}: allowed: FROM <= TO, STEP > 0, at most {} values", text, kMaxValues));
+    throw FaultError(Fault{"sweep", "is " + text, fmt::format("FROM <= TO, STEP > 0, at most {} values", kMaxValues)});
   return sweep;
 }
 
 void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options) {
   experiment::Object& object = experiment.object;
   const auto coupling = [&]() -> experiment::Coupling& {
-    if (!experiment.coupling) throw UsageError(fmt::format("{}: this object has no coupling", key));
+    if (!experiment.coupling)
+      throw FaultError(Fault{"sweep", fmt::format("is of {}, and this object has no coupling", key), "another key"});
     return *experiment.coupling;
   };
   const bool zeroAllowed = key == "damping_n_s_per_m" || key == "viscosity_n_s_per_m" || key.starts_with("hand_");
-  if (!(value > 0) && !(zeroAllowed && value == 0)) throw UsageError(fmt::format("{} = {}: allowed: above 0", key, value));
-  if (key == "duration_s" && value > 3600) throw UsageError(fmt::format("{} = {}: allowed: at most 3600 s", key, value));
+  if (!(value > 0) && !(zeroAllowed && value == 0)) throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), "above 0"});
+  if (key == "duration_s" && value > 3600) throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), "at most 3600 s"});
   if (key == "duration_s") {
     options.duration = value;
   } else if (key == "stiffness_n_per_m") {
@@ -143,11 +146,11 @@ void applySweepValue(const std::string& key, double value, experiment::Experimen
   } else if (key == "hand_damping_n_s_per_m") {
     options.handDamping = value;
   } else {
-    throw UsageError(fmt::format("{}: not a key that can be swept", key));
+    throw FaultError(Fault{"sweep", fmt::format("has '{}', which is no key", key), "a key that is listed"});
   }
 }
 
-std::vector<SweepRow> computeSweep(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options,
+std::vector<SweepRow> computeSweep(const experiment::CompiledExperiment& compiled, Criterion criterion, const PredictOptions& options,
                                    const Sweep& sweep, const std::function<void(int, int)>& progress) {
   const std::vector<double> values = sweep.values();
   const int total = static_cast<int>(values.size());
@@ -161,10 +164,10 @@ std::vector<SweepRow> computeSweep(const experiment::Experiment& experiment, Cri
       SweepRow& row = rows[i];
       row.value = values[i];
       try {
-        experiment::Experiment changed = experiment;
+        experiment::Experiment changed = compiled.experiment();
         PredictOptions changedOptions = options;
         applySweepValue(sweep.key, row.value, changed, changedOptions);
-        row.prediction = predict(changed, criterion, changedOptions);
+        row.prediction = predict(changed, compiled.constraint(), criterion, changedOptions);
         row.shape = computeShape(*row.prediction);
       } catch (const RefusedError& refused) {
         row.refusal = refused.what();

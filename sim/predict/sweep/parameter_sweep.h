@@ -21,7 +21,7 @@ struct Sweep {
   double from = 0, to = 0, step = 0;
   std::vector<double> values() const;
 };
-/// Parses KEY=FROM:TO:STEP. Throws UsageError that names the keys.
+/// Parses KEY=FROM:TO:STEP. Throws FaultError of the key `sweep`.
 Sweep parseSweep(const std::string& text);
 struct SweepKey {
   std::string_view name, meaning;
@@ -38,7 +38,7 @@ struct SweepRow {
 };
 /// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the
 /// threads, one at a time, with how many are done.
-std::vector<SweepRow> computeSweep(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options,
+std::vector<SweepRow> computeSweep(const experiment::CompiledExperiment& experiment, Criterion criterion, const PredictOptions& options,
                                    const Sweep& sweep, const std::function<void(int done, int total)>& progress = {});
 
 }  // namespace reachlab::predict

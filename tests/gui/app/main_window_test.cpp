@@ -375,7 +375,7 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   QTest::qWait(100);
   auto* table = window.predictions().findChild<QTableWidget*>();
   ASSERT_NE(table, nullptr);
-  const auto forecasts = plot::forecastAll(window.session().experiment());
+  const auto forecasts = plot::forecastAll(window.session().compiled());
   EXPECT_EQ(table->item(0, 1)->text(), QString::number(forecasts[0].prediction->handPeak, 'f', 4));  // m/s, as everywhere
   // The simulated subject plans least hand jerk: that row's error is the smallest.
   const double jerk = table->item(0, 2)->text().toDouble(), forceChange = table->item(4, 2)->text().toDouble();
@@ -402,8 +402,8 @@ TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWord
   EXPECT_FALSE(faults->isVisible());
   const struct {
     const char *field, *wrong, *says, *right;
-  } entries[] = {{"subject", "anna-b", "subject \"anna-b\": not a label; allowed: up to 60 letters and digits", "annab"},
-                 {"session", "", "session \"\": not a label; allowed: up to 60 letters and digits", "2"},
+  } entries[] = {{"subject", "anna-b", "subject: \"anna-b\" is not a label; allowed: up to 60 letters and digits", "annab"},
+                 {"session", "", "session: \"\" is not a label; allowed: up to 60 letters and digits", "2"},
                  {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
                  {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
                  {"data", "", "data in: nothing; allowed: a folder", nullptr}};

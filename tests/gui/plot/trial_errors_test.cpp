@@ -21,9 +21,10 @@ std::vector<TracePoint> traceOf(const predict::Prediction& plan, const constrain
 }
 
 TEST(HandErrors, AreLeastForTheCriterionThatTheHandFollows) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  const constraints::TaskPath path(constraints::makeConstraint(experiment.constraint), experiment.task->start, experiment.task->target);
-  const auto forecasts = forecastAll(experiment);
+  const experiment::CompiledExperiment compiled = experiment::openExperiment("chain-slow");
+  const experiment::Experiment& experiment = compiled.experiment();
+  const constraints::TaskPath path(compiled.constraint(), experiment.task->start, experiment.task->target);
+  const auto forecasts = forecastAll(compiled);
   ASSERT_EQ(forecasts.size(), static_cast<std::size_t>(predict::kCriterionCount));
   const auto errors = computeHandErrors(traceOf(*forecasts[0].prediction, path), path, forecasts, *experiment.task);
   ASSERT_TRUE(errors[0].has_value());
@@ -36,10 +37,11 @@ TEST(HandErrors, AreLeastForTheCriterionThatTheHandFollows) {
 }
 
 TEST(HandErrors, AreNotMadeUpWithoutAMovement) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  const constraints::TaskPath path(constraints::makeConstraint(experiment.constraint), experiment.task->start, experiment.task->target);
+  const experiment::CompiledExperiment compiled = experiment::openExperiment("chain-slow");
+  const experiment::Experiment& experiment = compiled.experiment();
+  const constraints::TaskPath path(compiled.constraint(), experiment.task->start, experiment.task->target);
   const std::vector<TracePoint> still(200);
-  for (const auto& error : computeHandErrors(still, path, forecastAll(experiment), *experiment.task)) EXPECT_FALSE(error.has_value());
+  for (const auto& error : computeHandErrors(still, path, forecastAll(compiled), *experiment.task)) EXPECT_FALSE(error.has_value());
 }
 
 TEST(PathDirection, FollowsACurveTowardsTheTarget) {

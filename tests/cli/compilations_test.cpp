@@ -1,0 +1,65 @@
+// One command compiles one formula once, whoever needs it: protocol, scene, device, prediction, recording, dataset.
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace reachlab::test {
+namespace {
+
+const std::string kFormula = "0 | a*cos(phi) | a*sin(phi)/2";
+/// What the simulated subject plans on: a straight line as long as its way, another constraint than the experiment's.
+const std::string kSubjectsLine = "length_m*(phi/(2*pi) - 1/2) | 0 | 0";
+
+std::string experimentFile(const Folder& folder, const std::string& kind = R"("kind": "point", "masses_kg": [1])") {
+  return folder.write("typed.json", R"json({ "schema_version": 1,
+    "constraint": { "curve": ["0", "a*cos(phi)", "a*sin(phi)/2"], "shape": { "a": 0.1 } },
+    "object": { )json" + kind + R"json( }, "coupling": { "stiffness_n_per_m": 600 },
+    "task": { "start": [0.3], "target": [2.0], "duration_s": 1,
+              "tolerance": { "position_m": 0.02, "velocity_m_per_s": 0.1, "time_s": 0.5 } } })json");
+}
+
+/// By `reach` with a counter that the linker has put before the compiler of formulas.
+std::vector<std::string> compiledBy(const std::string& arguments) {
+  const Folder folder;
+  const std::string err = (folder / "err").string();
+  const std::string command =
+      "REACHLAB_TELL_COMPILATIONS=1 \"" REACHLAB_BINARY_DIR "/tests/reach_counting\" " + arguments + " > /dev/null 2> " + err;
+  EXPECT_EQ(std::system(command.c_str()), 0) << arguments << "\n" << contentOf(err);
+  std::vector<std::string> formulas;
+  std::istringstream lines(contentOf(err));
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("compiled ")) formulas.push_back(line.substr(9));
+  return formulas;
+}
+
+}  // namespace
+
+TEST(Compilations, OfARunAreOne) {
+  const Folder folder;
+  EXPECT_EQ(compiledBy("run " + experimentFile(folder) + " --device simulated --trials 3 --seed 1 --fast --data " + folder.string()),
+            std::vector<std::string>{kFormula});
+}
+
+TEST(Compilations, OfARunWhoseSubjectPlansOnALineAreThoseTwo) {
+  const Folder folder;
+  const std::string file = experimentFile(folder, R"("kind": "chain", "masses_kg": [0.5, 0.5], "stiffness_n_per_m": [600])");
+  EXPECT_EQ(compiledBy("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + folder.string()),
+            (std::vector<std::string>{kFormula, kSubjectsLine}));
+}
+
+TEST(Compilations, OfAPredictionAreOne) {
+  const Folder folder;
+  EXPECT_EQ(compiledBy("predict " + experimentFile(folder) + " --criterion min-hand-jerk"), std::vector<std::string>{kFormula});
+}
+
+TEST(Compilations, OfASweepAreOne) {
+  EXPECT_EQ(compiledBy("predict dingwell --criterion min-hand-jerk --sweep duration_s=0.5:2:0.25").size(), 1u);
+}
+
+TEST(Compilations, OfASimulationAndOfValidationAreOne) {
+  const Folder folder;
+  EXPECT_EQ(compiledBy("simulate " + experimentFile(folder) + " --hand min-jerk --until 0.1"), std::vector<std::string>{kFormula});
+  EXPECT_EQ(compiledBy("validate " + experimentFile(folder)), std::vector<std::string>{kFormula});
+}
+
+}  // namespace reachlab::test

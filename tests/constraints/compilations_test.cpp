@@ -1,0 +1,17 @@
+// How often a formula is compiled, counted by the linker's wrap (count_compilations.h).
+#include <gtest/gtest.h>
+
+#include "constraints/definition.h"
+#include "tests/constraints/count_compilations.h"
+
+namespace reachlab::constraints {
+
+TEST(Compilations, AreCounted) {
+  (void)test::takeCompilations();
+  const Constraint one = makeConstraint(ConstraintSpec{.name = "", .curve = {"0", "cos(phi)", "sin(phi)"}, .surface = {}, .shape = {}});
+  const Constraint copy = one;
+  EXPECT_EQ(test::takeCompilations(), std::vector<std::string>{"0 | cos(phi) | sin(phi)"}) << "once, and not again for a copy";
+  EXPECT_TRUE(test::takeCompilations().empty());
+}
+
+}  // namespace reachlab::constraints
