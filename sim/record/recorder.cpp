@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "base/ending.h"
 #include "base/error.h"
 #include "base/os.h"
 #include "sim/record/run_writer.h"
@@ -19,7 +20,8 @@ constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at i
 struct Recorder::Impl {
   Impl(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& recorderOptions)
       : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)),
-        firstTrial(configuration.firstTrial), writer(path, configuration, options.diskReserve),
+        firstTrial(configuration.firstTrial),
+        writer(path, configuration, options.diskReserve, options.threaded ? RunWriter::CutBy::Clock : RunWriter::CutBy::Ticks),
         ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size()) {}
 
   RecorderOptions options;
@@ -59,7 +61,7 @@ struct Recorder::Impl {
     try {
       work();
     } catch (const std::exception& error) {
-      fault = error.what();
+      fault = endingOf(error).sentence;
     }
   }
   void throwIfFaulty() const {

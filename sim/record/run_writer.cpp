@@ -19,8 +19,9 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinter
 
 }  // namespace
 
-RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve)
-    : diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()), tracker_(configuration.firstTrial) {
+RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve, CutBy cutBy)
+    : cutBy_(cutBy), diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()),
+      tracker_(configuration.firstTrial) {
   log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
   log_.sync();
   lookedAt_ = log_.size();
@@ -33,8 +34,8 @@ void RunWriter::keepReserve() {
   const std::uint64_t reserve = std::min(diskReserve_, disk.size / 20);
   if (disk.size == 0 || disk.free >= reserve) return;
   throw ResourceError(
-      fmt::format("{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free (--disk-reserve); what was "
-                  "recorded is safe: free space or choose another folder",
+      fmt::format("{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free; what was recorded is safe: free space, "
+                  "keep less free, or choose another folder",
                   log_.path(), static_cast<double>(disk.free) * 1e-6, static_cast<double>(reserve) * 1e-6));
 }
 
@@ -70,7 +71,8 @@ bool RunWriter::add(const QueuedTick& tick, const double* row) {
 }
 
 void RunWriter::flushIfDue() {
-  if (ticks_.count() >= kTicksPerBlock || std::chrono::steady_clock::now() - flushed_ >= kFlushEvery) flush();
+  const bool due = cutBy_ == CutBy::Clock && std::chrono::steady_clock::now() - flushed_ >= kFlushEvery;
+  if (due || ticks_.count() >= kTicksPerBlock) flush();
 }
 
 void RunWriter::flush() {

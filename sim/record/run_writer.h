@@ -11,14 +11,17 @@ namespace reachlab::record {
 /// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
 class RunWriter {
  public:
+  /// What the blocks of the log are cut by: the wall clock too, so that little is lost when the program is killed, or ticks alone, so that
+  /// the same run gives the same bytes.
+  enum class CutBy { Clock, Ticks };
   /// `diskReserve`: see RecorderOptions.
-  RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve = 0);
+  RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve = 0, CutBy cutBy = CutBy::Clock);
 
   void announce(const TrialSetup& setup);
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
   bool add(const QueuedTick& tick, const double* row);
   void note(const std::string& text);
-  /// Hands what has gathered to the kernel; done by `add` when 100 ms of wall time or 1000 ticks have gathered.
+  /// Hands what has gathered to the kernel; done by `add` when 1000 ticks or, by the clock, 100 ms have gathered.
   void flush();
   void flushIfDue();
   void close();
@@ -30,6 +33,7 @@ class RunWriter {
   void keepReserve();
   void writeTrial(RecordedTrial trial);
 
+  CutBy cutBy_;
   std::uint64_t diskReserve_;
   std::uint64_t lookedAt_ = 0;  // size of the log when the disk was last looked at
   LogWriter log_;
