@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr const char* kReadme = R"(# Reaching with simulated objects
 
 Recorded with reachlab. One run is one block, recorded continuously; trials are the rows of the events files, with their outcome. The
-raw logs, from which every file here can be written again (`reach export DATASET --format bids`) and every run simulated again bit for
-bit (`reach replay LOG --check`), lie in `sourcedata/`.
+raw logs lie in `sourcedata/`: `reach export` writes every file here again from them, and `reach replay` simulates every run again, bit for
+bit.
 
 What was moved and asked (masses in kg, springs in N/m, coupling, the constraint's formula, start, target, duration, tolerances), with which
 device and method, is in `code/experiments/`, a file a run: `experiment` there is an experiment file for `reach run`. `TaskDescription` in
