@@ -3,10 +3,14 @@
 #include <QAction>
 #include <QCloseEvent>
 #include <QCoreApplication>
+#include <QDesktopServices>
+#include <QDragEnterEvent>
 #include <QFileDialog>
-#include <QSaveFile>
+#include <QFileInfo>
+#include <QMimeData>
 #include <QStatusBar>
 #include <QTimer>
+#include <QUrl>
 #include <QVBoxLayout>
 
 #include "base/ending.h"
@@ -35,6 +39,8 @@ constexpr int kStatusMs = 200;
 
 MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) : QMainWindow(parent), session_(request), edits_(session_) {
   setObjectName(QStringLiteral("reachlab"));
+  setAcceptDrops(true);
+  if (QFileInfo::exists(QString::fromStdString(request.what))) file_ = QString::fromStdString(request.what);
   addCentre();
   docks_ = docks::makeDocks(*this);
   docks_.session->setRequest(request);
@@ -45,7 +51,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) 
   wireDocks();
   wireSession();
   firstLayout_ = saveState();
-  restoreLayout(*this);
+  layout_ = restoreLayout(*this);
   showExperiment();
   showStage();
   view_->setFocus();
@@ -233,6 +239,8 @@ void MainWindow::openExperiment(const QString& what) {
     for (const experiment::CompiledExperiment& experiment : opened.experiments) (void)dynamics::compileScene(experiment);
     edits_.open(opened, QStringLiteral("open %1").arg(what));
     edits_.stack().setClean();
+    file_ = QFileInfo::exists(what) ? what : QString();
+    if (!file_.isEmpty()) rememberFile(file_);
     message_->say({});
   } catch (const Error& e) {
     message_->say(QString::fromUtf8(e.what()));
@@ -245,17 +253,38 @@ void MainWindow::openFile() {
   if (!chosen.isEmpty()) openExperiment(chosen);
 }
 
+void MainWindow::beginNew(const Template& from) {
+  if (!mayEndRun(QStringLiteral("A new experiment")) || !mayBeLeft()) return;
+  file_.clear();
+  edits_.open(session::programmeOf(newExperiment(from)), QStringLiteral("new experiment"));
+}
+
+bool MainWindow::saveExperiment() { return file_.isEmpty() ? saveExperimentAs() : saveTo(file_, session_.experiment()); }
+
 bool MainWindow::saveExperimentAs() {
-  const QString file =
-      QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), QString::fromStdString(session_.experiment().name + ".json"),
-                                   QStringLiteral("Experiments (*.json)"));
+  const QString proposed = file_.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : file_;
+  QString file = QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), proposed, QStringLiteral("Experiments (*.json)"));
   if (file.isEmpty()) return false;
-  QSaveFile out(file);
-  const std::string text = experiment::toJson(session_.experiment());
-  if (!out.open(QIODevice::WriteOnly) || out.write(text.data(), static_cast<qint64>(text.size())) < 0 || !out.commit())
-    return message_->say(QStringLiteral("%1: could not be written: %2").arg(file, out.errorString())), false;
-  edits_.stack().setClean();
-  return true;
+  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
+  experiment::Experiment named = session_.experiment();
+  named.name = QFileInfo(file).completeBaseName().toStdString();  // or two experiments would be recorded under one name
+  return saveTo(file, named);
+}
+
+bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
+  if (session_.isPlan()) return message_->say(QStringLiteral("A plan is edited in its file, and saved there.")), false;
+  try {
+    writeExperiment(experiment, file);
+    if (experiment.name != session_.experiment().name && session_.run() == nullptr)
+      edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()));
+    file_ = file;
+    rememberFile(file);
+    edits_.stack().setClean();
+    return true;
+  } catch (const Error& e) {
+    message_->say(QString::fromUtf8(e.what()));
+    return false;
+  }
 }
 
 void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what) {
@@ -275,14 +304,40 @@ bool MainWindow::mayEndRun(const QString& doing) {
 bool MainWindow::mayBeLeft() {
   if (edits_.stack().isClean()) return true;
   switch (askAboutUnsaved(*this, QString::fromStdString(session_.experiment().name))) {
-    case Unsaved::Save: return saveExperimentAs();
+    case Unsaved::Save: return saveExperiment();
     case Unsaved::Discard: return true;
     case Unsaved::Cancel: break;
   }
   return false;
 }
 
-void MainWindow::resetLayout() { (void)restoreState(firstLayout_); }
+void MainWindow::resetLayout() {
+  forgetLayout();
+  (void)restoreState(firstLayout_);
+}
+
+void MainWindow::switchLayout(WindowLayout layout) {
+  rememberDocks(*this, layout_);
+  layout_ = layout;
+  (void)restoreState(firstLayout_);
+  restoreDocks(*this, layout_);
+}
+
+void MainWindow::openManual() {
+  const QString page = manualPage();
+  if (page.isEmpty() || !QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
+    message_->say(page.isEmpty() ? QStringLiteral("The manual is not installed: package reachlab-doc.")
+                                 : QStringLiteral("No program opens the manual; it is %1").arg(page));
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  event->acceptProposedAction();
+  openExperiment(event->mimeData()->urls().front().toLocalFile());
+}
 
 void MainWindow::chooseConstraint() { docks_.constraint->choose(); }
 void MainWindow::toggleSubjectWindow() { screens_->toggleSubject(); }
@@ -296,7 +351,7 @@ void MainWindow::setMuted(bool muted) { sound_.setMuted(muted); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!mayEndRun(QStringLiteral("Closing the window")) || !mayBeLeft()) return event->ignore();
-  rememberLayout(*this);
+  rememberLayout(*this, layout_);
   session_.endRun();  // an unfinished trial is kept as interrupted
   screens_->closeSubject();
   QMainWindow::closeEvent(event);

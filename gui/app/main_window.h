@@ -3,10 +3,12 @@
 #include <memory>
 
 #include "gui/app/edit_history.h"
+#include "gui/app/experiment_files.h"
 #include "gui/app/session_controller.h"
 #include "gui/app/status_line.h"
 #include "gui/app/success_sound.h"
 #include "gui/app/trial_pacing.h"
+#include "gui/app/window_layout.h"
 #include "gui/app/window_menus.h"
 #include "gui/docks/all_docks.h"
 #include "gui/plot/live_forecast.h"
@@ -57,6 +59,10 @@ class MainWindow : public QMainWindow {
   /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
   void openExperiment(const QString& what);
   void openFile();
+  /// A sound beginning of its kind, not saved yet.
+  void beginNew(const Template& from);
+  /// Into the file it came from; where there is none, asks for one. False when it was not saved.
+  bool saveExperiment();
   /// False when it was not saved.
   bool saveExperimentAs();
   void chooseConstraint();
@@ -64,9 +70,14 @@ class MainWindow : public QMainWindow {
   void setSideBySide(bool on);
   void setMuted(bool muted);
   void resetLayout();
+  void switchLayout(WindowLayout layout);
+  void openManual();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  /// A file that is dropped onto the window is opened.
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
  private:
   void addCentre();
@@ -85,6 +96,7 @@ class MainWindow : public QMainWindow {
   /// True when no trial of an open run would be lost, or the user says so.
   bool mayEndRun(const QString& doing);
   bool mayBeLeft();
+  bool saveTo(const QString& file, const experiment::Experiment& experiment);
 
   SessionController session_;
   EditHistory edits_;
@@ -95,6 +107,8 @@ class MainWindow : public QMainWindow {
   docks::Docks docks_;
   TrialActions actions_;
   QByteArray firstLayout_;  // of the docks
+  WindowLayout layout_ = WindowLayout::SetUp;
+  QString file_;  // what was opened or saved; empty: shipped or new
   std::unique_ptr<StatusLine> status_;
   MessageBar* message_ = nullptr;
   scene::SceneView* view_ = nullptr;

@@ -1,9 +1,11 @@
 #include "gui/app/window_layout.h"
 
+#include <QDockWidget>
 #include <QGuiApplication>
 #include <QMainWindow>
 #include <QScreen>
 #include <QSettings>
+#include <algorithm>
 
 namespace reachlab::gui::app {
 namespace {
@@ -12,19 +14,46 @@ constexpr int kLayoutVersion = 2;  // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
 
-}  // namespace
-
-void rememberLayout(const QMainWindow& window) {
-  QSettings settings;
-  settings.setValue(key("geometry"), window.saveGeometry());
-  settings.setValue(key("docks"), window.saveState(kLayoutVersion));
+QString docksKey(WindowLayout layout) {
+  const char* names[] = {"docksSetUp", "docksRun", "docksInspect"};
+  return key(names[static_cast<int>(layout)]);
 }
 
-void restoreLayout(QMainWindow& window) {
+// What a layout shows when it is chosen for the first time; empty: every dock.
+QStringList docksOf(WindowLayout layout) {
+  switch (layout) {
+    case WindowLayout::SetUp: break;
+    case WindowLayout::Run: return {QStringLiteral("sessionDock"), QStringLiteral("plotDock")};
+    case WindowLayout::Inspect: return {QStringLiteral("plotDock"), QStringLiteral("predictionDock")};
+  }
+  return {};
+}
+
+}  // namespace
+
+void rememberDocks(const QMainWindow& window, WindowLayout layout) {
+  QSettings().setValue(docksKey(layout), window.saveState(kLayoutVersion));
+}
+
+void restoreDocks(QMainWindow& window, WindowLayout layout) {
+  if (window.restoreState(QSettings().value(docksKey(layout)).toByteArray(), kLayoutVersion)) return;
+  const QStringList shown = docksOf(layout);
+  for (QDockWidget* dock : window.findChildren<QDockWidget*>()) dock->setVisible(shown.isEmpty() || shown.contains(dock->objectName()));
+}
+
+void rememberLayout(const QMainWindow& window, WindowLayout layout) {
+  QSettings settings;
+  settings.setValue(key("geometry"), window.saveGeometry());
+  settings.setValue(key("layout"), static_cast<int>(layout));
+  rememberDocks(window, layout);
+}
+
+WindowLayout restoreLayout(QMainWindow& window) {
   const QSettings settings;
+  const auto layout = static_cast<WindowLayout>(std::clamp(settings.value(key("layout")).toInt(), 0, 2));
   const bool known = window.restoreGeometry(settings.value(key("geometry")).toByteArray());
-  (void)window.restoreState(settings.value(key("docks")).toByteArray(), kLayoutVersion);
-  if (known) return;
+  restoreDocks(window, layout);
+  if (known) return layout;
   const QScreen* screen = QGuiApplication::primaryScreen();
   const QSize room = screen == nullptr ? QSize(1560, 960) : screen->availableSize();
   const QSize wanted(1560, 960);
@@ -32,6 +61,7 @@ void restoreLayout(QMainWindow& window) {
   if (room.width() < wanted.width() + 20 || room.height() < wanted.height() + 50)
     window.setWindowState(window.windowState() | Qt::WindowMaximized);
   window.resize(wanted.boundedTo(room - QSize(20, 50)));
+  return layout;
 }
 
 void forgetLayout() { QSettings().remove(QStringLiteral("window")); }

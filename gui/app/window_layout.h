@@ -4,10 +4,18 @@ class QMainWindow;
 
 namespace reachlab::gui::app {
 
-/// Where the window and its docks stand, remembered from one start to the next (QSettings).
-void rememberLayout(const QMainWindow& window);
-/// As it was left, if it still fits a screen; else as large as the screen allows.
-void restoreLayout(QMainWindow& window);
+/// What the docks are arranged for; each arrangement is remembered as it was left.
+enum class WindowLayout { SetUp, Run, Inspect };
+
+/// Where the window stands, which layout it has, and where its docks stand: remembered from one start to the next (QSettings).
+void rememberLayout(const QMainWindow& window, WindowLayout layout);
+/// As it was left; at the first start as large as the screen allows.
+WindowLayout restoreLayout(QMainWindow& window);
 void forgetLayout();
+
+void rememberDocks(const QMainWindow& window, WindowLayout layout);
+/// As they were left in this layout, or as it begins: everything to set up, the session and the plot to run, the plot and the criteria to
+/// inspect.
+void restoreDocks(QMainWindow& window, WindowLayout layout);
 
 }  // namespace reachlab::gui::app

@@ -7,6 +7,7 @@
 #include <QUndoStack>
 
 #include "gui/app/main_window.h"
+#include "gui/plot/velocity_plot.h"
 #include "gui/app/session_controller.h"
 #include "gui/scene/scene_view.h"
 
@@ -46,17 +47,31 @@ void sayKeys(MainWindow& window) {
 
 void sayAbout(MainWindow& window) {
   say(window, QStringLiteral("Reachlab"),
-      QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>Drawn by %2")
-          .arg(QStringLiteral(REACHLAB_VERSION), window.view().rendererName().toHtmlEscaped()));
+      QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>"
+                     "Qt %2, VTK %3, Qwt %4<br>Drawn by %5")
+          .arg(QStringLiteral(REACHLAB_VERSION), QLatin1String(qVersion()), scene::libraryVersion(), plot::libraryVersion(),
+               window.view().rendererName().toHtmlEscaped()));
+}
+
+void listRecent(MainWindow& window, QMenu& menu) {
+  menu.clear();
+  for (const QString& file : recentFiles()) add(window, &menu, file, {}, [&window, file] { window.openExperiment(file); });
+  menu.setEnabled(!menu.isEmpty());
 }
 
 void addExperimentMenu(MainWindow& window) {
   QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Experiment"));
+  QMenu* fresh = menu->addMenu(QStringLiteral("&New"));
+  for (const Template& from : templates()) add(window, fresh, QLatin1String(from.title), {}, [&window, from] { window.beginNew(from); });
   add(window, menu, QStringLiteral("&Open…"), QKeySequence::Open, &MainWindow::openFile);
+  QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
+  recent->setObjectName(QStringLiteral("recent"));
+  QObject::connect(menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });
   QMenu* shipped = menu->addMenu(QStringLiteral("S&hipped"));
   for (const std::string& name : experiment::shippedExperiments())
     add(window, shipped, QString::fromStdString(name), {}, [&window, name] { window.openExperiment(QString::fromStdString(name)); });
-  add(window, menu, QStringLiteral("&Save as…"), QKeySequence::SaveAs, [&window] { window.saveExperimentAs(); });
+  add(window, menu, QStringLiteral("&Save"), QKeySequence::Save, [&window] { window.saveExperiment(); });
+  add(window, menu, QStringLiteral("Save &as…"), QKeySequence::SaveAs, [&window] { window.saveExperimentAs(); });
   menu->addSeparator();
   add(window, menu, QStringLiteral("&Quit"), QKeySequence::Quit, &QWidget::close);
 }
@@ -101,11 +116,19 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
   menu->addSeparator();
   for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu->addAction(dock->toggleViewAction());
+  menu->addSeparator();
+  const std::pair<const char*, WindowLayout> layouts[] = {
+      {"Layout: &set up", WindowLayout::SetUp}, {"Layout: &run", WindowLayout::Run}, {"Layout: &inspect", WindowLayout::Inspect}};
+  int number = 1;
+  for (const auto& [title, layout] : layouts)
+    add(window, menu, QLatin1String(title), QKeySequence(QStringLiteral("Alt+%1").arg(number++)),
+        [&window, layout = layout] { window.switchLayout(layout); });
   add(window, menu, QStringLiteral("&Docks in their places"), {}, &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
 }
 
 void addHelpMenu(MainWindow& window) {
   QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Help"));
+  add(window, menu, QStringLiteral("&Manual"), {}, &MainWindow::openManual);
   add(window, menu, QStringLiteral("&Keys and mouse"), Qt::Key_F1, [&window] { sayKeys(window); });
   add(window, menu, QStringLiteral("&About"), {}, [&window] { sayAbout(window); });
 }

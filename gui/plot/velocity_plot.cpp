@@ -1,5 +1,6 @@
 #include "gui/plot/velocity_plot.h"
 
+#include <qwt_global.h>
 #include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
@@ -44,6 +45,8 @@ std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, con
 }
 
 }  // namespace
+
+QString libraryVersion() { return QStringLiteral(QWT_VERSION_STR); }
 
 struct VelocityPlot::Impl {
   QwtPlot* plot = nullptr;

@@ -7,6 +7,9 @@
 
 namespace reachlab::gui::plot {
 
+/// Of Qwt, as compiled: "6.1.4".
+QString libraryVersion();
+
 /// Velocity against time since onset: hand and last mass of the trial under way, the last trial's faintly behind, the window T ± dT as a
 /// band, chosen predictions dashed. [s], [m/s]
 class VelocityPlot : public QWidget {

@@ -10,6 +10,7 @@
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
+#include <vtkVersion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,8 @@ void addLights(vtkRenderer& renderer) {
 }
 
 }  // namespace
+
+QString libraryVersion() { return QString::fromUtf8(vtkVersion::GetVTKVersion()); }
 
 void applySurfaceFormat() { QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); }
 

@@ -9,6 +9,8 @@
 
 namespace reachlab::gui::scene {
 
+/// Of VTK, as it runs: "9.1.0".
+QString libraryVersion();
 /// The OpenGL format that the scene needs; before the QApplication is made.
 void applySurfaceFormat();
 

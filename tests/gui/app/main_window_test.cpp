@@ -184,7 +184,10 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
 
 TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
   EXPECT_NEAR(open().plot().timeSpan(), 20.35, 1e-12);  // T + dT and a quarter of a second
-  request_.what = "ellipse";                            // 1.5 s, at most 10
+  experiment::Experiment ellipse = experiment::openExperiment("ellipse").experiment();
+  ellipse.task->tolerance.time = 8.5;  // 1.5 s, at most 10
+  request_.what = (folder_.path() + QStringLiteral("/ellipse.json")).toStdString();
+  std::ofstream(request_.what) << experiment::toJson(ellipse);
   MainWindow& window = open();
   EXPECT_NEAR(window.plot().timeSpan(), 3, 1e-12);
   const scene::ScenePlan& plan = window.view().plan();

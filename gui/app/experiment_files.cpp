@@ -1,0 +1,66 @@
+#include "gui/app/experiment_files.h"
+
+#include <QFileInfo>
+#include <QSaveFile>
+#include <QSettings>
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+constexpr int kMostRecent = 8;
+
+QString recentKey() { return QStringLiteral("recentFiles"); }
+
+}  // namespace
+
+void writeExperiment(const experiment::Experiment& experiment, const QString& file) {
+  QSaveFile out(file);
+  const std::string text = experiment::toJson(experiment);
+  if (!out.open(QIODevice::WriteOnly) || out.write(text.data(), static_cast<qint64>(text.size())) < 0 || !out.commit())
+    throw ResourceError(file.toStdString() + ": could not be written: " + out.errorString().toStdString());
+}
+
+QStringList recentFiles() {
+  QStringList files = QSettings().value(recentKey()).toStringList();
+  files.erase(std::remove_if(files.begin(), files.end(), [](const QString& file) { return !QFileInfo::exists(file); }), files.end());
+  return files;
+}
+
+void rememberFile(const QString& file) {
+  const QString path = QFileInfo(file).absoluteFilePath();
+  QStringList files = recentFiles();
+  files.removeAll(path);
+  files.prepend(path);
+  while (files.size() > kMostRecent) files.removeLast();
+  QSettings().setValue(recentKey(), files);
+}
+
+const std::vector<Template>& templates() {
+  static const std::vector<Template> all{{"Chain of masses on a line", "chain-moderate"},
+                                         {"Chain of masses on a curve", "chain-on-ellipse"},
+                                         {"Masses side by side", "parallel"},
+                                         {"One mass on a curve", "ellipse"},
+                                         {"One mass on a surface", "torus"},
+                                         {"One mass in free space", "free-point"},
+                                         {"A body in free space", "free-body"}};
+  return all;
+}
+
+experiment::CompiledExperiment newExperiment(const Template& from) {
+  experiment::Experiment experiment = experiment::openExperiment(from.shipped).experiment();
+  experiment.name = "untitled";
+  experiment.text = toJson(experiment);
+  return experiment::CompiledExperiment(experiment);
+}
+
+QString manualPage() {
+  const QString resources = QString::fromStdString(experiment::resourceFolder());
+  for (const char* page : {"/../doc/reachlab/html/index.html", "/../build/manual/index.html", "/../docs/index.md"})
+    if (const QFileInfo file(resources + QLatin1String(page)); file.exists()) return file.canonicalFilePath();
+  return {};
+}
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,144 @@
+#include "gui/app/experiment_files.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QFileInfo>
+#include <QLineEdit>
+#include <QMimeData>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QUrl>
+#include <fstream>
+
+#include "base/error.h"
+#include "gui/app/main_window.h"
+#include "sim/dynamics/compiled_scene.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+TEST(Templates, EachIsAnExperimentThatCanBeRunUnderANameOfItsOwn) {
+  for (const Template& from : templates()) {
+    const experiment::CompiledExperiment made = newExperiment(from);
+    EXPECT_EQ(made.experiment().name, "untitled") << from.title;
+    EXPECT_NO_THROW((void)dynamics::compileScene(made)) << from.title;
+    EXPECT_EQ(experiment::parseExperiment(made.experiment().text, "text").object.masses, made.experiment().object.masses);
+  }
+}
+
+TEST(RecentFiles, AreTheNewestThatAreStillThere) {
+  const QTemporaryDir folder;
+  const auto file = [&](int number) {
+    const QString path = folder.filePath(QStringLiteral("%1.json").arg(number));
+    std::ofstream(path.toStdString()) << "{}";
+    return path;
+  };
+  for (int i = 0; i < 10; ++i) rememberFile(file(i));
+  rememberFile(file(5));
+  const QStringList recent = recentFiles();
+  EXPECT_EQ(recent.size(), 8);
+  EXPECT_EQ(QFileInfo(recent[0]).fileName(), QStringLiteral("5.json"));
+  EXPECT_EQ(QFileInfo(recent[1]).fileName(), QStringLiteral("9.json"));
+  EXPECT_EQ(recent.count(recent[0]), 1);
+  QFile::remove(recent[1]);
+  EXPECT_EQ(recentFiles().size(), 7);
+}
+
+TEST(ManualPage, IsThereInTheSources) { EXPECT_TRUE(QFileInfo::exists(manualPage())) << manualPage().toStdString(); }
+
+TEST(WritingAnExperiment, ThatCannotBeWrittenIsAFaultWithTheFilesName) {
+  const experiment::Experiment e = experiment::openExperiment("ellipse").experiment();
+  try {
+    writeExperiment(e, QStringLiteral("/dev/null/e.json"));
+    FAIL();
+  } catch (const ResourceError& fault) {
+    EXPECT_NE(std::string(fault.what()).find("/dev/null/e.json"), std::string::npos) << fault.what();
+  }
+}
+
+class Files : public ::testing::Test {
+ protected:
+  Files() {
+    path_ = folder_.filePath(QStringLiteral("mine.json"));
+    writeExperiment(experiment::openExperiment("ellipse").experiment(), path_);
+    request_.what = path_.toStdString();
+    request_.place.data = folder_.filePath(QStringLiteral("data")).toStdString();
+    request_.device = "mouse";
+  }
+  MainWindow& open() {
+    window_ = std::make_unique<MainWindow>(request_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());
+    return *window_;
+  }
+  void changeMasses(const char* to) {
+    auto* masses = window_->findChild<QLineEdit*>(QStringLiteral("masses"));
+    masses->setText(QLatin1String(to));
+    Q_EMIT masses->editingFinished();
+  }
+
+  QTemporaryDir folder_;
+  QString path_;
+  session::SessionRequest request_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(Files, ASavedChangeIsInTheFileAndTheStarGoes) {
+  MainWindow& window = open();
+  changeMasses("2.5");
+  EXPECT_TRUE(window.isWindowModified());
+  QTest::keyClick(&window, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(window.isWindowModified());
+  EXPECT_EQ(experiment::openExperiment(path_.toStdString()).experiment().object.masses, (std::vector<double>{2.5}));
+  window.edits().undo();
+  EXPECT_TRUE(window.isWindowModified()) << "the file holds what was undone";
+  window.edits().redo();
+  EXPECT_FALSE(window.isWindowModified());
+}
+
+TEST_F(Files, ANewExperimentIsNotSavedYet) {
+  MainWindow& window = open();
+  window.beginNew(templates().back());
+  EXPECT_EQ(window.session().experiment().name, "untitled");
+  EXPECT_EQ(window.session().experiment().object.kind, experiment::ObjectKind::Body);
+  EXPECT_TRUE(window.isWindowModified());
+  window.edits().undo();
+  EXPECT_EQ(window.session().experiment().name, "ellipse");
+}
+
+TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {
+  request_.what = "chain-moderate";
+  MainWindow& window = open();
+  QMimeData mime;
+  mime.setUrls({QUrl::fromLocalFile(path_)});
+  QDragEnterEvent enter({10, 10}, Qt::CopyAction, &mime, Qt::LeftButton, {});
+  QApplication::sendEvent(&window, &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &mime, Qt::LeftButton, {});
+  QApplication::sendEvent(&window, &drop);
+  EXPECT_EQ(window.session().experiment().constraint.name, "ellipse");
+  EXPECT_EQ(recentFiles().front(), QFileInfo(path_).absoluteFilePath());
+}
+
+TEST_F(Files, ALayoutIsFoundAgainAsItWasLeft) {
+  MainWindow& window = open();
+  const auto shown = [&](const char* name) { return window.findChild<QDockWidget*>(QLatin1String(name))->isVisible(); };
+  QTest::keyClick(&window, Qt::Key_2, Qt::AltModifier);
+  EXPECT_TRUE(shown("sessionDock") && shown("plotDock"));
+  EXPECT_FALSE(shown("objectDock") || shown("taskDock"));
+  window.findChild<QDockWidget*>(QStringLiteral("taskDock"))->show();
+  QTest::keyClick(&window, Qt::Key_1, Qt::AltModifier);
+  EXPECT_TRUE(shown("objectDock"));
+  QTest::keyClick(&window, Qt::Key_2, Qt::AltModifier);
+  EXPECT_TRUE(shown("taskDock"));
+  EXPECT_FALSE(shown("objectDock"));
+  window.resetLayout();
+  EXPECT_TRUE(shown("objectDock"));
+}
+
+}  // namespace
+}  // namespace reachlab::gui::app
