@@ -24,7 +24,7 @@ QString outcomeText(const trial::TrialResult& result) {
     case trial::Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
     case trial::Reason::Computation: return QStringLiteral("The simulation could not go on");
     case trial::Reason::Program: return QStringLiteral("Interrupted");
-    case trial::Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
+    case trial::Reason::Early: return QStringLiteral("Too early: wait for the signal");
     case trial::Reason::Timing: return QStringLiteral("The computer was too busy: this trial does not count");
     case trial::Reason::NoStart: return QStringLiteral("The hand was never at the start");
     case trial::Reason::None: break;
@@ -46,7 +46,7 @@ QString reasonText(trial::Reason reason) {
     case trial::Reason::EndOfConstraint: return QStringLiteral("off the end of the path");
     case trial::Reason::Computation: return QStringLiteral("not computable");
     case trial::Reason::Program: return QStringLiteral("interrupted");
-    case trial::Reason::FalseStart: return QStringLiteral("too early");
+    case trial::Reason::Early: return QStringLiteral("too early");
     case trial::Reason::Timing: return QStringLiteral("computer too busy");
     case trial::Reason::NoStart: return QStringLiteral("hand never at the start");
     case trial::Reason::None: break;
@@ -88,7 +88,7 @@ QString subjectsWords(const trial::TrialResult& result) {
     case trial::Reason::TimeLong: return QStringLiteral("Too slow");
     case trial::Reason::Position: return QStringLiteral("Not at the target in time");
     case trial::Reason::Velocity: return QStringLiteral("Not at rest in time");
-    case trial::Reason::FalseStart: return QStringLiteral("Too early: wait for the signal");
+    case trial::Reason::Early: return QStringLiteral("Too early: wait for the signal");
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");
     default: return QStringLiteral("This trial does not count");
   }

@@ -101,7 +101,7 @@ trial::Outcome outcomeFrom(const std::string& text) {
 trial::Reason reasonFrom(const std::string& text) {
   for (int i = 0; i < 64; ++i)  // names of reasons that there are none of are empty
     if (!text.empty() && nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
-  return trial::Reason::None;
+  return text == "false_start" ? trial::Reason::Early : trial::Reason::None;  // its name before 2026-11-22
 }
 
 /// When the trial was armed is no column of events.tsv: it is the first of the rows before its end in which the phase says so.

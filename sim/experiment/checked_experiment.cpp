@@ -9,7 +9,7 @@
 namespace reachlab::experiment {
 namespace {
 
-constexpr double kLongestDuration = 3600, kLongestTimeout = 86400;  // [s]
+constexpr double kLongestDuration = 3600, kLongestTimeout = 86400, kLongestRest = 60;  // [s]
 
 void checkInertia(const Object& object, std::vector<Fault>& faults) {
   const auto& m = object.inertia;
@@ -74,6 +74,8 @@ void checkTask(const Task& task, int coordinates, std::vector<Fault>& faults) {
   checkNumber("task.onset_m", task.onset, positive("m"), faults);
   checkNumber("task.arm_radius_m", task.armRadius, positive("m"), faults);
   checkNumber("task.timeout_s", task.timeout, positiveUpTo(kLongestTimeout, "s"), faults);
+  checkNumber("task.rest_s", task.rest.seconds, {0, kLongestRest, true, fmt::format("0 to {:.0f} s", kLongestRest)}, faults);
+  checkNumber("task.rest_speed_m_per_s", task.rest.speed, positive("m/s"), faults);
 }
 
 void checkTiming(const TimingLimits& timing, std::vector<Fault>& faults) {

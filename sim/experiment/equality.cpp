@@ -22,8 +22,8 @@ auto parts(const Tolerance& t) {
 }
 
 auto parts(const Task& t) {
-  const auto& [start, target, duration, tolerance, onset, armRadius, timeout] = t;
-  return std::tuple_cat(std::tie(start, target, duration, onset, armRadius, timeout), parts(tolerance));
+  const auto& [start, target, duration, tolerance, onset, armRadius, timeout, rest] = t;
+  return std::tuple_cat(std::tie(start, target, duration, onset, armRadius, timeout, rest.seconds, rest.speed), parts(tolerance));
 }
 
 auto parts(const Arm& a) {

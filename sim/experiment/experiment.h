@@ -38,6 +38,13 @@ struct Tolerance {
   double time = 0.5;        // [s]
 };
 
+/// What waiting at the start asks of the hand before a trial is armed: to stay there for so long, and slower than that.
+struct StartRest {
+  double seconds = 0.3;  // [s]
+  double speed = 0.02;   // [m/s]
+};
+inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start, as before 2026-11-22
+
 struct Task {
   std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object
   double duration = 1.35;             // [s] T
@@ -45,6 +52,7 @@ struct Task {
   double onset = 0.001;     // [m] t = 0 is when the HIP has moved this far
   double armRadius = 0.01;  // [m]
   double timeout = 10;      // [s] no onset by then: aborted
+  StartRest rest;
 };
 
 /// Two-link planar arm for criterion 2 (criteria.md 6); defaults unverified, after Uno 1989.

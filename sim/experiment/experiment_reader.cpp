@@ -115,6 +115,8 @@ void readTask(ObjectReader& root, Experiment& experiment) {
   reader.number("onset_m", anyNumber(), task.onset);
   reader.number("arm_radius_m", anyNumber(), task.armRadius);
   reader.number("timeout_s", anyNumber(), task.timeout);
+  reader.number("rest_s", anyNumber(), task.rest.seconds);
+  reader.number("rest_speed_m_per_s", anyNumber(), task.rest.speed);
   reader.finish();
   experiment.task = std::move(task);
 }

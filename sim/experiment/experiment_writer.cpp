@@ -57,7 +57,9 @@ Json taskJson(const Task& task) {
            {{"position_m", task.tolerance.position}, {"velocity_m_per_s", task.tolerance.velocity}, {"time_s", task.tolerance.time}}},
           {"onset_m", task.onset},
           {"arm_radius_m", task.armRadius},
-          {"timeout_s", task.timeout}};
+          {"timeout_s", task.timeout},
+          {"rest_s", task.rest.seconds},
+          {"rest_speed_m_per_s", task.rest.speed}};
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene
       guards_(options.guards), fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
   state_.rendersForce = options.rendersForce;
-  if (virtualHand_) settings_.startTimeoutTicks = settings_.timeoutTicks;
+  if (virtualHand_) settings_.startTimeoutTicks = settings_.timeoutTicks + settings_.restTicks;
   lastSeen_ = settings_.start;
   putUp();
 }
@@ -134,6 +134,7 @@ void TickEngine::tick(const TickInput& input) noexcept {
                   input.command,
                   input.planned,
                   input.device.position,
+                  norm(hand.velocity),
                   hand.valid,
                   handBroken_,
                   clamped_,

@@ -13,7 +13,9 @@ namespace {
 constexpr double kEndless = 1e6;  // [s]
 
 experiment::Experiment withoutEnd(experiment::Experiment experiment) {
-  if (experiment.task) experiment.task->duration = kEndless;
+  if (!experiment.task) return experiment;
+  experiment.task->duration = kEndless;
+  experiment.task->rest = experiment::kNoStartRest;  // its hand never rests
   return experiment;
 }
 

@@ -47,6 +47,11 @@ experiment::TimingLimits timingFrom(const json& j) {
           numberOf(j, "max_gap_s", 0.001, experiment::kNoTimingLimits.maxGap)};
 }
 
+experiment::StartRest restFrom(const json& j) {
+  if (!j.is_object()) throw UsageError("start_rest: is no object");
+  return {numberOf(j, "rest_s", 0, 60), numberOf(j, "rest_speed_m_per_s", 0, 1e6)};
+}
+
 json toJson(const std::vector<trial::PlannedTrial>& trials) {
   json list = json::array();
   for (const trial::PlannedTrial& t : trials)
@@ -142,6 +147,7 @@ std::string toJson(const RunConfiguration& c) {
       {"device_renders_force", c.rendersForce},
       {"device_continuous_force_n", c.deviceContinuousForce},
       {"device_thermal_s", c.deviceThermalSeconds},
+      {"start_rest", {{"rest_s", c.rest.seconds}, {"rest_speed_m_per_s", c.rest.speed}}},
       {"timing", {{"max_missed_ticks", c.timing.maxMissedTicks}, {"max_gap_s", c.timing.maxGap}}},
       {"guards", guardsToJson(c.guards)},
       {"device_mapping", c.deviceMapping},
@@ -195,6 +201,7 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
     if (j.contains("device_renders_force")) c.rendersForce = flagOf(j, "device_renders_force");
     c.deviceContinuousForce = j.contains("device_continuous_force_n") ? numberOf(j, "device_continuous_force_n", 0, 1e6) : 0;
     c.deviceThermalSeconds = j.contains("device_thermal_s") ? numberOf(j, "device_thermal_s", 1e-3, 1e6) : 10;
+    if (j.contains("start_rest")) c.rest = restFrom(memberOf(j, "start_rest"));
     if (j.contains("timing")) c.timing = timingFrom(memberOf(j, "timing"));
     if (j.contains("guards")) c.guards = guardsFrom(memberOf(j, "guards"));
     if (j.contains("device_mapping")) c.deviceMapping = textOf(j, "device_mapping");
@@ -224,6 +231,7 @@ experiment::Experiment recordedValues(const RunConfiguration& c) {
 experiment::Experiment recordedExperiment(const RunConfiguration& c) {
   experiment::Experiment experiment = experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
   experiment.timing = c.timing;  // what held then, which the text may leave to a default
+  if (experiment.task) experiment.task->rest = c.rest;
   return experiment;
 }
 

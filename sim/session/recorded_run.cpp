@@ -96,6 +96,7 @@ void RecordedRun::completeConfiguration() {
   c.timing = block_.experiment.experiment().timing;
   c.guards = device.guards;
   c.deviceMapping = device.mapping;
+  if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   c.softwareVersion = "reachlab " REACHLAB_VERSION;

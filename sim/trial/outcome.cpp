@@ -27,7 +27,7 @@ std::string_view nameOf(Reason reason) {
     case Reason::EndOfConstraint: return "end_of_constraint";
     case Reason::Computation: return "computation";
     case Reason::Program: return "program";
-    case Reason::FalseStart: return "false_start";
+    case Reason::Early: return "early";
     case Reason::Timing: return "timing";
     case Reason::NoStart: return "no_start";
   }

@@ -19,7 +19,7 @@ enum class Reason : std::uint8_t {
   EndOfConstraint,
   Computation,
   Program,
-  FalseStart,
+  Early,    // onset before the go signal, or in a catch trial
   Timing,   // more ticks were missed in the movement than the experiment allows
   NoStart,  // a simulated or replayed hand was never at the start
 };

@@ -54,6 +54,10 @@ void putUp(const ProtocolInput& in, ProtocolState& state) noexcept {
   state.putUpTick = in.tick;
 }
 
+bool restsAtStart(const ProtocolSettings& s, const ProtocolInput& in) noexcept {
+  return in.handValid && norm(in.hip - s.start) <= s.armRadius && in.hipSpeed <= s.restSpeed;
+}
+
 void arm(const ProtocolInput& in, ProtocolState& state) noexcept {
   state.phase = Phase::Armed;
   state.armedTick = in.tick;
@@ -74,7 +78,7 @@ void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolS
   if (in.handValid && norm(in.hip - state.armedAt) > s.onset) {
     state.onsetTick = in.tick;
     state.phase = Phase::Moving;
-    if (!endByMissedTime(s, in, state) && !state.gone) end(state, in.tick, Outcome::Failure, Reason::FalseStart);
+    if (!endByMissedTime(s, in, state) && !state.gone) end(state, in.tick, Outcome::Failure, Reason::Early);
     return;
   }
   if (state.planned.catchTrial) {
@@ -131,7 +135,9 @@ void advance(const ProtocolSettings& settings, const ProtocolInput& input, Proto
   if (endByForce(settings, input, state)) return;
   switch (state.phase) {
     case Phase::Waiting:
-      if (input.handValid && norm(input.hip - settings.start) <= settings.armRadius) arm(input, state);
+      if (restsAtStart(settings, input)) ++state.restTicks;
+      else state.restTicks = 0;
+      if (state.restTicks > settings.restTicks) arm(input, state);
       else if (static_cast<std::int64_t>(input.tick - state.putUpTick) >= settings.startTimeoutTicks)
         end(state, input.tick, Outcome::Aborted, Reason::NoStart);
       break;

@@ -11,11 +11,12 @@
 ///
 ///   from             on                                                     to
 ///   Idle, Done       NextTrial                                              Waiting   trial + 1, result cleared
-///   Waiting          the HIP within armRadius of the start, not at the      Armed     the FP is placed on the HIP
-///                    tick of NextTrial itself
+///   Waiting          the HIP within armRadius of the start and slower than  Armed     the FP is placed on the HIP
+///                    restSpeed for restTicks, not counting the tick of
+///                    NextTrial itself
 ///   Armed            onset (the HIP has moved more than `onset` from        Moving    t = 0; semaphore neutral
 ///                    where it was at arming) after the go signal
-///   Armed            onset before the go signal, or in a catch trial        Done      failure, false_start
+///   Armed            onset before the go signal, or in a catch trial        Done      failure, early
 ///   Armed            no onset within `timeout` of the go signal             Done      aborted, no_onset
 ///   Armed            catch trial: T + dT after the foreperiod               Done      success
 ///   Moving           all masses within dx and dv, t < T - dT                Done      failure, time_short
@@ -45,6 +46,8 @@ struct ProtocolSettings {
   Vec3 start, target;             // [m] r(start), r(target)
   double armRadius = 0.01;        // [m]
   double onset = 0.001;           // [m]
+  std::int64_t restTicks = 0;     // at the start, without a break
+  double restSpeed = 1000;        // [m/s] at most, of the estimated velocity
   double positionTolerance = 0;   // [m] dx
   double velocityTolerance = 0;   // [m/s] dv
   double earliest = 0;            // [s] T - dT
@@ -66,6 +69,7 @@ struct ProtocolInput {
   Command command = Command::None;
   PlannedTrial planned;  // used with NextTrial
   Vec3 hip;              // [m] raw
+  double hipSpeed = 0;   // [m/s] estimated
   bool handValid = true;
   bool handBroken = false;  // the device gave something that is not finite
   bool clamped = false;     // at the tick before
@@ -82,6 +86,7 @@ struct ProtocolState {
   bool gone = false;  // the go signal was given
   Vec3 armedAt;       // [m] the HIP at arming
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
+  std::int64_t restTicks = 0;    // at the start and at rest, in a row
   int lostTicks = 0;             // in a row
   std::int64_t missedTicks = 0;  // of the movement: since onset, with the gap that it lies in
   TrialResult result;            // in Done

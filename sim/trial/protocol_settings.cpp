@@ -22,6 +22,8 @@ ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, 
   if (!isFinite(s.target)) throw FaultError(Fault{"task.target", "is no place on the constraint", "where the formula has a value"});
   s.armRadius = task.armRadius;
   s.onset = task.onset;
+  s.restTicks = std::llround(task.rest.seconds * kTicksPerSecond);
+  s.restSpeed = task.rest.speed;
   s.positionTolerance = task.tolerance.position;
   s.velocityTolerance = task.tolerance.velocity;
   s.earliest = task.duration - task.tolerance.time;

@@ -54,6 +54,9 @@ TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
   const std::vector<std::function<void(Json&)>> faults = {
       [](Json& j) { j["unknown"] = 1; },
       [](Json& j) { j["schema_version"] = 2; },
+      [](Json& j) { j["task"]["rest_s"] = -0.1; },
+      [](Json& j) { j["task"]["rest_s"] = 61; },
+      [](Json& j) { j["task"]["rest_speed_m_per_s"] = 0; },
       [](Json& j) { j.erase("object"); },
       [](Json& j) { j["object"]["masses_kg"][0] = 0; },
       [](Json& j) { j["object"]["kind"] = "string"; },

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sim/haptics/tick_engine.h"
+#include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -68,7 +69,7 @@ TEST(PassivityObserver, APassiveDamperIsLeftAlone) {
 
 class GuardedEngine : public ::testing::Test {
  protected:
-  GuardedEngine() : experiment(experiment::readExperiment("chain-slow")) { options.rendersForce = true; }
+  GuardedEngine() : experiment(test::armedAtOnce("chain-slow")) { options.rendersForce = true; }
   // At the start with a trial put up, until it is armed and the ramp is over.
   TickEngine& armed() {
     engine = std::make_unique<TickEngine>(experiment, options);

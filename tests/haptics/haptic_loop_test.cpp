@@ -8,6 +8,7 @@
 
 #include "sim/haptics/run_conductor.h"
 #include "tests/haptics/scripted_device.h"
+#include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -19,7 +20,7 @@ std::unique_ptr<ScriptedDevice> makeReach() { return std::make_unique<ScriptedDe
 
 // A short task, so that a trial ends within half a second of real time.
 experiment::Experiment shortTask() {
-  experiment::Experiment experiment = experiment::readExperiment("dingwell");
+  experiment::Experiment experiment = test::armedAtOnce("dingwell");
   experiment.task->duration = 0.4;
   experiment.task->tolerance.time = 0.1;
   experiment.timing = experiment::kNoTimingLimits;  // a busy machine spoils nothing here
@@ -78,7 +79,7 @@ TEST(HapticLoop, TheLoggedInputsReproduceARealTimeRun) {
 }
 
 TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  const experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   ScriptedDevice device(-0.1, 0.1, 300);
   {
     HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), device, nullptr);
@@ -92,7 +93,7 @@ TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
 
 TEST(HapticLoop, ReportsWhatItAchieved) {
   ScriptedDevice device(-0.1, 0.1, 300);
-  HapticLoop loop(std::make_unique<TickEngine>(experiment::readExperiment("chain-moderate"), EngineOptions{}), device, nullptr);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, nullptr);
   loop.start();
   while (loop.report().ticks < 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   loop.stop();
@@ -111,7 +112,7 @@ TEST(HapticLoop, CountsTicksThatTheRecorderCouldNotTake) {
   MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(experiment::readExperiment("dingwell"), EngineOptions{}), device, &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
   for (int i = 0; i < 25; ++i) loop.advance();
   EXPECT_EQ(loop.engine().state().faults.droppedRecords, 15u);
   EXPECT_EQ(loop.report().faults.droppedRecords, 15u);
@@ -137,7 +138,7 @@ TEST(RunConductor, InterruptsTheTrialUnderWayWhenAskedToStop) {
   for (const bool virtualClock : {true, false}) {
     LoopOptions options;
     options.virtualClock = virtualClock;
-    RunConductor conductor(experiment::readExperiment("chain-slow"), makeReach(), {trial::PlannedTrial{}}, options);
+    RunConductor conductor(test::armedAtOnce("chain-slow"), makeReach(), {trial::PlannedTrial{}}, options);
     conductor.start(nullptr);
     const std::atomic<bool> stop{true};
     const auto trial = conductor.runTrial(stop);

@@ -11,6 +11,7 @@
 #include "sim/haptics/haptic_loop.h"
 #include "sim/haptics/run_conductor.h"
 #include "tests/until.h"
+#include "tests/haptics/armed_at_once.h"
 
 /// The loop on devices that fail it. Waits are for events, never for a time to be short enough.
 namespace reachlab::haptics {
@@ -78,7 +79,7 @@ class FailingDevice : public HapticDevice {
 
 class LoopSafety : public ::testing::Test {
  protected:
-  LoopSafety() : experiment(experiment::readExperiment("chain-slow")) {
+  LoopSafety() : experiment(test::armedAtOnce("chain-slow")) {
     auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
     device = std::make_shared<FailingDevice>(engine->protocol().start);
     loop = std::make_unique<HapticLoop>(std::move(engine), device, nullptr);

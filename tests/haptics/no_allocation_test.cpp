@@ -8,7 +8,8 @@ namespace reachlab::haptics {
 namespace {
 
 // A whole trial: put up, armed, moved, judged, put up again, with every tick handed to window and recorder.
-std::uint64_t allocationsOfThreeTrials(const experiment::Experiment& experiment) {
+std::uint64_t allocationsOfThreeTrials(experiment::Experiment experiment) {
+  experiment.task->rest = experiment::kNoStartRest;
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   const Vec3 start = engine->protocol().start;
   test::ScriptedDevice device(start.x, start.x + 0.02, 400);

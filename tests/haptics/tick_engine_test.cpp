@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -21,7 +22,7 @@ DeviceSample handAt(const Vec3& position) {
 
 // chain-moderate, whose movements may have gaps, so that what a gap does can be seen to its end.
 experiment::Experiment chainThatMayMissTime() {
-  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   experiment.timing = experiment::kNoTimingLimits;
   return experiment;
 }
@@ -268,7 +269,7 @@ TEST_F(Engine, TheEnergyOfTheObjectIsTheWorkOfTheHand) {
 }
 
 TEST(TickEngine, TheSameInputsGiveTheSameBits) {
-  const experiment::Experiment experiment = experiment::readExperiment("parallel");
+  const experiment::Experiment experiment = test::armedAtOnce("parallel");
   TickEngine one(experiment, {}), two(experiment, {});
   TickInput input;
   for (int i = 0; i < 1500; ++i) {
@@ -282,7 +283,7 @@ TEST(TickEngine, TheSameInputsGiveTheSameBits) {
 }
 
 TEST(TickEngine, ABodyHeldOffItsCentreIsArmedWithoutForce) {
-  const experiment::Experiment experiment = experiment::readExperiment("free-body");
+  const experiment::Experiment experiment = test::armedAtOnce("free-body");
   ASSERT_GT(norm(experiment.object.fpOffset), 0.01);
   TickEngine engine(experiment, {});
   TickInput input;
@@ -297,13 +298,13 @@ TEST(TickEngine, ABodyHeldOffItsCentreIsArmedWithoutForce) {
 }
 
 TEST(TickEngine, RefusesAnExperimentWithoutATask) {
-  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   experiment.task.reset();
   EXPECT_THROW(TickEngine(experiment, {}), UsageError);
 }
 
 TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {
-  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   experiment.forceLimit = 1;
   experiment.forceLimitEndsTrial = true;
   TickEngine engine(experiment, {kLimit, false});
@@ -321,7 +322,7 @@ TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {
 
 // The hand is frozen ahead of the object: the coupling asks for more than the device's 12 N and goes on asking.
 double mostForceOnAFrozenHand(double experimentsLimit, bool rendersForce) {
-  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   experiment.forceLimit = experimentsLimit;
   EngineOptions options{kLimit};
   options.rendersForce = rendersForce;

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
 namespace {
 
 TEST(TickTiming, MeasuresEveryShippedExperiment) {
   for (const std::string& name : experiment::shippedExperiments()) {
-    const TickTiming timing = measureTicks(experiment::readExperiment(name), 2000);
+    const TickTiming timing = measureTicks(test::armedAtOnce(name), 2000);
     EXPECT_EQ(timing.ticks, 2000u) << name;
     EXPECT_GT(timing.p50, 0) << name;
     EXPECT_LE(timing.p50, timing.p99) << name;
@@ -19,7 +20,7 @@ TEST(TickTiming, MeasuresEveryShippedExperiment) {
 }
 
 TEST(TickTiming, RefusesAnExperimentWithoutATask) {
-  experiment::Experiment experiment = experiment::readExperiment("dingwell");
+  experiment::Experiment experiment = test::armedAtOnce("dingwell");
   experiment.task.reset();
   EXPECT_THROW(measureTicks(experiment, 10), UsageError);
 }

@@ -20,6 +20,9 @@ TEST(GoldenLogs, OfEveryVersionReadBackAsTheyWereWritten) {
     EXPECT_EQ(log.configuration().seed, 18446744073709551615ull);
     EXPECT_EQ(log.configuration().experimentName, "made");
     ASSERT_EQ(log.trials().size(), 3u);
+    // What was not asked for then is not asked for when it is computed again.
+    EXPECT_EQ(log.configuration().rest.seconds, 0);
+    EXPECT_GT(log.configuration().rest.speed, 100);
     EXPECT_EQ(log.trials()[1].result.reason, trial::Reason::Velocity);
     EXPECT_EQ(log.trials()[1].result.by, 0.002);
     const std::size_t x = log.configuration().table.indexOf("hand_pos_x");

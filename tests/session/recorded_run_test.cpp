@@ -25,7 +25,7 @@ using record::TemporaryFolder;
 constexpr const char* kEasy = R"({ "schema_version": 1, "name": "easy", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
   "object": { "kind": "point", "masses_kg": [0.5], "stiffness_n_per_m": [] },
   "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 40 },
-  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 0.4, "timeout_s": 0.1,
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 0.4, "timeout_s": 0.1, "rest_s": 0,
             "tolerance": { "position_m": 0.05, "velocity_m_per_s": 5, "time_s": 0.3 } } })";
 
 const std::atomic<bool> kNeverStop{false};

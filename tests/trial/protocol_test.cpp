@@ -33,6 +33,7 @@ class Protocol : public ::testing::Test {
     in.command = command;
     in.planned = planned;
     in.hip = hip;
+    in.hipSpeed = speed;
     in.handValid = handValid;
     in.handBroken = handBroken;
     in.clamped = clamped;
@@ -69,6 +70,7 @@ class Protocol : public ::testing::Test {
   PlannedTrial planned;
   std::vector<dynamics::MassState> masses{2};
   Vec3 hip;
+  double speed = 0;  // [m/s] of the hand, as estimated
   bool handValid = true, handBroken = false, clamped = false;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::uint64_t now = 0;
@@ -102,6 +104,58 @@ TEST_F(Protocol, ArmsOnlyWithTheHandWithinTheRadiusOfTheStart) {
   tick();
   EXPECT_EQ(state.phase, Phase::Armed);
   EXPECT_EQ(state.armedTick, now);
+}
+
+// A hand that comes back from the last reach passes the start, or reaches it with speed: no trial begins under it.
+TEST_F(Protocol, ArmsOnceTheHandHasRestedAtTheStart) {
+  settings.restTicks = 300;
+  settings.restSpeed = 0.02;
+  hip = settings.start + Vec3{0.05, 0, 0};
+  speed = 0.3;
+  tick(Command::NextTrial);
+  while (hip.x > settings.start.x) {
+    hip.x -= 0.3e-3;
+    tick();
+    ASSERT_EQ(state.phase, Phase::Waiting);
+  }
+  ticks(1000);
+  EXPECT_EQ(state.phase, Phase::Waiting) << "at the start, but moving";
+  speed = 0.019;
+  ticks(200);
+  speed = 0.021;  // a twitch begins the rest anew
+  tick();
+  speed = 0;
+  ticks(300);
+  EXPECT_EQ(state.phase, Phase::Waiting);
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed);
+  EXPECT_EQ(state.armedTick, now);
+}
+
+TEST_F(Protocol, AHandThatPassesTheStartRestsAnew) {
+  settings.restTicks = 300;
+  tick(Command::NextTrial);
+  ticks(299);
+  hip.x += 1.01 * settings.armRadius;
+  tick();
+  hip = settings.start;
+  ticks(300);
+  EXPECT_EQ(state.phase, Phase::Waiting);
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed);
+}
+
+TEST_F(Protocol, ALostHandDoesNotRest) {
+  settings.restTicks = 10;
+  tick(Command::NextTrial);
+  ticks(10);
+  handValid = false;
+  tick();
+  handValid = true;
+  ticks(10);
+  EXPECT_EQ(state.phase, Phase::Waiting);
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed);
 }
 
 TEST_F(Protocol, DoesNotArmOnALostHand) {
@@ -313,7 +367,7 @@ TEST_F(Protocol, MovingBeforeTheGoSignalIsAFalseStart) {
   ticks(200);
   hip.x += 0.01;
   tick();
-  expectEnd(Outcome::Failure, Reason::FalseStart);
+  expectEnd(Outcome::Failure, Reason::Early);
   EXPECT_EQ(state.result.onsetTick, now);
 }
 
@@ -333,7 +387,7 @@ TEST_F(Protocol, ACatchTrialIsLostByMoving) {
   arm();
   hip.y += 0.01;
   tick();
-  expectEnd(Outcome::Failure, Reason::FalseStart);
+  expectEnd(Outcome::Failure, Reason::Early);
 }
 
 TEST_F(Protocol, TheNextTrialForgetsTheLast) {
