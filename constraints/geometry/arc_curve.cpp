@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/gauss_legendre.h"
 #include "base/legendre_series.h"
+#include "constraints/places.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -31,6 +32,39 @@ constexpr double kTurns = 1e-6;   // between the tangents of two pieces that mee
       fmt::format("the curve has {} at phi = {:.6g}, between start and target: no movement of finite jerk passes it but at "
                   "rest; allowed: a start and a target with none between them",
                   found.what, found.phi));
+}
+
+double degreesBetween(const Vec3& a, const Vec3& b) {
+  return std::acos(std::clamp(dot(a, b) / (norm(a) * norm(b)), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+/// The places of the formula between start and target decide, however narrow they are, where their list is complete.
+void refuseAtPlaces(const Constraint& c, double start, double target) {
+  const double lo = std::min(start, target), hi = std::max(start, target);
+  const CurveRegularity regularity = computeRegularityWithin(c, lo, hi);
+  for (std::size_t i = 0; i + 1 < regularity.pieces.size(); ++i) {
+    const CurvePiece &before = regularity.pieces[i], &after = regularity.pieces[i + 1];
+    if (before.placeAtHi < 0 || before.placeAtHi != after.placeAtLo) continue;
+    const Place& place = regularity.places[static_cast<std::size_t>(before.placeAtHi)];
+    if (place.kind == PlaceKind::Hole) continue;
+    const CurvePoint a = evaluate(before.curve, place.at), b = evaluate(after.curve, place.at);
+    const std::string because = fmt::format(" ({})", place.because);
+    if (!isPassed(place.kind))
+      refuse({place.at, place.kind == PlaceKind::Jump ? fmt::format("a jump of {:.3g} m{}", norm(b.r - a.r), because)
+                                                      : fmt::format("a {}{}", nameOf(place.kind), because)});
+    const double speedA = norm(a.rPhi), speedB = norm(b.rPhi);
+    if (!(speedA > 0) || !(speedB > 0)) continue;  // a cusp, or what stands still: told apart below
+    const auto bend = [](const CurvePoint& p) {
+      const double square = dot(p.rPhi, p.rPhi);
+      return (p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square;
+    };
+    if (!(norm(a.rPhi / speedA - b.rPhi / speedB) <= kTurns))
+      refuse(
+          {place.at, fmt::format("a kink (its direction turns by {:.3g} degrees at {})", degreesBetween(a.rPhi, b.rPhi), place.because)});
+    const Vec3 bendA = bend(a), bendB = bend(b);
+    if (!(norm(bendA - bendB) <= kTurns * std::max(norm(bendA), norm(bendB))))
+      refuse({place.at, fmt::format("a step of its curvature{}", because)});
+  }
 }
 
 bool isResolved(const LegendreSeries& series, double enough) {
@@ -63,6 +97,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
   }
   unevenness_ = fastest / slowest;
   fastest_ = fastest;
+  refuseAtPlaces(curve, start, target);
   if (!(unevenness_ < kCusp)) refuse({stillAt, kCuspWords});
   for (int i = 0; i < kFirstPieces; ++i)
     if (!append(start + way_ * i / kFirstPieces, start + way_ * (i + 1) / kFirstPieces, 0)) refuse(break_);
@@ -224,7 +259,7 @@ bool ArcCurve::joins(const Piece& before, const Piece& after) {
   if (!(norm(a[0] - b[0]) <= pace * (between + 1e-6 * longer) + kPlace * norm(b[0])))
     return breakOff(after.begin, fmt::format("a jump of {:.3g} m", norm(a[0] - b[0])));
   if (!(norm(a[1] - b[1]) <= kTurns * pace)) {
-    const double degrees = std::acos(std::clamp(dot(a[1], b[1]) / (norm(a[1]) * norm(b[1])), -1.0, 1.0)) * 180 / std::numbers::pi;
+    const double degrees = degreesBetween(a[1], b[1]);
     return breakOff(after.begin, degrees > 179.9  ? kCuspWords
                                  : degrees > 1e-4 ? fmt::format("a kink (its direction turns by {:.3g} degrees)", degrees)
                                                   : "a change of pace");

@@ -181,6 +181,8 @@ TEST(CurveJerk, IsRefusedWhereTheCurveIsNotSmoothWithKindAndPlace) {
   for (const Broken& broken : {Broken{{"phi/10", "0.05*abs(phi)", "0"}, -1, 1, "a kink", "phi = 0"},
                                {{"phi/10", "0.05*abs(phi - 0.3)", "0"}, -1, 1, "a kink", "phi = 0.3"},
                                {{"phi/10", "0.05*abs(phi) + 0.02*phi^2", "0"}, -1, 1, "a kink", "phi = 0"},
+                               // Kinks 1e-9 apart, which no sample sees.
+                               {{"phi/10", "0.05*(abs(phi - 0.31234) - abs(phi - 0.31234 - 1e-9))", "0"}, -1, 1, "a kink", "phi = 0.31234"},
                                {{"phi/10", "0.05*abs(phi) + 0.02*phi^2", "0"}, -0.5, 0.9, "a kink", "phi = "},
                                {{"0.05*(phi + abs(phi))", "0.02*phi", "0"}, -1, 1, "a kink", "phi = 0"},
                                {{"phi/10", "0.01*sign(phi)", "0"}, -1, 1, "a jump of 0.01 m", "phi = "},
@@ -225,6 +227,14 @@ TEST(SurfaceJerk, IsRefusedAcrossARidgeOrAStep) {
             std::string::npos);
   EXPECT_NE(refusalOf(makeSurfaceExperiment({"u", "0.01*sign(u - 0.013)", "v"}, {-0.1, 0}, {0.1, 0.05}, 1)).find("a kink, a jump"),
             std::string::npos);
+}
+
+// What two samples of the way have between them is seen by the sides of the formula's own operations.
+TEST(SurfaceJerk, IsRefusedAcrossAKinkThatNoSampleSees) {
+  const std::string refusal =
+      refusalOf(makeSurfaceExperiment({"u", "0.5*(abs(u - 0.0123) - abs(u - 0.0123 - 1e-9))", "v"}, {-0.1, 0}, {0.1, 0.05}, 1));
+  EXPECT_NE(refusal.find("a kink, a jump"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("abs("), std::string::npos) << refusal;
 }
 
 // Finite differences of a fixed step were wrong by 6e-5 of the cost where parameters are metres, and refused narrow hills.

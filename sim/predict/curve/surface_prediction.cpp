@@ -1,10 +1,15 @@
 #include "sim/predict/curve/surface_prediction.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "base/error.h"
 #include "constraints/geometry/surface_expansion.h"
+#include "constraints/surface_branches.h"
 #include "sim/predict/numerics/hyper_dual.h"
 #include "sim/predict/transcription/transcription.h"
 
@@ -24,6 +29,44 @@ PathPoint computePathPoint(const constraints::SurfaceExpansion& d, const std::ar
   return {d[0][0], u * d[1][0] + v * d[0][1], u * u * d[2][0] + 2 * u * v * d[1][1] + v * v * d[0][2] + du[1] * d[1][0] + dv[1] * d[0][1],
           u * u * u * d[3][0] + 3 * u * u * v * d[2][1] + 3 * u * v * v * d[1][2] + v * v * v * d[0][3] + 3 * u * du[1] * d[2][0] +
               3 * (u * dv[1] + du[1] * v) * d[1][1] + 3 * v * dv[1] * d[0][2] + du[2] * d[1][0] + dv[2] * d[0][1]};
+}
+
+/// The lines across which the surface's formula is not smooth, held against the finished way: a movement of finite jerk crosses none, but
+/// where both sides agree to the second derivative.
+void refuseAtLines(const constraints::Constraint& surface, const std::function<std::array<double, 2>(double share)>& way) {
+  constexpr int kLooks = 4000;
+  constexpr double kAgrees = 1e-9;
+  const auto branches = constraints::computeBranches(surface);
+  if (branches->smooth()) return;
+  std::array<double, 2> q = way(0);
+  auto before = branches->at(q[0], q[1]);
+  for (int i = 1; i <= kLooks; ++i) {
+    q = way(i / double{kLooks});
+    const auto after = branches->at(q[0], q[1]);
+    int branch = 0;
+    for (std::size_t k = 0; k < branches->lines.size(); ++k)
+      if (const int bit = branches->lines[k].bit; bit >= 0 && after[k].value > 0) branch |= 1 << bit;
+    for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+      const constraints::SurfaceBranches::Line& line = branches->lines[k];
+      if (before[k].value * after[k].value > 0 || (i == kLooks && after[k].value == 0) || (i == 1 && before[k].value == 0)) continue;
+      if (line.passable) {
+        // To the line itself, and both sides' formulas there.
+        const double slope = after[k].u * after[k].u + after[k].v * after[k].v;
+        const double u = q[0] - after[k].value * after[k].u / slope, v = q[1] - after[k].value * after[k].v / slope;
+        const constraints::SurfacePoint a = evaluate(branches->branches[static_cast<std::size_t>(branch)], u, v),
+                                        b = evaluate(branches->branches[static_cast<std::size_t>(branch ^ (1 << line.bit))], u, v);
+        const double size = norm(a.r) + norm(a.rU) + norm(a.rV) + norm(a.rUu) + norm(a.rUv) + norm(a.rVv);
+        if (norm(a.r - b.r) + norm(a.rU - b.rU) + norm(a.rV - b.rV) + norm(a.rUu - b.rUu) + norm(a.rUv - b.rUv) + norm(a.rVv - b.rVv) <=
+            kAgrees * size)
+          continue;
+      }
+      throw RefusedError(
+          fmt::format("the way crosses a place where the surface has a kink, a jump or an end ({}: {}) at u = {:.6g}, v = {:.6g}: no "
+                      "movement of finite jerk passes it but at rest; allowed: a start and a target with none between them",
+                      nameOf(line.kind), line.because, q[0], q[1]));
+    }
+    before = after;
+  }
 }
 
 }  // namespace
@@ -83,6 +126,7 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const constraints::Constra
     return computePathPoint(formula.expand(u, v, 3), {u1, u2, u3}, {v1, v2, v3});
   });
   const LegendreSeries u = motion.derivative(0, 0), v = motion.derivative(1, 0), du = motion.derivative(0, 1), dv = motion.derivative(1, 1);
+  refuseAtLines(surface, [&](double share) { return std::array{valueAt(u, 2 * share - 1), valueAt(v, 2 * share - 1)}; });
   const MotionSeries hand = makeSeriesOfSpeed(
       [&](double t) {
         const double x = 2 * t / duration - 1;
