@@ -7,7 +7,7 @@
 
 namespace reachlab::dynamics {
 
-OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt) : n_(model.count()) {
+OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt) : n_(model.count()), dt_(dt) {
   struct Oscillator {
     ObjectModel model;
     double handStiffness, handDamping, extra, gravity, rest;
@@ -39,6 +39,7 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
     }
   }
   groups_.resize(lanesFor<kLanes>(n_), Group{});
+  bool free = toModes_.size() > 0 && n_ >= kFewestFree;
   for (int j = 0; j < n_; ++j) {
     const Oscillator& o = oscillators[j];
     const Propagator p = computePropagator(o.model, true, dt);
@@ -60,6 +61,19 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
       g.rateV[k][lane] = o.handDamping * p.force[k][1];
     }
     damped_ = damped_ || o.handDamping != 0;
+    free = free && o.model.handDamping[0] == 0 && o.handDamping == 0 && std::sqrt(o.model.handStiffness[0]) * dt > kSlowest;
+  }
+  if (!free) return;
+  free_.resize(groups_.size(), FreeGroup{});
+  for (int j = 0; j < n_; ++j) {
+    const Group& g = groups_[j / kLanes];
+    FreeGroup& f = free_[j / kLanes];
+    const int lane = j % kLanes;
+    f.turn[lane] = g.xx[lane];
+    f.vx[lane] = g.vx[lane];
+    f.xv[lane] = g.xv[lane];
+    f.rest[lane] = g.rest[lane];
+    f.period[lane] = 1 / oscillators[j].model.handStiffness[0];
   }
 }
 
@@ -108,9 +122,46 @@ void OscillatorCore::read(const State& state, std::span<double> x, std::span<dou
 
 bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
   const bool pushed = hand.extraForce != 0 || hand.gravity != 0;
+  if (!free_.empty() && !pushed && hand.degree <= kFreeDegree) return advanceFree(state, hand, next);
   return withDegree(hand.degree, [&](auto degree) {
     return pushed || damped_ ? advance<degree.value, true>(state, hand, next) : advance<degree.value, false>(state, hand, next);
   });
+}
+
+bool OscillatorCore::advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept {
+  // Derivatives of h at the step's beginning and their change over it; [m/s^k].
+  std::array<double, kFreeDegree + 1> begin{hand.origin}, change{};
+  double factor = 1;
+  for (int order = 0; order <= kFreeDegree; ++order) {
+    if (order > 0) factor *= order / dt_;  // order! / dt^order
+    if (order > 0 && order <= hand.degree) begin[order] = factor * hand.r(order);
+    double choose = 1;
+    for (int k = order + 1; k <= hand.degree; ++k) {
+      choose *= static_cast<double>(k) / (k - order);
+      change[order] += factor * choose * hand.r(k);
+    }
+  }
+  Lanes check{};
+  const FreeGroup* group = free_.data();
+  const Lanes *x = state.x.data(), *v = state.v.data();
+  Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
+  const std::size_t count = free_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const FreeGroup& g = group[i];
+    const auto follow = [&](double h, double second, double fourth) {
+      return mulAdd(-g.period, mulAdd(-fourth, g.period, broadcast<Lanes>(second)), broadcast<Lanes>(h));
+    };
+    const Lanes e = mulAdd(-g.rest, follow(begin[0], begin[2], begin[4]), x[i]);
+    const Lanes rate = mulAdd(-g.rest, follow(begin[1], begin[3], begin[5]), v[i]);
+    const Lanes newX = x[i] + mulAdd(g.rest, follow(change[0], change[2], change[4]), mulAdd(g.turn, e, g.xv * rate));
+    const Lanes newV = v[i] + mulAdd(g.rest, follow(change[1], change[3], change[5]), mulAdd(g.turn, rate, g.vx * e));
+    nextX[i] = newX;
+    nextV[i] = newV;
+    check += newX + newV;
+  }
+  double sum = 0;
+  for (int lane = 0; lane < kLanes; ++lane) sum += check[lane];
+  return std::isfinite(sum);
 }
 
 template <int Degree, bool Full>

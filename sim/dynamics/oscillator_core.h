@@ -39,9 +39,23 @@ class OscillatorCore {
     std::array<Lanes, kForceTerms> handX{}, handV{};  // by position coefficients
     std::array<Lanes, kForceTerms> rateX{}, rateV{};  // by velocity coefficients
   };
+  /// A chain without damping, extra force or gravity. About the place where it would follow the hand's polynomial h for ever,
+  /// p = rest (h - h2/w^2 + h4/w^4) with h2, h4 the second and fourth derivative of h, each mode turns freely. A third of a Group's
+  /// numbers, so that 500 modes stay near the processor.
+  struct FreeGroup {
+    Lanes turn, vx, xv;  // cos(w dt) - 1, -w sin(w dt), sin(w dt)/w
+    Lanes rest, period;  // period: 1/w^2 [s^2]
+  };
+  static constexpr int kFewestFree = 32;    // masses: fewer fit as they are
+  static constexpr int kFreeDegree = 5;     // of the hand's polynomial
+  static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
+  bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;
+
   int n_ = 0;
+  double dt_ = 0;
   bool damped_ = false;  // the hand's velocity matters
   std::vector<Group> groups_;
+  std::vector<FreeGroup> free_;         // empty where it does not apply
   Eigen::MatrixXd toModes_, toMasses_;  // empty for a parallel object
 };
 
