@@ -26,7 +26,7 @@ template <int S>
 struct Rows {
   static constexpr int kWidth = S == 0 ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
   static constexpr int kMost = ((S == 0 ? kMostStates : S) + kWidth - 1) / kWidth;
-  static constexpr bool kFull = S > 0 && S % kWidth == 0;
+  static constexpr bool kFull = S > 0;  // Numbers have room for whole rows
   using Lanes = reachlab::Lanes<kWidth>;
 
   static constexpr int count(int states) noexcept { return S == 0 ? (states + kWidth - 1) / kWidth : kMost; }

@@ -60,12 +60,14 @@ struct BrokenCurveSystem {
     const Vec3& operator[](int i) const noexcept { return all[i]; }
   };
   /// Force over mass on each mass [m/s^2], without viscosity; and what the equations need of the curve.
-  void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent,
-            std::array<double, kMostMasses<N>>& measure) const noexcept {
+  void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent, std::array<double, kMostMasses<N>>& measure, int lead = -1,
+            double* speed = nullptr) const noexcept {
     Vectors r, v;
     for (int i = 0; i < n(); ++i) {
       const constraints::CurvePoint p = evaluate(curveOf(i), y[i]);
-      measure[i] = 1 / std::fmax(norm(p.rPhi), 1e-290);
+      const double length = norm(p.rPhi);
+      if (i == lead) *speed = length;
+      measure[i] = 1 / std::fmax(length, 1e-290);
       tangent[i] = measure[i] * p.rPhi;
       r[i] = p.r;
       v[i] = y[n() + i] * tangent[i];
@@ -75,9 +77,14 @@ struct BrokenCurveSystem {
     for (int i = 0; i < n(); ++i) drive[i] = springs.inverseMass[i] * drive[i] + springs.gravity;
   }
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    double none = 0;
+    rate(hand, y, dy, -1, none);
+  }
+  /// The rate, and |r_phi| [m] of mass `lead` from the same evaluation.
+  void rate(const Hand& hand, const State& y, State& dy, int lead, double& speed) const noexcept {
     Vectors drive, tangent;
     std::array<double, kMostMasses<N>> measure;
-    push(hand, y, drive, tangent, measure);
+    push(hand, y, drive, tangent, measure, lead, &speed);
     for (int i = 0; i < n(); ++i) {
       const double v = y[n() + i];
       dy[i] = where[i].held ? 0 : v * measure[i];

@@ -31,7 +31,14 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
     void set(int i, const Vec3& v) noexcept { all.value[i].x = v.x, all.value[i].y = v.y, all.value[i].z = v.z; }
   };
 
-  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept { computeRate(hand, y, dy, -1, nullptr); }
+  /// The rate, and |r_phi| [m] of mass `lead` from the same evaluation.
+  void rate(const Hand& hand, const State& y, State& dy, int lead, double& speed) const noexcept requires Tangential {
+    computeRate(hand, y, dy, lead, &speed);
+  }
+
+ private:
+  [[gnu::always_inline]] void computeRate(const Hand& hand, const State& y, State& dy, int lead, double* speed) const noexcept {
     // Each point stays where the curve wrote it; what follows is copied component by component.
     constraints::Unfilled<std::array<constraints::CurvePoint, kMostMasses<N>>> points;
     Vectors r, v, force, tangent;
@@ -41,7 +48,9 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
       const constraints::CurvePoint& p = points.value[i];
       const double square = fusedDot(p.rPhi, p.rPhi);
       if constexpr (Tangential) {
-        measure[i] = 1 / std::fmax(std::sqrt(square), 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it
+        const double length = std::sqrt(square);
+        if (speed != nullptr && i == lead) *speed = length;
+        measure[i] = 1 / std::fmax(length, 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it
         tangent.set(i, measure[i] * p.rPhi);
       } else {
         measure[i] = 1 / square;

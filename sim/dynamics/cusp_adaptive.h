@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "sim/dynamics/adaptive.h"
 #include "sim/dynamics/curve_system.h"
 
@@ -66,8 +68,15 @@ class CuspAdaptive {
     State plain(n), rates(n);
     const auto rate = [&](double, const Extended& at, Extended& d) {
       for (int i = 0; i < n; ++i) plain[i] = at[i];
-      system.rate(system.handAt(hand, at[n] / dt), plain, rates);
-      const double factor = system.speedAt(lead.mass, at[lead.mass]) / c;
+      const auto now = system.handAt(hand, at[n] / dt);
+      double speed = 0;
+      if constexpr (requires { system.rate(now, plain, rates, 0, speed); }) {
+        system.rate(now, plain, rates, lead.mass, speed);
+      } else {
+        system.rate(now, plain, rates);
+        speed = system.speedAt(lead.mass, at[lead.mass]);
+      }
+      const double factor = speed / c;
       for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
       d[lead.mass] = at[system.rates() + lead.mass] / c;
       d[n] = factor;
@@ -87,6 +96,7 @@ class CuspAdaptive {
         rate(0, y, k[0]);
         ++rhs;
         h = std::min(h, 0.3 * c / std::max(speed, 1e-300));  // no more than 0.3 in phi, so that a minimum is not stepped over
+        h = std::min(h, aim(system, lead.mass, y[lead.mass], k[0][lead.mass], k[0][system.rates() + lead.mass] / c, dt - y[n]));
         fresh = false;
       }
       double error = dop853::attempt<kSize>(rate, unit, 0, h, y, k, trial);
@@ -117,9 +127,9 @@ class CuspAdaptive {
           }
         }
       }
-      // Past the tick: shorten until t meets its end.
-      bool finished = false;
-      if (error <= 1 && trial[n] >= dt) {
+      // At the tick's end but for little: a small step in time. Past it: shorten until t meets its end.
+      bool finished = !cuspEnd && error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs);
+      if (!finished && error <= 1 && trial[n] >= dt) {
         double low = 0, high = h, tau = h;
         for (int round = 0; round < 40 && std::abs(trial[n] - dt) > 2e-16 * dt; ++round) {
           (trial[n] > dt ? high : low) = tau;
@@ -130,6 +140,7 @@ class CuspAdaptive {
           tau = better;
           error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
           rhs += dop853::kStages - 1;
+          if (error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs)) break;
         }
         finished = true;
         cuspEnd = false;
@@ -147,7 +158,7 @@ class CuspAdaptive {
         fresh = true;
         if (finished) {
           y[n] = dt;
-          last_ = h;
+          last_ = h * factor;
         }
       } else {
         status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
@@ -165,6 +176,46 @@ class CuspAdaptive {
     }
     for (int i = 0; i < n; ++i) next[i] = y[i];
     return StepStatus::Ok;
+  }
+
+  /// The fictitious time after which `left` seconds have gone by, by Simpson's rule over |r_phi| along phi + rate tau + turn tau^2/2; good
+  /// to some thousandths. Infinite where it is not within reach.
+  static double aim(const System& system, int mass, double phi, double rate, double turn, double left) noexcept {
+    const double c = system.speedScale, begin = system.speedAt(mass, phi) / c;
+    double tau = left / std::max(begin, 1e-3);
+    for (int round = 0; round < 4; ++round) {
+      const double half = system.speedAt(mass, phi + tau * (0.5 * rate + 0.125 * turn * tau)) / c;
+      const double end = system.speedAt(mass, phi + tau * (rate + 0.5 * turn * tau)) / c;
+      const double miss = tau / 6 * (begin + 4 * half + end) - left;
+      if (std::abs(miss) < 1e-3 * left) return tau;
+      tau -= miss / std::max(end, 1e-3);
+      if (!(tau > 0)) break;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+  /// From `at`, whose time is nearly dt, to dt by one RK4 step in time, forwards or back, where the tangent turns so little in it that its
+  /// error is below rounding: kTurn^5/120.
+  static bool endInTime(const System& system, const HandSegment& hand, double dt, int mass, Extended& at, State& plain, State& rates,
+                        int& rhs) noexcept {
+    constexpr double kTurn = 4e-3;
+    const int n = system.states();
+    const double rest = dt - at[n];
+    const constraints::CurvePoint p = evaluate(system.curveOf(mass), at[mass]);
+    const double square = dot(p.rPhi, p.rPhi), turn = norm(p.rPhiPhi) * std::abs(at[system.rates() + mass] * rest);
+    if (!(turn < kTurn * square) || !(std::abs(rest) < 0.1 * dt)) return false;
+    State sum(n), begin(n);
+    for (int i = 0; i < n; ++i) begin[i] = plain[i] = at[i];
+    system.rate(system.handAt(hand, at[n] / dt), plain, rates);
+    sum = rates;
+    for (const double share : {0.5, 0.5, 1.0}) {
+      for (int i = 0; i < n; ++i) plain[i] = begin[i] + share * rest * rates[i];
+      system.rate(system.handAt(hand, (at[n] + share * rest) / dt), plain, rates);
+      for (int i = 0; i < n; ++i) sum[i] += (share < 1 ? 2 : 1) * rates[i];
+    }
+    for (int i = 0; i < n; ++i) at[i] = begin[i] + rest / 6 * sum[i];
+    at[n] = dt;
+    rhs += 4;
+    return true;
   }
 
   /// The minimum of |r_phi| between two places where it falls and rises; true if it is a cusp. Gauss-Newton on r_phi = 0.

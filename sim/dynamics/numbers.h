@@ -1,16 +1,21 @@
 #pragma once
 #include <array>
+#include <bit>
 
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
 
 /// S numbers on the stack with the size known to the compiler; S = 0: the size is known when the scene is compiled, within a bound, so
-/// that a step allocates nothing either way. Left uninitialised: every method writes before it reads.
+/// that a step allocates nothing either way. Left uninitialised: every method writes before it reads. Room beyond
+/// the last number holds zeros, so that vectors are loaded and stored whole.
 template <int S>
 struct Numbers {
-  std::array<double, S> values;
-  explicit Numbers(int = S) {}
+  static constexpr int kRoom = S < 8 ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(S))) : (S + 7) / 8 * 8;  // whole vectors
+  std::array<double, kRoom> values;
+  explicit Numbers(int = S) {
+    for (int i = S; i < kRoom; ++i) values[i] = 0;
+  }
   static constexpr int size() noexcept { return S; }
   double& operator[](int i) noexcept { return values[i]; }
   const double& operator[](int i) const noexcept { return values[i]; }

@@ -97,4 +97,12 @@ bool provesQuadric(const constraints::Constraint& surface, const Quadric& q) {
   return f.largest() <= kRounding * size;
 }
 
+bool hasApex(const Quadric& q) {
+  constexpr double kNone = 1e-6, kOn = 1e-9;  // of the gradient, which is of order one; [m] from the surface
+  Eigen::Matrix3d a;
+  a << q.a[0], q.a[3], q.a[4], q.a[3], q.a[1], q.a[5], q.a[4], q.a[5], q.a[2];
+  const Eigen::Vector3d b(q.b.x, q.b.y, q.b.z), d = (2 * a).completeOrthogonalDecomposition().solve(-b);
+  return !((2 * a * d + b).norm() > kNone) && !(std::abs(d.dot(a * d) + b.dot(d) + q.c) > kOn);
+}
+
 }  // namespace reachlab::dynamics

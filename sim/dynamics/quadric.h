@@ -27,6 +27,9 @@ struct Quadric {
   }
 };
 
+/// F and its gradient vanish together somewhere near the samples: a cone's apex, or the line in which two planes meet.
+bool hasApex(const Quadric& quadric);
+
 /// The quadric on which the whole parametrised surface lies, found from samples of r(u, v) alone (the null vector of their monomials), or
 /// nothing: not of second degree, not unique (a plane), or not finite. Infinite domains are sampled over `start` ± 3. Allocates.
 std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,

@@ -20,6 +20,7 @@ struct QuadricSystem {
   Quadric quadric;
   constraints::Surface surface;
   std::array<constraints::Domain, 2> domain;
+  bool apex = true;    // somewhere on it there is no normal (a cone)
   bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
@@ -45,10 +46,12 @@ struct QuadricSystem {
   /// Back onto the surface every few ticks: rounding's drift, far below what a multistep history notices. Lost where the normal turned
   /// round within the step: a cone's apex, beyond which nothing says where to go.
   Settled settle(const State& before, State& y) noexcept {
+    const bool project = ++ticks % kProjectEvery == 0;
+    if (!project && !apex) return Settled::Same;
     Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
     const Vec3 n = quadric.gradient(r), nBefore = quadric.gradient({before[0], before[1], before[2]});
     if (dot(n, nBefore) < 0 && lost(before)) return Settled::Lost;
-    if (++ticks % kProjectEvery != 0) return Settled::Same;
+    if (!project) return Settled::Same;
     // The normal's length of the tick before does: what a step drifts is rounding, and waiting for this tick's would cost a division.
     const double square = 1 / fusedDot(nBefore, nBefore);
     r = mulAdd(-(quadric.value(r) * square), n, r);

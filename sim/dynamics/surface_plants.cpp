@@ -15,6 +15,7 @@ std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constrai
                                         bool edges, const MethodRequest& request) {
   QuadricSystem system(model, constraint, quadric);
   system.edges = edges;
+  system.apex = hasApex(quadric);
   return makePlant(model, system, request);
 }
 
