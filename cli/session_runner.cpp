@@ -9,6 +9,7 @@
 #include "cli/success_table.h"
 #include "devices/make_device.h"
 #include "sim/session/recorded_session.h"
+#include "sim/trial/task_places.h"
 
 namespace reachlab::cli {
 namespace {
@@ -23,6 +24,7 @@ void printRun(const session::RecordedRun& run) {
   const record::RunConfiguration& c = run.configuration();
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", c.run, c.condition, run.trialCount(),
              run.trialCount() == 1 ? "" : "s", c.practice ? " of practice" : "", c.method, run.logPath());
+  for (const Fault& warning : trial::describeWay(run.experiment())) fmt::print(stderr, "warning: {}\n", toText(warning));
 }
 
 // Before anybody feels it: what this experiment will meet on this device.

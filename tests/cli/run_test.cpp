@@ -123,3 +123,20 @@ TEST(List, TellsWhatAnExperimentAsks) {
   EXPECT_NE(out.find("point of 1 kg on torus, 1.5 ± 0.6 s\n"), std::string::npos) << out;
   EXPECT_NE(out.find("chain of 5 x 0.6 kg on line, 1.35 ± 0.5 s\n"), std::string::npos) << out;
 }
+
+// As validate says it: the chord stands at right angles to the ellipse at the start.
+TEST(Run, SaysThatRoundingDecidesWhichWayTheMassLeaves) {
+  const Folder folder;
+  const std::string file = folder.write(
+      "e.json", R"({"schema_version": 1, "constraint": {"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]
+}
+, "object" : {"kind" : "point", "masses_kg" : [1]}, "coupling" : {"stiffness_n_per_m" : 600}, "task" : {
+  "start" : [0], "target" : [3.141592653589793], "duration_s" : 1, "tolerance" : {
+    "position_m" : 0.01, "velocity_m_per_s" : 0.05, "time_s" : 0.5
+  }
+}
+})");
+  const Ended ended = reach("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + (folder / "data").string());
+EXPECT_EQ(ended.exitCode, 0) << ended.err;
+EXPECT_NE(ended.err.find("rounding decides which way"), std::string::npos) << ended.err;
+}
