@@ -18,7 +18,8 @@ struct Participant {
   std::string handedness;     // R | L | A
 };
 
-/// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value.
+/// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value. Its fields are read, written
+/// and compared by one list, in run_fields.h.
 struct RunConfiguration {
   std::string subject = "01", session = "01", task = "reach";
   int run = 1;         // as in the file name
@@ -62,6 +63,9 @@ struct RunConfiguration {
 std::string toJson(const RunConfiguration& configuration);
 /// Throws UsageError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
+
+/// Keys of the fields in which two configurations differ.
+std::vector<std::string> differingKeys(const RunConfiguration& a, const RunConfiguration& b);
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws UsageError when its text cannot be understood.

@@ -247,7 +247,7 @@ void expectSameBytes(const std::string& a, const std::string& b) {
 }
 
 void expectSameRun(const record::RunLog& a, const record::RunLog& b) {
-  EXPECT_EQ(timeless(toJson(a.configuration())), timeless(toJson(b.configuration())));
+  for (const std::string& key : differingKeys(a.configuration(), b.configuration())) EXPECT_EQ(key, "started_utc");
   const record::SampleRows rowsA = a.allRows(), rowsB = b.allRows();
   EXPECT_EQ(rowsA.ticks, rowsB.ticks);
   EXPECT_EQ(rowsA.values, rowsB.values);

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "sim/record/run_fields.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+
+// A struct as a later version might have it: `added` is new.
+struct Example {
+  int old = 1;
+  double added = 2.5;
+};
+template <MaybeConst<Example> T, class Visit>
+void visitFields(T& e, const Visit& visit) {
+  visit(Field{"old", 0, 9}, e.old);
+  visit(Field{"added_m", 0, 10, kMayMiss}, e.added);
+}
+
+namespace {
+
+using nlohmann::json;
+
+TEST(Fields, OneThatIsAddedToTheListIsReadWrittenAndCompared) {
+  const Example written{3, 7.25};
+  EXPECT_EQ(writeFields(written), (json{{"old", 3}, {"added_m", 7.25}}));
+  Example read;
+  readFields(json{{"old", 3}, {"added_m", 7.25}}, read);
+  EXPECT_EQ(read.added, 7.25);
+  EXPECT_TRUE(differingFields(written, read).empty());
+  read.added = 8;
+  EXPECT_EQ(differingFields(written, read), std::vector<std::string>{"added_m"});
+  Example earlier;
+  readFields(json{{"old", 3}}, earlier);
+  EXPECT_EQ(earlier.added, 2.5) << "recordings of earlier versions get the default";
+  EXPECT_THROW(readFields(json{{"added_m", 7.25}}, earlier), UsageError) << "what was always there is missing";
+  EXPECT_THROW(readFields(json{{"old", 3}, {"added_m", 11}}, earlier), UsageError) << "out of its bounds";
+}
+
+// Converts to anything, so that a struct of n members can be made from n of it, and not from n + 1.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+template <class T, class... Members>
+consteval std::size_t countMembers() {
+  if constexpr (requires { T{Members{}..., Anything{}}; }) return countMembers<T, Members..., Anything>();
+  else return sizeof...(Members);
+}
+template <class T>
+std::size_t countFields(const T& value) {
+  std::size_t count = 0;
+  visitFields(value, [&](const Field&, const auto&) { ++count; });
+  return count;
+}
+
+TEST(Fields, EveryMemberOfAConfigurationStandsInTheList) {
+  EXPECT_EQ(countFields(RunConfiguration{}), countMembers<RunConfiguration>());
+  EXPECT_EQ(countFields(Participant{}), countMembers<Participant>());
+  EXPECT_EQ(countFields(ChannelTable{}), countMembers<ChannelTable>());
+  EXPECT_EQ(countFields(Channel{}), countMembers<Channel>());
+  EXPECT_EQ(countFields(trial::PlannedTrial{}), countMembers<trial::PlannedTrial>());
+  EXPECT_EQ(countFields(haptics::GuardSettings{}), countMembers<haptics::GuardSettings>());
+  EXPECT_EQ(countFields(experiment::StartRest{}), countMembers<experiment::StartRest>());
+  EXPECT_EQ(countFields(experiment::TimingLimits{}), countMembers<experiment::TimingLimits>());
+}
+
+void change(std::string& x) { x += "x"; }
+void change(bool& x) { x = !x; }
+void change(double& x) { x += 0.5; }
+template <std::integral T>
+void change(T& x) {
+  ++x;
+}
+void change(Participant& x) { x.age = x.age.value_or(30) + 1; }
+void change(experiment::TimingLimits& x) { ++x.maxMissedTicks; }
+void change(haptics::GuardSettings& x) { x.wallCentre.y += 0.5; }
+void change(experiment::StartRest& x) { x.seconds += 0.5; }
+void change(ChannelTable& x) { x.channels.front().description += "x"; }
+void change(std::vector<trial::PlannedTrial>& x) { x.push_back({5, 100, true}); }
+
+// Each field in turn is changed, goes through the text, and is the only one that differs.
+TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
+  const RunConfiguration original = madeConfiguration();
+  std::size_t number = 0;
+  visitFields(original, [&](const Field& field, const auto&) {
+    RunConfiguration changed = original;
+    std::size_t at = 0;
+    visitFields(changed, [&](const Field&, auto& member) {
+      if (at++ == number) change(member);
+    });
+    ++number;
+    const RunConfiguration read = configurationFromJson(toJson(changed), "changed");
+    EXPECT_TRUE(differingFields(changed, read).empty()) << field.key;
+    EXPECT_EQ(differingFields(original, read), std::vector<std::string>{field.key});
+  });
+  EXPECT_GT(number, 40u);
+}
+
+}  // namespace
+}  // namespace reachlab::record
