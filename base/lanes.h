@@ -40,6 +40,10 @@ using Lanes = typename lanesDetail::Of<Width>::Numbers;
 template <int Width>
 using LaneMarks = typename lanesDetail::Of<Width>::Marks;
 
+/// A batch: what a kernel computes side by side in one pass (masses on a curve, columns of a matrix).
+inline constexpr int kBatchLanes = 8;
+using LaneBatch = Lanes<kBatchLanes>;
+
 template <int Width>
 constexpr int lanesFor(int count) noexcept {
   return (count + Width - 1) / Width;

@@ -1,6 +1,7 @@
 #include "sim/predict/peaks.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <functional>
 
@@ -14,17 +15,10 @@ struct Peak {
   double value = 0, time = 0;
 };
 
-// Where |v| is largest within [lo, hi], by golden section; the error of the value is the square of that of the time.
+// Where |v| is largest within [lo, hi]; the error of the value is the square of that of the time.
 Peak refine(const std::function<double(double)>& velocity, double lo, double hi) {
-  constexpr double kGolden = 0.6180339887498949;
-  double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
-  double fa = std::abs(velocity(a)), fb = std::abs(velocity(b));
-  const double enough = 2e-9 * (std::abs(lo) + std::abs(hi));
-  while (hi - lo > enough) {
-    if (fa >= fb) hi = b, b = a, fb = fa, a = hi - kGolden * (hi - lo), fa = std::abs(velocity(a));
-    else lo = a, a = b, fa = fb, b = lo + kGolden * (hi - lo), fb = std::abs(velocity(b));
-  }
-  const double time = (lo + hi) / 2;
+  constexpr int kBits = 27;  // of the time: half of those of the value
+  const double time = boost::math::tools::brent_find_minima([&](double t) { return -std::abs(velocity(t)); }, lo, hi, kBits).first;
   return {velocity(time), time};
 }
 

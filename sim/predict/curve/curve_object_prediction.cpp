@@ -27,7 +27,7 @@ constexpr double kRounding = 1e-9;      // of the way, beyond the end of a curve
 constexpr double kIntervalPhase = 2.5;  // fastest rate times the width of a interval
 constexpr int kFinerIntervals = 4;
 constexpr double kUnknownsPerPhase = 0.45;  // fewer do not follow the fastest mode of the object
-constexpr double kLeastBend = 1.0 / 64;     // step of the continuation from the straight line below which it is given up
+constexpr double kMinBend = 1.0 / 64;       // step of the continuation from the straight line below which it is given up
 
 // What the masses must meet at T, each condition in the same unit: clamped modes and their rates (criteria.md 5).
 Matrix makeConditionScale(const LineObject& object) {
@@ -174,7 +174,7 @@ Optimum continueFromStraight(const constraints::ArcCurve& curve, const LineObjec
       part = next;
     } catch (const RefusedError& refused) {
       step /= 4;
-      if (step < kLeastBend)
+      if (step < kMinBend)
         throw RefusedError(fmt::format("the straight line could be bent only to {:.0f} % of the way: {}", 100 * part, refused.what()));
     }
   }

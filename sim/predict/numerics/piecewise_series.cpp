@@ -27,7 +27,7 @@ void PiecewiseSeries::sampleVelocity(int output, double end, std::span<double> v
     const int interval = intervalOf(step * static_cast<double>(done));
     LaneBatch s{}, position{}, slope{};
     int count = 0;
-    for (; count < kLanes && done + count < velocity.size(); ++count) {
+    for (; count < kBatchLanes && done + count < velocity.size(); ++count) {
       const double x = step * static_cast<double>(done + count);
       if (intervalOf(x) != interval) break;
       s[count] = x - interval - centre;
