@@ -23,7 +23,7 @@ class FaultList {
   /// True when there is a fault about that key, what it has inside or what it is inside of.
   bool isAbout(const std::string& key) const;
   /// More than a person reads: further faults are only counted.
-  bool isFull() const { return faults_.size() >= kMostFaults; }
+  bool isFull() const { return faults_.size() >= kMaxFaults; }
   /// `FILE:LINE:COLUMN` of a node.
   std::string place(const JsonNode& where) const;
   const std::vector<Fault>& faults() const { return faults_; }
@@ -32,7 +32,7 @@ class FaultList {
   void throwIfAny() const;
 
  private:
-  static constexpr std::size_t kMostFaults = 100, kNone = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kMaxFaults = 100, kNone = static_cast<std::size_t>(-1);
   std::string file_;
   std::vector<Fault> faults_;
   std::size_t more_ = 0;

@@ -212,14 +212,14 @@ JsonNode parseJson(const std::string& text, const std::string& file) {
 }
 
 std::string readTextFile(const std::string& file) {
-  constexpr std::uintmax_t kMostBytes = 16u << 20;
+  constexpr std::uintmax_t kMaxBytes = 16u << 20;
   namespace fs = std::filesystem;
   std::error_code error;
   // A pipe or a device might never end, or never begin.
   if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
     throw UsageError(fmt::format("{}: is no regular file; allowed: a file on a disk", file));
-  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > kMostBytes)
-    throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", file, size, kMostBytes));
+  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > kMaxBytes)
+    throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", file, size, kMaxBytes));
   std::ifstream in(file, std::ios::binary);
   if (!in) throw UsageError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
   std::ostringstream text;

@@ -94,7 +94,7 @@ struct Stop {
   bool isRow = false;
 };
 
-constexpr double kMostRows = 1e7, kMostSteps = 1e10;
+constexpr double kMostRows = 1e7, kMaxSteps = 1e10;
 
 std::vector<Stop> makeSchedule(const Request& request, double until, const std::vector<double>& breaks) {
   std::vector<Stop> all;
@@ -142,10 +142,10 @@ void simulate(const Request& request) {
     throw UsageError("--until: is missing, and the experiment has no task.duration_s; allowed: seconds");
   const double until = request.until >= 0 ? request.until : experiment.task->duration;
   if (!std::isfinite(until)) throw UsageError("--until: is not finite; allowed: seconds");
-  if (until / request.every > kMostRows || until / request.step > kMostSteps)
+  if (until / request.every > kMostRows || until / request.step > kMaxSteps)
     throw UsageError(
         fmt::format("--until: {} s are too many rows or steps; allowed: up to {:.0e} rows of --every and {:.0e} steps of --step", until,
-                    kMostRows, kMostSteps));
+                    kMostRows, kMaxSteps));
   if (!request.method.empty()) experiment.method = request.method;
 
   const constraints::Constraint& constraint = compiled.constraint();

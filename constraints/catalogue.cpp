@@ -19,7 +19,7 @@ const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = [] {
     std::vector<Entry> list;
     for (const GeneratedEntry& e : generatedEntries())
-      list.push_back({parseDefinition(e.text, "catalogue"), {e.curve, e.curveOctet, e.surface}});
+      list.push_back({parseDefinition(e.text, "catalogue"), {e.curve, e.curveBatch, e.surface}});
     std::stable_sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.definition.kind < b.definition.kind; });
     return list;
   }();

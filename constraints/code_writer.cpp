@@ -77,14 +77,14 @@ std::string writeEvaluator(const CompiledFormula& formula, const std::string& fu
                      functionName, variables, indented(body));
 }
 
-std::string writeOctetEvaluator(const CompiledFormula& formula, const std::string& functionName) {
+std::string writeBatchEvaluator(const CompiledFormula& formula, const std::string& functionName) {
   const EvaluatorText text(formula, "far |= sinCosNear");
   std::string loop = "[[maybe_unused]] const double phi = phis[lane];\n" + text.statements();
   for (std::size_t k = 0; k < 9; ++k) loop += fmt::format("p.{}[{}][lane] = {};\n", kCurveMembers[k / 3], k % 3, text.expression(k));
-  const std::string body = text.shape() + "std::uint64_t far = 0;\nfor (int lane = 0; lane < kOctet; ++lane) {\n" + indented(loop) + "}\n" +
-                           fmt::format("if (far != 0) evaluateSingly({}, nullptr, shape, phis, p);\n", functionName);
+  const std::string body = text.shape() + "std::uint64_t far = 0;\nfor (int lane = 0; lane < kBatchLanes; ++lane) {\n" + indented(loop) +
+                           "}\n" + fmt::format("if (far != 0) evaluateSingly({}, nullptr, shape, phis, p);\n", functionName);
   return fmt::format(
-      "void {}Octet(const void*, const double* shape, const double* __restrict phis, CurveOctet& __restrict p) noexcept {{\n{}}}\n",
+      "void {}Batch(const void*, const double* shape, const double* __restrict phis, CurveBatch& __restrict p) noexcept {{\n{}}}\n",
       functionName, indented(body));
 }
 

@@ -20,8 +20,8 @@ Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::a
   Constraint c;
   c.kind = formula->text.kind;
   if (c.kind == ConstraintKind::Curve)
-    c.curve = generated.curve != nullptr ? Curve{generated.curve, generated.curveOctet, nullptr, shape}
-                                         : Curve{evaluateCurveProgram, evaluateCurveOctetProgram, &formula->program, shape};
+    c.curve = generated.curve != nullptr ? Curve{generated.curve, generated.curveBatch, nullptr, shape}
+                                         : Curve{evaluateCurveProgram, evaluateCurveBatchProgram, &formula->program, shape};
   else
     c.surface = generated.surface != nullptr ? Surface{generated.surface, nullptr, shape}
                                              : Surface{evaluateSurfaceProgram, &formula->program, shape};

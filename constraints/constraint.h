@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/octet.h"
+#include "constraints/curve_batch.h"
 #include "base/vec3.h"
 
 namespace reachlab::constraints {
@@ -30,7 +30,7 @@ using SurfaceFunction = void (*)(const void* program, const double* shape, doubl
 
 struct Curve {
   CurveFunction function = nullptr;
-  CurveOctetFunction octet = nullptr;
+  CurveBatchFunction batch = nullptr;
   const void* program = nullptr;  // outlives every scene, see Constraint::owner
   std::array<double, kMaxShapeParameters> shape{};
 };

@@ -49,8 +49,8 @@ std::string cppIdentifier(const std::string& name, const std::vector<std::string
 
 /// The function of a catalogue entry, `evaluate<Name>` in UpperCamel, with the signature of CurveFunction or SurfaceFunction.
 std::string writeEvaluator(const CompiledFormula& formula, const std::string& functionName);
-/// The same for a curve at eight parameter values, `<functionName>Octet`, with the signature of CurveOctetFunction; stands after it.
-std::string writeOctetEvaluator(const CompiledFormula& formula, const std::string& functionName);
+/// The same for a curve at eight parameter values, `<functionName>Batch`, with the signature of CurveBatchFunction; stands after it.
+std::string writeBatchEvaluator(const CompiledFormula& formula, const std::string& functionName);
 
 /// A self-contained C++ function with the coordinates, the derivatives and the coefficients of the dynamic equations: M, L, V, Q of
 /// Eq. (11) for a curve, G, C, Q of Eq. (13) for a surface, simplified as expressions of m, lambda and the force.

@@ -18,8 +18,8 @@ constexpr double kTurns = 64 * 2 * std::numbers::pi;
 constexpr double kReach = 10;         // [m] that are examined at least either way
 constexpr double kContinuous = 1e-9;  // of the size: what counts as no jump
 constexpr double kLost = 1e-10;       // [m] a mass moves this far by a rounding of phi: nearer a pole phi tells places apart no more
-constexpr std::size_t kMostPlaces = 2000;
-constexpr int kMostBoxes = 100000;  // stretches looked at: tenths of a second
+constexpr std::size_t kMaxPlaces = 2000;
+constexpr int kMaxBoxes = 100000;   // stretches looked at: tenths of a second
 constexpr double kTouching = 1e-7;  // a root or an arc that touches the end of its domain has lost half its digits there
 
 /// A branch's program, continued by its tangent beyond `lo` and `hi`, where the formula itself has no value.
@@ -36,7 +36,7 @@ void evaluatePiece(const void* data, const double* shape, double phi, CurvePoint
   out.r += (phi - at) * out.rPhi;
   out.rPhiPhi = {};
 }
-void evaluatePieceOctet(const void* data, const double* shape, const double* phi, CurveOctet& out) noexcept {
+void evaluatePieceBatch(const void* data, const double* shape, const double* phi, CurveBatch& out) noexcept {
   evaluateSingly(evaluatePiece, data, shape, phi, out);
 }
 
@@ -145,7 +145,7 @@ class Examiner {
     auto [lo, hi] = window(domainLo, domainHi, share);
     stretches_ = {{lo, hi, {}, {}}};
     atHi_.clear();
-    int boxes = kMostBoxes;
+    int boxes = kMaxBoxes;
     for (std::size_t k = 0; k < guards_.size(); ++k) {
       std::vector<Stretch> next;
       for (const Stretch& s : stretches_) {
@@ -180,7 +180,7 @@ class Examiner {
       stretches_ = std::move(next);
     }
     while (!stretches_.empty() && stretches_.back().lo >= hi) stretches_.pop_back();
-    if (stretches_.empty() || stretches_.size() > kMostPlaces || hi < about_) return false;
+    if (stretches_.empty() || stretches_.size() > kMaxPlaces || hi < about_) return false;
     stretches_.back().hi = std::min(stretches_.back().hi, hi);
     result_.lo = lo;
     result_.hi = hi;
@@ -293,7 +293,7 @@ class Examiner {
     for (const Stretch& s : stretches_) {
       auto piece = std::make_unique<PieceProgram>();
       piece->program = programFor(s.signs);
-      result_.pieces.push_back({s.lo, s.hi, Curve{evaluatePiece, evaluatePieceOctet, piece.get(), c_.curve.shape}});
+      result_.pieces.push_back({s.lo, s.hi, Curve{evaluatePiece, evaluatePieceBatch, piece.get(), c_.curve.shape}});
       const double width = s.hi - s.lo;
       alive.push_back(isFinite(at(*piece->program, s.lo + 0.5 * width)) || isFinite(at(*piece->program, s.lo + 0.3 * width)));
       programs->push_back(std::move(piece));
@@ -394,7 +394,7 @@ class Examiner {
     for (int k = 1; k < 3; ++k) square = graph_.add(square, graph_.powInt(d[static_cast<std::size_t>(k)], 2));
     const double widest = std::max(1.0, hi - lo);
     for (const double phi : findRoots(graph_, square, shape_, lo, hi, boxes_).roots) {
-      if (result_.places.size() >= kMostPlaces) return;
+      if (result_.places.size() >= kMaxPlaces) return;
       const double step = std::min(1e-4, 1e-3 * widest);
       const auto speed = [&](double q) { return norm(evaluate(curve, q).rPhi); };
       double around = 0;
@@ -420,7 +420,7 @@ class Examiner {
   const double* shape_;
   double about_, lo_ = 0, hi_ = 0;
   bool stillPlaces_ = true;
-  int boxes_ = kMostBoxes;  // for places where r_phi = 0
+  int boxes_ = kMaxBoxes;  // for places where r_phi = 0
   std::vector<int> r_;
   std::vector<Guard> guards_;
   std::vector<Stretch> stretches_;

@@ -76,7 +76,7 @@ double constantOf(const std::string& expression, const FormulaText& names, const
 /// The definition's generated code if it is of the catalogue; all null otherwise.
 struct GeneratedFunctions {
   CurveFunction curve = nullptr;
-  CurveOctetFunction curveOctet = nullptr;
+  CurveBatchFunction curveBatch = nullptr;
   SurfaceFunction surface = nullptr;
 };
 GeneratedFunctions generatedFunctions(const Definition& definition);

@@ -9,7 +9,7 @@ namespace reachlab::constraints {
 struct GeneratedEntry {
   const char* text;
   CurveFunction curve;
-  CurveOctetFunction curveOctet;
+  CurveBatchFunction curveBatch;
   SurfaceFunction surface;
 };
 /// Defined by the generated file in the build folder; by name.

@@ -30,7 +30,7 @@ double Polynomial::largest() const {
 }
 
 std::optional<Polynomial> Polynomial::times(const Polynomial& other, const ExpressionGraph& graph, const double* shape) const {
-  if (terms_.size() * other.terms_.size() > kMostTerms) return std::nullopt;
+  if (terms_.size() * other.terms_.size() > kMaxTerms) return std::nullopt;
   Polynomial product;
   for (const auto& [a, x] : terms_)
     for (const auto& [b, y] : other.terms_) {
@@ -84,7 +84,7 @@ std::optional<Polynomial> Polynomial::reduced(const ExpressionGraph& graph, cons
         for (const auto& [node, exponent] : other) joined[node] += exponent;
         next.terms_[joined] += coefficient * factor;
       }
-      if (next.terms_.size() > kMostTerms) return std::nullopt;
+      if (next.terms_.size() > kMaxTerms) return std::nullopt;
     }
     current = std::move(next);
     if (!changed) return current;

@@ -13,9 +13,9 @@ namespace reachlab::constraints {
 class Polynomial {
  public:
   using Monomial = std::map<int, int>;  // node to exponent
-  static constexpr std::size_t kMostTerms = 4000;
+  static constexpr std::size_t kMaxTerms = 4000;
 
-  /// Nothing where it would have more than kMostTerms terms.
+  /// Nothing where it would have more than kMaxTerms terms.
   static std::optional<Polynomial> of(const ExpressionGraph& graph, int node, const double* shape);
   static Polynomial constant(double value);
 

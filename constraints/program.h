@@ -80,7 +80,7 @@ Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int p
 
 /// The interpreter, as the functions of constraint.h; `program` points to a Program.
 void evaluateCurveProgram(const void* program, const double* shape, double phi, CurvePoint& out) noexcept;
-void evaluateCurveOctetProgram(const void* program, const double* shape, const double* phi, CurveOctet& out) noexcept;
+void evaluateCurveBatchProgram(const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept;
 void evaluateSurfaceProgram(const void* program, const double* shape, double u, double v, SurfacePoint& out) noexcept;
 
 /// Address that the interpreter jumps to for an operation.

@@ -12,8 +12,8 @@ namespace reachlab::constraints {
 /// What interval analysis of the formula's graph decides about a surface: the lines across which it is not smooth, and its branches
 /// between them. A typed surface has no ends: where its formula cannot be proved smooth everywhere, the lines are watched as a mass moves.
 struct SurfaceBranches {
-  static constexpr int kMostGuards = 6;
-  static constexpr int kMostBranching = 4;  // more lines that can be passed than that are stopped at
+  static constexpr int kMaxGuards = 6;
+  static constexpr int kMaxBranching = 4;  // more lines that can be passed than that are stopped at
 
   struct Line {
     std::string because;               // the operation: "abs(u + v)"
@@ -32,7 +32,7 @@ struct SurfaceBranches {
   struct Guarded {
     double value = 0, u = 0, v = 0;
   };
-  std::array<Guarded, kMostGuards> at(double u, double v) const noexcept;
+  std::array<Guarded, kMaxGuards> at(double u, double v) const noexcept;
 
   const Program* program = nullptr;  // of `at`
   std::array<double, kMaxShapeParameters> shape{};
@@ -41,7 +41,7 @@ struct SurfaceBranches {
 /// Interval arithmetic shows that r is analytic, and r_u x r_v not 0, wherever u and v are in the range. False says nothing.
 bool isProvedRegular(const Constraint& surface, const std::array<Domain, 2>& range);
 
-/// Throws UsageError where the formula has more than kMostGuards such lines.
+/// Throws UsageError where the formula has more than kMaxGuards such lines.
 std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& surface);
 
 }  // namespace reachlab::constraints

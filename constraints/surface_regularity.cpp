@@ -14,7 +14,7 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr int kMostBoxes = 20000;
+constexpr int kMaxBoxes = 20000;
 constexpr double kLeaf = 1.0 / (1 << 20);
 
 /// Interval arithmetic on boxes shows `holds(bounds)` of the roots everywhere in the domain.
@@ -35,7 +35,7 @@ bool isProved(const ExpressionGraph& graph, const std::vector<int>& roots, const
     stack.pop_back();
     bounds.evaluate(box);
     if (holds(bounds)) continue;
-    if (!finite || boxes > kMostBoxes) return false;
+    if (!finite || boxes > kMaxBoxes) return false;
     std::array<double, 2> width{};
     for (std::size_t k = 0; k < 2; ++k) width[k] = (box[k].hi - box[k].lo) / std::max(whole[k].hi - whole[k].lo, 1e-300);
     const std::size_t k = width[1] > width[0] ? 1 : 0;
@@ -78,12 +78,12 @@ struct Owned {
 
 }  // namespace
 
-std::array<SurfaceBranches::Guarded, SurfaceBranches::kMostGuards> SurfaceBranches::at(double u, double v) const noexcept {
+std::array<SurfaceBranches::Guarded, SurfaceBranches::kMaxGuards> SurfaceBranches::at(double u, double v) const noexcept {
   SurfacePoint room;
   evaluateSurfaceProgram(program, shape.data(), u, v, room);
-  std::array<Guarded, kMostGuards> result;
+  std::array<Guarded, kMaxGuards> result;
   const Vec3* values = &room.r;
-  for (int k = 0; k < kMostGuards; ++k) result[static_cast<std::size_t>(k)] = {values[k].x, values[k].y, values[k].z};
+  for (int k = 0; k < kMaxGuards; ++k) result[static_cast<std::size_t>(k)] = {values[k].x, values[k].y, values[k].z};
   return result;
 }
 
@@ -120,10 +120,10 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
   for (const Guard& guard : all)
     if (!isProvedAway(graph, guard, shape, c.domain)) active.push_back(guard);
   if (active.empty()) return result;
-  if (active.size() > SurfaceBranches::kMostGuards)
+  if (active.size() > SurfaceBranches::kMaxGuards)
     throw UsageError(
         fmt::format("the surface's formula has {} operations that are not smooth everywhere (abs, sign, roots, quotients …); allowed: {}",
-                    active.size(), SurfaceBranches::kMostGuards));
+                    active.size(), SurfaceBranches::kMaxGuards));
   const std::vector<std::string> variables = variablesOf(ConstraintKind::Surface);
   int bits = 0;
   for (const Guard& guard : active) {
@@ -131,7 +131,7 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
     line.because = writeFormula(graph, guard.node, variables, formula.text.parameters);
     line.kind = kindOf(guard);
     line.level = guard.level;
-    line.passable = guard.branches() && bits < SurfaceBranches::kMostBranching;
+    line.passable = guard.branches() && bits < SurfaceBranches::kMaxBranching;
     if (line.passable) line.bit = bits++;
     result->lines.push_back(line);
   }
@@ -159,7 +159,7 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
     const int g = guard.level == 0 ? guard.argument : graph.sub(guard.argument, graph.constant(guard.level));
     roots.insert(roots.end(), {g, graph.differentiate(std::vector<int>{g}, 0)[0], graph.differentiate(std::vector<int>{g}, 1)[0]});
   }
-  while (roots.size() < 3 * SurfaceBranches::kMostGuards) roots.push_back(graph.constant(1));
+  while (roots.size() < 3 * SurfaceBranches::kMaxGuards) roots.push_back(graph.constant(1));
   owned->guards = compileProgram(graph, roots, parameters, 2);
   result->program = &owned->guards;
   result->shape = c.surface.shape;
@@ -181,7 +181,7 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
     }
     place.parameter = byU ? 0 : 1;
     const Domain& d = range[byU ? 0 : 1];
-    int boxes = kMostBoxes;
+    int boxes = kMaxBoxes;
     for (const double root : findRoots(graph, g, shape, d.lo, d.hi, boxes, active[k].branches() ? 1e-12 : 1e-7, byU ? 0 : 1).roots) {
       place.at = root + 0.0;
       result->places.push_back(place);

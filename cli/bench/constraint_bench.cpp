@@ -57,21 +57,21 @@ double threadNanoseconds() {
 struct Candidate {
   std::string constraint, form;
   constraints::Constraint evaluated;
-  bool octet = false;
+  bool batch = false;
 };
 
 // Parameters as a moving mass has them: near the last, never the same.
 constexpr int kPlaces = 512, kRounds = 60;
 
-double measureOctets(const constraints::Curve& curve) {
+double measureBatches(const constraints::Curve& curve) {
   double sink = 0;
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)
-    for (int i = 0; i < kPlaces; i += constraints::kOctet) {
-      std::array<double, constraints::kOctet> phi{};
-      for (int lane = 0; lane < constraints::kOctet; ++lane) phi[static_cast<std::size_t>(lane)] = -0.9 + 0.0037 * (i + lane);
-      constraints::CurveOctet points;
-      curve.octet(curve.program, curve.shape.data(), phi.data(), points);
+    for (int i = 0; i < kPlaces; i += kBatchLanes) {
+      std::array<double, kBatchLanes> phi{};
+      for (int lane = 0; lane < kBatchLanes; ++lane) phi[static_cast<std::size_t>(lane)] = -0.9 + 0.0037 * (i + lane);
+      constraints::CurveBatch points;
+      curve.batch(curve.program, curve.shape.data(), phi.data(), points);
       sink += points.rPhiPhi[0][0];
     }
   const double elapsed = threadNanoseconds() - start;
@@ -82,7 +82,7 @@ double measureOctets(const constraints::Curve& curve) {
 
 double measure(const Candidate& candidate) {
   const constraints::Constraint& c = candidate.evaluated;
-  if (candidate.octet) return measureOctets(c.curve);
+  if (candidate.batch) return measureBatches(c.curve);
   double sink = 0;
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)

@@ -27,9 +27,9 @@ std::string generate(const std::vector<std::string>& files) {
     const auto formula = compileFormula(formulaOf(definition), file);
     const bool curve = definition.kind == ConstraintKind::Curve;
     functions += writeEvaluator(*formula, function) + "\n";
-    if (curve) functions += writeOctetEvaluator(*formula, function) + "\n";
+    if (curve) functions += writeBatchEvaluator(*formula, function) + "\n";
     table += fmt::format("    {{R\"definition({})definition\",\n     {}}},\n", text,
-                         curve ? fmt::format("{0}, {0}Octet, nullptr", function) : "nullptr, nullptr, " + function);
+                         curve ? fmt::format("{0}, {0}Batch, nullptr", function) : "nullptr, nullptr, " + function);
   }
   return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
          "#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab::constraints "

@@ -39,11 +39,12 @@ std::string labelIn(const std::string& name, const std::string& key) {
   return name.substr(begin, name.find_first_of("_.", begin) - begin);
 }
 
-constexpr double kLongestRun = 1e6;  // [s]
+constexpr double kMaxRunDuration = 1e6;  // [s]
 
 std::uint64_t tickOf(double seconds) {
   if (!std::isfinite(seconds)) return 0;
-  if (!(seconds >= 0 && seconds <= kLongestRun)) throw UsageError(fmt::format("time {} s: allowed: 0 to {:.0f} s", seconds, kLongestRun));
+  if (!(seconds >= 0 && seconds <= kMaxRunDuration))
+    throw UsageError(fmt::format("time {} s: allowed: 0 to {:.0f} s", seconds, kMaxRunDuration));
   return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
 }
 

@@ -145,7 +145,7 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   for (const auto& each : out.each)
     for (const auto& other : out.each) differ = differ || (each && other && *each != *other);
   for (const auto& each : out.each) differ = differ || (each && *each != *out.best);
-  const bool frequent = out.posterior[*out.best] >= kLeastExceedance;
+  const bool frequent = out.posterior[*out.best] >= kMinExceedance;
   if (candidates < 3) out.reason = Obstacle::NothingToCompare;
   else if (people.size() < kFewestSubjects) out.reason = Obstacle::TooFewSubjects;
   else if (differ) out.reason = Obstacle::SubjectsDiffer;

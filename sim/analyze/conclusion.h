@@ -27,7 +27,7 @@ enum class Obstacle { None, TooFewTrials, TooFewSubjects, Reference, NotToldApar
 /// "", "too_few_trials", "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "poor", "nothing_to_compare".
 std::string_view nameOf(Obstacle reason);
 
-inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kLeastExceedance = 0.85, kPoor = 0.1;
+inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85, kPoor = 0.1;
 inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;
 
 struct Conclusion {

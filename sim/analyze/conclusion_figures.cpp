@@ -91,7 +91,7 @@ NamedFigure posteriorFigure(const StudyResult& study) {
   out.caption = fmt::format(
       "Probability that each candidate is the most frequent among people (protected exceedance). Broken line: the {:.2f} that a conclusion "
       "asks for, beside p.",
-      kLeastExceedance);
+      kMinExceedance);
   const auto add = [&](const std::string& title, const Conclusion& conclusion, const Names& names) {
     if (conclusion.posterior.empty()) return;
     Panel panel;
@@ -111,7 +111,7 @@ NamedFigure posteriorFigure(const StudyResult& study) {
                              {conclusion.posterior[k], conclusion.posterior[k]},
                              palette::faded(lookOf(names[k]).color, 0.8)});
     }
-    panel.rules.push_back({kLeastExceedance, false, "", palette::kGrey, figure::Dash::Dashed});
+    panel.rules.push_back({kMinExceedance, false, "", palette::kGrey, figure::Dash::Dashed});
     out.figure.panels.push_back(std::move(panel));
   };
   for (std::size_t c = 0; c < study.results.size(); ++c)

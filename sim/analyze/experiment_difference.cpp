@@ -12,7 +12,7 @@ namespace reachlab::analyze {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::size_t kLongestValue = 40;  // characters; a longer one would drown the sentence it stands in
+constexpr std::size_t kMaxValueLength = 40;  // characters; a longer one would drown the sentence it stands in
 
 struct KeyWords {
   std::string name, unit;
@@ -41,7 +41,7 @@ std::string sentenceOf(const std::string& group, const std::string& key, const J
   const std::string name = group.empty() ? words.name : group + " " + words.name;
   if (value == nullptr) return "no " + name;
   const std::string text = textOf(*value);
-  if (text.size() > kLongestValue) return "another " + name;
+  if (text.size() > kMaxValueLength) return "another " + name;
   return fmt::format("{} {}{}{}", name, text, words.unit.empty() ? "" : " ", words.unit);
 }
 

@@ -18,7 +18,7 @@ using figure::Panel;
 using figure::Series;
 using predict::Criterion;
 
-constexpr std::size_t kMostTrials = 60;  // more thin lines than this are a blot, not data
+constexpr std::size_t kMaxTrialsDrawn = 60;  // more thin lines than this are a blot, not data
 
 std::vector<double> timeAxis(double duration) {
   std::vector<double> t(kProfilePoints);
@@ -85,7 +85,7 @@ NamedFigure paperFigure(const StudyResult& study, std::size_t condition) {
   out.name = "velocity_" + fileNameOf(study.conditions[condition].name);
   Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
   const std::vector<const StudyTrial*> used = usedTrials(study, condition);
-  const std::size_t shown = std::min(used.size(), kMostTrials);
+  const std::size_t shown = std::min(used.size(), kMaxTrialsDrawn);
   std::vector<const StudyTrial*> some;
   for (std::size_t i = 0; i < shown; ++i) some.push_back(used[i * used.size() / shown]);
   const std::string what = fmt::format("{}trial{}", r.onlyFailures ? "failed " : "", used.size() == 1 ? "" : "s");

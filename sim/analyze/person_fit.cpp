@@ -9,11 +9,11 @@
 namespace reachlab::analyze {
 namespace {
 
-constexpr double kLeastCost = 1e-12;    // of the cost of not moving: below, a fit is exact
+constexpr double kMinCost = 1e-12;      // of the cost of not moving: below, a fit is exact
 constexpr double kPlanStep = 0.018;     // of ln P
 constexpr int kPlansAside = 3;          // steps to either side of a centre: 5 %
 constexpr double kPlanNearTime = 0.07;  // P lies within that of the median fitted T
-constexpr int kMostSteps = 45;          // P between 0.44 and 2.25 times its first value
+constexpr int kMaxSteps = 45;           // P between 0.44 and 2.25 times its first value
 
 double medianOf(std::vector<double> values) {
   const std::size_t n = values.size();
@@ -30,7 +30,7 @@ struct Fits {
   double plan = 0;  // [s]
 };
 
-double scoreOf(const MovementFit& fit, double rest) { return std::log(std::max(fit.found ? fit.cost : rest, kLeastCost * rest)); }
+double scoreOf(const MovementFit& fit, double rest) { return std::log(std::max(fit.found ? fit.cost : rest, kMinCost * rest)); }
 
 struct FamilyFits {
   Fits anew;
@@ -83,7 +83,7 @@ class Fitter {
       const Fits& fits = at(consistent);
       if (fits.trials.empty()) break;
       const int next =
-          std::clamp(static_cast<int>(std::lround(std::log(medianDuration(fits) / centre) / kPlanStep)), -kMostSteps, kMostSteps);
+          std::clamp(static_cast<int>(std::lround(std::log(medianDuration(fits) / centre) / kPlanStep)), -kMaxSteps, kMaxSteps);
       if (next == consistent) break;
       consistent = next;
     }

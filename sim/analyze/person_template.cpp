@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 200, kFirst = -0.6, kLast = 1.6;  // of s
 constexpr double kSmoothing = 0.06;                              // of s: width over which the variance is averaged
-constexpr double kLeastScatter = 0.1;                            // of the largest
+constexpr double kMinScatter = 0.1;                              // of the largest
 constexpr int kRounds = 3;
 
 std::size_t gridSize() { return static_cast<std::size_t>(std::lround((kLast - kFirst) / kStep)) + 1; }
@@ -102,7 +102,7 @@ void weigh(FitWindow& window, const MovementFit& place, const std::vector<double
     const double x = std::clamp((s - kFirst) / kStep, 0.0, last);
     const auto i = std::min(static_cast<std::size_t>(x), sigma.size() - 2);
     const double here = sigma[i] + (x - static_cast<double>(i)) * (sigma[i + 1] - sigma[i]);
-    const double least = std::max(here, kLeastScatter * largest);
+    const double least = std::max(here, kMinScatter * largest);
     window.weight[k] = least > 0 ? 1 / (least * least) : 1;  // no scatter at all: every sample counts alike
   }
 }

@@ -113,7 +113,7 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
   if (c.signFlipP) text += fmt::format(" The same by exchange of signs: {}.", pText(*c.signFlipP));
   if (!c.posterior.empty())
     text += fmt::format(" Probability that it is the most frequent among people: {:.2f} (protected exceedance; {:.2f} is asked for).",
-                        c.posterior[*c.best], kLeastExceedance);
+                        c.posterior[*c.best], kMinExceedance);
   text += fmt::format(" R² {:.3f}; the mean of a person's other trials reaches {:.3f}.", c.r2, c.ceiling);
   return text;
 }
@@ -221,7 +221,7 @@ std::string describeMethods(const StudyResult& study) {
       "corrected by "
       "Holm's method.",
       filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
-      kFewestSubjects, kSubjectsLevel, kLeastExceedance, kFewestTrials,
+      kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
       o.predictFor == PredictionDuration::Task ? "the task's duration" : "the duration that was moved");
 }
 

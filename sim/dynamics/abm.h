@@ -25,11 +25,11 @@ inline constexpr double kSparedShare = 0.5;  // of the largest good correction: 
 template <int S>
 struct Rows {
   static constexpr int kWidth = S == 0 ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
-  static constexpr int kMost = ((S == 0 ? kMostStates : S) + kWidth - 1) / kWidth;
+  static constexpr int kCapacity = ((S == 0 ? kMaxStates : S) + kWidth - 1) / kWidth;
   static constexpr bool kFull = S > 0;  // Numbers have room for whole rows
   using Lanes = reachlab::Lanes<kWidth>;
 
-  static constexpr int count(int states) noexcept { return S == 0 ? (states + kWidth - 1) / kWidth : kMost; }
+  static constexpr int count(int states) noexcept { return S == 0 ? (states + kWidth - 1) / kWidth : kCapacity; }
   static Lanes load(const Numbers<S>& y, int c) noexcept {
     if constexpr (kFull) return loadLanes<Lanes>(&y[c * kWidth]);
     return gather(y, c * kWidth, std::make_index_sequence<kWidth>());
@@ -92,7 +92,7 @@ class AbmWith {
     system.rate(end, predicted, f);
     report.rhs += 1;
     report.error = limit_;
-    Lanes deviation[Rows::kMost];
+    Lanes deviation[Rows::kCapacity];
     Marks noticeable{}, bad{};
     for (int c = 0; c < rowCount(); ++c) {
       deviation[c] = Rows::load(f, c) - rows_[c].sums[0];
@@ -149,7 +149,7 @@ class AbmWith {
   /// q' of the corrected state in place of the predicted one's.
   [[gnu::always_inline]] static void addCorrectedRates(double factor, int n, Lanes* deviation) noexcept {
     constexpr int kWidth = Rows::kWidth, kHalf = System::kStates / 2;
-    if constexpr (kHalf > 0 && Rows::kMost == 1) {
+    if constexpr (kHalf > 0 && Rows::kCapacity == 1) {
       deviation[0] = mulAdd(factor, Rows::template shifted<kHalf>(deviation[0], std::make_index_sequence<kWidth>()), deviation[0]);
     } else if constexpr (kHalf > 0 && kHalf % kWidth == 0) {
       for (int c = 0; c < kHalf / kWidth; ++c) deviation[c] = mulAdd(factor, deviation[c + kHalf / kWidth], deviation[c]);
@@ -161,7 +161,7 @@ class AbmWith {
     }
   }
 
-  int rowCount() const noexcept { return System::kStates > 0 ? Rows::kMost : static_cast<int>(rows_.size()); }
+  int rowCount() const noexcept { return System::kStates > 0 ? Rows::kCapacity : static_cast<int>(rows_.size()); }
 
   static bool isFinite(const State& f) noexcept {
     double check = 0;

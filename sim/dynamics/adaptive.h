@@ -146,7 +146,7 @@ class Adaptive {
         if (t + h * factor == t) break;
       }
       h *= factor;
-      if (t < dt && rhs + dop853::kStages > kMostRhsPerTick) {
+      if (t < dt && rhs + dop853::kStages > kMaxRhsPerTick) {
         status = status == StepStatus::NotFinite && error > 1 ? status : StepStatus::Capped;
         break;
       }

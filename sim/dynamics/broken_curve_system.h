@@ -35,7 +35,7 @@ struct BrokenCurveSystem {
     int piece = 0;
     bool held = false;  // at rest on its piece's lower end, in the corner of a kink
   };
-  std::array<Where, kMostMasses<N>> where{};
+  std::array<Where, kMassCapacity<N>> where{};
   int stoppedMass = -1;
   bool stoppedLow = false;
 
@@ -55,13 +55,13 @@ struct BrokenCurveSystem {
   Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   struct Vectors {
-    std::array<Vec3, kMostMasses<N>> all;
+    std::array<Vec3, kMassCapacity<N>> all;
     Vec3& operator[](int i) noexcept { return all[i]; }
     const Vec3& operator[](int i) const noexcept { return all[i]; }
   };
   /// Force over mass on each mass [m/s^2], without viscosity; and what the equations need of the curve.
-  void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent, std::array<double, kMostMasses<N>>& measure, int lead = -1,
-            double* speed = nullptr) const noexcept {
+  void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent, std::array<double, kMassCapacity<N>>& measure,
+            int lead = -1, double* speed = nullptr) const noexcept {
     Vectors r, v;
     for (int i = 0; i < n(); ++i) {
       const constraints::CurvePoint p = evaluate(curveOf(i), y[i]);
@@ -83,7 +83,7 @@ struct BrokenCurveSystem {
   /// The rate, and |r_phi| [m] of mass `lead` from the same evaluation.
   void rate(const Hand& hand, const State& y, State& dy, int lead, double& speed) const noexcept {
     Vectors drive, tangent;
-    std::array<double, kMostMasses<N>> measure;
+    std::array<double, kMassCapacity<N>> measure;
     push(hand, y, drive, tangent, measure, lead, &speed);
     for (int i = 0; i < n(); ++i) {
       const double v = y[n() + i];
@@ -229,7 +229,7 @@ struct BrokenCurveSystem {
   /// d(speed)/dt without viscosity [m/s^2].
   double slopeOf(int i, const State& y, const Hand& hand) const noexcept {
     Vectors drive, tangent;
-    std::array<double, kMostMasses<N>> measure;
+    std::array<double, kMassCapacity<N>> measure;
     push(hand, y, drive, tangent, measure);
     return dot(tangent[i], drive[i]);
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMultistepReach = 0.3;  // |eigenvalue| times step up to which order 7 in one step a tick is accurate and stable
 constexpr double kExplicitReach = 100;   // up to which sub-steps of an explicit pair keep well below the cap of a tick
 constexpr double kRefusedReach = 450;    // beyond which they exceed it
-constexpr int kMostStiff = 24;           // masses of the L-stable method's dense systems
+constexpr int kMaxStiff = 24;            // masses of the L-stable method's dense systems
 
 void requireRk4(const std::vector<std::complex<double>>& eigenvalues, MethodChoice& choice, const SceneFacts& facts) {
   choice.predictedError = predictRk4Error(eigenvalues, facts.step, facts.length, facts.duration);
@@ -49,7 +49,7 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
       choice.method = "exact";
       choice.reason = "linear with constant coefficients: the matrix exponential is exact for any stiffness and damping (" + numbers + ")";
     } else if (facts.elasticEnds || reach > kMultistepReach) {
-      choice.method = reach > kExplicitReach && model.count() <= kMostStiff ? "stiff" : "adaptive";
+      choice.method = reach > kExplicitReach && model.count() <= kMaxStiff ? "stiff" : "adaptive";
       choice.reason = numbers + (facts.elasticEnds ? "; the ends are elastic, which the exact propagator does not know" : "") +
                       (choice.method == "stiff"
                            ? fmt::format(": beyond {} only an L-stable method is affordable", kExplicitReach)
@@ -76,9 +76,9 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
   } else if (choice.method == "rk4") {
     requireRk4(eigenvalues, choice, facts);
   } else if (choice.method == "stiff") {
-    if (model.count() > kMostStiff)
+    if (model.count() > kMaxStiff)
       throw RefusedError(fmt::format("method stiff solves dense systems for up to {} masses, and here are {}; use auto, or fewer masses",
-                                     kMostStiff, model.count()));
+                                     kMaxStiff, model.count()));
     choice.predictedError = 1e-9;
   } else {
     if (choice.method != "abm" && choice.method != "adaptive")
@@ -88,9 +88,9 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
           fmt::format("method {} would need more than 1000 right-hand sides a tick: fastest mode times step {:.4g}, limit {}; use {}, or a "
                       "smaller step",
                       choice.method, reach, kRefusedReach,
-                      facts.linear                  ? "method exact"
-                      : model.count() <= kMostStiff ? "method stiff"
-                                                    : fmt::format("method stiff with at most {} masses", kMostStiff)));
+                      facts.linear                 ? "method exact"
+                      : model.count() <= kMaxStiff ? "method stiff"
+                                                   : fmt::format("method stiff with at most {} masses", kMaxStiff)));
     choice.predictedError = 1e-11;
   }
   return choice;

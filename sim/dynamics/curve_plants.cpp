@@ -3,7 +3,7 @@
 #include "sim/dynamics/curve_system.h"
 #include "sim/dynamics/cusp_adaptive.h"
 #include "sim/dynamics/make_plant.h"
-#include "sim/dynamics/octet_system.h"
+#include "sim/dynamics/batch_system.h"
 
 namespace reachlab::dynamics {
 namespace {
@@ -28,9 +28,9 @@ std::unique_ptr<Plant> make(const ObjectModel& model, const constraints::Constra
     return std::make_unique<SystemPlant<System, Stiff>>(model, System(model, constraint, speedScale), request.tolerance);
   }
   if (model.count() == 1) return makeExplicit(model, CurveSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
-  if (model.count() <= constraints::kOctet)
-    return makeExplicit(model, OctetSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
-  return makeExplicit(model, OctetSystem<0, Parallel, Tangential>(model, constraint, speedScale), request);
+  if (model.count() <= kBatchLanes)
+    return makeExplicit(model, BatchSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
+  return makeExplicit(model, BatchSystem<0, Parallel, Tangential>(model, constraint, speedScale), request);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
 
   /// A vector for each mass.
   struct Vectors {
-    constraints::Unfilled<std::array<Vec3, kMostMasses<N>>> all;
+    constraints::Unfilled<std::array<Vec3, kMassCapacity<N>>> all;
     Vec3& operator[](int i) noexcept { return all.value[i]; }
     const Vec3& operator[](int i) const noexcept { return all.value[i]; }
     void set(int i, const Vec3& v) noexcept { all.value[i].x = v.x, all.value[i].y = v.y, all.value[i].z = v.z; }
@@ -40,9 +40,9 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
  private:
   [[gnu::always_inline]] void computeRate(const Hand& hand, const State& y, State& dy, int lead, double* speed) const noexcept {
     // Each point stays where the curve wrote it; what follows is copied component by component.
-    constraints::Unfilled<std::array<constraints::CurvePoint, kMostMasses<N>>> points;
+    constraints::Unfilled<std::array<constraints::CurvePoint, kMassCapacity<N>>> points;
     Vectors r, v, force, tangent;
-    std::array<double, kMostMasses<N>> measure, bend;  // Tangential: 1/|r_phi| or 1/|r_phi|^2, r_phi.r_phiphi
+    std::array<double, kMassCapacity<N>> measure, bend;  // Tangential: 1/|r_phi| or 1/|r_phi|^2, r_phi.r_phiphi
     for (int i = 0; i < n(); ++i) curve.function(curve.program, curve.shape.data(), y[i], points.value[i]);
     for (int i = 0; i < n(); ++i) {
       const constraints::CurvePoint& p = points.value[i];

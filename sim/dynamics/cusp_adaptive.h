@@ -164,7 +164,7 @@ class CuspAdaptive {
         status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
       }
       h *= cuspEnd ? 1.0 : factor;
-      if (y[n] < dt && rhs + 2 * dop853::kStages > kMostRhsPerTick) {
+      if (y[n] < dt && rhs + 2 * dop853::kStages > kMaxRhsPerTick) {
         status = StepStatus::Capped;
         break;
       }

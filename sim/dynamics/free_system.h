@@ -24,7 +24,7 @@ struct FreeSystem {
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     struct Points {
-      std::array<Vec3, kMostMasses<N>> value;
+      std::array<Vec3, kMassCapacity<N>> value;
       Vec3& operator[](int i) noexcept { return value[i]; }
       const Vec3& operator[](int i) const noexcept { return value[i]; }
     };

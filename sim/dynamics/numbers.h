@@ -21,7 +21,7 @@ struct Numbers {
   const double& operator[](int i) const noexcept { return values[i]; }
 };
 
-inline constexpr int kMostStates = 6 * experiment::kMaxMasses;
+inline constexpr int kMaxStates = 6 * experiment::kMaxMasses;
 
 template <>
 struct Numbers<0> {
@@ -41,7 +41,7 @@ struct Numbers<0> {
     for (int i = 0; i < size_; ++i) values_[i] = other.values_[i];
   }
   int size_;
-  std::array<double, kMostStates> values_;
+  std::array<double, kMaxStates> values_;
 };
 
 }  // namespace reachlab::dynamics

@@ -9,7 +9,7 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kMostSteps = 1e5;
+constexpr double kMaxSteps = 1e5;
 
 Vec3 placeAt(const constraints::Constraint& c, const std::vector<double>& q) {
   if (c.kind == constraints::ConstraintKind::Free) return {q[0], q[1], q[2]};
@@ -36,7 +36,7 @@ std::vector<Vec3> drive(Plant& plant, const experiment::Task& task, const HandFu
 std::optional<double> measureRk4Error(Plant& plant, const experiment::Task& task, const constraints::Constraint& constraint, double step) {
   const std::size_t wanted =
       constraint.kind == constraints::ConstraintKind::Free ? 3 : static_cast<std::size_t>(constraint.parameterCount());
-  if (task.start.size() != wanted || task.target.size() != wanted || !(task.duration > 0) || task.duration / step > kMostSteps) return {};
+  if (task.start.size() != wanted || task.target.size() != wanted || !(task.duration > 0) || task.duration / step > kMaxSteps) return {};
   const Vec3 start = placeAt(constraint, task.start), chord = placeAt(constraint, task.target) - start;
   if (!isFinite(chord) || !(norm(chord) > 0)) return {};
   const HandFunction hand = [&](double t) {

@@ -12,6 +12,6 @@ struct StepReport {
 };
 
 /// Right-hand sides that one tick may cost; beyond it the step is Capped and the force zero.
-inline constexpr int kMostRhsPerTick = 1000;
+inline constexpr int kMaxRhsPerTick = 1000;
 
 }  // namespace reachlab::dynamics

@@ -53,7 +53,7 @@ class Stiff {
         last_ = lastPart ? std::max(last_, h * factor) : h * factor;
       }
       h *= error <= 1 ? factor : std::min(factor, 0.7);
-      if (t < dt && (rhs > kMostRhsPerTick || t + h == t)) {
+      if (t < dt && (rhs > kMaxRhsPerTick || t + h == t)) {
         report.rhs += static_cast<std::uint64_t>(rhs);
         last_ = 0;
         return std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;

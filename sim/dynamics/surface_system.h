@@ -37,7 +37,7 @@ struct SurfaceSystem {
   std::shared_ptr<const constraints::SurfaceBranches> branches;
   struct Where {
     int branch = 0;
-    std::array<signed char, constraints::SurfaceBranches::kMostGuards> side{};  // sign of each line's argument - level
+    std::array<signed char, constraints::SurfaceBranches::kMaxGuards> side{};  // sign of each line's argument - level
   };
   Where where;
   int metLine = -1;                                          // that stopped the mass
@@ -46,7 +46,7 @@ struct SurfaceSystem {
   /// Where the parameter lines are oblique the rates nearly cancel in the velocity, so that they are needed more exactly.
   bool careful = false;
   /// How near a mass comes to a line at which the formula ends, in its argument: nearer, its rounding shows in the speed.
-  std::array<double, constraints::SurfaceBranches::kMostGuards> margin{};
+  std::array<double, constraints::SurfaceBranches::kMaxGuards> margin{};
 
   SurfaceSystem(const ObjectModel& model, const constraints::Constraint& constraint)
       : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}

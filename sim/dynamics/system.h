@@ -19,16 +19,16 @@
 namespace reachlab::dynamics {
 
 template <int N>
-inline constexpr int kMostMasses = N > 0 ? N : experiment::kMaxMasses;
+inline constexpr int kMassCapacity = N > 0 ? N : experiment::kMaxMasses;
 
 /// Springs and masses as the step wants them; N = 0: as many as the model has. `Parallel`: every mass has its own spring to the hand and
 /// no neighbours.
 template <int N, bool Parallel>
 struct Springs {
-  static constexpr int kMost = kMostMasses<N>;
+  static constexpr int kCapacity = kMassCapacity<N>;
   int count = N;
-  std::array<double, kMost> inverseMass{}, handStiffness{}, handDamping{};
-  std::array<double, kMost> stiffness{}, damping{};  // to the next mass
+  std::array<double, kCapacity> inverseMass{}, handStiffness{}, handDamping{};
+  std::array<double, kCapacity> stiffness{}, damping{};  // to the next mass
   double viscosity = 0;
   Vec3 gravity, extraForce;
 

@@ -122,7 +122,7 @@ class SystemPlant : public PlantBase {
     HandSegment rest = hand;
     // A step over an end that is a cusp is known only to the method; the locator comes up to it.
     const bool seen = status == StepStatus::Ok && !system_.inside(next());
-    for (bool first = true; report.rhs < kMostRhsPerTick; first = false) {
+    for (bool first = true; report.rhs < kMaxRhsPerTick; first = false) {
       typename Adaptive<System>::Meeting meeting{false, 1, now()};
       if (first && seen) meeting.beyond = next();
       locator_.restart();

@@ -9,7 +9,7 @@
 namespace reachlab::experiment {
 namespace {
 
-constexpr double kLongestDuration = 3600, kLongestTimeout = 86400, kLongestRest = 60;  // [s]
+constexpr double kMaxDuration = 3600, kMaxTimeout = 86400, kMaxRestDuration = 60;  // [s]
 
 void checkInertia(const Object& object, std::vector<Fault>& faults) {
   const auto& m = object.inertia;
@@ -67,14 +67,14 @@ void checkTask(const Task& task, int coordinates, std::vector<Fault>& faults) {
     if (place->empty()) faults.push_back({key, "is missing", "constraint parameters, or three metres when free"});
     else checkNumbers(key, *place, coordinates, anyNumber(), faults);
   }
-  checkNumber("task.duration_s", task.duration, positiveUpTo(kLongestDuration, "s"), faults);
+  checkNumber("task.duration_s", task.duration, positiveUpTo(kMaxDuration, "s"), faults);
   checkNumber("task.tolerance.position_m", task.tolerance.position, positive("m"), faults);
   checkNumber("task.tolerance.velocity_m_per_s", task.tolerance.velocity, positive("m/s"), faults);
-  checkNumber("task.tolerance.time_s", task.tolerance.time, positiveUpTo(kLongestDuration, "s"), faults);
+  checkNumber("task.tolerance.time_s", task.tolerance.time, positiveUpTo(kMaxDuration, "s"), faults);
   checkNumber("task.onset_m", task.onset, positive("m"), faults);
   checkNumber("task.arm_radius_m", task.armRadius, positive("m"), faults);
-  checkNumber("task.timeout_s", task.timeout, positiveUpTo(kLongestTimeout, "s"), faults);
-  checkNumber("task.rest_s", task.rest.seconds, {0, kLongestRest, true, fmt::format("0 to {:.0f} s", kLongestRest)}, faults);
+  checkNumber("task.timeout_s", task.timeout, positiveUpTo(kMaxTimeout, "s"), faults);
+  checkNumber("task.rest_s", task.rest.seconds, {0, kMaxRestDuration, true, fmt::format("0 to {:.0f} s", kMaxRestDuration)}, faults);
   checkNumber("task.rest_speed_m_per_s", task.rest.speed, positive("m/s"), faults);
 }
 

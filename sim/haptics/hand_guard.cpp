@@ -48,7 +48,7 @@ Vec3 PassivityObserver::control(const Vec3& velocity) const noexcept {
   constexpr double kRest = 1e-3;  // [m/s] a hand at rest takes no energy
   const double square = dot(velocity, velocity);
   if (!(energy_ < 0) || !(square > kRest * kRest)) return {};
-  return -std::min(-energy_ / (kTickSeconds * square), kMostDissipation) * velocity;
+  return -std::min(-energy_ / (kTickSeconds * square), kMaxDissipation) * velocity;
 }
 
 }  // namespace reachlab::haptics

@@ -48,10 +48,10 @@ Vec3 wallForce(const GuardSettings& settings, const Vec3& place, const Vec3& vel
 /// Time-domain passivity observer and controller (Hannaford and Ryu 2002) at the port between hand and device. Between two ticks the force
 /// F on the hand is held, so the work that the hand has done on the program is exactly E(n) = E(n-1) - F(n-1) . (x(n) - x(n-1)); below
 /// zero, the program has given more than it was given. The controller then takes it back by F_pc = -alpha v, alpha = -E/(T v^2), at most
-/// kMostDissipation. Haptic thread; neither allocates nor throws.
+/// kMaxDissipation. Haptic thread; neither allocates nor throws.
 class PassivityObserver {
  public:
-  static constexpr double kMostDissipation = 5;  // [N s/m]; more would make the loop itself unstable (Colgate)
+  static constexpr double kMaxDissipation = 5;  // [N s/m]; more would make the loop itself unstable (Colgate)
 
   void reset() noexcept { *this = {}; }
   /// The hand's place at this tick [m].

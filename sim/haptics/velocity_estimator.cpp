@@ -86,7 +86,7 @@ Vec3 VelocityEstimator::correct(const Vec3& measured) noexcept {
 
 // Longer and longer windows that end now, until a sample within one is off its line.
 Vec3 VelocityEstimator::slope() const noexcept {
-  constexpr int kSize = kLongestWindow + 1;
+  constexpr int kSize = kMaxWindowDuration + 1;
   const auto sample = [&](int back) { return window_[static_cast<std::size_t>((count_ - 1 - back + 2 * kSize) % kSize)]; };
   const Vec3 now = sample(0);
   Vec3 best;
@@ -107,7 +107,7 @@ Vec3 VelocityEstimator::estimate(const DeviceSample& sample) noexcept {
     speed_ = acceleration_ = {};
     last_ = place_ = sample.position;
   }
-  constexpr int kSize = kLongestWindow + 1;
+  constexpr int kSize = kMaxWindowDuration + 1;
   window_[static_cast<std::size_t>(count_ % kSize)] = sample.position;
   count_ = count_ < 2 * kSize - 1 ? count_ + 1 : kSize;
   const Vec3 difference = (sample.position - last_) / dt;

@@ -17,13 +17,13 @@ namespace reachlab::haptics {
 ///                    steady Kalman filter of a constant velocity driven by white acceleration comes to as dt -> 0
 ///   kalman           steady Kalman filter of a constant acceleration driven by white jerk, q/r = (2 pi fc)^6; no delay at low frequencies
 ///   adaptive-window  first-order adaptive windowing (Janabi-Sharifi, Hayward, Chen 2000, "end-fit"): the slope over the longest window,
-///                    up to kLongestWindow, whose every sample lies within kWindowNoise of the line through its ends; delay half of it
+///                    up to kMaxWindowDuration, whose every sample lies within kWindowNoise of the line through its ends; delay half of it
 ///   device           what the device measures itself; the butterworth where it measures nothing
 ///   auto             device (docs/devices.md has the table that it was chosen by)
 /// Axes alike, but the window is one for all three. Starts at rest; reset() after a jump or a loss. Haptic thread.
 class VelocityEstimator {
  public:
-  static constexpr int kLongestWindow = 32;        // [ticks]
+  static constexpr int kMaxWindowDuration = 32;    // [ticks]
   static constexpr double kWindowNoise = 0.06e-3;  // [m] half a step of the coarsest encoders of docs/devices.md, and a little
 
   /// Cutoff in (0, 500) Hz; problems(Experiment) reports other values.
@@ -47,7 +47,7 @@ class VelocityEstimator {
   Vec3 x1_, x2_, y1_, y2_;             // the filter's last inputs and outputs
   std::array<double, 3> gain_{};       // Kalman: of place, speed, acceleration
   Vec3 place_, speed_, acceleration_;  // Kalman: the state
-  std::array<Vec3, kLongestWindow + 1> window_{};
+  std::array<Vec3, kMaxWindowDuration + 1> window_{};
   int count_ = 0;  // samples since the last reset, counts on modulo the window
 };
 

@@ -181,10 +181,10 @@ std::string readWholeFile(const std::string& path) {
   if (descriptor < 0) fail("cannot be opened", path);
   struct stat status {};
   const bool known = ::fstat(descriptor, &status) == 0;
-  if (!known || !S_ISREG(status.st_mode) || status.st_size > kMostBytesOfAFile) {
+  if (!known || !S_ISREG(status.st_mode) || status.st_size > kMaxBytesOfAFile) {
     ::close(descriptor);
     if (known && S_ISREG(status.st_mode))
-      throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", path, status.st_size, kMostBytesOfAFile));
+      throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", path, status.st_size, kMaxBytesOfAFile));
     throw ResourceError(path + ": is no regular file; allowed: a file on a disk");
   }
   std::string text(static_cast<std::size_t>(status.st_size), '\0');

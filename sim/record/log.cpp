@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "the log is written as
 
 namespace {
 
-constexpr std::size_t kLeastAhead = 4096, kMostAhead = 1 << 20;
+constexpr std::size_t kMinAhead = 4096, kMaxAhead = 1 << 20;
 
 constexpr std::array<char, 8> kSignature{'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G'};
 
@@ -174,7 +174,7 @@ std::span<const std::uint8_t> LogReader::bytesAt(std::uint64_t offset, std::size
       done += static_cast<std::size_t>(count);
     }
     window_.resize(done);
-    ahead_ = std::min(2 * ahead_, kMostAhead);
+    ahead_ = std::min(2 * ahead_, kMaxAhead);
     if (!inWindow()) return {};
   }
   return std::span<const std::uint8_t>(window_).subspan(static_cast<std::size_t>(offset - windowBegin_), size);
@@ -211,7 +211,7 @@ std::uint32_t LogReader::sequenceAt(std::uint64_t offset) {
 void LogReader::seek(std::uint64_t offset, std::uint32_t sequence) {
   at_ = offset;
   sequence_ = sequence;
-  ahead_ = kLeastAhead;
+  ahead_ = kMinAhead;
 }
 
 }  // namespace reachlab::record

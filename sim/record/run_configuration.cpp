@@ -55,10 +55,10 @@ void checkConfiguration(const RunConfiguration& c) {
 }
 
 std::optional<Fault> labelFault(const std::string& label, const std::string& key) {
-  constexpr std::size_t kLongestLabel = 60;  // file names join three of them and may have 255 bytes
+  constexpr std::size_t kMaxLabelLength = 60;  // file names join three of them and may have 255 bytes
   const bool good = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
-  if (good && label.size() <= kLongestLabel) return std::nullopt;
-  return Fault{key, fmt::format("\"{}\" is not a label", label), fmt::format("up to {} letters and digits", kLongestLabel)};
+  if (good && label.size() <= kMaxLabelLength) return std::nullopt;
+  return Fault{key, fmt::format("\"{}\" is not a label", label), fmt::format("up to {} letters and digits", kMaxLabelLength)};
 }
 
 std::vector<Fault> problems(const Participant& participant) {

@@ -54,7 +54,7 @@ TEST(Conclusion, OfFivePeopleWhoAgreeIsDecided) {
   const Conclusion c = concludePeople(people(5, 2, 0.8), kCandidates, kReference);
   EXPECT_EQ(c.follows, 2u);
   EXPECT_LT(c.p, kSubjectsLevel);
-  EXPECT_GE(c.posterior[2], kLeastExceedance);
+  EXPECT_GE(c.posterior[2], kMinExceedance);
   EXPECT_FALSE(c.signFlipP);
   EXPECT_EQ(concludePeople(people(6, 2, 0.8), kCandidates, kReference).signFlipP, 2.0 / 64);
 }

@@ -157,7 +157,7 @@ void stepDense(Dense& d) {
   std::memcpy(d.state, d.next, sizeof d.state);
 }
 
-// The springs between eight masses in lanes: each needs its neighbours' numbers (sim/dynamics/octet_springs.h).
+// The springs between eight masses in lanes: each needs its neighbours' numbers (sim/dynamics/batch_springs.h).
 struct Springs {
   double x[8], v[8], stiffness[8], inverseMass[8];
 };

@@ -14,16 +14,16 @@
 namespace reachlab::constraints {
 
 /// Throws where eight points together differ from single ones, not-a-numbers being all alike.
-inline void requireOctetOfSinglePoints(const Curve& curve, const std::array<double, kOctet>& phi) {
-  CurveOctet octet;
-  curve.octet(curve.program, curve.shape.data(), phi.data(), octet);
-  for (int lane = 0; lane < kOctet; ++lane) {
+inline void requireBatchOfSinglePoints(const Curve& curve, const std::array<double, kBatchLanes>& phi) {
+  CurveBatch batch;
+  curve.batch(curve.program, curve.shape.data(), phi.data(), batch);
+  for (int lane = 0; lane < kBatchLanes; ++lane) {
     const CurvePoint p = evaluate(curve, phi[static_cast<std::size_t>(lane)]);
-    const auto same = [lane](const double(&lanes)[3][kOctet], const Vec3& v) {
+    const auto same = [lane](const double(&lanes)[3][kBatchLanes], const Vec3& v) {
       const auto equal = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
       return equal(lanes[0][lane], v.x) && equal(lanes[1][lane], v.y) && equal(lanes[2][lane], v.z);
     };
-    if (!same(octet.r, p.r) || !same(octet.rPhi, p.rPhi) || !same(octet.rPhiPhi, p.rPhiPhi))
+    if (!same(batch.r, p.r) || !same(batch.rPhi, p.rPhi) || !same(batch.rPhiPhi, p.rPhiPhi))
       throw std::logic_error("eight points together differ from single ones");
   }
 }
@@ -52,9 +52,9 @@ inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
   try {
     const Constraint c = makeConstraint(spec);
     if (c.kind == ConstraintKind::Curve) {
-      requireOctetOfSinglePoints(c.curve, {0.0, 0.37, -1.5, 2.0, 31.0, -7.7, 1e-3, 99.0});
-      requireOctetOfSinglePoints(c.curve, {0.0, 0.37, -1.5, 1e6, 1e308, -1e5, 0.1, 3.0});
-      writeOctetEvaluator(*compileFormula(formula, "fuzz"), "evaluateFuzz");
+      requireBatchOfSinglePoints(c.curve, {0.0, 0.37, -1.5, 2.0, 31.0, -7.7, 1e-3, 99.0});
+      requireBatchOfSinglePoints(c.curve, {0.0, 0.37, -1.5, 1e6, 1e308, -1e5, 0.1, 3.0});
+      writeBatchEvaluator(*compileFormula(formula, "fuzz"), "evaluateFuzz");
     }
     for (const double x : {0.0, 0.37, -1.5, 1e6, 1e308}) {
       if (c.kind == ConstraintKind::Curve) evaluate(c.curve, x);

@@ -47,7 +47,7 @@ TEST(PassivityObserver, TheControllerTakesItBack) {
       const double x = amplitude * std::sin(w * i * dt), v = amplitude * w * std::cos(w * i * dt);
       port.observe({x, 0, 0});
       const Vec3 dissipation = control ? port.control({v, 0, 0}) : Vec3{};
-      EXPECT_LE(norm(dissipation), PassivityObserver::kMostDissipation * std::abs(v) + 1e-12);
+      EXPECT_LE(norm(dissipation), PassivityObserver::kMaxDissipation * std::abs(v) + 1e-12);
       port.render(Vec3{-k * x, 0, 0} + dissipation);
     }
     (control ? controlled : left) = port.energy();

@@ -4,7 +4,7 @@
 
 #include "base/minimum_jerk.h"
 #include "sim/dynamics/curve_system.h"
-#include "sim/dynamics/octet_system.h"
+#include "sim/dynamics/batch_system.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kRounding = 1e-12;  // of the largest rate: another order of the same sums
 
 /// The two forms of the same equations at random states.
-template <int Octets, bool Parallel, bool Tangential>
+template <int Batches, bool Parallel, bool Tangential>
 void expectSameRates(int n, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -35,31 +35,31 @@ void expectSameRates(int n, unsigned seed) {
       constraints::makeConstraint({.name = "", .curve = {"0.1*cos(phi)", "0.06*sin(2*phi)", "0.02*phi"}, .surface = {}, .shape = {}});
 
   CurveSystem<0, Parallel, Tangential> plain(model, c, 0.1);
-  OctetSystem<Octets, Parallel, Tangential> octets(model, c, 0.1);
+  BatchSystem<Batches, Parallel, Tangential> batches(model, c, 0.1);
   typename decltype(plain)::State y(plain.states()), dy(plain.states());
-  typename decltype(octets)::State yo(octets.states()), dyo(octets.states());
+  typename decltype(batches)::State yo(batches.states()), dyo(batches.states());
   for (const bool coupled : {true, false}) {
     plain.springs.setCoupled(model, coupled);
-    octets.springs.setCoupled(model, coupled);
+    batches.springs.setCoupled(model, coupled);
     plain.setExtraForce({0.3, 0.1, -0.2});
-    octets.setExtraForce({0.3, 0.1, -0.2});
-    octets.place(std::array{0.3}, std::array{0.0}, yo);
+    batches.setExtraForce({0.3, 0.1, -0.2});
+    batches.place(std::array{0.3}, std::array{0.0}, yo);
     for (int i = 0; i < n; ++i) {
       yo[i] = y[i] = 0.3 + 0.2 * i + 0.1 * unit(random);
-      yo[octets.rates() + i] = y[plain.rates() + i] = unit(random) - 0.5;
+      yo[batches.rates() + i] = y[plain.rates() + i] = unit(random) - 0.5;
     }
     const HandSample hand{{0.2, 0.1, -0.1}, {0.4, -0.3, 0.2}, true};
     plain.rate(hand, y, dy);
-    octets.rate(hand, yo, dyo);
+    batches.rate(hand, yo, dyo);
     double largest = 0;
     for (int i = 0; i < 2 * n; ++i) largest = std::max(largest, std::abs(dy[i]));
     for (int i = 0; i < n; ++i) {
       EXPECT_NEAR(dyo[i], dy[i], kRounding * largest) << n << " masses, place " << i;
-      EXPECT_NEAR(dyo[octets.rates() + i], dy[plain.rates() + i], kRounding * largest) << n << " masses, rate " << i;
+      EXPECT_NEAR(dyo[batches.rates() + i], dy[plain.rates() + i], kRounding * largest) << n << " masses, rate " << i;
     }
-    for (int i = n; i < octets.rates(); ++i) {
+    for (int i = n; i < batches.rates(); ++i) {
       EXPECT_EQ(dyo[i], 0) << "an empty lane moves";
-      EXPECT_EQ(dyo[octets.rates() + i], 0) << "an empty lane is pulled";
+      EXPECT_EQ(dyo[batches.rates() + i], 0) << "an empty lane is pulled";
     }
   }
 }
@@ -70,12 +70,12 @@ void expectSameRatesForAnyCount() {
   for (const int n : {2, 8, 9, 15, 16, 17, 64}) expectSameRates<0, Parallel, Tangential>(n, static_cast<unsigned>(n));
 }
 
-TEST(OctetSystem, PullsAChainAsMassByMass) {
+TEST(BatchSystem, PullsAChainAsMassByMass) {
   expectSameRatesForAnyCount<false, false>();
   expectSameRatesForAnyCount<false, true>();
 }
 
-TEST(OctetSystem, PullsParallelMassesAsMassByMass) {
+TEST(BatchSystem, PullsParallelMassesAsMassByMass) {
   expectSameRatesForAnyCount<true, false>();
   expectSameRatesForAnyCount<true, true>();
 }

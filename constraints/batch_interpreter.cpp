@@ -8,13 +8,13 @@
 namespace reachlab::constraints {
 namespace {
 
-using Register = double[kOctet];
+using Register = double[kBatchLanes];
 
 template <class Operation>
 [[gnu::always_inline]] inline void inLanes(Register& out, const Operation& operation) noexcept {
   Register result;
 #pragma GCC unroll 1  // unrolled, g++ 12 would not put it in lanes
-  for (int lane = 0; lane < kOctet; ++lane) result[lane] = operation(lane);
+  for (int lane = 0; lane < kBatchLanes; ++lane) result[lane] = operation(lane);
   std::memcpy(out, result, sizeof(Register));
 }
 
@@ -22,9 +22,9 @@ void sinCosInLanes(const Register& x, Register& sine, Register& cosine) noexcept
   Register s, c;
   std::uint64_t far = 0;
 #pragma GCC unroll 1
-  for (int lane = 0; lane < kOctet; ++lane) far |= sinCosNear(x[lane], s[lane], c[lane]);
+  for (int lane = 0; lane < kBatchLanes; ++lane) far |= sinCosNear(x[lane], s[lane], c[lane]);
   if (far != 0)
-    for (int lane = 0; lane < kOctet; ++lane) sinCos(x[lane], s[lane], c[lane]);
+    for (int lane = 0; lane < kBatchLanes; ++lane) sinCos(x[lane], s[lane], c[lane]);
   std::memcpy(sine, s, sizeof(Register));
   std::memcpy(cosine, c, sizeof(Register));
 }
@@ -81,9 +81,9 @@ void execute(const Program& program, Register* r) noexcept {
 
 }  // namespace
 
-void evaluateCurveOctetProgram(const void* program, const double* shape, const double* phi, CurveOctet& out) noexcept {
+void evaluateCurveBatchProgram(const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept {
   constexpr int kOutputs = 9;
-  static_assert(sizeof(CurveOctet) == kOutputs * sizeof(Register));
+  static_assert(sizeof(CurveBatch) == kOutputs * sizeof(Register));
   const Program& p = *static_cast<const Program*>(program);
   alignas(64) Register registers[kMaxRegisters];
   const auto fill = [&](int k, double value) {
@@ -93,8 +93,8 @@ void evaluateCurveOctetProgram(const void* program, const double* shape, const d
   for (int k = 0; k < p.parameterCount; ++k) fill(kOutputs + k, shape[k]);
   std::memcpy(registers[kOutputs + p.parameterCount], phi, sizeof(Register));
   execute(p, registers);
-  std::memcpy(&out, registers, sizeof(CurveOctet));
-  for (const Program::Copy& copy : p.copies) std::memcpy(&out.r[0][0] + kOctet * copy.slot, registers[copy.from], sizeof(Register));
+  std::memcpy(&out, registers, sizeof(CurveBatch));
+  for (const Program::Copy& copy : p.copies) std::memcpy(&out.r[0][0] + kBatchLanes * copy.slot, registers[copy.from], sizeof(Register));
 }
 
 }  // namespace reachlab::constraints

@@ -11,14 +11,14 @@ namespace reachlab::constraints {
 namespace {
 
 /// Bits are compared: lanes do the operations of one point in their order.
-void expectSameBits(const Curve& curve, const std::array<double, kOctet>& phi, const std::string& name) {
-  CurveOctet octet;
-  curve.octet(curve.program, curve.shape.data(), phi.data(), octet);
-  for (int lane = 0; lane < kOctet; ++lane) {
+void expectSameBits(const Curve& curve, const std::array<double, kBatchLanes>& phi, const std::string& name) {
+  CurveBatch batch;
+  curve.batch(curve.program, curve.shape.data(), phi.data(), batch);
+  for (int lane = 0; lane < kBatchLanes; ++lane) {
     const CurvePoint p = evaluate(curve, phi[lane]);
     const Vec3 single[3] = {p.r, p.rPhi, p.rPhiPhi};
     for (int k = 0; k < 3; ++k) {
-      const auto& lanes = k == 0 ? octet.r : k == 1 ? octet.rPhi : octet.rPhiPhi;
+      const auto& lanes = k == 0 ? batch.r : k == 1 ? batch.rPhi : batch.rPhiPhi;
       const double values[3] = {single[k].x, single[k].y, single[k].z};
       for (int c = 0; c < 3; ++c) {
         const auto bits = [](double x) { return std::isnan(x) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(x); };
@@ -31,7 +31,7 @@ void expectSameBits(const Curve& curve, const std::array<double, kOctet>& phi, c
 void expectSameBitsEverywhere(const Curve& curve, const std::string& name) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> near(-7, 7);
-  std::array<double, kOctet> phi{};
+  std::array<double, kBatchLanes> phi{};
   for (int round = 0; round < 50; ++round) {
     for (double& value : phi) value = near(random);
     expectSameBits(curve, phi, name);
@@ -43,7 +43,7 @@ void expectSameBitsEverywhere(const Curve& curve, const std::string& name) {
   expectSameBits(curve, phi, name);
 }
 
-TEST(Octet, OfEveryCurveOfTheCatalogueHasTheBitsOfSinglePoints) {
+TEST(CurveBatch, OfEveryCurveOfTheCatalogueHasTheBitsOfSinglePoints) {
   int curves = 0;
   for (const Definition& definition : catalogue()) {
     if (definition.kind != ConstraintKind::Curve) continue;
@@ -53,7 +53,7 @@ TEST(Octet, OfEveryCurveOfTheCatalogueHasTheBitsOfSinglePoints) {
   EXPECT_GT(curves, 30);
 }
 
-TEST(Octet, OfTypedFormulasHasTheBitsOfSinglePoints) {
+TEST(CurveBatch, OfTypedFormulasHasTheBitsOfSinglePoints) {
   const std::vector<std::vector<std::string>> formulas{
       {"0.1*cos(phi)", "0.06*sin(phi)", "0"},
       {"phi", "exp(-phi^2)*tanh(phi)", "sqrt(1 + phi^2)"},
