@@ -15,4 +15,8 @@ struct Ending {
 };
 Ending endingOf(const std::exception& error);
 
+/// What no catch reaches (no memory before main, an exception out of a thread) ends the program with a sentence and its number, too, and not with
+/// an abort. In force before main in every program that calls this; the call itself does nothing more.
+void endOnUncaught() noexcept;
+
 }  // namespace reachlab

@@ -5,8 +5,9 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/standard_streams.h"
-#include "base/stop_signals.h"
+#include "base/ending.h"
 #include "base/os.h"
+#include "base/stop_signals.h"
 
 namespace {
 
@@ -46,6 +47,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reachlab::endOnUncaught();
   reachlab::os::holdStandardDescriptors();
   reachlab::cli::guardStandardStreams();
   reachlab::endOnSignals();

@@ -1,3 +1,4 @@
+#include "base/ending.h"
 #include "base/os.h"
 #include "cli/bench/run_bench.h"
 #include "cli/exit_code.h"
@@ -8,6 +9,7 @@
 /// people runs under the system's.
 int main(int argc, char** argv) {
   using namespace reachlab::cli;
+  reachlab::endOnUncaught();
   reachlab::os::holdStandardDescriptors();
   guardStandardStreams();
   reachlab::endOnSignals();

@@ -88,6 +88,7 @@ int sayFault(const char* sentence, int status, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reachlab::endOnUncaught();
   reachlab::os::holdStandardDescriptors();
   reachlab::endOnSignals();
   CLI::App app{"reachlab: the window of Reachlab", "reachlab"};

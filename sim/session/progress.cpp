@@ -6,7 +6,7 @@
 
 namespace reachlab::session {
 
-std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults) {
+std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead) {
   std::vector<BlockProgress> blocks;
   for (const RunOnDisk& run : recordedRuns(place)) {
     try {
@@ -24,6 +24,7 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
         (again ? block->putUpAgain : block->done).insert(index);
       }
     } catch (const Error& error) {
+      if (mustRead && dynamic_cast<const ResourceError*>(&error) != nullptr) throw;
       faults.emplace_back(error.what());
     }
   }

@@ -17,7 +17,8 @@ struct BlockProgress {
   int lastTrial = 0;  // largest trial number used so far
 };
 
-/// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`.
-std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults);
+/// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`; with `mustRead` one
+/// that the disk does not give is a ResourceError: whoever resumes would do again what it holds.
+std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead = false);
 
 }  // namespace reachlab::session

@@ -157,7 +157,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
       if (record::isBeingWritten(run.path))
         throw ResourceError(fmt::format("run {} is being recorded{} into {}; wait until it has ended, then resume", run.run,
                                         record::writerOf(run.path), run.path));
-  const std::vector<BlockProgress> progress = readProgress(request.place, session.notice.unreadable);
+  const std::vector<BlockProgress> progress = readProgress(request.place, session.notice.unreadable, request.resume);
   std::vector<const BlockProgress*> recorded;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const experiment::CompiledExperiment& experiment = programme.experiments.at(static_cast<std::size_t>(order[k]));

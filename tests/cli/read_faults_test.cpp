@@ -79,4 +79,40 @@ TEST_F(ReadFaults, LeaveARunInTheAnalysisWholeOrNotAtAll) {
   EXPECT_TRUE(seen.contains("first") && seen.contains("second")) << "each of the two was left out once";
 }
 
+TEST_F(ReadFaults, NeverLetAResumedSessionForgetWhatIsRecorded) {
+  const std::string log = (folder_ / "first/sourcedata/sub-01_ses-01_task-dingwell_run-01_log.reach").string();
+  fs::resize_file(log, fs::file_size(log) * 55 / 100);  // broken off in its second trial
+  const auto resume = [&](int failing) {
+    fs::remove_all(folder_ / "again");
+    fs::copy(folder_ / "first", folder_ / "again", fs::copy_options::recursive);
+    return reach("run dingwell --device simulated --fast --resume --data " + (folder_ / "again").string(),
+                 "LD_PRELOAD=" REACHLAB_BINARY_DIR "/tests/libfault_shim.so FAULT_KIND=read FAULT_AT=" + std::to_string(failing) +
+                     " FAULT_COUNT=" + (folder_ / "count").string());
+  };
+  const Ended whole = resume(0);
+  ASSERT_EQ(whole.exitCode, 0) << whole.err;
+  const std::size_t left = trialLines(whole.out).size();
+  ASSERT_EQ(left, 2u) << whole.out;
+  const int all = reads();
+  for (int n = 1; n <= all; ++n) {
+    const Ended ended = resume(n);
+    if (ended.exitCode == 0) {
+      EXPECT_EQ(trialLines(ended.out).size(), left) << "read " << n << " of " << all;
+    } else {
+      EXPECT_EQ(ended.exitCode, 3) << "read " << n << " of " << all << ": " << ended.err;
+    }
+  }
+}
+
+TEST_F(ReadFaults, NoMemoryEndsAnyStageWithASentence) {
+  const std::string data = (folder_ / "memory").string();
+  for (const int at : {1, 10, 100, 1000, 2000, 4000, 10000, 20000}) {
+    fs::remove_all(data);
+    const Ended ended = reach("run dingwell --device simulated --trials 3 --fast --seed 1 --data " + data,
+                              "LD_PRELOAD=" REACHLAB_BINARY_DIR "/tests/libfault_shim.so FAULT_KIND=malloc FAULT_AT=" + std::to_string(at));
+    EXPECT_EQ(ended.exitCode, 3) << at << ": " << ended.err;
+    EXPECT_NE(ended.err.find("there is not enough memory"), std::string::npos) << at << ": " << ended.err;
+  }
+}
+
 }  // namespace
