@@ -59,6 +59,7 @@ class GuardedDevice final : public haptics::HapticDevice {
       if (m.mirrorX) sample.orientation[2] = -sample.orientation[2], sample.orientation[3] = -sample.orientation[3];
       sample.orientation = product(turn_, sample.orientation);
     }
+    if (options_.deadManButton > 0 && (sample.buttons >> (options_.deadManButton - 1) & 1u) == 0) sample.released = true;
     return sample;
   }
   void write(const Vec3& force) noexcept override {
@@ -125,6 +126,9 @@ HandOptions takeHandOptions(DeviceOptions& options) {
   const double mass = options.number("stylus-mass", -1, 0, 2);
   if (mass >= 0) hand.stylusMass = mass;
   hand.passivityControl = options.word("passivity", {"observe", "control"}) == "control";
+  const double button = options.number("dead-man-button", 0, 1, 32);
+  hand.deadManButton = static_cast<int>(button);
+  if (button != hand.deadManButton) throw UsageError(fmt::format("dead-man-button={}: allowed: a button's number, 1 to 32", button));
   return hand;
 }
 
@@ -132,6 +136,9 @@ std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::Hapt
   if (!options.any()) return device;
   if (options.wall && *options.wall == 0 && !(device->info().workspaceRadius > 0))
     throw UsageError(fmt::format("wall=yes: the workspace of {} is not known; allowed: wall=RADIUS_M", device->info().name));
+  if (options.deadManButton > 0 && !device->info().rendersForce)
+    throw UsageError(
+        fmt::format("dead-man-button: {} renders no force that it could take away; allowed: a force device", device->info().name));
   return std::make_unique<GuardedDevice>(std::move(device), options);
 }
 

@@ -17,11 +17,12 @@ struct HandOptions {
   std::optional<double> speedLimit;  // [m/s] of the hand in the world
   std::optional<double> stylusMass;  // [kg] held against its weight
   bool passivityControl = false;
-  bool any() const { return mapped || wall || speedLimit || stylusMass || passivityControl; }
+  int deadManButton = 0;  // from 1: force only while it is held; 0: none
+  bool any() const { return mapped || wall || speedLimit || stylusMass || passivityControl || deadManButton > 0; }
 };
 
 /// Takes `mapping=FILE`, `scale=`, `offset=X/Y/Z` [m], `rotation=X/Y/Z` [deg], `mirror=x`, `wall=yes|RADIUS_M`, `speed-limit=M_PER_S`,
-/// `stylus-mass=KG`, `passivity=control`. Throws UsageError.
+/// `stylus-mass=KG`, `passivity=control`, `dead-man-button=N`. Throws UsageError.
 HandOptions takeHandOptions(DeviceOptions& options);
 
 /// The device as the world sees it: mapped, with its guards. With nothing asked for, the device itself.

@@ -50,6 +50,26 @@ HandOptions mapped(const Mapping& mapping) {
   return options;
 }
 
+TEST(DeadManButton, GivesForceOnlyWhileItIsHeld) {
+  HandOptions options;
+  options.deadManButton = 2;
+  Guarded guarded(options);
+  EXPECT_TRUE(guarded.device->read().released);
+  guarded.inner->sample.buttons = 0b01;
+  EXPECT_TRUE(guarded.device->read().released) << "another button";
+  guarded.inner->sample.buttons = 0b10;
+  EXPECT_FALSE(guarded.device->read().released);
+  guarded.inner->sample.released = true;
+  EXPECT_TRUE(guarded.device->read().released) << "the device's own switch holds besides";
+}
+
+TEST(DeadManButton, IsRefusedWhereThereIsNoForceToTake) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  EXPECT_THROW(makeDevice("simulated,dead-man-button=1", experiment, 1), UsageError);
+  EXPECT_THROW(makeDevice("virtual:omni,dead-man-button=33", experiment, 1), UsageError);
+  EXPECT_NO_THROW(makeDevice("virtual:omni,dead-man-button=1", experiment, 1));
+}
+
 // Power: F_device . v_device = F . v / scale for every mapping. Seeded; to rounding.
 TEST(Mapping, TheDeviceDoesTheWorkThatTheHandFeelsDividedByTheScale) {
   std::mt19937_64 random(1);
