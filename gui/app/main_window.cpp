@@ -24,7 +24,9 @@
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
+#include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
+#include "gui/plot/criterion_style.h"
 #include "gui/scene/scene_view.h"
 #include "sim/dynamics/compiled_scene.h"
 
@@ -88,17 +90,23 @@ void MainWindow::wireDocks() {
   connect(dock, &docks::SessionDock::endRequested, this, &MainWindow::endRun);
   connect(dock, &docks::SessionDock::noteWritten, this, [this](const QString& text) { session_.note(text); });
   connect(dock, &docks::SessionDock::deviceChanged, this, &MainWindow::showOverlay);
+  connect(docks_.trials, &docks::TrialsDock::noteRequested, this,
+          [this](int number) { docks_.session->beginNote(QStringLiteral("trial %1: ").arg(number)); });
   connect(docks_.predictions, &docks::PredictionDock::chosenChanged, this, &MainWindow::drawPredictions);
 }
 
 void MainWindow::wireSession() {
-  connect(screens_, &Screens::handDragged, this, [this](double x, double y, double z, qint64 eventMs) { session_.pointTo({x, y, z}, eventMs); });
+  connect(screens_, &Screens::handDragged, this, [this](double x, double y, double z, qint64 eventMs) {
+    session_.pointTo({x, y, z}, eventMs);
+  });
   connect(&forecast_, &plot::LiveForecast::changed, this, [this] {
     predictions().setForecasts(forecast_.forecasts());
     drawPredictions();
   });
-  connect(&forecast_, &plot::LiveForecast::compared, this,
-          [this](const std::vector<std::optional<double>>& errors, bool succeeded) { predictions().addErrors(errors, succeeded); });
+  connect(&forecast_, &plot::LiveForecast::compared, this, [this](const std::vector<std::optional<double>>& errors, bool succeeded) {
+    predictions().addErrors(errors, succeeded);
+    docks_.trials->setErrors(errors);
+  });
   connect(&session_, &SessionController::experimentChanged, this, &MainWindow::showExperiment);
   connect(&session_, &SessionController::runOpened, this, &MainWindow::runOpened);
   connect(&session_, &SessionController::runClosed, this, &MainWindow::runClosed);
@@ -151,13 +159,19 @@ void MainWindow::showStage() {
   for (QAction* action : {actions_.repeat, actions_.end}) action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed);
 }
 
-void MainWindow::drawPredictions() { plot().setPredictions(forecast_.lines(predictions().chosen())); }
+void MainWindow::drawPredictions() {
+  const std::vector<predict::Criterion> chosen = predictions().chosen();
+  plot().setPredictions(forecast_.lines(chosen));
+  const predict::Criterion first = chosen.empty() ? predict::Criterion::MinHandJerk : chosen.front();
+  docks_.trials->showCriterion(static_cast<std::size_t>(first), plot::titleOf(first));
+}
 
 void MainWindow::runOpened() {
   const session::RecordedRun& run = *session_.run();
   docks_.session->clearTally();
   docks_.session->showRun(run.configuration());
   predictions().clearErrors();
+  docks_.trials->clear();
   trace_.beginRun();
   status_->runOpened(run);
   showStage();
@@ -179,6 +193,7 @@ void MainWindow::trialEnded() {
   drainTrace();  // to its last point
   const trial::TrialResult result = session_.lastTrial()->result;
   docks_.session->count(result);
+  if (session_.run() != nullptr) docks_.trials->add(session_.run()->numberOf(*session_.lastTrial()), result);
   if (result.outcome == trial::Outcome::Success) sound_.play();
   if (result.outcome == trial::Outcome::Success || result.outcome == trial::Outcome::Failure)
     forecast_.compare(trace_.points(), trace_.path(), {session_.run()->configuration().sampleEveryTicks, result.onsetTick, result.endTick},

@@ -57,6 +57,8 @@ class SessionController : public QObject {
   session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
   /// Blocks of the plan after the one that is open.
   std::size_t blocksLeft() const { return recorded_ && isPlan() ? recorded_->blocksLeft() : 0; }
+  /// Of the plan, as this session does them.
+  std::size_t blockCount() { return run() != nullptr ? static_cast<std::size_t>(run()->configuration().block) + blocksLeft() : 0; }
   bool underWay() { return run() != nullptr && run()->underWay(); }
   std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
 

@@ -10,6 +10,8 @@ bool isBeforeTheFirstReach(const haptics::TickState& state) {
   return state.trial <= 1 && (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Waiting);
 }
 
+bool isOver(const session::RecordedRun& run) { return !run.underWay() && run.trialsLeft() == 0; }
+
 }  // namespace
 
 scene::OverlayState overlayOf(SessionController& session, bool mouse, bool massesHide) {
@@ -21,7 +23,14 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
   } else {
     overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse);
     if (!run->underWay() && run->latest().trial == 0) overlay.instruction = QStringLiteral("Press Space to begin");
-    if (!run->underWay() && run->trialsLeft() == 0) overlay.detail = QStringLiteral("the run is complete");
+    if (session.isPlan())
+      overlay.counter =
+          QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
+    if (isOver(*run)) {
+      overlay.detail = session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
+                       : session.isPlan()       ? QStringLiteral("the session is complete")
+                                                : QStringLiteral("the run is complete");
+    }
   }
   if (run == nullptr || isBeforeTheFirstReach(run->latest())) overlay.task = scene::taskText(experiment, massesHide);
   return overlay;
@@ -29,7 +38,10 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
 
 scene::OverlayState subjectsOverlayOf(SessionController& session) {
   const session::RecordedRun* run = session.run();
-  return run == nullptr ? scene::subjectsRest() : scene::subjectsOverlayOf(run->latest());
+  if (run == nullptr) return scene::subjectsRest();
+  scene::OverlayState overlay = scene::subjectsOverlayOf(run->latest());
+  if (isOver(*run)) overlay.detail = session.blocksLeft() > 0 ? QStringLiteral("Rest a little") : QStringLiteral("That was all: thank you");
+  return overlay;
 }
 
 }  // namespace reachlab::gui::app

@@ -8,6 +8,7 @@
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/docks/task_dock.h"
+#include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
 
 namespace reachlab::gui::docks {
@@ -25,6 +26,9 @@ Docks makeDocks(QMainWindow& window) {
   docks.session = add(new SessionDock(&window), Qt::LeftDockWidgetArea);
   docks.constraint = add(new ConstraintDock(&window), Qt::LeftDockWidgetArea);
   docks.predictions = add(new PredictionDock(&window), Qt::LeftDockWidgetArea);
+  docks.trials = add(new TrialsDock(&window), Qt::LeftDockWidgetArea);
+  window.tabifyDockWidget(docks.predictions, docks.trials);
+  docks.predictions->raise();
   Dock* object = add(new ObjectDock(&window), Qt::RightDockWidgetArea);
   add(new CouplingDock(&window), Qt::RightDockWidgetArea);
   add(new TaskDock(&window), Qt::RightDockWidgetArea);

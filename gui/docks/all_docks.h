@@ -9,6 +9,7 @@ class ConstraintDock;
 class Dock;
 class PredictionDock;
 class SessionDock;
+class TrialsDock;
 class VelocityDock;
 
 /// The docks of the window; owned by it.
@@ -17,6 +18,7 @@ struct Docks {
   ConstraintDock* constraint = nullptr;
   PredictionDock* predictions = nullptr;
   VelocityDock* velocity = nullptr;
+  TrialsDock* trials = nullptr;
   std::vector<Dock*> all;  // these and those that need nothing but the experiment
 };
 

@@ -257,6 +257,12 @@ void SessionDock::count(const trial::TrialResult& result) {
   tally_->setText(text);
 }
 
+void SessionDock::beginNote(const QString& words) {
+  note_->setText(words);
+  note_->setFocus();
+  note_->setCursorPosition(static_cast<int>(words.size()));
+}
+
 QString SessionDock::tallyText() const { return tally_->text(); }
 
 }  // namespace reachlab::gui::docks

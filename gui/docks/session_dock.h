@@ -43,6 +43,8 @@ class SessionDock : public Dock {
   void clearTally();
   void count(const trial::TrialResult& result);
   QString tallyText() const;
+  /// Puts the cursor into the line for notes, behind these words.
+  void beginNote(const QString& words);
 
  Q_SIGNALS:
   void nextRequested();

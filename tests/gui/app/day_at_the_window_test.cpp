@@ -276,6 +276,20 @@ TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
     QTest::qWait(100);
     ++(window.session().lastTrial()->result.outcome == trial::Outcome::Success ? succeeded : failed);
   }
+  auto* trials = find<QTableWidget>("trials");
+  ASSERT_EQ(trials->rowCount(), 8);
+  EXPECT_EQ(trials->item(0, 0)->text(), QStringLiteral("8")) << "the newest on top";
+  int ticks = 0, times = 0;
+  for (int row = 0; row < 8; ++row) {
+    ticks += trials->item(row, 1)->text() == QStringLiteral("✓");
+    times += !trials->item(row, 2)->text().isEmpty() && !trials->item(row, 3)->text().isEmpty();
+  }
+  EXPECT_EQ(ticks, succeeded);
+  EXPECT_EQ(times, 8);
+  EXPECT_EQ(trials->item(0, 3)->text(), table->item(0, 2)->text()) << "the last trial's, beside the criterion that is ticked";
+  Q_EMIT trials->cellDoubleClicked(6, 0);
+  EXPECT_EQ(find<QLineEdit>("note")->text(), QStringLiteral("trial 2: "));
+  find<QLineEdit>("note")->clear();
   QStringList shown;
   for (int i = 0; i < predict::kCriterionCount; ++i) shown << table->item(i, 3)->text();
   window.session().endRun();

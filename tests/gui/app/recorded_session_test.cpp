@@ -17,6 +17,7 @@
 #include "base/json_tree.h"
 #include "gui/app/main_window.h"
 #include "gui/app/session_controller.h"
+#include "gui/app/session_overlay.h"
 #include "gui/docks/session_dock.h"
 #include "sim/record/run_log.h"
 #include "test_paths.h"
@@ -138,7 +139,13 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   EXPECT_FALSE(window_->sessionDock().request().trials.has_value());
   EXPECT_EQ(session().experiment().name, "chain-slow");
   doTrial();
+  const scene::OverlayState between = overlayOf(session(), false, false);
+  EXPECT_EQ(between.counter.toStdString(), "Block 1 of 2, trial 1 of 1");
+  EXPECT_EQ(between.detail.toStdString(), "the block is done: rest; Space: next block");
+  EXPECT_EQ(subjectsOverlayOf(session()).detail, QStringLiteral("Rest a little"));
   doTrial();
+  EXPECT_EQ(overlayOf(session(), false, false).counter.toStdString(), "Block 2 of 2, trial 1 of 1");
+  EXPECT_EQ(overlayOf(session(), false, false).detail, QStringLiteral("the session is complete"));
   EXPECT_EQ(session().experiment().name, "dingwell");
   window_->nextTrial();
   EXPECT_EQ(window_->message(), QStringLiteral("The session is complete."));

@@ -1,0 +1,46 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "gui/docks/dock.h"
+#include "sim/trial/outcome.h"
+
+class QTableWidget;
+
+namespace reachlab::gui::docks {
+
+/// The trials of the run that is open, the newest on top: how each ended, why, in what time, and how far its hand was from a criterion.
+class TrialsDock : public Dock {
+  Q_OBJECT
+ public:
+  explicit TrialsDock(QWidget* parent = nullptr);
+  void clear();
+  /// `number`: as recorded.
+  void add(int number, const trial::TrialResult& result);
+  /// The paper's epsilon of the newest trial, one a criterion. [m/s]
+  void setErrors(const std::vector<std::optional<double>>& errors);
+  /// Whose epsilon is shown: an index into the errors, and what it is called.
+  void showCriterion(std::size_t index, const QString& title);
+  int trialCount() const { return static_cast<int>(rows_.size()); }
+
+ Q_SIGNALS:
+  /// A row was double-clicked: something is to be noted about that trial.
+  void noteRequested(int number);
+
+ protected:
+  void display(const experiment::CompiledExperiment&, bool) override {}
+
+ private:
+  struct Row {
+    int number = 0;
+    trial::TrialResult result;
+    std::vector<std::optional<double>> errors;
+  };
+  void fill(int tableRow);
+
+  QTableWidget* table_;
+  std::vector<Row> rows_;  // as they were done
+  std::size_t criterion_ = 0;
+};
+
+}  // namespace reachlab::gui::docks
