@@ -27,7 +27,7 @@ ReachDemand rigidBodyDemand(const experiment::Experiment& experiment, const tria
   return demand;
 }
 
-ReachDemand simulatedDemand(const experiment::Experiment& experiment, haptics::TickEngine& engine, const Vec3& centre) {
+ReachDemand simulatedDemand(const experiment::CompiledExperiment& experiment, haptics::TickEngine& engine, const Vec3& centre) {
   SubjectSpec practised;
   practised.noise = 0;
   const auto hand = makeSimulatedHand(experiment, practised, 0);
@@ -66,10 +66,11 @@ ReachDemand computeReachDemand(const experiment::Experiment& experiment, std::op
   haptics::EngineOptions options;
   options.deviceMaxForce = kNoLimit;
   options.virtualHand = true;
+  const experiment::CompiledExperiment compiled(asked);
   haptics::TickEngine engine(asked, options);
   ReachDemand demand;
   try {
-    demand = simulatedDemand(asked, engine, centre);
+    demand = simulatedDemand(compiled, engine, centre);
   } catch (const Error& error) {  // a task that nobody can plan is still felt
     demand = rigidBodyDemand(asked, engine.protocol(), centre, error.what());
   }
