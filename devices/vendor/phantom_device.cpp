@@ -153,7 +153,9 @@ void PhantomDevice::stopClock() noexcept {
 }
 
 void PhantomDevice::readFrame() noexcept {
-  std::array<double, 3> mm{}, speed{};
+  // A call that fails leaves what it was given: the place of before, and not the origin.
+  const Vec3 before = sample_.position / kMetresPerMm;
+  std::array<double, 3> mm{before.x, before.y, before.z}, speed{};
   std::array<double, 16> transform{};
   std::int32_t buttons = 0;
   hd_.getDoublev(hd::kPosition, mm.data());

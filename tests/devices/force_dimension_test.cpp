@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.h"
+#include "base/os.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
+#include "devices/vendor/force_dimension.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/until.h"
 
@@ -74,6 +78,28 @@ TEST_F(ForceDimension, OneErrorIsPassedOverManyAreALoss) {
   EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost);
   fakeDhd().error = 0;
   EXPECT_TRUE(until([&] { return device->read().valid; })) << "back again";
+}
+
+TEST_F(ForceDimension, AnErrorAtEachCallIsARefusalOrPassesAndNothingIsLeftOpen) {
+  for (int calls = 0; calls < 20; ++calls) {
+    test::resetFakeDhd();
+    fakeDhd().callsUntilFailure = calls;
+    try {
+      PolledDevice device(openForceDimension(0, "device forcedimension:0", false), os::now);
+      for (int i = 0; i < 20; ++i) {
+        device.write({0, 0, 1});
+        device.step();
+        EXPECT_LE(std::abs(fakeDhd().force[0]), 1);
+      }
+      EXPECT_TRUE(device.read().valid) << calls << ": one error is passed over";
+      EXPECT_EQ(device.read().reports, 19u + (fakeDhd().callsUntilFailure >= 0 ? 1u : 0u)) << calls;
+    } catch (const ResourceError& error) {
+      EXPECT_NE(std::string(error.what()).find("communication error"), std::string::npos) << error.what();
+      EXPECT_LT(calls, 2) << "opening and switching the forces on are two calls";
+    }
+    EXPECT_FALSE(fakeDhd().open) << calls;
+    EXPECT_EQ(fakeDhd().force[0], 0) << calls;
+  }
 }
 
 TEST_F(ForceDimension, AHangingCallIsLeftBehind) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"
@@ -164,6 +165,30 @@ TEST_F(Phantom, AForceErrorIsAFaultOfTheDevice) {
     EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << std::hex << error;
     EXPECT_EQ(feltAlongX(), 0);
   }
+}
+
+// Whatever a call of a frame leaves as its error: no force that was not asked for, none at all once the device is lost or failed, the rules kept.
+TEST_F(Phantom, AnErrorAtEachCallOfAFrameNeverLeavesAForceThatNobodyAskedFor) {
+  for (const char* call : {"hdBeginFrame", "hdGetDoublev", "hdSetDoublev", "hdEndFrame"})
+    for (const std::uint32_t error : {0x0100u, 0x0101u, 0x0102u, 0x0103u, 0x0104u, 0x0200u, 0x0201u, 0x0202u, 0x0203u, 0x0204u, 0x0300u,
+                                      0x0301u, 0x0302u, 0x0303u, 0x0304u, 0x0400u, 0x0401u, 0x0402u, 0x0500u, 0x0501u, 0x0600u}) {
+      test::resetFakeHd();
+      PhantomDevice device({});
+      Ticks ticks{&device, 0, {0.5, 0, 0}, {}};
+      fakeHd().devices[""].position[0] = 40;
+      device.startClock(tick, &ticks);
+      test::stepFakeHd();
+      ASSERT_EQ(feltAlongX(), 0.5);
+      fakeHd().failures[call] = error;
+      for (int i = 0; i < 30; ++i) {
+        test::stepFakeHd();
+        const bool off = device.health() == haptics::DeviceHealth::Lost || device.health() == haptics::DeviceHealth::Failed;
+        ASSERT_LE(std::abs(feltAlongX()), 0.5) << call << std::hex << error;
+        ASSERT_TRUE(i == 0 || !off || feltAlongX() == 0) << call << std::hex << error;
+        ASSERT_TRUE(!ticks.sample.valid || std::abs(ticks.sample.position.x - 0.04) < 1e-12) << call << std::hex << error << ": a jump";
+      }
+      ASSERT_EQ(fakeHd().violations, 0) << call << std::hex << error;
+    }
 }
 
 TEST_F(Phantom, WarmMotorsHoldTheForceToTheContinuousOne) {

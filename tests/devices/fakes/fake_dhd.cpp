@@ -13,6 +13,7 @@ FakeDhd state;
 std::atomic<int> last{0};
 
 int answer() {
+  if (state.callsUntilFailure >= 0 && state.callsUntilFailure-- == 0) return last = 2, -1;
   if (const int once = state.failOnce.exchange(0); once != 0) return last = once, -1;
   if (const int error = state.error; error != 0) return last = error, -1;
   return 0;
@@ -26,6 +27,7 @@ void resetFakeDhd() {
   state.count = 1;
   for (int i = 0; i < 3; ++i) state.position[i] = 0, state.force[i] = 0;
   state.open = state.forceOn = state.hangs = false;
+  state.callsUntilFailure = -1;
   state.positions = state.forces = state.error = state.failOnce = 0;
 }
 
