@@ -441,6 +441,7 @@ bool isLoss(Fault kind) { return kind == Fault::Silence || kind == Fault::Unplug
 /// the 20th tick of any loss on; after a latch nothing until the experimenter resets it; the motors hear no more than they may.
 void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
   experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  experiment.task->rest = experiment::kNoStartRest;
   experiment.object = {};
   experiment.object.masses = {plan.mass};
   experiment.coupling = {plan.stiffness, 0};
