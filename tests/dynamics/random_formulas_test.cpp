@@ -117,7 +117,6 @@ void tryOne(std::uint64_t seed, Tally& tally) {
     }
   } catch (const Error& refusal) {
     EXPECT_STRNE(refusal.what(), "");
-    std::cout << "DBG refused " << seed << ": " << refusal.what() << " | " << lines[0] << " | " << lines[1] << " | " << lines[2] << "\n";
     ++tally.refused;
     return;
   }
