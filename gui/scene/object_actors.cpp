@@ -71,6 +71,16 @@ struct ObjectActors::Impl {
       lines->PickableOff();
     }
   }
+  // White where a mass goes on, red where none crosses.
+  void addPlaces(const ScenePlan& from) {
+    for (const bool passed : {true, false}) {
+      std::vector<Vec3> places;
+      for (const PlaceMark& mark : from.places)
+        if (mark.passed == passed) places.push_back(mark.r);
+      const double radius = from.surface.quads.empty() ? 1.9 * from.railRadius : 0.9 * from.railRadius;
+      if (!places.empty()) add(makeDots(places, radius, {passed ? widgets::colours::kHand : widgets::colours::kRed, 1, 0.2}));
+    }
+  }
   void addMarks(const ScenePlan& from) {
     if (!from.hasTask) return;
     const auto mark = [&](const Vec3& at, const widgets::Colour& colour, double radius, double opacity) {
@@ -112,6 +122,7 @@ ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, Surface
   impl_->plan.curve = {};
   impl_->plan.surface = {};
   impl_->addConstraint(plan, style);
+  impl_->addPlaces(plan);
   impl_->addMarks(plan);
   impl_->addObject(plan);
 }

@@ -7,6 +7,7 @@
 #include <vtkCylinderSource.h>
 #include <vtkConeSource.h>
 #include <vtkFloatArray.h>
+#include <vtkGlyph3D.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -178,6 +179,22 @@ vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look
   actor->GetProperty()->SetLighting(false);
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
   return actor;
+}
+
+vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radius, const Look& look) {
+  vtkNew<vtkPoints> points;
+  for (const Vec3& p : places) points->InsertNextPoint(p.x, p.y, p.z);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(radius);
+  ball->SetThetaResolution(12);
+  ball->SetPhiResolution(9);
+  vtkNew<vtkGlyph3D> dots;
+  dots->SetInputData(data);
+  dots->SetSourceConnection(ball->GetOutputPort());
+  dots->ScalingOff();
+  return actorOf(dots->GetOutputPort(), look);
 }
 
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius) {

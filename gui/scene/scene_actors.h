@@ -33,6 +33,9 @@ vtkSmartPointer<vtkActor> makeRail(const CurveMesh& mesh, double radius, const L
 vtkSmartPointer<vtkActor> makeSkin(const SurfaceMesh& mesh, const Look& look);
 vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look& look, double width);
 
+/// Small balls, all one actor. [m]
+vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radius, const Look& look);
+
 /// Lays a coil between two points. Neither allocates nor rebuilds. [m]
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius);
 

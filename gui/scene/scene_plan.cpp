@@ -97,11 +97,14 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   const auto& to = experiment.task ? experiment.task->target : none;
   Box box;
   if (constraint.kind == constraints::ConstraintKind::Curve) {
-    const constraints::Domain domain = drawnDomain(constraint, from, to)[0];
-    plan.curve = sampleCurve(constraint.curve, domain.lo, domain.hi);
+    const auto domain = drawnDomain(constraint, from, to);
+    plan.curve = sampleCurve(constraint.curve, domain[0].lo, domain[0].hi);
+    plan.places = markPlaces(constraint, domain, from);
     box = boxOf(plan.curve);
   } else if (constraint.kind == constraints::ConstraintKind::Surface) {
-    plan.surface = sampleSurface(constraint.surface, drawnDomain(constraint, from, to));
+    const auto domain = drawnDomain(constraint, from, to);
+    plan.surface = sampleSurface(constraint.surface, domain);
+    plan.places = markPlaces(constraint, domain, from);
     box = boxOf(plan.surface);
   }
   if (experiment.task) {

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "gui/scene/constraint_mesh.h"
+#include "gui/scene/place_marks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_state.h"
 
@@ -19,6 +20,7 @@ struct ScenePlan {
   constraints::ConstraintKind kind = constraints::ConstraintKind::Free;
   CurveMesh curve;
   SurfaceMesh surface;
+  std::vector<PlaceMark> places;  // where the formula is not smooth
   Vec3 start, target;  // [m]
   bool hasTask = false;
   double tolerance = 0;            // [m] dx, drawn as a faint shell around the target

@@ -17,6 +17,27 @@ ScenePlan planOf(const char* experiment, ViewOptions::SideBySide wish = ViewOpti
   return planScene(e, constraints::makeConstraint(e.constraint), {wish});
 }
 
+TEST(ScenePlan, PlacesWhereTheFormulaIsNotSmoothAreMarked) {
+  const auto planFor = [](std::vector<std::string> curve, std::vector<std::string> surface) {
+    experiment::Experiment e;
+    e.object.masses = {1};
+    e.constraint.name.clear();
+    e.constraint.curve = std::move(curve);
+    e.constraint.surface = std::move(surface);
+    return planScene(e, constraints::makeConstraint(e.constraint));
+  };
+  const ScenePlan roof = planFor({"phi/10", "0.05*abs(phi - 1)", "0"}, {}), step = planFor({"phi/10", "0.05*sign(phi - 2)", "0"}, {});
+  ASSERT_EQ(roof.places.size(), 1u);
+  EXPECT_TRUE(roof.places[0].passed);
+  EXPECT_NEAR(norm(roof.places[0].r - Vec3{0.1, 0, 0}), 0, 1e-12);
+  ASSERT_EQ(step.places.size(), 1u);
+  EXPECT_FALSE(step.places[0].passed);
+  EXPECT_TRUE(planOf("ellipse").places.empty());
+  const ScenePlan crease = planFor({}, {"u/10", "0.05*abs(u - v)", "v/10"});
+  EXPECT_GE(crease.places.size(), 32u);
+  for (const PlaceMark& mark : crease.places) EXPECT_NEAR(mark.r.x, mark.r.z, 1e-12);
+}
+
 TEST(ScenePlan, ParallelMassesAreShiftedForTheEyeAndAChainsAreNot) {
   const ScenePlan parallel = planOf("parallel"), chain = planOf("chain-moderate");
   Vec3 sum;
