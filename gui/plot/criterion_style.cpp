@@ -10,9 +10,8 @@ QColor colourOf(predict::Criterion criterion) {
     case predict::Criterion::MinHandForce: return {230, 90, 90};
     case predict::Criterion::MinHandForceChange: return {86, 220, 110};
     case predict::Criterion::MinComAcceleration: return {190, 150, 255};
-    case predict::Criterion::MinHandCrackle: break;
+    default: return {180, 180, 180};  // one that has no colour of its own yet
   }
-  return {180, 180, 180};
 }
 
 QString titleOf(predict::Criterion criterion) {

@@ -30,19 +30,14 @@ Panel scorePanel(const StudyResult& study, const std::string& title, const Names
   panel.title = shortened(title);
   panel.y.label = "Score against the reference (ln S)";
   panel.x.label = "Criterion";
-  panel.x.from = 0.4;
   const std::size_t shown = names.size() - 1;  // the reference is the line at 0
-  panel.x.to = static_cast<double>(shown) + 0.6;
-  for (std::size_t k = 0; k < shown; ++k) panel.x.ticks.emplace_back(static_cast<double>(k + 1), shortNameOf(names[k]));
+  addCandidates(panel.x, std::span(names).first(shown));
   double ceiling = 0;
   for (const PersonRow& row : rows) {
-    const auto i = static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), row.subject) - study.subjects.begin());
-    Series s;
-    if (legend) s.label = "subject " + row.subject;
+    Series s = subjectSeries(study, row.subject);
+    if (!legend) s.label.clear();
     for (std::size_t k = 0; k < shown; ++k) s.x.push_back(static_cast<double>(k + 1)), s.y.push_back(row.score[k] - row.score.back());
-    s.color = palette::series(i);
     s.width = 0.8;
-    s.marker = figure::markerOf(i);
     panel.series.push_back(std::move(s));
     ceiling += (row.ceiling - row.score.back()) / static_cast<double>(rows.size());
   }
@@ -99,12 +94,10 @@ NamedFigure posteriorFigure(const StudyResult& study) {
     panel.y.label = "Probability";
     panel.y.from = 0.0;
     panel.y.to = 1.0;
-    panel.x.from = 0.4;
-    panel.x.to = static_cast<double>(names.size()) + 0.6;
+    addCandidates(panel.x, names);
     panel.legend = LegendPlace::None;
     for (std::size_t k = 0; k < names.size(); ++k) {
       const double x = static_cast<double>(k + 1);
-      panel.x.ticks.emplace_back(x, shortNameOf(names[k]));
       panel.bands.push_back({"",
                              {x - 0.35, x + 0.35},
                              {0, 0},

@@ -1,5 +1,7 @@
 #include "sim/analyze/figures.h"
 
+#include <algorithm>
+
 #include "sim/analyze/tables.h"
 
 namespace reachlab::analyze {
@@ -18,8 +20,8 @@ CriterionLook lookOf(const std::vector<Criterion>& criteria) {
     case Criterion::MinHandForceChange: return {palette::kGreen, Dash::DashDot};
     case Criterion::MinComAcceleration: return {palette::kOrange, Dash::Dashed};
     case Criterion::MinHandCrackle: return {palette::kOrange, Dash::DashDot};
+    default: return {palette::kBlack, Dash::Solid};  // one that has no look of its own yet
   }
-  return {palette::kBlack, Dash::Solid};
 }
 
 std::string shortNameOf(const std::vector<Criterion>& criteria) {
@@ -30,6 +32,25 @@ std::string shortNameOf(const std::vector<Criterion>& criteria) {
     text += (text.empty() ? "(" : ", ") + name.substr(1, name.find(')') - 1);
   }
   return text + ")";
+}
+
+int subjectIndex(const StudyResult& study, const std::string& subject) {
+  return static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), subject) - study.subjects.begin());
+}
+
+figure::Series subjectSeries(const StudyResult& study, const std::string& subject) {
+  const int i = subjectIndex(study, subject);
+  figure::Series series;
+  series.label = "subject " + subject;
+  series.color = palette::series(i);
+  series.marker = figure::markerOf(i);
+  return series;
+}
+
+void addCandidates(figure::Axis& axis, std::span<const std::vector<Criterion>> candidates) {
+  axis.from = 0.4;
+  axis.to = static_cast<double>(candidates.size()) + 0.6;
+  for (std::size_t k = 0; k < candidates.size(); ++k) axis.ticks.emplace_back(static_cast<double>(k + 1), shortNameOf(candidates[k]));
 }
 
 std::string shortened(const std::string& text, std::size_t most) { return text.size() <= most ? text : text.substr(0, most - 1) + "…"; }

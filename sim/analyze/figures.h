@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,11 @@ struct CriterionLook {
 CriterionLook lookOf(const std::vector<predict::Criterion>& criteria);
 /// "(1)", "(4, 6)", "reference": for axes.
 std::string shortNameOf(const std::vector<predict::Criterion>& criteria);
+/// Where a subject stands among the study's; its line, with the colour and marker that it has everywhere.
+int subjectIndex(const StudyResult& study, const std::string& subject);
+figure::Series subjectSeries(const StudyResult& study, const std::string& subject);
+/// An axis with a place for each candidate, from 1 on.
+void addCandidates(figure::Axis& axis, std::span<const std::vector<predict::Criterion>> candidates);
 /// A title that a panel of a grid can bear.
 std::string shortened(const std::string& text, std::size_t most = 34);
 

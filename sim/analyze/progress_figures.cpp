@@ -26,19 +26,16 @@ NamedFigure learningFigure(const StudyResult& study) {
     std::map<std::string, std::string> session;
     for (const LearningPoint& p : study.learning) {
       if (p.condition != c) continue;
-      figure::Series& s = bySubject[p.subject];
+      figure::Series& s = bySubject.try_emplace(p.subject, subjectSeries(study, p.subject)).first->second;
       const bool newSession = !s.x.empty() && session[p.subject] != p.session;
       session[p.subject] = p.session;
-      const int i = static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), p.subject) - study.subjects.begin());
-      s.label = "subject " + p.subject;
-      s.color = figure::palette::series(i);
-      s.marker = figure::markerOf(i);
       const auto add = [&](double x, double y, double low, double high) {
         s.x.push_back(x), s.y.push_back(y), s.errorLow.push_back(low), s.errorHigh.push_back(high);
       };
       if (newSession) add(kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured);
       // Subjects stand a little beside one another, so that their bars do not cover each other.
-      const double beside = 0.12 * study.options.learningBin * (i - 0.5 * static_cast<double>(study.subjects.size() - 1));
+      const double beside =
+          0.12 * study.options.learningBin * (subjectIndex(study, p.subject) - 0.5 * static_cast<double>(study.subjects.size() - 1));
       add(0.5 * (p.firstTrial + p.lastTrial) + (study.subjects.size() > 6 ? 0 : beside),
           100.0 * static_cast<double>(p.successes) / static_cast<double>(p.trials), 100 * p.interval.low, 100 * p.interval.high);
     }
