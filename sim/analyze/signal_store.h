@@ -17,7 +17,7 @@ class SignalStore {
     std::size_t place = 0;
     std::uint32_t size = 0;
   };
-  explicit SignalStore(std::size_t mostInMemory = std::size_t{4} << 20) : most_(mostInMemory) {}  // numbers
+  explicit SignalStore(std::size_t mostInMemory = std::size_t{1} << 17) : most_(mostInMemory) {}  // numbers
 
   /// Throws ResourceError when the temporary file cannot be written.
   Row put(std::span<const double> values);

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sim/record/replay.h"
 #include "sim/record/run_log.h"
 #include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
@@ -32,7 +35,28 @@ TEST(GoldenLogs, OfEveryVersionReadBackAsTheyWereWritten) {
     for (const RecordedTick& tick : log.ticks()) EXPECT_DOUBLE_EQ(tick.device.position.x, MadeRun::valueAt(tick.tick));
     ++versions;
   }
-  EXPECT_EQ(versions, 1) << "one log a version";
+  EXPECT_EQ(versions, static_cast<int>(kLogSchemaVersion)) << "one log a version";
+}
+
+// A simulated hand's run in each version that can be written (golden_runs/make_runs.py): what a recording says of itself is computed again,
+// bit for bit, by every later program.
+TEST(GoldenLogs, OfEveryVersionAreReplayedBitForBit) {
+  for (std::uint32_t version = 1; version <= kLogSchemaVersion; ++version) {
+    SCOPED_TRACE(version);
+    const std::string path = REACHLAB_SOURCE_DIR "/tests/record/golden_runs/run-version-" + std::to_string(version) + "_log.reach";
+    EXPECT_EQ(LogReader(path).schemaVersion(), version);
+    const RunLog log = RunLog::open(path);
+    EXPECT_TRUE(log.healthy());
+    ASSERT_EQ(log.trials().size(), 2u);
+    for (const RecordedTrial& trial : log.trials()) {
+      EXPECT_GT(trial.result.onsetTick, 0u);
+      EXPECT_EQ(std::isfinite(trial.elapsed), version >= 2) << "kept since version 2";
+    }
+    ASSERT_EQ(RunLog::open(path, LogCheck::Trials).trials().size(), 2u) << "by the chain of trial records as well";
+    const Replay replay = replayRun(log);
+    EXPECT_TRUE(replay.identical()) << replay.firstDifference;
+    EXPECT_GT(replay.rows, 50u);
+  }
 }
 
 }  // namespace
