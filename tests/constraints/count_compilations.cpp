@@ -13,10 +13,11 @@
   "sic_stringIcSt11char_traitsIcESaIcEEE"
 
 namespace reachlab::constraints {
-namespace {
 
 std::shared_ptr<const CompiledFormula> reallyCompile(const FormulaText& text,
                                                      const std::string& key) asm("__real_" REACHLAB_COMPILE_FORMULA);
+
+namespace {
 
 std::mutex guard;
 std::vector<std::string> compiled;

@@ -27,7 +27,7 @@ TEST(ExampleDriver, IsTheOneOfTheManualsPage) {
 }
 
 TEST(ExampleDriver, GivesPlacesTakesForcesAndSurvivesAPulledCable) {
-  const experiment::Experiment experiment;
+  const experiment::CompiledExperiment experiment = experiment::openExperiment("chain-moderate");
   const DeviceDriver driver = example::springHandleDriver();
   ASSERT_TRUE(driver.find(driver).front().present);
   const auto device = driver.make({driver.name, "", experiment});
