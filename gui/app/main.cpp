@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/os.h"
 #include "base/stop_signals.h"
+#include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
 #include "gui/scene/picture_sheet.h"
 #include "gui/scene/scene_view.h"
@@ -69,6 +70,8 @@ int run(const Arguments& arguments, int argc, char** argv) {
     std::printf("%d pictures in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
+  if (const QString other = reachlab::gui::app::whatElseItIs(QString::fromStdString(arguments.request.what)); !other.isEmpty())
+    throw reachlab::UsageError("reachlab: " + other.toStdString());
   reachlab::gui::app::MainWindow window(arguments.request);
   window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
   window.show();

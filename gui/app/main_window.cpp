@@ -248,6 +248,7 @@ void MainWindow::resumeSession() {
 void MainWindow::endRun() { session_.endRun(); }
 
 void MainWindow::openExperiment(const QString& what) {
+  if (const QString other = whatElseItIs(what); !other.isEmpty()) return message_->say(other);
   if (!mayEndRun(QStringLiteral("Opening another experiment")) || !mayBeLeft()) return;
   try {
     const session::Programme opened = session::readProgramme(what.toStdString());

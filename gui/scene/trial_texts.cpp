@@ -66,7 +66,8 @@ OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& 
   switch (state.phase) {
     case trial::Phase::Idle: o.instruction = QStringLiteral("Wait"); break;
     case trial::Phase::Waiting:
-      o.instruction = mouse ? QStringLiteral("Drag the hand to the grey sphere") : QStringLiteral("Move the hand to the grey sphere");
+      o.instruction = mouse ? QStringLiteral("Drag the hand to the grey sphere and rest there")
+                            : QStringLiteral("Move the hand to the grey sphere and rest there");
       break;
     case trial::Phase::Armed: o.instruction = QStringLiteral("Move to the small yellow sphere, and stop there"); break;
     case trial::Phase::Moving: o.instruction = QStringLiteral("%1 s").arg(number(state.trialTime, 2)); break;
