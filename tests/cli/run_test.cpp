@@ -127,16 +127,12 @@ TEST(List, TellsWhatAnExperimentAsks) {
 // As validate says it: the chord stands at right angles to the ellipse at the start.
 TEST(Run, SaysThatRoundingDecidesWhichWayTheMassLeaves) {
   const Folder folder;
-  const std::string file = folder.write(
-      "e.json", R"({"schema_version": 1, "constraint": {"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]
-}
-, "object" : {"kind" : "point", "masses_kg" : [1]}, "coupling" : {"stiffness_n_per_m" : 600}, "task" : {
-  "start" : [0], "target" : [3.141592653589793], "duration_s" : 1, "tolerance" : {
-    "position_m" : 0.01, "velocity_m_per_s" : 0.05, "time_s" : 0.5
-  }
-}
-})");
+  const std::string file = folder.write("e.json", R"json({"schema_version": 1,
+    "constraint": {"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]},
+    "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600},
+    "task": {"start": [0], "target": [3.141592653589793], "duration_s": 1,
+             "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.05, "time_s": 0.5}}})json");
   const Ended ended = reach("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + (folder / "data").string());
-EXPECT_EQ(ended.exitCode, 0) << ended.err;
-EXPECT_NE(ended.err.find("rounding decides which way"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.err.find("rounding decides which way"), std::string::npos) << ended.err;
 }
