@@ -1,6 +1,7 @@
 #include "sim/analyze/movement_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace reachlab::analyze {
@@ -14,44 +15,43 @@ struct Sums {
   double aa = 0, ab = 0, ap = 0, av = 0, bb = 0, bp = 0, bv = 0, pp = 0, pv = 0;
 };
 
-/// Value and slope by s of the cubic between sample i and i + 1, slopes of fourth order.
-struct ValueSlope {
-  double value, slope;
-};
-inline ValueSlope cubicAt(const double* f, double d, double perStep) {
+/// The cubic between sample i and i + 1, slopes of fourth order: c0 + d (c1 + d (c2 + d c3)).
+inline std::array<double, 4> cubicOf(const double* f) {
   const double m0 = (8 * (f[1] - f[-1]) - (f[2] - f[-2])) / 12, m1 = (8 * (f[2] - f[0]) - (f[3] - f[-1])) / 12;
-  const double c2 = 3 * (f[1] - f[0]) - 2 * m0 - m1, c3 = 2 * (f[0] - f[1]) + m0 + m1;
-  return {f[0] + d * (m0 + d * (c2 + d * c3)), perStep * (m0 + d * (2 * c2 + d * 3 * c3))};
+  return {f[0], m0, 3 * (f[1] - f[0]) - 2 * m0 - m1, 2 * (f[0] - f[1]) + m0 + m1};
 }
+inline double valueOf(const std::array<double, 4>& c, double d) { return c[0] + d * (c[1] + d * (c[2] + d * c[3])); }
+inline double slopeOf(const std::array<double, 4>& c, double d) { return c[1] + d * (2 * c[2] + d * 3 * c[3]); }
 
-template <bool kAnew>
-Sums sumOver(const FitWindow& window, const Profile& profile, double centre, double duration) {
+constexpr std::ptrdiff_t kAside = 2;  // samples that a piece needs on either side
+
+/// `pieceAt(i)`: the cubic between samples i and i + 1 of phi; `changeAt(i, d)`: d phi / d ln T there.
+template <typename PieceAt, typename ChangeAt>
+Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff_t cells, double centre, double duration, PieceAt&& pieceAt,
+             ChangeAt&& changeAt) {
   Sums s;
-  const auto cells = static_cast<std::ptrdiff_t>(profile.value.size());
   if (cells < 6) return s;
-  const double perStep = 1 / profile.step;
+  const double perStep = 1 / spacing;
   // x = place on the grid of sample k = x0 + k dx; only cells with two neighbours on either side (the rest of the grid is 0).
   const double dx = perStep / (window.rate * duration);
-  const double x0 = ((window.begin - centre) / duration + 0.5 - profile.first) * perStep;
-  const double lowest = 2, highest = static_cast<double>(cells - 3) - 1e-9;
+  const double x0 = ((window.begin - centre) / duration + 0.5 - first) * perStep;
+  const double lowest = kAside, highest = static_cast<double>(cells - 1 - kAside) - 1e-9;
   const auto n = static_cast<double>(window.velocity.size());
   const auto from = static_cast<std::ptrdiff_t>(std::clamp(std::ceil((lowest - x0) / dx), 0.0, n));
   const auto to = static_cast<std::ptrdiff_t>(std::clamp(std::floor((highest - x0) / dx) + 1, 0.0, n));
-  const double* value = profile.value.data();
-  const double* change = profile.change.data();
   for (std::ptrdiff_t k = from; k < to; ++k) {
     const double x = x0 + static_cast<double>(k) * dx;
     const auto i = static_cast<std::ptrdiff_t>(x);
     const double d = x - static_cast<double>(i);
-    const ValueSlope p = cubicAt(value + i, d, perStep);
-    const double fromMiddle = profile.first + x * profile.step - 0.5;
-    double b = -p.slope * fromMiddle;
-    if constexpr (kAnew) b += cubicAt(change + i, d, perStep).value;
+    const std::array<double, 4>& piece = pieceAt(i);
+    const double value = valueOf(piece, d), slope = perStep * slopeOf(piece, d);
+    const double fromMiddle = first + x * spacing - 0.5;
+    const double b = changeAt(i, d) - slope * fromMiddle;
     const double w = window.weight[static_cast<std::size_t>(k)], v = window.velocity[static_cast<std::size_t>(k)];
-    const double wa = w * p.slope, wb = w * b, wp = w * p.value;
-    s.aa += wa * p.slope, s.ab += wa * b, s.ap += wa * p.value, s.av += wa * v;
-    s.bb += wb * b, s.bp += wb * p.value, s.bv += wb * v;
-    s.pp += wp * p.value, s.pv += wp * v;
+    const double wa = w * slope, wb = w * b, wp = w * value;
+    s.aa += wa * slope, s.ab += wa * b, s.ap += wa * value, s.av += wa * v;
+    s.bb += wb * b, s.bp += wb * value, s.bv += wb * v;
+    s.pp += wp * value, s.pv += wp * v;
   }
   return s;
 }
@@ -160,18 +160,35 @@ MovementFit startFrom(const ProfileMoments& window, const ProfileMoments& profil
   return start;
 }
 
-MovementFit fitMovement(const FitWindow& window, const Profile& profile, const MovementFit& start, FitEffort effort) {
+ProfilePieces::ProfilePieces(const Profile& profile) : first(profile.first + kAside * profile.step), step(profile.step) {
+  for (std::ptrdiff_t i = kAside; i + 1 + kAside < static_cast<std::ptrdiff_t>(profile.value.size()); ++i)
+    c.push_back(cubicOf(profile.value.data() + i));
+}
+
+MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort) {
+  const auto cells = static_cast<std::ptrdiff_t>(pieces.c.size()) + 1 + 2 * kAside;
+  const double first = pieces.first - kAside * pieces.step;
   return descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
-    sums = sumOver<false>(window, profile, centre, duration);
+    sums = sumOver(
+        window, first, pieces.step, cells, centre, duration,
+        [&](std::ptrdiff_t i) -> const std::array<double, 4>& { return pieces.c[static_cast<std::size_t>(i - kAside)]; },
+        [](std::ptrdiff_t, double) { return 0.0; });
     return true;
   });
+}
+
+MovementFit fitMovement(const FitWindow& window, const Profile& profile, const MovementFit& start, FitEffort effort) {
+  return fitMovement(window, ProfilePieces(profile), start, effort);
 }
 
 MovementFit fitMovement(const FitWindow& window, const ProfileFamily& family, const MovementFit& start, Profile& scratch,
                         FitEffort effort) {
   MovementFit fit = descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
     if (!family.at(duration, scratch)) return false;
-    sums = sumOver<true>(window, scratch, centre, duration);
+    sums = sumOver(
+        window, scratch.first, scratch.step, static_cast<std::ptrdiff_t>(scratch.value.size()), centre, duration,
+        [&](std::ptrdiff_t i) { return cubicOf(scratch.value.data() + i); },
+        [&](std::ptrdiff_t i, double d) { return valueOf(cubicOf(scratch.change.data() + i), d); });
     return true;
   });
   if (fit.found) family.at(fit.duration, scratch);

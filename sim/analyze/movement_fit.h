@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "sim/analyze/profile_family.h"
@@ -39,8 +40,17 @@ struct FitEffort {
 };
 inline constexpr FitEffort kRoughFit{6, 1e-3};
 
+/// A profile's cubic pieces, made once for many fits: phi = c0 + d (c1 + d (c2 + d c3)), d from 0 to 1 in a piece. Pieces without two
+/// neighbours on either side are left out: phi is 0 there.
+struct ProfilePieces {
+  double first = 0, step = 1;  // s of the first piece, their length
+  std::vector<std::array<double, 4>> c;
+  explicit ProfilePieces(const Profile& profile);
+};
+
 /// Least squares over onset, duration and amplitude by damped Gauss-Newton steps in (onset + duration / 2, ln duration, amplitude),
 /// from `start` (its onset and duration). The profile is held.
+MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort = {});
 MovementFit fitMovement(const FitWindow& window, const Profile& profile, const MovementFit& start, FitEffort effort = {});
 /// The same with a profile that is planned anew for every duration; found is false where the start cannot be predicted. `scratch` is
 /// overwritten and holds the profile of the result.

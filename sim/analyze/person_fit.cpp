@@ -124,9 +124,10 @@ class Fitter {
     fits.plan = plan;
     if (!family.at(plan, profile)) return fits;
     const ProfileMoments shape = momentsOf(profile);
+    const ProfilePieces pieces(profile);
     for (std::size_t i = 0; i < windows_.size(); ++i) {
       const MovementFit start = starts[i].found ? starts[i] : startFrom(moments_[i], shape);
-      fits.trials.push_back(fitMovement(windows_[i], profile, start));
+      fits.trials.push_back(fitMovement(windows_[i], pieces, start));
       fits.score.push_back(scoreOf(fits.trials.back(), rest_[i]));
     }
     return fits;
@@ -255,11 +256,12 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
     Profile profile;
     const ProfileFamily& family = *candidate.families[all.choice.family];
     const bool held = all.any && all.choice.law == TimeLaw::OnePlan && family.at(all.choice.plan, profile);
+    const ProfilePieces pieces(profile);
     for (std::size_t i = 0; i < n; ++i) {
       MovementFit best;
       if (all.any) {
         const MovementFit& start = families[all.choice.family].anew.trials[i];
-        best = held ? fitMovement(windows[i], profile, start) : start;
+        best = held ? fitMovement(windows[i], pieces, start) : start;
         if (!held && best.found) family.at(best.duration, profile);
       }
       const double epsilon = best.found ? computeFittedEpsilon(windows[i], profile, best)

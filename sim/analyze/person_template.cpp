@@ -164,8 +164,9 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
   };
   average();
   for (int round = 0; round < kRounds; ++round) {
+    const ProfilePieces pieces(out.mean);
     for (std::size_t i = 0; i < n; ++i) {
-      const MovementFit fit = fitMovement(windows[i], out.mean, out.place[i]);
+      const MovementFit fit = fitMovement(windows[i], pieces, out.place[i]);
       if (fit.found && fit.amplitude > 0 && fit.duration > 0.3 * out.place[i].duration && fit.duration < 3 * out.place[i].duration)
         out.place[i] = fit;
     }

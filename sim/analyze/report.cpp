@@ -62,6 +62,11 @@ std::string real(const std::string& number) {  // a minus is no hyphen
   return text;
 }
 
+std::string signedPercent(double points) {
+  const std::string text = fmt::format("{:+.0f}", points);
+  return text == "+0" || text == "-0" ? "0" : real(text);
+}
+
 std::string percentInterval(double mean, const Interval& i) {
   std::string text = real(fmt::format("{:.0f}", mean));
   // On a line of its own, so that nine columns fit a page.
@@ -107,7 +112,7 @@ void addSuccessTable(Html& html, const StudyResult& study) {
       const auto first = cellOf(subject, c, *days.begin()), last = cellOf(subject, c, *days.rbegin());
       html.add(first == study.success.end() || last == study.success.end()
                    ? "<td>–</td>"
-                   : fmt::format("<td>{}</td>", real(fmt::format("{:+.0f}", 100 * (last->share() - first->share())))));
+                   : fmt::format("<td>{}</td>", signedPercent(100 * (last->share() - first->share()))));
     }
     html.add("</tr>");
   }
