@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Does `reach analyze` name the criterion that a simulated subject planned by, and nobody where there is nothing to name?
 
-`recovery.py BUILD [SEED…]` (default 1001 … 1010) records 30 trials of a simulated subject for five experiments, seven truths and each seed.
+`recovery.py BUILD [--alone] [SEED…]` (default 1001 … 1010) records 30 trials of a simulated subject for five experiments, seven truths and each seed.
 Every subject is judged alone (section "one person"); then five subjects of one truth together, three of one and two of another, and hands
-that ignore the object: a minimum jerk with human scatter, and the human reaches of resources/reaches. Prints a line a cell and the sums.
+that ignore the object: a minimum jerk with human scatter, and the human reaches of resources/reaches (--alone: not these three). Prints a line a cell and the sums.
 Exit 1 when anybody is decided for a wrong criterion, fewer than 45 % of the sets with ten successes are named, a mixed group is decided,
 or a hand that ignores the object is.
 """
@@ -16,7 +16,8 @@ TRUTHS = {  # letter of the subject's label: what the simulated hand plans by
 CAMPS = [("a", "f"), ("a", "c"), ("b", "f")]  # three subjects by the first, two by the second
 FEWEST = 10  # successes
 
-build, seeds = pathlib.Path(sys.argv[1]).resolve(), [int(s) for s in sys.argv[2:]] or list(range(1001, 1011))
+alone = "--alone" in sys.argv
+build, seeds = pathlib.Path(sys.argv[1]).resolve(), [int(s) for s in sys.argv[2:] if s != "--alone"] or list(range(1001, 1011))
 reach = build / "cli/reach"
 reaches = pathlib.Path(__file__).resolve().parents[2] / "resources/reaches"
 work = pathlib.Path(tempfile.mkdtemp(prefix="recovery"))
@@ -140,6 +141,9 @@ def main():
         if verdict == "WRONG":
             print(f"WRONG: {experiment}, {TRUTHS[letter]}, seed {seed}: {named} ({n} successes)")
     bad |= wrong > 0 or right < 0.45 * enough
+    if alone:
+        shutil.rmtree(work)
+        return 1 if bad else 0
 
     results = judgeGroups(sets)
     alike = [r for r in results if r[2]]
