@@ -160,17 +160,16 @@ MovementFit startFrom(const ProfileMoments& window, const ProfileMoments& profil
   return start;
 }
 
-ProfilePieces::ProfilePieces(const Profile& profile) : first(profile.first + kAside * profile.step), step(profile.step) {
+ProfilePieces::ProfilePieces(const Profile& profile) : first(profile.first), step(profile.step) {
   for (std::ptrdiff_t i = kAside; i + 1 + kAside < static_cast<std::ptrdiff_t>(profile.value.size()); ++i)
     c.push_back(cubicOf(profile.value.data() + i));
 }
 
 MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort) {
   const auto cells = static_cast<std::ptrdiff_t>(pieces.c.size()) + 1 + 2 * kAside;
-  const double first = pieces.first - kAside * pieces.step;
   return descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
     sums = sumOver(
-        window, first, pieces.step, cells, centre, duration,
+        window, pieces.first, pieces.step, cells, centre, duration,
         [&](std::ptrdiff_t i) -> const std::array<double, 4>& { return pieces.c[static_cast<std::size_t>(i - kAside)]; },
         [](std::ptrdiff_t, double) { return 0.0; });
     return true;

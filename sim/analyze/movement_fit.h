@@ -43,7 +43,7 @@ inline constexpr FitEffort kRoughFit{6, 1e-3};
 /// A profile's cubic pieces, made once for many fits: phi = c0 + d (c1 + d (c2 + d c3)), d from 0 to 1 in a piece. Pieces without two
 /// neighbours on either side are left out: phi is 0 there.
 struct ProfilePieces {
-  double first = 0, step = 1;  // s of the first piece, their length
+  double first = 0, step = 1;  // s of the profile's first sample, spacing; the first piece begins two samples later
   std::vector<std::array<double, 4>> c;
   explicit ProfilePieces(const Profile& profile);
 };
