@@ -3,6 +3,7 @@
 
     python3 tests/nasty/nasty_formulas.py > tests/nasty/nasty_formulas.tsv        (mpmath, SymPy; two minutes)
 
+Rows of the second hundred are computed in double precision (1e-12 m), the first in 40 digits.
 Independent of the program: every curve stands here once more as pieces that are smooth by hand, and the motion is arc length (dt = ds/v, with
 v^2 = v0^2 - 2 g (y - y0) under gravity), integrated and inverted by mpmath. Creased planes are unfolded, on paper.
 Columns: name, kind, x, y, z, at, rate, gravity_y, seconds, verdict (right | stopped | refused), x_m, y_m, z_m, words. For `stopped` the
@@ -12,18 +13,19 @@ import mpmath as mp
 import sympy as sp
 mp.mp.dps = 40
 P = sp.Symbol('phi')
+C, WORDS, NEAR = mp, 'mpmath', mp.mpf(10) ** -28  # what is computed with
 INF = 1e9
 
 
 def piece_functions(texts):
     e = [sp.sympify(t, {'phi': P, 'e': sp.E}) for t in texts]
-    return sp.lambdify(P, e, 'mpmath'), sp.lambdify(P, [sp.diff(c, P) for c in e], 'mpmath')
+    return sp.lambdify(P, e, WORDS), sp.lambdify(P, [sp.diff(c, P) for c in e], WORDS)
 
 
 def solve(pieces, at, rate, T, g=0, marks=()):
     """phi after T on pieces [(upper bound, x, y, z)], moving one way."""
-    fs = [(mp.mpf(hi), *piece_functions(t)) for hi, t in pieces]
-    at, rate, T = mp.mpf(at), mp.mpf(rate), mp.mpf(T)
+    fs = [(C.mpf(hi), *piece_functions(t)) for hi, t in pieces]
+    at, rate, T = C.mpf(at), C.mpf(rate), C.mpf(T)
 
     def of(phi, side):
         for hi, r, d in fs:
@@ -32,14 +34,14 @@ def solve(pieces, at, rate, T, g=0, marks=()):
         return fs[-1][1:]
     up = 1 if rate > 0 else -1
     r0, d0 = of(at, up)
-    speed0 = mp.sqrt(sum(c * c for c in d0(at))) * abs(rate)
+    speed0 = C.sqrt(sum(c * c for c in d0(at))) * abs(rate)
     y0 = r0(at)[1]
 
     def time(a, b):  # within one piece
         r, d = of((a + b) / 2, 1)
-        f = lambda p: mp.sqrt(sum(c * c for c in d(p))) / mp.sqrt(speed0 ** 2 - 2 * mp.mpf(g) * (r(p)[1] - y0))
-        return abs(mp.quad(f, [a, (a + b) / 2, b]))
-    cuts = sorted([hi for hi, *_ in fs if hi < INF] + [mp.mpf(m) for m in marks], reverse=up < 0)
+        f = lambda p: C.sqrt(sum(c * c for c in d(p))) / C.sqrt(speed0 ** 2 - 2 * C.mpf(g) * (r(p)[1] - y0))
+        return abs(C.quad(f, [a, (a + b) / 2, b]))
+    cuts = sorted([hi for hi, *_ in fs if hi < INF] + [C.mpf(m) for m in marks], reverse=up < 0)
     cuts = [c for c in cuts if (c - at) * up > 0]
     here, left, step = at, T, abs(rate) * T / 64
     for _ in range(100000):
@@ -57,13 +59,13 @@ def solve(pieces, at, rate, T, g=0, marks=()):
     phi = lo + (hi - lo) * left / t
     for _ in range(200):  # Newton, kept between the bounds
         miss = time(here, phi) - left
-        if abs(miss) < mp.mpf(10) ** -28:
+        if abs(miss) < NEAR:
             break
         if miss * 1 > 0:
             hi = phi
         else:
             lo = phi
-        slope = mp.sqrt(sum(c * c for c in d(phi))) / mp.sqrt(speed0 ** 2 - 2 * mp.mpf(g) * (r(phi)[1] - y0))
+        slope = C.sqrt(sum(c * c for c in d(phi))) / C.sqrt(speed0 ** 2 - 2 * C.mpf(g) * (r(phi)[1] - y0))
         better = phi - up * miss / slope if slope > 0 else (lo + hi) / 2
         phi = better if min(lo, hi) <= better <= max(lo, hi) else (lo + hi) / 2
     return [c for c in of(phi, up)[0](phi)]
@@ -185,6 +187,99 @@ c, w = mp.cos(mp.mpf('0.6')), mp.sin(mp.mpf('0.6'))
 known('sphere with a hidden bump', ['(0.1 + 0.01*exp(-1e8*((u - 1)^2 + (v - 1)^2)))*cos(u)*cos(v)', '(0.1 + 0.01*exp(-1e8*((u - 1)^2 + (v - 1)^2)))*sin(v)', '(0.1 + 0.01*exp(-1e8*((u - 1)^2 + (v - 1)^2)))*sin(u)*cos(v)'], '0,0', '0.3,0', 2, [mp.nstr(c / 10, 20), '0', mp.nstr(w / 10, 20)])
 known('sphere', ['0.1*cos(u)*cos(v)', '0.1*sin(v)', '0.1*sin(u)*cos(v)'], '0,0', '0.3,0', 2, [mp.nstr(c / 10, 20), '0', mp.nstr(w / 10, 20)])
 known('sphere through its pole', ['0.1*sin(v)*cos(u)', '0.1*sin(v)*sin(u)', '0.1*cos(v)'], '0,1', '0,-1', 2, [mp.nstr(mp.sin(-1) / 10, 20), '0', mp.nstr(mp.cos(1) / 10, 20)])
+
+# A second hundred, in double precision (tanh-sinh quadrature): right to 1e-12 m, in seconds instead of minutes.
+C, WORDS, NEAR = mp.fp, 'math', 1e-15
+PI = sp.pi.evalf(45)
+MANY = range(1, 12)
+right('nested abs', [x, '0.05*abs(abs(phi) - abs(phi - 1))', '0'], -1, 2, 1.4, [(0, [x, '1/Integer(20)', '0']), (mp.mpf('0.5'), [x, '(1 - 2*phi)/20', '0']), (1, [x, '(2*phi - 1)/20', '0']), (INF, [x, '1/Integer(20)', '0'])])
+right('acos of cos', [x, '0.1*acos(cos(phi))', '0'], 0.5, 3, 2, [(PI, [x, 'phi/10', '0']), (2 * PI, [x, '(2*pi - phi)/10', '0']), (3 * PI, [x, '(phi - 2*pi)/10', '0']), (INF, [x, '(4*pi - phi)/10', '0'])])
+right('root of a square of a sine', [x, '0.1*sqrt(sin(phi)^2)', '0'], 0.5, 3, 2, [(k * PI, [x, f'{(-1)**(k-1)}*sin(phi)/10', '0']) for k in range(1, 9)])
+right('sine made even', [x, '0.1*sign(phi)*sin(phi)', '0'], -1, 2, 1.2, both([x, '-sin(phi)/10', '0'], [x, 'sin(phi)/10', '0']))
+right('cube of abs', [x, '0.1*abs(phi)^3', '0'], -1, 1, 1.6, both([x, '-phi**3/10', '0'], [x, 'phi**3/10', '0']))
+right('a kink at phi = 1000', [x, '0.1*abs(phi - 1000)', '0'], 999, 2, 1.2, both([x, '(1000 - phi)/10', '0'], [x, '(phi - 1000)/10', '0'], 1000))
+right('kinks of two coordinates', ['0.1*abs(phi)', '0.1*abs(phi - 1)', '0.01*phi'], -1, 2, 1.6, [(0, ['-phi/10', '(1 - phi)/10', 'phi/100']), (1, ['phi/10', '(1 - phi)/10', 'phi/100']), (INF, ['phi/10', '(phi - 1)/10', 'phi/100'])])
+right('max by abs', [x, '0.05*(phi + 1 + abs(phi - 1))', '0'], 0, 2, 1.1, both([x, '1/Integer(10)', '0'], [x, 'phi/10', '0'], 1))
+right('min by abs', [x, '0.05*(phi + 1 - abs(phi - 1))', '0'], 0, 2, 1.1, both([x, 'phi/10', '0'], [x, '1/Integer(10)', '0'], 1))
+right('a square to the half', [x, '0.1*(phi^2)^0.5', '0'], -1, 2, 1.2, both([x, '-phi/10', '0'], [x, 'phi/10', '0']))
+right('kink in a micrometre', ['1e-6*phi', '1e-6*abs(phi - 1)', '0'], 0, 2, 1.1, both(['phi/10**6', '(1 - phi)/10**6', '0'], ['phi/10**6', '(phi - 1)/10**6', '0'], 1))
+right('kink over a kilometre', ['1000*phi', '300*abs(phi - 1)', '0'], 0, 1.5, 1.2, both(['1000*phi', '300*(1 - phi)', '0'], ['1000*phi', '300*(phi - 1)', '0'], 1))
+right('abs of a sine under an exponential', [x, '0.1*exp(-abs(phi))', '0'], -1, 2, 1.3, both([x, 'exp(phi)/10', '0'], [x, 'exp(-phi)/10', '0']))
+right('kink of a tanh', [x, '0.1*tanh(abs(phi))', '0'], -1, 2, 1.3, both([x, '-tanh(phi)/10', '0'], [x, 'tanh(phi)/10', '0']))
+right('kinks of a space curve', ['0.1*cos(phi)', '0.1*abs(sin(phi))', '0.02*phi'], 1, 2, 2, [(PI, ['cos(phi)/10', 'sin(phi)/10', 'phi/50']), (2 * PI, ['cos(phi)/10', '-sin(phi)/10', 'phi/50']), (INF, ['cos(phi)/10', 'sin(phi)/10', 'phi/50'])])
+right('kinks a nanometre apart', [x, '0.05*abs(abs(phi) - 1e-8)', '0'], -1, 1, 1.5, [(-mp.mpf('1e-8'), [x, '(-phi - 10**(-8))/20', '0']), (0, [x, '(phi + 10**(-8))/20', '0']), (mp.mpf('1e-8'), [x, '(10**(-8) - phi)/20', '0']), (INF, [x, '(phi - 10**(-8))/20', '0'])])
+right('backwards over a kink', [x, '0.2*abs(phi - 0.3)', '0'], 1, -1.5, 1.3, both([x, '(Rational(3,10) - phi)/5', '0'], [x, '(phi - Rational(3,10))/5', '0'], mp.mpf('0.3')))
+right('valley under gravity', [x, '0.05*abs(phi)', '0'], -1, 6, 0.25, both([x, '-phi/20', '0'], [x, 'phi/20', '0']), g=9.81)
+right('hole of (exp - 1)/phi', [x, '0.1*(exp(phi) - 1)/phi', '0'], 0.3, 1, 1.5, [(INF, [x, '(exp(phi) - 1)/phi/10', '0'])])
+right('hole of phi/tan', [x, '0.1*phi/tan(phi)', '0'], -1, 0.8, 1.7, [(0, [x, 'phi/tan(phi)/10', '0']), (INF, [x, 'phi/tan(phi)/10', '0'])])
+right('hole of sinh/phi', [x, '0.1*sinh(phi)/phi', '0'], -1, 0.8, 1.7, [(0, [x, 'sinh(phi)/phi/10', '0']), (INF, [x, 'sinh(phi)/phi/10', '0'])])
+right('hole of atan/phi', [x, '0.1*atan(phi)/phi', '0'], -1, 0.8, 1.7, [(0, [x, 'atan(phi)/phi/10', '0']), (INF, [x, 'atan(phi)/phi/10', '0'])])
+right('hole of a polynomial', [x, '0.1*(phi^2 - 1)/(phi - 1)', '0'], 0, 1, 1.7, [(INF, [x, '(phi + 1)/10', '0'])])
+right('phi over phi', [x, '0.1*phi/phi', '0.1*phi^2'], -1, 1, 1.7, [(INF, [x, '1/Integer(10)', 'phi**2/10'])])
+right('flat to all orders', [x, '0.1*exp(-1/phi^2)', '0'], 0.3, 1, 1.5, [(INF, [x, 'exp(-1/phi**2)/10', '0'])])
+right('deltoid', ['0.05*(2*cos(phi) + cos(2*phi))', '0.05*(2*sin(phi) - sin(2*phi))', '0'], 0.5, 2, 3, marks=[2 * PI * k / 3 for k in MANY])
+right('nephroid', ['0.03*(3*cos(phi) - cos(3*phi))', '0.03*(3*sin(phi) - sin(3*phi))', '0'], 0.5, 2, 3, marks=[PI * k for k in MANY])
+right('cardioid', ['0.05*(2*cos(phi) - cos(2*phi))', '0.05*(2*sin(phi) - sin(2*phi))', '0'], 0.5, -1, 2, marks=[0])
+right('cusp of the second kind', ['0.1*phi^2', '0.1*phi^4 + 0.1*phi^5', '0'], -0.8, 0.7, 1.6, marks=[0])
+right('standstill in an inflection', ['0.1*phi^3', '0.1*phi^5', '0'], -0.8, 0.7, 1.1, marks=[0])
+right('a step of tanh, 1e-3 wide', [x, '0.05*tanh(1000*phi)', '0'], -1, 1, 1.7, marks=[mp.mpf(k) / 2000 for k in range(-16, 17)])
+right('a step of atan, 1e-5 wide', [x, '0.05*atan(1e5*phi)', '0'], -0.5, 1, 1, [(INF, [x, 'atan(100000*phi)/20', '0'])], marks=[mp.mpf(k) * mp.mpf(10) ** e for e in (-6, -5, -4, -3, -2) for k in (-5, -2, -1, 1, 2, 5)] + [0])
+right('a Runge needle', [x, '0.05/(1 + 1e6*phi^2)', '0'], -1, 1, 1.5, [(INF, [x, '1/(1 + 1000000*phi**2)/20', '0'])], marks=[mp.mpf(k) * mp.mpf(10) ** e for e in (-4, -3, -2) for k in (-5, -2, -1, 1, 2, 5)] + [0])
+right('phi to the 20th', [x, '0.1*phi^20', '0'], -0.9, 0.5, 1.5)
+right('five sines deep', [x, '0.1*sin(2*sin(2*sin(2*sin(2*sin(phi)))))', '0'], 0, 0.2, 1.5)
+right('a damped chirp', [x, '0.05*exp(-phi^2/4)*cos(phi^3)', '0'], -1.5, 1, 1.5)
+right('sinc of a square', [x, '0.1*sin(phi^2)/(1 + phi^2)', '0'], -2, 1, 2)
+right('two scales', [x, '0.1*sin(phi) + 1e-4*sin(300*phi)', '0'], 0, 0.7, 1, [(INF, [x, 'sin(phi)/10 + sin(300*phi)/10000', '0'])])
+right('lissajous 3:7', ['0.1*sin(3*phi)', '0.1*sin(7*phi + 0.3)', '0'], 0, 0.4, 2, [(INF, ['sin(3*phi)/10', 'sin(7*phi + Rational(3,10))/10', '0'])])
+right('rose of five', ['0.1*cos(5*phi)*cos(phi)', '0.1*cos(5*phi)*sin(phi)', '0'], 0.1, 0.5, 2)
+right('logarithmic spiral', ['0.05*exp(0.3*phi)*cos(phi)', '0.05*exp(0.3*phi)*sin(phi)', '0'], 0, 2, 2, [(INF, ['exp(3*phi/10)*cos(phi)/20', 'exp(3*phi/10)*sin(phi)/20', '0'])])
+right('hyperbolic spiral', ['0.1*cos(phi)/phi', '0.1*sin(phi)/phi', '0'], 1, 1, 3)
+right('a knot', ['0.05*(2 + cos(3*phi))*cos(2*phi)', '0.05*(2 + cos(3*phi))*sin(2*phi)', '0.05*sin(3*phi)'], 0.2, 1, 2)
+right('a power of an exponential', [x, '0.01*2^(3*phi)', '0'], -1, 1, 1.5, [(INF, [x, '2**(3*phi)/100', '0'])])
+right('a power by a number that is whole', [x, '0.1*phi^2.0', '0'], -1, 1, 1.5, [(INF, [x, 'phi**2/10', '0'])])
+right('x to the x above 0', [x, '0.1*phi^phi', '0'], 0.2, 1, 1.5, [(INF, [x, 'phi**phi/10', '0'])])
+right('atan2 on its smooth side', [x, '0.1*atan2(phi, 2 + cos(phi))', '0'], -2, 1.5, 2, [(INF, [x, 'atan(phi/(2 + cos(phi)))/10', '0'])])
+right('hypot by a root', [x, '0.1*sqrt(phi^2 + 1e-6)', '0'], -1, 1, 1.5, [(INF, [x, 'sqrt(phi**2 + Rational(1, 1000000))/10', '0'])], marks=[mp.mpf(k) * mp.mpf(10) ** e for e in (-4, -3, -2) for k in (-5, -2, -1, 1, 2, 5)] + [0])
+right('down a logarithm', [x, '0.1*log(phi)', '0'], 1, -0.5, 2)
+right('up a tangent', [x, '0.05*tan(phi)', '0'], 0.5, 1, 2)
+right('catenary under gravity', [x, '0.05*cosh(2*phi)', '0'], -1, 1, 0.3, g=9.81)
+right('ellipse under gravity', ['0.1*cos(phi)', '0.06*sin(phi)', '0'], 0.1, 25, 1, g=9.81)
+right('nearly closed to 1e-12', ['0.1*cos(phi)', '0.1*sin(phi)', '1e-12*phi'], 0.1, 3, 3, [(INF, ['cos(phi)/10', 'sin(phi)/10', 'phi/10**12'])])
+right('phi in kilometres', ['1000*phi', '0.1*sin(1e4*phi)', '0'], 0, 2e-4, 1, [(INF, ['1000*phi', 'sin(10000*phi)/10', '0'])])
+right('phi in nanometres', ['1e-9*phi', '0.05*sin(1e-8*phi)', '0'], 0, 1e8, 1.5, [(INF, ['phi/10**9', 'sin(phi/10**8)/20', '0'])])
+stopped('abs to the 3/2', [x, '0.1*abs(phi)^1.5', '0'], -1, 3, 2, 'at phi = 0')
+stopped('phi log phi', [x, '0.1*phi*log(abs(phi))', '0'], -1, 3, 2, 'at phi = 0')
+right('exp(1/phi) from above', [x, '0.01*exp(1/phi)', '0'], 1, -1, 5)
+stopped('exp(1/phi) from below', [x, '0.1*exp(1/phi)', '0'], -1, 2, 2, 'at phi = 0', ['0', '0', '0'])
+stopped('atan(1/phi)', [x, '0.1*atan(1/phi)', '0'], -1, 3, 2, 'jump at phi = 0')
+stopped('tanh(1/phi)', [x, '0.1*tanh(1/phi)', '0'], -1, 3, 2, 'jump at phi = 0', ['0', '-0.1', '0'])
+stopped('atan2 of equals', [x, '0.05*atan2(phi, phi)', '0.02*phi'], 1, -2, 2, 'jump at phi = 0', ['0', mp.nstr(mp.pi / 80, 20), '0'])
+stopped('atan2 of sine and phi', [x, '0.05*atan2(sin(phi), phi)', '0.02*phi'], 1, -2, 2, 'jump at phi = 0', ['0', mp.nstr(mp.pi / 80, 20), '0'])
+stopped('square wave', [x, '0.05*sign(sin(phi))', '0'], 1, 3, 2, 'jump at phi = 3.14159265', [mp.nstr(mp.pi / 10, 20), '0.05', '0'])
+stopped('cut of atan2', [x, '0.05*atan2(phi, -1)', '0'], 1, -3, 2, 'jump at phi = 0', ['0', mp.nstr(mp.pi / 20, 20), '0'])
+stopped('floor by atan and tan', ['0.1*(phi - atan(tan(phi)))', '0.1*phi', '0'], 0, 3, 2, 'jump at phi = 1.57079633')
+stopped('acos', [x, '0.1*acos(2*phi)', '0'], 0, 1, 2, 'end at phi = 0.5')
+stopped('half circle', ['0.1*phi', '0.1*sqrt(1 - phi^2)', '0'], 0, 1, 4, 'end at phi = 1: sqrt(1 - phi^2)')
+stopped('logarithm of a logarithm', [x, '0.1*log(log(phi))', '0'], 3, -1, 100, 'at phi = 1')
+stopped('odd root', [x, '0.1*(phi^3)^(1/3)', '0'], 1, -1, 2, 'at phi = 0')
+right('secant', [x, '0.1/cos(phi)', '0'], 0, 1, 2)
+right('1/phi^2', [x, '0.001/phi^2', '0'], 1, -1, 5)
+right('phi to minus a half', [x, '0.01*phi^(-0.5)', '0'], 1, -1, 0.9, [(INF, [x, 'phi**(-Rational(1, 2))/100', '0'])])
+stopped('root of a root', [x, '0.1*sqrt(1 - sqrt(phi))', '0'], 0.25, 1, 2, 'at phi = 1')
+refused('a curve of finite length', ['0.1*tanh(phi)', '0.1/cosh(phi)', '0'], 0, 1, 3, 'too many sub-steps')
+for bad in ('min(phi, 1)', 'max(phi, 0)', 'floor(phi)', 'mod(phi, 2)', 'hypot(phi, 1)'):
+    refused(f'{bad} is no word', [x, f'0.1*{bad}', '0'], 0, 1, 1, 'unknown')
+refused('a product without its sign', [x, '2phi', '0'], 0, 1, 1, 'character')
+refused('a remainder', [x, 'phi % 2', '0'], 0, 1, 1, 'character')
+refused('log(0)', [x, '0.1*log(0)', '0'], 0, 1, 1, 'has no finite value')
+refused('root of a negative number', [x, '0.1*sqrt(-2)*phi', '0'], 0, 1, 1, 'has no finite value')
+refused('odd root of a negative number', [x, '0.1*(-8)^(1/3)', '0'], 0, 1, 1, 'has no finite value')
+refused('power of a negative number', [x, '0.1*(-2)^phi', '0'], 0.5, 1, 1, 'no place for a mass at the start')
+refused('over nothing', [x, '0.1*phi/(phi - phi)', '0'], 0.5, 1, 1, 'not finite')
+refused('start in a gap', [x, '0.1*asin(phi)', '0'], 2, 1, 1, 'no place for a mass at the start')
+refused('start on a jump', [x, '0.1*atan(1/phi)', '0'], 0, 1, 1, 'no place for a mass at the start')
+known('atan2 on a surface', ['u/10', '0.02*atan2(v, 2 + cos(u))', 'v/10'], '0,0', '1,0', 1, ['0.1', '0', '0'])
+stopped('jump of atan2 on a surface', ['u/10', '0.05*atan2(u, u)', 'v/10'], '1,0', '-1,0', 2, 'atan2(u, u)', kind='surface')
 
 print('name\tkind\tx\ty\tz\tat\trate\tgravity_y\tseconds\tverdict\tx_m\ty_m\tz_m\twords')
 for row in rows:

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Writes docs/nasty-formulas.md: what the program does with each formula of tests/nasty/nasty_formulas.tsv.
+
+    python3 tests/nasty/write_table.py build/dev/cli/reach > docs/nasty-formulas.md"""
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HEAD = """# Nasty formulas
+
+<!-- not run: writes this page; `NastyFormulas` of test_cli holds the program to the same table -->
+
+    python3 tests/nasty/nasty_formulas.py > tests/nasty/nasty_formulas.tsv
+    python3 tests/nasty/write_table.py build/dev/cli/reach > docs/nasty-formulas.md
+
+A mass of 1 kg is let go on each formula, without a hand. *Right*: where it is at the end differs by this much from an independent solution
+(mpmath, 40 digits, or double precision in the second half; the formula written as smooth pieces by hand, the motion as arc length over speed).
+*Stopped* and *refused*: the sentence with which the program says so; where the stop's place is known, it is right to 2e-6 m.
+[Constraints](constraints.md) says what a mass does at each kind of place.
+
+| | formula | at, rate | s | | |
+|---|---|---|---|---|---|"""
+
+
+def experiment(row):
+    return {"schema_version": 1, "constraint": {row["kind"]: [row[k] for k in "xyz"]},
+            "object": {"kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, float(row["gravity_y"]), 0]},
+            "coupling": {"stiffness_n_per_m": 600}}
+
+
+def cell(text):
+    return text.replace("|", "\\|").replace("\n", " ")
+
+
+def main():
+    rows = list(csv.DictReader(open(pathlib.Path(__file__).with_name("nasty_formulas.tsv")), delimiter="\t", quoting=csv.QUOTE_NONE))
+    print(HEAD)
+    counts = {}
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "formula.json"
+        for row in rows:
+            file.write_text(json.dumps(experiment(row)))
+            ended = subprocess.run([sys.argv[1], "simulate", str(file), "--hand", "none", "--at=" + row["at"], "--rate=" + row["rate"],
+                                    "--until", row["seconds"], "--every", row["seconds"]], capture_output=True, text=True)
+            said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", ended.stderr.strip())
+            if ended.returncode != 0:
+                verdict, words = "refused", said
+            elif said:
+                verdict, words = "stopped", said
+            else:
+                verdict = "right"
+                last = list(csv.DictReader(ended.stdout.splitlines()))[-1]
+                away = sum((float(last[f"mass1_{a}_m"]) - float(row[f"{a}_m"])) ** 2 for a in "xyz") ** 0.5
+                words = f"{away:.0e} m"
+                if not away <= 1e-9 * max(1, abs(float(row["x_m"]))):
+                    sys.exit(f"{row['name']}: off by {away} m")
+            if verdict != row["verdict"]:
+                sys.exit(f"{row['name']}: {verdict} ({words}) where the table has {row['verdict']}")
+            counts[verdict] = counts.get(verdict, 0) + 1
+            print(f"| {cell(row['name'])} | `{cell(', '.join(row[k] for k in 'xyz'))}` | {row['at']}; {row['rate']} | {row['seconds']} "
+                  f"| {verdict} | {cell(words)} |")
+    print("\n" + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items())) + "; none silently wrong.")
+
+
+main()
