@@ -73,7 +73,7 @@ void change(T& x) {
   ++x;
 }
 void change(Participant& x) { x.age = x.age.value_or(30) + 1; }
-void change(experiment::TimingLimits& x) { ++x.maxMissedTicks; }
+void change(experiment::TimingLimits& x) { --x.maxMissedTicks; }  // the default is the largest
 void change(haptics::GuardSettings& x) { x.wallCentre.y += 0.5; }
 void change(experiment::StartRest& x) { x.seconds += 0.5; }
 void change(ChannelTable& x) { x.channels.front().description += "x"; }
