@@ -185,7 +185,7 @@ TEST(CurveJerk, IsRefusedWhereTheCurveIsNotSmoothWithKindAndPlace) {
                                {{"phi/10", "0.05*(abs(phi - 0.31234) - abs(phi - 0.31234 - 1e-9))", "0"}, -1, 1, "a kink", "phi = 0.31234"},
                                {{"phi/10", "0.05*abs(phi) + 0.02*phi^2", "0"}, -0.5, 0.9, "a kink", "phi = "},
                                {{"0.05*(phi + abs(phi))", "0.02*phi", "0"}, -1, 1, "a kink", "phi = 0"},
-                               {{"phi/10", "0.01*sign(phi)", "0"}, -1, 1, "a jump of 0.01 m", "phi = "},
+                               {{"phi/10", "0.01*sign(phi)", "0"}, -1, 1, "a jump of 0.02 m", "phi = 0"},
                                {{"phi/10", "0.05*atan2(0.3*sin(phi), cos(phi))", "0"}, 2, 4, "a jump of 0.314 m", "phi = 3.14159"},
                                {{"phi/10", "0.05*phi*abs(phi)", "0"}, -1, 1, "a step of its curvature", "phi = 0"},
                                {{"0.1*phi^3", "0.1*phi^2", "0"}, -1, 1, "a cusp", "phi = 0"}}) {
