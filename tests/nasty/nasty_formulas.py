@@ -269,8 +269,8 @@ stopped('root of a root', [x, '0.1*sqrt(1 - sqrt(phi))', '0'], 0.25, 1, 2, 'at p
 refused('a curve of finite length', ['0.1*tanh(phi)', '0.1/cosh(phi)', '0'], 0, 1, 3, 'too many sub-steps')
 for bad in ('min(phi, 1)', 'max(phi, 0)', 'floor(phi)', 'mod(phi, 2)', 'hypot(phi, 1)'):
     refused(f'{bad} is no word', [x, f'0.1*{bad}', '0'], 0, 1, 1, 'unknown')
-refused('a product without its sign', [x, '2phi', '0'], 0, 1, 1, 'character')
-refused('a remainder', [x, 'phi % 2', '0'], 0, 1, 1, 'character')
+refused('a product without its sign', [x, '2phi', '0'], 0, 1, 1, 'unexpected')
+refused('a remainder', [x, 'phi % 2', '0'], 0, 1, 1, 'unexpected')
 refused('log(0)', [x, '0.1*log(0)', '0'], 0, 1, 1, 'has no finite value')
 refused('root of a negative number', [x, '0.1*sqrt(-2)*phi', '0'], 0, 1, 1, 'has no finite value')
 refused('odd root of a negative number', [x, '0.1*(-8)^(1/3)', '0'], 0, 1, 1, 'has no finite value')
