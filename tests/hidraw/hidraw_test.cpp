@@ -100,6 +100,13 @@ class Firmware {
   std::jthread thread_;
 };
 
+// chain-slow, whatever time the machine loses: how well it keeps time is not judged here.
+std::string patientChain(const test::Folder& folder) {
+  experiment::Experiment lenient = experiment::readExperiment("chain-slow");
+  lenient.timing = experiment::kNoTimingLimits;
+  return folder.write("slow.json", toJson(lenient));
+}
+
 class ArmOverHidraw : public ::testing::Test {
  protected:
   test::HidrawBed bed{0x16C0, 0x0486, "SN0001", "Arm"};
@@ -158,12 +165,9 @@ TEST_F(ArmOverHidraw, UnpluggedItIsLostAndPluggedInAgainItComesBack) {
 TEST_F(ArmOverHidraw, TheProgramReachesWithIt) {
   Firmware firmware(bed.wire());
   const test::Folder folder;
-  experiment::Experiment lenient = experiment::readExperiment("chain-slow");
-  lenient.timing = experiment::kNoTimingLimits;  // how well the machine keeps time is not judged here
-  const std::string file = (folder / "slow.json").string();
-  std::ofstream(file) << toJson(lenient);
-  const test::Ended run = test::reach("run " + file + " --device hid:SN0001 --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
-                                      "timeout -s INT 60");  // the run waits for a hand as long as it takes
+  const test::Ended run =
+      test::reach("run " + patientChain(folder) + " --device hid:SN0001 --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                  "timeout -s INT 60");  // the run waits for a hand as long as it takes
   // The device may be lost to a machine that is too busy, but then in words.
   if (run.exitCode != 0) {
     EXPECT_EQ(run.exitCode, 3) << run.err;
@@ -195,7 +199,8 @@ class Running {
 TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedSaidAndTakenUpAgain) {
   auto firmware = std::make_unique<Firmware>(bed.wire());
   const test::Folder folder;
-  const std::string run = "run chain-slow --device hid:SN0001 --trials 2 --seed 1 --data " + folder.string();
+  const std::string run =
+      "run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 2 --seed 1 --data " + folder.string();
   Running program(run);
   ASSERT_TRUE(until([&] { return firmware->most > 0; })) << "the object is felt";
   firmware.reset();
@@ -217,7 +222,7 @@ TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedSaidAndTakenUpAgai
 TEST_F(ArmOverHidraw, ReportsFromThePastAreAJumpAndLatchTheForceOff) {
   Firmware firmware(bed.wire());
   const test::Folder folder;
-  Running program("run chain-slow --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  Running program("run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
   // In the middle of its way the arm begins to say what it said at the start.
   ASSERT_TRUE(until([&] { return firmware.most > 0 && firmware.middle; }));
   firmware.replays = true;
@@ -253,7 +258,7 @@ TEST_F(ArmOverHidraw, GarbageAndShortReportsAreNotBelieved) {
 TEST_F(ArmOverHidraw, AStoppedProgramsMotorsAreSwitchedOffByTheFirmware) {
   Firmware firmware(bed.wire());
   const test::Folder folder;
-  Running program("run chain-slow --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  Running program("run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
   ASSERT_TRUE(until([&] { return firmware.most > 0; }));
   pid_t pid = 0;
   std::ifstream(program.pidFile()) >> pid;
@@ -299,8 +304,9 @@ TEST(SpaceMouseOverHidraw, ABlockOfReachesAtItsOwnRateWithTheLoopAtOneKilohertz)
   test::HidrawBed bed(0x256F, 0xC635, "SM1", "SpaceMouse");
   SpaceMouseFirmware firmware(bed.wire());
   const test::Folder folder;
-  const test::Ended run =
-      test::reach("run chain-slow --device spacemouse --trials 3 --seed 1 --every-tick --data " + folder.string(), "timeout -s INT 90");
+  const test::Ended run = test::reach(
+      "run " + patientChain(folder) + " --timing-check 0 --device spacemouse --trials 3 --seed 1 --every-tick --data " + folder.string(),
+      "timeout -s INT 90");
   ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
   const auto lines = test::trialLines(run.out);
   ASSERT_EQ(lines.size(), 3u) << run.out << run.err;
