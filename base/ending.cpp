@@ -17,9 +17,17 @@ namespace {
 constexpr char kNoMemory[] = "there is not enough memory for this; what was recorded is safe";
 constexpr char kOwnFault[] = "stopped by a fault of the program itself; what was recorded is safe. Please report what was asked for";
 
+// The standard library ends the program from functions of its own that may not throw (a directory that is read on), and then does not say why.
+thread_local bool memoryRefused = false;
+
+void onNoMemory() {
+  memoryRefused = true;
+  throw std::bad_alloc();
+}
+
 // Asks for no memory: there may be none.
 [[noreturn]] void sayLastWord() {
-  bool noMemory = false;
+  bool noMemory = memoryRefused && !std::current_exception();
   if (std::current_exception()) {
     try {
       throw;
@@ -33,7 +41,10 @@ constexpr char kOwnFault[] = "stopped by a fault of the program itself; what was
 }
 
 struct BeforeMain {
-  BeforeMain() noexcept { std::set_terminate(sayLastWord); }
+  BeforeMain() noexcept {
+    std::set_terminate(sayLastWord);
+    std::set_new_handler(onNoMemory);
+  }
 };
 [[gnu::init_priority(101)]] const BeforeMain beforeMain;  // before every other object of the program
 
