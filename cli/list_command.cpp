@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "constraints/definition.h"
 #include "devices/registry.h"
+#include "sim/experiment/describe.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 
@@ -22,26 +23,20 @@ std::string describeMasses(const std::vector<double>& masses) {
   return masses.size() == 1 ? fmt::format("{:.4g} kg", masses[0]) : fmt::format("{} x {:.4g} kg", masses.size(), masses[0]);
 }
 
-// A tolerance as long as the reach asks for no pace: it only says when it must be over.
-std::string describePace(const experiment::Task& task) {
-  if (task.tolerance.time >= task.duration) return fmt::format(", within {:.4g} s", task.duration + task.tolerance.time);
-  return fmt::format(", {:.4g} ± {:.4g} s", task.duration, task.tolerance.time);
-}
-
-std::string describe(const experiment::Experiment& e) {
+std::string inShort(const experiment::Experiment& e) {
   const char* kinds[] = {"point of", "chain of", "parallel masses:", "body of"};
   const std::string& constraint = e.constraint.name;
   return fmt::format("{} {}{}{}", kinds[static_cast<int>(e.object.kind)], describeMasses(e.object.masses),
                      constraint == "free" ? ", free in space"
                      : constraint.empty() ? " on a formula"
                                           : " on " + constraint,
-                     e.task ? describePace(*e.task) : "");
+                     e.task ? ", " + experiment::describePace(*e.task) : "");
 }
 
 Json listExperiments() {
   Json rows = Json::array();
   for (const std::string& name : experiment::shippedExperiments())
-    rows.push_back({{"name", name}, {"description", describe(experiment::readExperiment(name))}});
+    rows.push_back({{"name", name}, {"description", inShort(experiment::readExperiment(name))}});
   return rows;
 }
 

@@ -68,11 +68,17 @@ std::string placeOf(const std::vector<double>& q) {
 }
 
 std::string taskOf(const Task& task) {
-  return fmt::format("from rest at {} to rest at {} in {:.6g} ± {:.6g} s, every mass within {:.6g} m and {:.6g} m/s", placeOf(task.start),
-                     placeOf(task.target), task.duration, task.tolerance.time, task.tolerance.position, task.tolerance.velocity);
+  const std::string pace = describePace(task);
+  return fmt::format("from rest at {} to rest at {} {}{}, every mass within {:.6g} m and {:.6g} m/s", placeOf(task.start),
+                     placeOf(task.target), pace.starts_with("within") ? "" : "in ", pace, task.tolerance.position, task.tolerance.velocity);
 }
 
 }  // namespace
+
+std::string describePace(const Task& task) {
+  if (task.tolerance.time >= task.duration) return fmt::format("within {:.6g} s", task.duration + task.tolerance.time);
+  return fmt::format("{:.6g} ± {:.6g} s", task.duration, task.tolerance.time);
+}
 
 std::string describe(const Experiment& e) {
   std::string text = objectOf(e.object);
