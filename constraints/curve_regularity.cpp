@@ -316,6 +316,19 @@ class Examiner {
       branching = branching && (!left.valid || left.exact) && (!right.valid || right.exact);
       Place place;
       place.at = b + 0.0;
+      if (!branching && left.valid && right.valid && left.settled && right.settled) {
+        // Where an arc touches its end (asin(sin(phi))) the place is known to half its digits: there the two tangents meet.
+        const Vec3 turn = left.limit.rPhi - right.limit.rPhi;
+        const double miss = -dot(left.limit.r - right.limit.r, turn) / dot(turn, turn);
+        if (norm(turn) > 1e-4 * norm(left.limit.rPhi) && std::abs(miss) < kTouching * std::max(1.0, std::abs(b))) {
+          place.at += miss;
+          left.limit.r += miss * left.limit.rPhi;
+          right.limit.r += miss * right.limit.rPhi;
+          result_.pieces[i - 1].hi = result_.pieces[i].lo = place.at;
+          left.stop += miss;
+          right.stop += miss;
+        }
+      }
       const auto telling = std::find_if(deciding.begin(), deciding.end(), [&](std::size_t k) { return !guards_[k].branches(); });
       const Guard& guard = guards_[telling != deciding.end() ? *telling : deciding.front()];
       place.because = writeFormula(graph_, guard.node, variablesOf(ConstraintKind::Curve), formula_.text.parameters);

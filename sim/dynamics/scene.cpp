@@ -154,6 +154,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
   double speedRatio = 1;
   if (linear) {
     const LinearSpace space = linearSpace(constraint);
+    if (space.axes == 1) requireValue(constraint.curve, start[0]);
     if (space.axes == 1 && !(norm(space.tangent) > 0))
       throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
     facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == constraints::AtEnd::Bounce &&

@@ -35,6 +35,7 @@ TEST(Places, EachKindIsFoundWithItsPlaceAndItsOperation) {
   EXPECT_EQ(placesOf("sqrt(phi)"), Told{"end at phi = 0: sqrt(phi)"});
   EXPECT_EQ(placesOf("asin(phi)", 0, 2), Told{"end at phi = 1: asin(phi)"});
   EXPECT_EQ(placesOf("sqrt(abs(phi))"), Told{"spike at phi = 0: sqrt(abs(phi))"});
+  EXPECT_EQ(placesOf("asin(sin(3*phi))", 0, 1), Told{"kink at phi = 0.523598776: asin(sin(3*phi))"});
   EXPECT_EQ(placesOf("abs(abs(phi) - 1)"),
             (Told{"kink at phi = -1: abs(abs(phi) - 1)", "kink at phi = 0: abs(phi)", "kink at phi = 1: abs(abs(phi) - 1)"}));
 }
