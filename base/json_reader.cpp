@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +12,8 @@
 
 namespace reachlab {
 namespace {
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// "object.masses_kg[1]" is inside of "object.masses_kg" and of "object".
 bool isInside(std::string_view key, std::string_view outer) {
@@ -59,9 +62,14 @@ bool FaultList::isAbout(const std::string& key) const {
 
 void FaultList::addOfValue(const JsonNode& root, Fault fault) {
   if (ofFile_ == kNone) ofFile_ = faults_.size();
-  if (std::any_of(faults_.begin(), faults_.begin() + static_cast<std::ptrdiff_t>(ofFile_),
-                  [&](const Fault& f) { return isInside(fault.key, f.key) || isInside(f.key, fault.key); }))
+  const auto endOfFile = faults_.begin() + static_cast<std::ptrdiff_t>(ofFile_);
+  const auto told =
+      std::find_if(faults_.begin(), endOfFile, [&](const Fault& f) { return isInside(fault.key, f.key) || isInside(f.key, fault.key); });
+  if (told != endOfFile) {
+    // The file's fault knows no range; the value's does.
+    if (told->key == fault.key && told->allowed == anyNumber().allowed) told->allowed = fault.allowed;
     return;
+  }
   if (isFull()) return static_cast<void>(++more_);
   const Found found = findKey(root, fault.key);
   if (found.missing) fault.what = "is missing";
@@ -108,16 +116,14 @@ const JsonNode* ObjectReader::required(const std::string& key, const std::string
 }
 
 bool ObjectReader::readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value) {
-  if (node.kind != JsonNode::Kind::Number) {
-    faults_.add(node, path, fmt::format("is {}", nameOf(node.kind)), range.allowed);
-    return false;
+  const bool number = node.kind == JsonNode::Kind::Number;
+  if (number && isWithin(range, node.number)) {
+    value = node.number;
+    return true;
   }
-  if (!isWithin(range, node.number)) {
-    faults_.add(node, path, fmt::format("is {}", node.number), range.allowed);
-    return false;
-  }
-  value = node.number;
-  return true;
+  faults_.add(node, path, number ? fmt::format("is {}", node.number) : fmt::format("is {}", nameOf(node.kind)), range.allowed);
+  value = kNoNumber;
+  return false;
 }
 
 void ObjectReader::number(const std::string& key, const NumberRange& range, double& value) {
@@ -126,6 +132,7 @@ void ObjectReader::number(const std::string& key, const NumberRange& range, doub
 
 bool ObjectReader::requiredNumber(const std::string& key, const NumberRange& range, double& value) {
   const JsonNode* node = required(key, range.allowed);
+  if (node == nullptr) value = kNoNumber;
   return node != nullptr && readNumber(*node, keyPath(key), range, value);
 }
 

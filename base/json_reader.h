@@ -43,7 +43,8 @@ class FaultList {
 std::vector<Fault> atTheirPlaces(std::vector<Fault> faults, const std::string& text, const std::string& file);
 
 /// Reads one JSON object key by key and remembers which keys were asked for: `finish` reports the others as unknown, with the nearest
-/// known name. Faults are collected; a faulty value reads as its default.
+/// known name. Faults are collected; a faulty value reads as its default, a faulty number as none (NaN), so that the value's own check says
+/// what is allowed there.
 class ObjectReader {
  public:
   ObjectReader(FaultList& faults, const JsonNode& node, std::string path);

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
     Each, ExperimentReaderFaults,
     testing::Values(WrongText{"\"duration_s\"", "\"duration\"", "x.json:7:58: task.duration: is not known here; did you mean duration_s?"},
                     WrongText{"\"duration_s\": 1.35", "\"duration_s\": \"long\"",
-                              "x.json:7:72: task.duration_s: is a string; allowed: any finite number"},
+                              "x.json:7:72: task.duration_s: is a string; allowed: more than 0 s, at most 3600 s"},
                     WrongText{"[0.6, 0.6]", "[0.6, -1]", "x.json:5:51: object.masses_kg[1]: is -1; allowed: more than 0 kg"},
                     WrongText{"[600]", "[600, 600]", "object.stiffness_n_per_m: has 2 elements; allowed: an array of 1 number"},
                     WrongText{"\"stiffness_n_per_m\": [600]", "\"viscosity_n_s_per_m\": 0", "object.stiffness_n_per_m: is missing"},
