@@ -38,7 +38,7 @@ std::string describe(DeviceFault fault, const std::string& device) {
   const char* what = "is in order";
   switch (fault) {
     case DeviceFault::None: break;
-    case DeviceFault::Silent: what = "gave no new report while force was on it; is it connected, is the machine too busy?"; break;
+    case DeviceFault::Silent: what = "gave no new report while a trial was under way; is it connected, is the machine too busy?"; break;
     case DeviceFault::Jump: what = "jumped by more than 20 mm within a tick; check its encoders and calibrate it"; break;
     case DeviceFault::Speed: what = "moved faster than its speed limit; was it let go?"; break;
     case DeviceFault::NotFinite: what = "would have got a force that is not a number; the object cannot be computed here"; break;
@@ -91,17 +91,14 @@ DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& c
   if (!context.engaged || first) return DeviceFault::None;
   if (jumped) return DeviceFault::Jump;
   if (speed > speedLimit_) return DeviceFault::Speed;
-  silentNow_ = context.nowNs - reportNs_ >= silenceNs_;
-  if (context.force > kFeltForce && silentNow_) return DeviceFault::Silent;
-  return DeviceFault::None;
+  return context.nowNs - reportNs_ >= silenceNs_ ? DeviceFault::Silent : DeviceFault::None;
 }
 
 DeviceSample DeviceWatch::look(DeviceSample sample, const WatchContext& context) noexcept {
   if (!guards_) return sample;
-  silentNow_ = false;
   if (sample.valid && isFinite(sample.position)) latch(judge(sample, context));
   else seen_ = 0;
-  if (fault_ != DeviceFault::None || sample.released || silentNow_) sample.valid = false;
+  if (fault_ != DeviceFault::None || sample.released) sample.valid = false;
   return sample;
 }
 

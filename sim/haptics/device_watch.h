@@ -11,7 +11,7 @@ namespace reachlab::haptics {
 /// Why force was taken from the hand for good, until the experimenter resets it.
 enum class DeviceFault : std::uint8_t {
   None,
-  Silent,     // no new report for longer than the device's bound while more than kFeltForce was felt
+  Silent,     // no new report for the device's bound while a trial is armed or moving, whatever the force
   Jump,       // farther than kJump in one tick
   Speed,      // the hand is faster than the device's limit
   NotFinite,  // the object's force is not a number
@@ -26,7 +26,6 @@ std::string describe(DeviceFault fault, const std::string& device);
 /// What the watch needs to know of a tick beside the sample.
 struct WatchContext {
   bool engaged = false;      // a trial is armed or moving: forces act
-  double force = 0;          // [N] the device has got at the tick before
   std::uint32_t missed = 0;  // periods skipped before this tick
   std::int64_t nowNs = 0;    // monotonic clock
 };
@@ -38,7 +37,6 @@ struct WatchContext {
 /// Haptic thread; neither allocates nor throws.
 class DeviceWatch {
  public:
-  static constexpr double kFeltForce = 1;      // [N]
   static constexpr double kJumpMetres = 0.02;  // [m] in a tick
 
   explicit DeviceWatch(const DeviceInfo& info) noexcept;
@@ -51,7 +49,6 @@ class DeviceWatch {
 
  private:
   double speedOver(const Vec3& position, std::int64_t nowNs) noexcept;
-  bool silentNow_ = false;  // no report for the device's bound: not believed, whatever force is felt
   DeviceFault judge(const DeviceSample& sample, const WatchContext& context) noexcept;
 
   bool guards_;

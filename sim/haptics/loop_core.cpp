@@ -62,7 +62,7 @@ DeviceSample LoopCore::watched(const DeviceSample& sample, std::uint32_t missed,
   }
   deviceWatch.latch(fault.load(std::memory_order_acquire));
   const TickState& before = engine->state();
-  const DeviceSample believed = deviceWatch.look(sample, {trial::isEngaged(before.phase), norm(before.deviceForce), missed, measuredNs});
+  const DeviceSample believed = deviceWatch.look(sample, {trial::isEngaged(before.phase), missed, measuredNs});
   if (device->health() == DeviceHealth::Failed) deviceWatch.latch(DeviceFault::Device);
   latch(deviceWatch.fault());
   return believed;

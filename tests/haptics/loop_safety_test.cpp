@@ -100,6 +100,7 @@ class LoopSafety : public ::testing::Test {
 TEST_F(LoopSafety, FrozenReportsEndInZeroAndTheTrialIsLost) {
   engage();
   device->frozen = true;
+  ASSERT_TRUE(until([&] { return loop->fault() == DeviceFault::Silent; }));
   ASSERT_TRUE(until([&] {
     const TickState* state = loop->takeLatest();
     return state != nullptr && state->phase == trial::Phase::Done;

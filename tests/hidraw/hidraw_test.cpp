@@ -6,7 +6,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <fstream>
+#include <future>
 #include <random>
 #include <thread>
 
@@ -178,6 +180,58 @@ TEST_F(ArmOverHidraw, TheProgramReachesWithIt) {
   EXPECT_TRUE(until([&] { return firmware.last == 0; })) << "and the last word was zero";
 }
 
+/// The program in the background; its process is known, so that it can be stopped and let go on.
+class Running {
+ public:
+  explicit Running(const std::string& arguments)
+      : ended_(std::async(std::launch::async, [this, arguments] {
+          return test::shell("\"$REACH\" " + arguments + " & p=$!\necho $p > \"" + (folder_ / "pid").string() +
+                             "\"\n(sleep 90; kill -INT $p 2> /dev/null) & w=$!\nwait $p; code=$?; kill $w; exit $code");
+        })) {}
+  test::Ended end() { return ended_.get(); }
+  std::string pidFile() const { return (folder_ / "pid").string(); }
+
+ private:
+  test::Folder folder_;
+  std::future<test::Ended> ended_;
+};
+
+TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAgain) {
+  auto firmware = std::make_unique<Firmware>(bed.wire());
+  const test::Folder folder;
+  const std::string run =
+      "run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 2 --seed 1 --data " + folder.string();
+  Running program(run);
+  ASSERT_TRUE(until([&] { return firmware->most > 0; })) << "the object is felt";
+  firmware.reset();
+  bed.unplug();
+  const test::Ended lost = program.end();
+  EXPECT_EQ(lost.exitCode, 3) << lost.out << lost.err;
+  EXPECT_NE(lost.out.find("outcome=interrupted reason=device_lost"), std::string::npos) << lost.out << lost.err;
+  EXPECT_TRUE(lost.err.find("is lost") != std::string::npos || lost.err.find("gave no new report") != std::string::npos) << lost.err;
+  bed.plug();
+  firmware = std::make_unique<Firmware>(bed.wire());
+  const test::Ended resumed = test::reach(run + " --resume", "timeout -s INT 90");
+  if (resumed.exitCode != 0) {
+    EXPECT_EQ(resumed.exitCode, 3) << resumed.err;
+    EXPECT_NE(resumed.err.find("device "), std::string::npos) << resumed.err;
+  }
+  EXPECT_GE(test::trialLines(resumed.out).size(), resumed.exitCode == 0 ? 1u : 0u) << "what was not begun is done" << resumed.out;
+}
+
+TEST_F(ArmOverHidraw, ReportsFromThePastAreAJumpAndLatchTheForceOff) {
+  Firmware firmware(bed.wire());
+  const test::Folder folder;
+  Running program("run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  // In the middle of its way the arm begins to say what it said at the start.
+  ASSERT_TRUE(until([&] { return firmware.most > 0 && firmware.middle; }));
+  firmware.replays = true;
+  const test::Ended ended = program.end();
+  EXPECT_EQ(ended.exitCode, 3) << ended.out << ended.err;
+  EXPECT_NE(ended.err.find("fault: "), std::string::npos) << ended.err;
+  EXPECT_TRUE(until([&] { return firmware.last == 0; }));
+}
+
 TEST_F(ArmOverHidraw, GarbageAndShortReportsAreNotBelieved) {
   Firmware firmware(bed.wire());
   firmware.moves = false;
@@ -199,6 +253,22 @@ TEST_F(ArmOverHidraw, GarbageAndShortReportsAreNotBelieved) {
     return firmware.answers > answers + 200;
   }));
   EXPECT_LE(firmware.most, 2000);
+}
+
+TEST_F(ArmOverHidraw, AStoppedProgramsMotorsAreSwitchedOffByTheFirmware) {
+  Firmware firmware(bed.wire());
+  const test::Folder folder;
+  Running program("run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  ASSERT_TRUE(until([&] { return firmware.most > 0; }));
+  pid_t pid = 0;
+  std::ifstream(program.pidFile()) >> pid;
+  ASSERT_GT(pid, 0);
+  const int silences = firmware.silences;
+  ::kill(pid, SIGSTOP);
+  EXPECT_TRUE(until([&] { return firmware.silences > silences && firmware.last == 0; }));
+  ::kill(pid, SIGCONT);
+  const test::Ended ended = program.end();  // a gap of half a second: the trial may be lost to it, but in words
+  EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 3) << ended.out << ended.err;
 }
 
 /// A SpaceMouse: pushed to the right by a minimum-jerk profile again and again, a report each 8 ms, three of zero and then none at rest.
