@@ -124,6 +124,11 @@ const std::vector<std::string>& velocityEstimatorNames() {
   return names;
 }
 
+const Task& requiredTask(const Experiment& experiment) {
+  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
+  return *experiment.task;
+}
+
 std::optional<std::array<constraints::Domain, 2>> placesInUse(const std::optional<Task>& task) {
   if (!task || task->start.empty() || task->start.size() > 2 || task->start.size() != task->target.size()) return {};
   std::array<constraints::Domain, 2> range{constraints::Domain{0, 0}, constraints::Domain{0, 0}};

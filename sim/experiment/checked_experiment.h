@@ -20,6 +20,9 @@ CheckedExperiment check(const Experiment& experiment);
 /// Throws FaultError where the file itself is at fault. `definition`: see parseExperiment.
 Experiment readUnchecked(const std::string& text, const std::string& file, const std::string& definition = {});
 
+/// The task, which a trial needs. Throws FaultError without one.
+const Task& requiredTask(const Experiment& experiment);
+
 /// Where the task moves a typed formula on: the hull of start and target, when both are there.
 std::optional<std::array<constraints::Domain, 2>> placesInUse(const std::optional<Task>& task);
 

@@ -4,8 +4,8 @@
 
 #include <chrono>
 
-#include "base/fault.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -13,8 +13,7 @@ namespace {
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
 std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, const HapticDevice& device) {
-  if (!experiment.experiment().task)
-    throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
+  experiment::requiredTask(experiment.experiment());
   return std::make_unique<TickEngine>(experiment.experiment(), dynamics::compileScene(experiment), engineOptions(device.info()));
 }
 

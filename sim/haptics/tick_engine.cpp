@@ -5,17 +5,12 @@
 #include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
+#include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::haptics {
 namespace {
 
 constexpr double kJump = 0.02;  // [m] in one tick: 20 m/s, no hand does that; the device has jumped
-
-// The task's parameters, so that a scene is never compiled for an experiment without one.
-const experiment::Task& taskOf(const experiment::Experiment& experiment) {
-  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
-  return *experiment.task;
-}
 
 // 1 at x = 0, 0 at x = 1, at rest at both ends (1 minus the minimum-jerk law), and its derivative.
 struct Blend {
@@ -36,10 +31,10 @@ EngineOptions engineOptions(const DeviceInfo& device) {
 }
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOptions& options)
-    : TickEngine(experiment, (taskOf(experiment), dynamics::compileScene(experiment)), options) {}
+    : TickEngine(experiment, (experiment::requiredTask(experiment), dynamics::compileScene(experiment)), options) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
-    : scene_(std::move(scene)), start_(taskOf(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
+    : scene_(std::move(scene)), start_(experiment::requiredTask(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
       virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump), safety_(limitsFor(experiment, options)),
       guards_(options.guards), fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();

@@ -3,6 +3,7 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "constraints/geometry/task_path.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::trial {
@@ -13,8 +14,7 @@ constexpr double kWholeTick = 1e-6;  // [ticks] a decimal time such as 1.35 s is
 }  // namespace
 
 ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
-  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a trial needs one", "{ start, target, duration_s, … }"});
-  const experiment::Task& task = *experiment.task;
+  const experiment::Task& task = experiment::requiredTask(experiment);
   ProtocolSettings s;
   s.start = constraints::placeOn(constraint, task.start);
   s.target = constraints::placeOn(constraint, task.target);
