@@ -6,6 +6,7 @@
 
 #include "devices/replay/recorded_reach.h"
 #include "devices/replay/replayed_reach.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/haptics/velocity_estimator.h"
 #include "base/ticks.h"
 
@@ -62,11 +63,11 @@ std::vector<VelocityRow> compareVelocityEstimators(const std::string& path, cons
   for (const std::string& file : reachFiles(path)) reaches.push_back(layOnto(readReach(file), {-0.1, 0, 0}, {0.1, 0, 0}));
   std::vector<VelocityRow> rows;
   for (const double resolution : settings.resolutions)
-    for (const std::string_view kind : haptics::velocityEstimatorKinds()) {
+    for (const std::string& kind : experiment::velocityEstimatorNames()) {
       if (kind == "device" || kind == "auto") continue;  // what a device measures itself is its maker's secret
       std::vector<Followed> all;
       for (const PlayedReach& reach : reaches) {
-        haptics::VelocityEstimator estimator({std::string(kind), settings.cutoff});
+        haptics::VelocityEstimator estimator({kind, settings.cutoff});
         Followed followed{centralDifferences(reach.position), {}};
         for (const Vec3& place : reach.position) {
           haptics::DeviceSample sample;
@@ -75,7 +76,7 @@ std::vector<VelocityRow> compareVelocityEstimators(const std::string& path, cons
         }
         all.push_back(std::move(followed));
       }
-      rows.push_back(judge(std::string(kind), resolution, all));
+      rows.push_back(judge(kind, resolution, all));
     }
   return rows;
 }

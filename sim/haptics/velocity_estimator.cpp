@@ -10,11 +10,8 @@ namespace reachlab::haptics {
 namespace {
 
 constexpr double dt = kTickSeconds;
-constexpr std::string_view kKinds[] = {"difference", "low-pass", "butterworth", "kalman", "adaptive-window", "device", "auto"};
 
 }  // namespace
-
-std::span<const std::string_view> velocityEstimatorKinds() noexcept { return kKinds; }
 
 VelocityEstimator::VelocityEstimator(const experiment::VelocityEstimatorSpec& spec)
     : kind_(Kind::Recursive), fromDevice_(spec.kind == "auto" || spec.kind == "device") {
@@ -108,7 +105,7 @@ Vec3 VelocityEstimator::estimate(const DeviceSample& sample) noexcept {
     last_ = place_ = sample.position;
   }
   constexpr int kSize = kMaxWindowDuration + 1;
-  window_[static_cast<std::size_t>(count_ % kSize)] = sample.position;
+  if (kind_ == Kind::Window) window_[static_cast<std::size_t>(count_ % kSize)] = sample.position;
   count_ = count_ < 2 * kSize - 1 ? count_ + 1 : kSize;
   const Vec3 difference = (sample.position - last_) / dt;
   last_ = sample.position;

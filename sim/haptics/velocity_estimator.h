@@ -1,7 +1,5 @@
 #pragma once
 #include <array>
-#include <span>
-#include <string_view>
 
 #include "base/butterworth.h"
 #include "sim/experiment/experiment.h"
@@ -50,8 +48,5 @@ class VelocityEstimator {
   std::array<Vec3, kMaxWindowDuration + 1> window_{};
   int count_ = 0;  // samples since the last reset, counts on modulo the window
 };
-
-/// Names of all estimators, in the order of the page above.
-std::span<const std::string_view> velocityEstimatorKinds() noexcept;
 
 }  // namespace reachlab::haptics
