@@ -12,12 +12,12 @@
 #include "cli/criterion_option.h"
 #include "cli/predict_output.h"
 #include "base/error.h"
+#include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::cli {
 namespace {
 
 constexpr int kMostSamples = 1'000'000;
-constexpr double kMaxDuration = 3600;  // [s]
 
 struct PredictArguments {
   std::string experiment, criterion, point, sweep, out, figure;
@@ -87,8 +87,8 @@ void runPredict(const PredictArguments& arguments) {
   const predict::Criterion criterion = parseCriterion(arguments.criterion);
   if (arguments.samples < 2 || arguments.samples > kMostSamples)
     throw UsageError(fmt::format("--samples: {}; allowed: 2 to {}", arguments.samples, kMostSamples));
-  if (arguments.duration > kMaxDuration)
-    throw UsageError(fmt::format("--duration: {} s; allowed: more than 0, at most {:.0f} s", arguments.duration, kMaxDuration));
+  if (arguments.duration > experiment::kMaxDuration)
+    throw UsageError(fmt::format("--duration: {} s; allowed: more than 0, at most {:.0f} s", arguments.duration, experiment::kMaxDuration));
   if (arguments.json && !arguments.sweep.empty()) throw UsageError("--sweep: writes CSV rows; --json is for a single prediction");
   const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
   predict::PredictOptions options;

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "base/error.h"
@@ -9,6 +7,7 @@
 #include "cli/seed_option.h"
 #include "cli/session_runner.h"
 #include "devices/make_device.h"
+#include "sim/record/run_configuration.h"
 
 namespace reachlab::cli {
 namespace {
@@ -18,8 +17,7 @@ std::string withKeptMapping(const session::SessionRequest& request, bool save) {
   const devices::HandOptions hand = devices::handOptionsOf(request.device);
   const std::string kind = request.device.substr(0, request.device.find_first_of(":,"));
   const std::string& subject = request.place.subject;
-  const bool label = !subject.empty() && std::all_of(subject.begin(), subject.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
-  if (!label) return request.device;  // refused by the run, in its own words
+  if (record::labelFault(subject, "subject")) return request.device;  // refused by the run, in its own words
   const std::string file = devices::mappingFile(request.place.data, subject, kind);
   if (save) {
     if (!hand.mapped)
@@ -63,7 +61,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       ->add_option("--timing-check", r->timingCheckSeconds, "Seconds for which the loop is watched before a block in real time; 0: not [2]")
       ->check(CLI::Range(0.0, 60.0));
   command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
-  command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, 130.0));
+  command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, record::kMaxAge));
   command->add_option("--sex", r->participant.sex, "Participant's sex: F, M or O")->check(CLI::IsMember({"F", "M", "O"}));
   command->add_option("--handedness", r->participant.handedness, "Participant's handedness: R, L or A")
       ->check(CLI::IsMember({"R", "L", "A"}));

@@ -9,8 +9,6 @@
 namespace reachlab::experiment {
 namespace {
 
-constexpr double kMaxDuration = 3600, kMaxTimeout = 86400, kMaxRestDuration = 60;  // [s]
-
 void checkInertia(const Object& object, std::vector<Fault>& faults) {
   const auto& m = object.inertia;
   const std::size_t before = faults.size();

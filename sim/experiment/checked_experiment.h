@@ -8,6 +8,8 @@
 
 namespace reachlab::experiment {
 
+inline constexpr double kMaxDuration = 3600, kMaxTimeout = 86400, kMaxRestDuration = 60;  // [s]
+
 /// What holds of an experiment as a value, from a file or from an editor alike: its faults, each under its key, and the constraint, compiled
 /// on the way, unless it is at fault itself.
 struct CheckedExperiment {

@@ -62,8 +62,8 @@ std::optional<Fault> labelFault(const std::string& label, const std::string& key
 }
 
 std::vector<Fault> problems(const Participant& participant) {
-  if (!participant.age || (*participant.age >= 0 && *participant.age <= 130)) return {};
-  return {{"participant.age", fmt::format("is {}", *participant.age), "0 to 130 years"}};
+  if (!participant.age || (*participant.age >= 0 && *participant.age <= kMaxAge)) return {};
+  return {{"participant.age", fmt::format("is {}", *participant.age), fmt::format("0 to {:.0f} years", kMaxAge)}};
 }
 
 }  // namespace reachlab::record

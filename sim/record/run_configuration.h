@@ -79,7 +79,8 @@ void checkConfiguration(const RunConfiguration& configuration);
 
 /// Labels are letters and digits only (BIDS), at most 60: what is wrong with the one under `key`, if anything.
 std::optional<Fault> labelFault(const std::string& label, const std::string& key);
-/// An age is 0 to 130 years, so that the record can be written and read; empty when fine.
+inline constexpr double kMaxAge = 130;  // [years]
+/// An age is 0 to kMaxAge, so that the record can be written and read; empty when fine.
 std::vector<Fault> problems(const Participant& participant);
 
 }  // namespace reachlab::record

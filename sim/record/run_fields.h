@@ -1,5 +1,6 @@
 #pragma once
 #include "base/ticks.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/record/json_fields.h"
 #include "sim/record/run_configuration.h"
 
@@ -42,7 +43,7 @@ void visitFields(T& t, const Visit& visit) {
 
 template <MaybeConst<Participant> T, class Visit>
 void visitFields(T& p, const Visit& visit) {
-  visit(Field{"age_years", 0, 130}, p.age);
+  visit(Field{"age_years", 0, kMaxAge}, p.age);
   visit(Field{"sex", 0, 0, kMayMiss}, p.sex);
   visit(Field{"handedness", 0, 0, kMayMiss}, p.handedness);
 }
@@ -55,7 +56,7 @@ void visitFields(T& t, const Visit& visit) {
 
 template <MaybeConst<experiment::StartRest> T, class Visit>
 void visitFields(T& r, const Visit& visit) {
-  visit(Field{"rest_s", 0, 60}, r.seconds);
+  visit(Field{"rest_s", 0, experiment::kMaxRestDuration}, r.seconds);
   visit(Field{"rest_speed_m_per_s", 0, 1e6}, r.speed);
 }
 
