@@ -27,6 +27,7 @@ class TraceSink final : public haptics::RunSink {
   static constexpr double kRate = kTicksPerSecond / double{kEvery};  // [Hz]
 
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
+  std::uint32_t massesEvery() const noexcept override { return 0; }
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}

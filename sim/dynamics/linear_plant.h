@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/dynamics/axis_hand.h"
+#include "sim/dynamics/end_masses.h"
 #include "sim/dynamics/plant_base.h"
 
 namespace reachlab::dynamics {
@@ -19,7 +20,7 @@ struct LinearSpace {
 /// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore): the state is that of the differential equation at each tick to
 /// rounding, for any stiffness and damping and any polynomial hand.
 template <class Core, int Axes>
-class LinearPlant final : public PlantBase {
+class LinearPlant final : public PlantBase, public EndMasses {
  public:
   LinearPlant(const ObjectModel& model, const LinearSpace& space, double dt)
       : PlantBase(model), space_(space), length_(norm(space.tangent)), axis_(Axes == 1 ? space.tangent / length_ : Vec3{}) {
@@ -89,6 +90,18 @@ class LinearPlant final : public PlantBase {
       masses[i].a = Axes == 1 ? dot(a, axis_) * axis_ : a;
     }
   }
+  bool observeEnds(std::span<MassState> masses) const noexcept override {
+    if (!readsEnds()) return false;
+    MassState *first = &masses[0], *last = &masses[static_cast<std::size_t>(model_.count()) - 1];
+    for (int a = 0; a < Axes; ++a) {
+      if constexpr (requires { core().readEnds(state()[a]); }) {
+        const auto ends = core().readEnds(state()[a]);
+        put(a, ends.x[0], ends.v[0], *first);
+        put(a, ends.x[1], ends.v[1], *last);
+      }
+    }
+    return true;
+  }
   std::string stopReason() const override { return fraction_ < 1 ? "a mass reached the end of the line's domain" : std::string(); }
 
  private:
@@ -125,21 +138,35 @@ class LinearPlant final : public PlantBase {
     current_ = cores_.back().get();
   }
 
+  void put(int a, double x, double v, MassState& mass) const noexcept {
+    if constexpr (Axes == 1) {
+      mass.q = {x / length_, 0};
+      mass.qRate = {v / length_, 0};
+      mass.r = space_.origin + x * axis_;
+      mass.v = v * axis_;
+    } else {
+      (a == 0 ? mass.r.x : a == 1 ? mass.r.y : mass.r.z) = x;
+      (a == 0 ? mass.v.x : a == 1 ? mass.v.y : mass.v.z) = v;
+    }
+  }
+  /// Two masses cost less than all.
+  bool readsEnds() const noexcept {
+    if constexpr (requires { core().hasEnds(); }) return !fresh_ && core().hasEnds();
+    return false;
+  }
   void locate(std::span<MassState> masses) const noexcept override {
+    if constexpr (requires { core().readEnds(state()[0]); })
+      if (masses.size() == 1 && readsEnds()) {
+        for (int a = 0; a < Axes; ++a) {
+          const auto ends = core().readEnds(state()[a]);
+          put(a, ends.x[0], ends.v[0], masses[0]);
+        }
+        return;
+      }
     for (int a = 0; a < Axes; ++a) {
       if (!fresh_) core().read(state()[a], x_, v_);
       fresh_ = Axes == 1;
-      for (std::size_t i = 0; i < masses.size(); ++i) {
-        if constexpr (Axes == 1) {
-          masses[i].q = {x_[i] / length_, 0};
-          masses[i].qRate = {v_[i] / length_, 0};
-          masses[i].r = space_.origin + x_[i] * axis_;
-          masses[i].v = v_[i] * axis_;
-        } else {
-          (a == 0 ? masses[i].r.x : a == 1 ? masses[i].r.y : masses[i].r.z) = x_[i];
-          (a == 0 ? masses[i].v.x : a == 1 ? masses[i].v.y : masses[i].v.z) = v_[i];
-        }
-      }
+      for (std::size_t i = 0; i < masses.size(); ++i) put(a, x_[i], v_[i], masses[i]);
     }
   }
 

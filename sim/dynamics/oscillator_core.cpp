@@ -32,6 +32,7 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
     toModes_ = modes.toModes;
     toMasses_ = modes.toMasses;
     const double k = coupled ? model.handStiffness[0] : 0, b = coupled ? model.handDamping[0] : 0;
+    for (int j = 0; j < n_ && n_ >= kFewestEnds; ++j) endShapes_.push_back({toMasses_(0, j), toMasses_(n_ - 1, j)});
     for (int j = 0; j < n_; ++j) {
       const double share = modes.toMasses(0, j);  // force on mass 1 as felt by mode j
       const double rest = modes.toModes.row(j).sum();
@@ -118,6 +119,18 @@ void OscillatorCore::read(const State& state, std::span<double> x, std::span<dou
       rate[i] += shape[i] * de;
     }
   }
+}
+
+OscillatorCore::Ends OscillatorCore::readEnds(const State& state) const noexcept {
+  Ends ends;
+  for (int j = 0; j < n_; ++j) {
+    const double e = state.x[j / kLanes][j % kLanes], de = state.v[j / kLanes][j % kLanes];
+    for (std::size_t end = 0; end < 2; ++end) {
+      ends.x[end] += endShapes_[static_cast<std::size_t>(j)][end] * e;
+      ends.v[end] += endShapes_[static_cast<std::size_t>(j)][end] * de;
+    }
+  }
+  return ends;
 }
 
 bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,12 @@ class OscillatorCore {
   State makeState() const;
   void place(State& state, std::span<const double> x, std::span<const double> v) const noexcept;
   void read(const State& state, std::span<double> x, std::span<double> v) const noexcept;
+  /// Masses 1 and N alone, in the bits of read(), by O(N); only where hasEnds().
+  struct Ends {
+    std::array<double, 2> x{}, v{};
+  };
+  bool hasEnds() const noexcept { return !endShapes_.empty(); }
+  Ends readEnds(const State& state) const noexcept;
   /// `next` must not be `state`. False if the result is not finite.
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
 
@@ -47,6 +54,7 @@ class OscillatorCore {
     Lanes rest, period;  // period: 1/w^2 [s^2]
   };
   static constexpr int kFewestFree = 32;    // masses: fewer fit as they are
+  static constexpr int kFewestEnds = 32;    // masses: fewer are read whole for the price of two
   static constexpr int kFreeDegree = 5;     // of the hand's polynomial
   static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
   bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;
@@ -57,6 +65,7 @@ class OscillatorCore {
   std::vector<Group> groups_;
   std::vector<FreeGroup> free_;         // empty where it does not apply
   Eigen::MatrixXd toModes_, toMasses_;  // empty for a parallel object
+  std::vector<std::array<double, 2>> endShapes_;  // toMasses_, rows 1 and N, mode by mode; empty for few masses
 };
 
 /// True if K's modes diagonalise the damping to rounding (none, viscosity on equal masses, damping proportional to stiffness).

@@ -15,6 +15,8 @@ void raise(std::atomic<T>& counter, T by) noexcept {
 
 LoopCore::LoopCore(std::unique_ptr<TickEngine> theEngine, std::shared_ptr<HapticDevice> theDevice, RunSink* theSink)
     : engine(std::move(theEngine)), device(std::move(theDevice)), info(device->info()), sink(theSink), deviceWatch(info) {
+  // A virtual hand may look at every mass at every tick.
+  if (const std::uint32_t every = sink != nullptr ? sink->massesEvery() : 0; every > 0 && !info.virtualHand) engine->setMassesEvery(every);
   copyState(engine->state(), snapshots.back());
   snapshots.publish();
 }
@@ -108,8 +110,10 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
     ++faults.droppedRecords;
     raise(dropped, std::uint64_t{1});
   }
-  copyState(state, snapshots.back());
-  snapshots.publish();
+  if (engine->sawAllMasses()) {  // what is shown is of one tick
+    copyState(state, snapshots.back());
+    snapshots.publish();
+  }
   raise(ticks, std::uint64_t{1});
   lastNs.store(measuredNs, std::memory_order_relaxed);
   if (info.rendersForce) completedNs.store(os::now(), std::memory_order_release);

@@ -15,6 +15,9 @@ class RunSink {
   /// Haptic thread (virtual clock: the controlling thread), every tick; must not wait in real time, allocate or throw. False: the tick
   /// is lost, and counted.
   virtual bool onTick(const TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept = 0;
+  /// Every how many ticks (at their multiples) `onTick` looks at masses other than the first and the last, and at the energy;
+  /// 0: never.
+  virtual std::uint32_t massesEvery() const noexcept { return 1; }
   /// Controlling thread, before a trial is put up. May throw ResourceError, as all below.
   virtual void announce(std::int32_t trial, const trial::PlannedTrial& planned) = 0;
   /// Controlling thread, after a trial has ended: returns once its record is safe on the disk.

@@ -34,7 +34,8 @@ TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOpt
     : TickEngine(experiment, (experiment::requiredTask(experiment), dynamics::compileScene(experiment)), options) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
-    : scene_(std::move(scene)), start_(experiment::requiredTask(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
+    : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),
+      start_(experiment::requiredTask(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
       virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump), safety_(limitsFor(experiment, options)),
       guards_(options.guards), fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
   state_.massCount = scene_.plant->massCount();
@@ -92,6 +93,14 @@ dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) no
   return scene_.plant->step(path_.segment(), kTickSeconds);
 }
 
+void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {
+  const std::span<const dynamics::MassState> masses{state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
+  const bool endsSuffice = ends_ != nullptr && state_.tick % massesEvery_ != 0 && ends_->observeEnds(state_.masses) &&
+                           !trial::needsEveryMass(settings_, protocol_, state_.tick, masses);
+  sawAll_ = !endsSuffice;
+  if (sawAll_) scene_.plant->observe(hand, state_.masses);
+}
+
 // At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.
 void TickEngine::placeFixedPoint(dynamics::HandSample& hand) noexcept {
   const Vec3 fixedPoint = state_.masses[0].r + fpInBody_;
@@ -109,6 +118,7 @@ void TickEngine::tick(const TickInput& input) noexcept {
   state_.device = input.device;
   state_.faults.missedTicks += input.missedTicks;
   cue_.reset();
+  sawAll_ = true;
 
   const trial::Phase before = protocol_.phase;
   if (input.command == trial::Command::NextTrial && (before == trial::Phase::Idle || before == trial::Phase::Done)) {
@@ -119,7 +129,7 @@ void TickEngine::tick(const TickInput& input) noexcept {
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   if (trial::isEngaged(before)) {
     status = stepObject(hand);
-    plant.observe(hand, state_.masses);
+    observeMasses(hand);
     if (status == dynamics::StepStatus::Ok) status = forceStatus_;
   }
 
@@ -137,6 +147,10 @@ void TickEngine::tick(const TickInput& input) noexcept {
                   {state_.masses.data(), static_cast<std::size_t>(state_.massCount)},
                   input.missedTicks},
                  protocol_);
+  if (!sawAll_ && !trial::isEngaged(protocol_.phase)) {  // as it ended, so it is shown and recorded from now on
+    plant.observe(hand, state_.masses);
+    sawAll_ = true;
+  }
   if (before == trial::Phase::Waiting && protocol_.phase == trial::Phase::Armed) {
     placeFixedPoint(hand);
     plant.observe(hand, state_.masses);
@@ -179,7 +193,8 @@ void TickEngine::exertForce(const dynamics::HandSample& hand, dynamics::StepStat
   const bool engaged = trial::isEngaged(protocol_.phase);
   const bool held = hand.valid && status == dynamics::StepStatus::Ok;
   state_.couplingForce = engaged && held ? plant.couplingForce(hand) : Vec3{};
-  state_.energy = engaged && held ? plant.energy(hand) : 0;
+  if (!engaged || !held) state_.energy = 0;
+  else if (sawAll_) state_.energy = plant.energy(hand);
   if (!isFinite(state_.couplingForce)) forceStatus_ = status = dynamics::StepStatus::NotFinite;
   state_.feedbackForce = -state_.couplingForce;
   const Vec3 added = guardForce(hand, engaged && held);

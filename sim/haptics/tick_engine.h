@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/dynamics/end_masses.h"
 #include "sim/dynamics/hand_path.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/force_safety.h"
@@ -58,6 +59,12 @@ class TickEngine {
   /// What only the loop around this knows: late ticks, longest gap, dropped records.
   LoopFaults& faults() noexcept { return state_.faults; }
 
+  /// Where observing all masses costs far more than a step (EndMasses), it is done at multiples of `ticks` alone and where the trial's
+  /// verdict needs it; force, hand and verdict stay the same bits. Before the first tick.
+  void setMassesEvery(std::uint32_t ticks) noexcept { massesEvery_ = ticks; }
+  /// False after a tick in which of the masses only the first and the last were observed, and no energy.
+  bool sawAllMasses() const noexcept { return sawAll_; }
+
   const dynamics::MethodChoice& choice() const { return scene_.choice; }
   const constraints::Constraint& constraint() const { return scene_.constraint; }
   const trial::ProtocolSettings& protocol() const { return settings_; }
@@ -67,12 +74,16 @@ class TickEngine {
   dynamics::HandSample takeHand(const TickInput& input) noexcept;
   void putUp() noexcept;
   dynamics::StepStatus stepObject(const dynamics::HandSample& hand) noexcept;
+  void observeMasses(const dynamics::HandSample& hand) noexcept;
   void placeFixedPoint(dynamics::HandSample& hand) noexcept;
   void exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept;
   Vec3 guardForce(const dynamics::HandSample& hand, bool engaged) noexcept;
   DeviceState deviceState(const TickInput& input) const noexcept;
 
   dynamics::Scene scene_;
+  const dynamics::EndMasses* ends_;  // the plant, if it offers them
+  std::uint32_t massesEvery_ = 1;
+  bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters
   trial::ProtocolSettings settings_;
   bool virtualHand_;

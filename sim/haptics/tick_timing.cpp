@@ -10,7 +10,8 @@
 namespace reachlab::haptics {
 namespace {
 
-constexpr double kEndless = 1e6;  // [s]
+constexpr double kEndless = 1e6;         // [s]
+constexpr std::uint32_t kRowTicks = 10;  // a row of the recording every so many ticks, as by default
 
 experiment::Experiment withoutEnd(experiment::Experiment experiment) {
   if (!experiment.task) return experiment;
@@ -28,6 +29,7 @@ double percentile(std::vector<std::int64_t>& sorted, double share) {
 
 TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t ticks, std::uint64_t (*countAllocations)() noexcept) {
   TickEngine engine(withoutEnd(experiment), {});
+  engine.setMassesEvery(kRowTicks);
   const Vec3 start = engine.protocol().start, chord = engine.protocol().target - start;
   constexpr double kShare = 0.1, kLeast = 0.01, kOmega = 2 * std::numbers::pi;
   const Vec3 swing = norm(chord) > 0 ? kShare * chord : Vec3{kLeast, 0, 0};

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "base/ending.h"
@@ -13,6 +14,7 @@
 namespace reachlab::record {
 namespace {
 
+constexpr std::uint32_t kPictureTicks = 10;           // a picture shows no more than 60 states a second
 constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at its queue this often
 
 }  // namespace
@@ -117,6 +119,8 @@ bool Recorder::onTick(const haptics::TickState& state, trial::Command command, s
   }
   return !due || slot->hasRow;
 }
+
+std::uint32_t Recorder::massesEvery() const noexcept { return std::gcd(impl_->every, kPictureTicks); }
 
 void Recorder::announce(std::int32_t trial, const trial::PlannedTrial& planned) {
   const TrialSetup setup{trial + impl_->firstTrial - 1, planned};

@@ -29,6 +29,9 @@ class Recorder : public haptics::RunSink {
   /// counted (LoopFaults::droppedRecords).
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
 
+  /// Its rows; more often where the window's picture would lag behind (a hundredth of a second).
+  std::uint32_t massesEvery() const noexcept override;
+
   /// Controlling thread, before a trial is put up: what the engine's `trial`-th (from 1) stands for. Throws ResourceError.
   void announce(std::int32_t trial, const trial::PlannedTrial& planned) override;
   /// Controlling thread, after the engine's `trial`-th has ended: returns once its record is on the disk (fdatasync). Throws

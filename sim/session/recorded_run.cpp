@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <thread>
 #include <utility>
 
@@ -53,6 +54,7 @@ class WatchedSink final : public haptics::RunSink {
     watcher_.onTick(state, command, missedTicks);
     return recorder_.onTick(state, command, missedTicks);
   }
+  std::uint32_t massesEvery() const noexcept override { return std::gcd(recorder_.massesEvery(), watcher_.massesEvery()); }
   void announce(std::int32_t trial, const trial::PlannedTrial& planned) override {
     recorder_.announce(trial, planned);
     watcher_.announce(trial, planned);

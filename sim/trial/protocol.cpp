@@ -148,4 +148,11 @@ void advance(const ProtocolSettings& settings, const ProtocolInput& input, Proto
   }
 }
 
+bool needsEveryMass(const ProtocolSettings& settings, const ProtocolState& state, std::uint64_t tick,
+                    std::span<const dynamics::MassState> masses) noexcept {
+  if (state.phase != Phase::Moving || masses.empty()) return false;
+  if (static_cast<std::int64_t>(tick - state.onsetTick) >= settings.latestTick) return true;
+  return judge(settings, masses.first(1)).complete() && judge(settings, masses.last(1)).complete();
+}
+
 }  // namespace reachlab::trial

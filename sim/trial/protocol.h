@@ -95,6 +95,10 @@ struct ProtocolState {
 /// Haptic thread, once a tick, after the step; neither allocates nor throws.
 void advance(const ProtocolSettings& settings, const ProtocolInput& input, ProtocolState& state) noexcept;
 
+/// Haptic thread: whether the verdict on this tick depends on other masses than the first and the last, as these are now.
+bool needsEveryMass(const ProtocolSettings& settings, const ProtocolState& state, std::uint64_t tick,
+                    std::span<const dynamics::MassState> masses) noexcept;
+
 /// Forces act and the object moves.
 constexpr bool isEngaged(Phase phase) noexcept { return phase == Phase::Armed || phase == Phase::Moving; }
 

@@ -268,6 +268,53 @@ TEST_F(Engine, TheEnergyOfTheObjectIsTheWorkOfTheHand) {
   EXPECT_NEAR(engine.state().energy, work, 5e-4 * work);
 }
 
+// A chain of 40 gives its 40 masses by 1600 products, its first and last by 80.
+TEST(TickEngine, SeesEveryMassOfALongChainWhereItIsNeeded) {
+  constexpr int kMasses = 40, kEvery = 10, kReach = 1350;
+  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
+  experiment.object.masses.assign(kMasses, 3.0 / kMasses);
+  experiment.object.stiffness.assign(kMasses - 1, 600.0 * kMasses / 5);
+  experiment.object.damping.assign(kMasses - 1, 0);
+  experiment.task->tolerance.position = 0.02;  // so wide that it arrives, the middle masses last
+  experiment.task->tolerance.velocity = 0.3;
+  TickEngine all(experiment, {}), seldom(experiment, {});
+  seldom.setMassesEvery(kEvery);
+  const Vec3 from = all.protocol().start, way = all.protocol().target - from;
+  TickInput input;
+  int unseen = 0;
+  for (int i = 0; i < 2 * kReach && all.state().phase != trial::Phase::Done; ++i) {
+    const double x = std::min(1.0, i / double{kReach});
+    input.device = handAt(from + (x * x * x * (10 + x * (6 * x - 15))) * way);
+    input.command = i == 0 ? trial::Command::NextTrial : trial::Command::None;
+    all.tick(input);
+    seldom.tick(input);
+    const TickState &a = all.state(), &b = seldom.state();
+    ASSERT_EQ(a.phase, b.phase) << i;
+    ASSERT_EQ(a.couplingForce, b.couplingForce) << i;
+    ASSERT_EQ(a.deviceForce, b.deviceForce) << i;
+    for (const int m : {0, kMasses - 1}) {
+      ASSERT_EQ(a.masses[m].r, b.masses[m].r) << i;
+      ASSERT_EQ(a.masses[m].v, b.masses[m].v) << i;
+      ASSERT_EQ(a.masses[m].q, b.masses[m].q) << i;
+    }
+    if (a.tick % kEvery == 0) {
+      ASSERT_TRUE(seldom.sawAllMasses()) << "a row is due";
+    }
+    if (!seldom.sawAllMasses()) {
+      ++unseen;
+      continue;
+    }
+    ASSERT_EQ(a.energy, b.energy) << i;
+    for (int m = 0; m < kMasses; ++m) ASSERT_EQ(a.masses[m].r, b.masses[m].r) << i;
+  }
+  EXPECT_EQ(all.state().phase, trial::Phase::Done);
+  EXPECT_EQ(all.state().result.outcome, trial::Outcome::Success);
+  EXPECT_NE(all.state().result.endTick % kEvery, 0u) << "the verdict is to fall on a tick at which no row is due";
+  EXPECT_EQ(all.state().result.endTick, seldom.state().result.endTick);
+  EXPECT_TRUE(seldom.sawAllMasses());
+  EXPECT_GT(unseen, kReach / 2);
+}
+
 TEST(TickEngine, TheSameInputsGiveTheSameBits) {
   const experiment::Experiment experiment = test::armedAtOnce("parallel");
   TickEngine one(experiment, {}), two(experiment, {});
