@@ -9,7 +9,7 @@ void countTrial(const StudyTrial& trial, ConditionResult& result) {
     return;
   }
   if (trial.practice) ++result.counts.practice;
-  if (trial.exclusion == "practice") return;
+  if (trial.exclusion == "practice" || trial.exclusion.starts_with("excluded")) return;
   switch (trial.result.outcome) {
     case trial::Outcome::Success: ++result.counts.success; break;
     case trial::Outcome::Failure: ++result.counts.failure; break;

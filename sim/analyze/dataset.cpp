@@ -148,6 +148,11 @@ void addRun(const RunSource& run, const experiment::Experiment& experiment, Data
     trial.practice = c.practice;
     trial.catchTrial = recorded.planned.catchTrial;
     trial.result = recorded.result;
+    if (const record::TrialMark* mark = run.marks.find(recorded.trial)) {
+      trial.excluded = mark->excluded;
+      trial.markedOnset = mark->onset.value_or(kNotMeasured);
+      trial.markedOffset = mark->offset.value_or(kNotMeasured);
+    }
     trial.rate = kTicksPerSecond / static_cast<double>(every);
     trial.start = path.start();
     trial.target = path.target();
@@ -245,7 +250,8 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
         dataset.notes.push_back(
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }}, experiment);
+      const record::RunMarks marks = record::readMarks(logs[i]);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks}, experiment);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");

@@ -7,6 +7,7 @@
 
 #include "sim/analyze/study.h"
 #include "sim/record/run_log.h"
+#include "sim/record/trial_marks.h"
 
 namespace reachlab::analyze {
 
@@ -56,6 +57,7 @@ struct RunSource {
   std::vector<record::RecordedTrial> trials;
   std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
   bool armedFromRows = false;  // the file does not say when trials were armed
+  record::RunMarks marks;      // what was said of the trials afterwards
 };
 /// Hands on the run's trials; the day of a run without one is 0.
 void addRun(const RunSource& run, const experiment::Experiment& experiment, DatasetIndex& index, const TrialSink& sink);

@@ -63,6 +63,17 @@ Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, Tr
   return movement;
 }
 
+/// Ends of the movement that were moved by hand hold in place of the rule's.
+void useMarks(const TrialData& trial, TrialSignals& signals) {
+  const Movement& found = signals.movement;
+  const auto either = [&](double marked, double own) { return std::isfinite(marked) ? marked - trial.first : own; };
+  if (!found.found || !(std::isfinite(trial.markedOnset) || std::isfinite(trial.markedOffset))) return;
+  const double longest = static_cast<double>(signals.speed.size() - 1) / trial.rate;
+  const double onset = std::clamp(either(trial.markedOnset, found.onset), 0.0, longest);
+  const double offset = std::clamp(either(trial.markedOffset, found.offset), 0.0, longest);
+  if (onset < offset) signals.movement = movementWithin(signals.speed, trial.rate, onset, offset);
+}
+
 }  // namespace
 
 TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options) {
@@ -75,6 +86,7 @@ TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& option
   for (std::size_t i = 0; i < trial.objectVelocity.size(); ++i)
     signals.objectVelocity.push_back(alongPath(trial, trial.objectVelocity[i], i));
   signals.movement = findWithinTrial(trial, options.onset, signals);
+  useMarks(trial, signals);
   // A closed curve leads to its target either way round.
   if (trial.closed && std::accumulate(signals.handVelocity.begin(), signals.handVelocity.end(), 0.0) < 0) {
     signals.otherWay = true;

@@ -18,7 +18,8 @@ namespace {
 
 auto orderOf(const StudyTrial& t) { return std::tie(t.condition, t.key.subject, t.key.session, t.key.run, t.key.trial); }
 
-std::string whyExcluded(const StudyTrial& trial, const Movement& movement, bool includePractice) {
+std::string whyExcluded(const StudyTrial& trial, const std::string& excluded, const Movement& movement, bool includePractice) {
+  if (!excluded.empty()) return "excluded: " + excluded;
   if (trial.catchTrial) return "catch trial";
   if (trial.practice && !includePractice) return "practice";
   if (trial.result.outcome != trial::Outcome::Success)
@@ -388,8 +389,8 @@ void StudyBuilder::add(TrialData&& data, std::size_t condition) {
   const TrialSignals signals = computeSignals(data, options.measure);
   trial.otherWay = signals.otherWay;
   trial.measures = computeMeasures(data, signals);
-  trial.exclusion = whyExcluded(trial, signals.movement, options.includePractice);
-  trial.counted = !trial.catchTrial && (!trial.practice || options.includePractice) &&
+  trial.exclusion = whyExcluded(trial, data.excluded, signals.movement, options.includePractice);
+  trial.counted = data.excluded.empty() && !trial.catchTrial && (!trial.practice || options.includePractice) &&
                   (trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure);
   if (signals.movement.found) {
     TrialProfile profile = makeTrialProfile(data, signals);

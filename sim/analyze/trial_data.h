@@ -36,6 +36,9 @@ struct TrialData {
   /// Direction of the path: one for a straight task, one a sample on a curve, none where only speed makes sense (a surface).
   std::vector<Vec3> along;
   bool closed = false;  // the path is a closed curve
+  // What a person marked beside the recording (record/trial_marks.h).
+  std::string excluded;                                          // why the trial is not to count; empty: it counts
+  double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's
   Vec3 start, target;   // [m] of the object
 };
 

@@ -1,0 +1,101 @@
+#include "sim/record/trial_marks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/json_reader.h"
+#include "sim/record/append_file.h"
+
+namespace reachlab::record {
+namespace {
+
+constexpr int kMostTrials = 10'000'000;
+const NumberRange kSinceArming{0, 1e6, true, "a time in s, 0 or more"};
+
+TrialMark readMark(FaultList& faults, const JsonNode& node, std::size_t index) {
+  TrialMark mark;
+  ObjectReader reader(faults, node, fmt::format("trials[{}]", index));
+  if (reader.required("trial", "the number of a trial") != nullptr) reader.integer("trial", 1, kMostTrials, mark.trial);
+  reader.boolean("flagged", mark.flagged);
+  reader.text("excluded", mark.excluded);
+  reader.text("note", mark.note);
+  const auto time = [&](const char* key, std::optional<double>& value) {
+    if (reader.optional(key) == nullptr) return;
+    double seconds = 0;
+    reader.number(key, kSinceArming, seconds);
+    value = seconds;
+  };
+  time("onset_s", mark.onset);
+  time("offset_s", mark.offset);
+  if (mark.onset && mark.offset && !(*mark.onset < *mark.offset))
+    faults.add(node, reader.keyPath("offset_s"), "is not after onset_s", "a later time");
+  reader.finish();
+  return mark;
+}
+
+}  // namespace
+
+const TrialMark* RunMarks::find(int trial) const {
+  const auto found = std::lower_bound(trials.begin(), trials.end(), trial, [](const TrialMark& m, int t) { return m.trial < t; });
+  return found != trials.end() && found->trial == trial ? &*found : nullptr;
+}
+
+void RunMarks::set(const TrialMark& mark) {
+  auto place = std::lower_bound(trials.begin(), trials.end(), mark.trial, [](const TrialMark& m, int t) { return m.trial < t; });
+  if (place != trials.end() && place->trial == mark.trial) place = trials.erase(place);
+  if (!mark.empty()) trials.insert(place, mark);
+}
+
+std::string marksPathOf(const std::string& logPath) {
+  constexpr std::string_view kLogs[] = {"_log.reach", ".reach"};
+  for (const std::string_view ending : kLogs)
+    if (logPath.ends_with(ending)) return logPath.substr(0, logPath.size() - ending.size()) + "_marks.json";
+  return logPath + "_marks.json";
+}
+
+RunMarks readMarks(const std::string& logPath) {
+  const std::string file = marksPathOf(logPath);
+  std::error_code error;
+  RunMarks marks;
+  if (!std::filesystem::exists(file, error)) return marks;
+  const std::string text = readWholeFile(file);
+  const JsonNode root = parseJson(text, file);
+  FaultList faults(file);
+  ObjectReader reader(faults, root, "");
+  double version = 1;
+  reader.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
+  if (const JsonNode* trials = reader.required("trials", "an array of marks")) {
+    if (trials->kind != JsonNode::Kind::Array) faults.add(*trials, "trials", "is no array", "an array of marks");
+    for (std::size_t i = 0; i < trials->items.size(); ++i) marks.set(readMark(faults, trials->items[i], i));
+  }
+  reader.finish();
+  faults.throwIfAny();
+  return marks;
+}
+
+void writeMarks(const std::string& logPath, const RunMarks& marks) {
+  const std::string file = marksPathOf(logPath);
+  if (marks.trials.empty()) {
+    std::error_code error;
+    std::filesystem::remove(file, error);
+    if (error) throw ResourceError(fmt::format("{}: cannot be removed: {}", file, error.message()));
+    return;
+  }
+  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
+  for (const TrialMark& mark : marks.trials) {
+    nlohmann::ordered_json one{{"trial", mark.trial}};
+    if (mark.flagged) one["flagged"] = true;
+    if (!mark.excluded.empty()) one["excluded"] = mark.excluded;
+    if (mark.onset) one["onset_s"] = *mark.onset;
+    if (mark.offset) one["offset_s"] = *mark.offset;
+    if (!mark.note.empty()) one["note"] = mark.note;
+    trials.push_back(one);
+  }
+  writeFileAtomically(file, nlohmann::ordered_json{{"schema_version", 1}, {"trials", trials}}.dump(1) + "\n");
+}
+
+}  // namespace reachlab::record
