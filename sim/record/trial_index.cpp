@@ -1,0 +1,188 @@
+#include "sim/record/trial_index.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "base/error.h"
+#include "sim/record/append_file.h"
+#include "sim/record/records.h"
+
+namespace reachlab::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic = "REACHIDX";
+constexpr std::uint32_t kVersion = 1;
+
+std::uint32_t checksum(std::string_view text) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
+
+std::string_view asText(std::span<const std::uint8_t> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+void encode(const IndexedRun& run, ByteWriter& out) {
+  for (const std::string* text : {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc})
+    out.putText(*text);
+  out.put(run.bytes);
+  out.put(run.changedNs);
+  for (const int number : {run.run, run.block, run.day}) out.put(static_cast<std::int32_t>(number));
+  out.put(static_cast<std::uint8_t>((run.practice ? 1 : 0) | (run.healthy ? 2 : 0)));
+  out.put(static_cast<std::uint32_t>(run.trials.size()));
+  ByteWriter one;
+  for (const RecordedTrial& trial : run.trials) {
+    one.clear();
+    record::encode(trial, {}, one);
+    out.put(static_cast<std::uint32_t>(one.size()));
+    out.putBytes(one.bytes().data(), one.size());
+    out.put(static_cast<std::uint8_t>(trial.complete));
+  }
+}
+
+bool decode(ByteReader& in, std::span<const std::uint8_t> all, IndexedRun& run) {
+  for (std::string* text : {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc})
+    *text = in.getText();
+  run.bytes = in.get<std::uint64_t>();
+  run.changedNs = in.get<std::int64_t>();
+  for (int* number : {&run.run, &run.block, &run.day}) *number = in.get<std::int32_t>();
+  const auto flags = in.get<std::uint8_t>();
+  run.practice = (flags & 1) != 0;
+  run.healthy = (flags & 2) != 0;
+  const auto count = in.get<std::uint32_t>();
+  if (!in.ok() || count > in.left()) return false;
+  run.trials.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto size = in.get<std::uint32_t>();
+    if (!in.ok() || size + 1 > in.left()) return false;
+    TrialLink link;
+    run.trials.push_back(decodeTrial(all.subspan(all.size() - in.left(), size), link));
+    for (std::uint32_t k = 0; k < size; ++k) (void)in.get<std::uint8_t>();
+    run.trials.back().complete = in.get<std::uint8_t>() != 0;
+  }
+  return in.ok();
+}
+
+std::map<std::string, IndexedRun> readIndex(const std::string& file) {
+  std::map<std::string, IndexedRun> known;
+  std::error_code error;
+  if (file.empty() || !fs::is_regular_file(file, error)) return known;
+  try {
+    const std::string text = readWholeFile(file);
+    if (text.size() < kMagic.size() + 12 || !text.starts_with(kMagic)) return known;
+    const std::string_view body(text.data() + kMagic.size(), text.size() - kMagic.size() - 4);
+    const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(body.data()), body.size());
+    std::uint32_t stored = 0;
+    std::memcpy(&stored, text.data() + text.size() - 4, 4);
+    if (stored != checksum(body)) return known;
+    ByteReader in(bytes);
+    if (in.get<std::uint32_t>() != kVersion) return known;
+    const auto runs = in.get<std::uint32_t>();
+    for (std::uint32_t i = 0; i < runs && in.ok(); ++i) {
+      IndexedRun run;
+      if (!decode(in, bytes, run)) return {};
+      std::string path = run.path;
+      known.emplace(std::move(path), std::move(run));
+    }
+  } catch (const Error&) {  // read anew
+    known.clear();
+  }
+  return known;
+}
+
+void writeIndex(const TrialIndex& index, const std::string& file) {
+  ByteWriter out;
+  out.put(kVersion);
+  out.put(static_cast<std::uint32_t>(index.runs.size()));
+  for (const IndexedRun& run : index.runs) encode(run, out);
+  const std::string_view body = asText(out.bytes());
+  const std::uint32_t crc = checksum(body);
+  std::string text(kMagic);
+  text.append(body);
+  text.append(reinterpret_cast<const char*>(&crc), 4);
+  try {
+    writeFileAtomically(file, text);
+  } catch (const ResourceError&) {  // a full disk, a folder that may not be written to: the next opening takes longer
+  }
+}
+
+struct FileStamp {
+  std::uint64_t bytes = 0;
+  std::int64_t changedNs = 0;
+};
+
+FileStamp stampOf(const std::string& path) {
+  std::error_code error;
+  const auto bytes = fs::file_size(path, error);
+  const auto changed = fs::last_write_time(path, error);
+  return {error ? 0 : bytes, error ? 0 : std::chrono::duration_cast<std::chrono::nanoseconds>(changed.time_since_epoch()).count()};
+}
+
+IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
+  const RunLog log = RunLog::open(path, LogCheck::Trials);
+  const RunConfiguration& c = log.configuration();
+  IndexedRun run;
+  run.path = path;
+  run.bytes = stamp.bytes;
+  run.changedNs = stamp.changedNs;
+  run.subject = c.subject;
+  run.session = c.session;
+  run.condition = c.condition.empty() ? c.experimentName : c.condition;
+  run.experiment = c.experimentName;
+  run.device = c.device;
+  run.startedUtc = c.startedUtc;
+  run.run = c.run;
+  run.block = c.block;
+  run.day = c.day;
+  run.practice = c.practice;
+  run.healthy = log.healthy();
+  run.trials = log.trials();
+  return run;
+}
+
+}  // namespace
+
+std::size_t TrialIndex::trialCount() const {
+  std::size_t count = 0;
+  for (const IndexedRun& run : runs) count += run.trials.size();
+  return count;
+}
+
+TrialIndex openTrialIndex(const std::string& path, const std::string& indexFile, const IndexProgress& progress) {
+  const std::vector<std::string> logs = findLogs(path);
+  std::map<std::string, IndexedRun> known = readIndex(indexFile);
+  TrialIndex index;
+  bool given = false;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const FileStamp stamp = stampOf(logs[i]);
+    const auto found = known.find(logs[i]);
+    if (found != known.end() && found->second.bytes == stamp.bytes && found->second.changedNs == stamp.changedNs) {
+      index.runs.push_back(std::move(found->second));
+      continue;
+    }
+    if (progress && !progress(i, logs.size())) {
+      given = true;
+      break;
+    }
+    ++index.read;
+    try {
+      index.runs.push_back(readRun(logs[i], stamp));
+    } catch (const Error& error) {
+      index.unreadable.emplace_back(error.what());
+    }
+  }
+  const bool changed = index.read > 0 || known.size() != index.runs.size();
+  if (!indexFile.empty() && changed && !given) writeIndex(index, indexFile);
+  return index;
+}
+
+std::string indexFileFor(const std::string& path, const std::string& folder) {
+  std::error_code error;
+  const std::string whole = fs::weakly_canonical(fs::absolute(path, error), error).string();
+  return fmt::format("{}/{:016x}.index", folder, std::hash<std::string>{}(whole));
+}
+
+}  // namespace reachlab::record

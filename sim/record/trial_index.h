@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/record/run_log.h"
+
+namespace reachlab::record {
+
+/// A recorded run as a list of trials needs it.
+struct IndexedRun {
+  std::string path;             // of its log
+  std::uint64_t bytes = 0;      // of the file when it was read, and when that
+  std::int64_t changedNs = 0;   // was last written: another size or time is another run
+  std::string subject, session, condition, experiment, device, startedUtc;
+  int run = 0, block = 0, day = 0;
+  bool practice = false, healthy = true;
+  std::vector<RecordedTrial> trials;
+};
+
+/// The trials of a dataset, a session or a single log, without their samples.
+struct TrialIndex {
+  std::vector<IndexedRun> runs;          // by the name of their logs
+  std::vector<std::string> unreadable;   // logs that are left out, a sentence each
+  std::size_t read = 0;                  // logs that had to be opened: the others were known from the index file
+  std::size_t trialCount() const;
+};
+
+/// Called before each log that must be opened; false gives up (the index is then of what was read so far).
+using IndexProgress = std::function<bool(std::size_t done, std::size_t of)>;
+
+/// The trials of every log that findLogs finds at `path`. What has not changed since the last time is taken from `indexFile` (empty: there
+/// is none), which is written anew when anything has; one that is damaged or of another version is as good as none, and one that cannot be
+/// written costs the next opening its time and nothing else. Throws FaultError where there are no logs.
+TrialIndex openTrialIndex(const std::string& path, const std::string& indexFile, const IndexProgress& progress = {});
+
+/// The name of the index file of `path` in the folder of such files: its own for every dataset.
+std::string indexFileFor(const std::string& path, const std::string& folder);
+
+}  // namespace reachlab::record
