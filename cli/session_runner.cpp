@@ -47,8 +47,13 @@ int runSession(const session::SessionRequest& request) {
   SuccessTable table;
   std::optional<StopRequest> stop;
   session::SessionWords words;
+  words.resting = [](const session::BlockToRun& next) {
+    fmt::print("rest: {:g} s before the block {}\n", next.restSeconds, next.configuration.condition);
+    std::fflush(stdout);
+  };
   words.opened = [&](const session::RecordedRun& run) {
     printRun(run);
+    if (!run.instructions().empty()) fmt::print("{}\n", run.instructions());
     stop.emplace();  // from here on a signal ends the trial, not the program
   };
   words.checked = [](const session::RecordedRun& run) { fmt::print(stderr, "{}\n", run.timingVerdict()->sentence); };

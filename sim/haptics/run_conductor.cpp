@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "sim/dynamics/compiled_scene.h"
@@ -22,7 +23,7 @@ std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& exp
 RunConductor::RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
     : device_(std::move(device)), engine_(std::move(engine)), options_(options), trials_(std::move(trials)),
-      first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
+      planned_(trials_.size()), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
 
 RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
@@ -52,6 +53,12 @@ bool RunConductor::putUpNext() {
   ++trial_;
   ++next_;
   underWay_ = true;
+  return true;
+}
+
+bool RunConductor::takeBackAppended() {
+  if (trials_.size() <= std::max(planned_, next_)) return false;
+  trials_.pop_back();
   return true;
 }
 

@@ -45,6 +45,8 @@ class RunConductor {
   bool putUpNext();
   /// One more trial at the end of the plan (a repetition keeps its index).
   void append(const trial::PlannedTrial& trial) { trials_.push_back(trial); }
+  /// Takes the last trial off again that was appended and is still to come. False when there is none.
+  bool takeBackAppended();
   std::size_t trialsLeft() const { return trials_.size() - next_; }
   bool underWay() const { return underWay_; }
 
@@ -81,6 +83,7 @@ class RunConductor {
   std::unique_ptr<TickEngine> engine_;    // until `start`
   LoopOptions options_;
   std::vector<trial::PlannedTrial> trials_;
+  std::size_t planned_ = 0;  // so many of them were not appended
   std::size_t next_ = 0;
   std::int32_t trial_ = 0;
   bool underWay_ = false, finished_ = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/json_reader.h"
 #include "sim/experiment/compiled_experiment.h"
@@ -31,6 +32,7 @@ void readSettings(ObjectReader& reader, PlanBlock& block) {
   reader.number("pause_s", anyNumber(), block.pauseSeconds);
   reader.number("catch_share", anyNumber(), block.catchShare);
   reader.boolean("repeat_aborted", block.repeatAborted);
+  reader.number("rest_s", anyNumber(), block.restSeconds);
   readForeperiod(reader, block);
 }
 
@@ -49,6 +51,7 @@ void readBlock(ObjectReader& plan, const JsonNode& node, std::size_t index, cons
   if (plan.node().find("trials") == nullptr) static_cast<void>(reader.required("trials", "a whole number from 1"));
   readSettings(reader, block);
   reader.text("condition", block.condition);
+  reader.text("instructions", block.instructions);
   reader.integer("day", 1, kMaxDay, block.day);
   reader.finish();
   out.blocks.push_back(block);
@@ -64,6 +67,7 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   if (block.experiment.empty()) faults.push_back({key + ".experiment", "is empty", "a file, or the name of a shipped experiment"});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
   checkNumber(key + ".pause_s", block.pauseSeconds, atLeastZero("s"), faults);
+  checkNumber(key + ".rest_s", block.restSeconds, atLeastZero("s"), faults);
   checkNumber(key + ".catch_share", block.catchShare, {0, 0.5, true, "a share from 0 to 0.5"}, faults);
   if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
   if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= 60))
@@ -129,6 +133,32 @@ std::vector<Fault> problems(const Plan& plan) {
   if (plan.blocks.empty()) faults.push_back({"blocks", "is empty", "an array of blocks"});
   for (std::size_t i = 0; i < plan.blocks.size(); ++i) checkBlock(fmt::format("blocks[{}]", i), plan.blocks[i], faults);
   return faults;
+}
+
+std::string toJson(const Plan& plan) {
+  using Json = nlohmann::ordered_json;
+  const PlanBlock plain;
+  Json blocks = Json::array();
+  for (const PlanBlock& b : plan.blocks) {
+    Json block{{"experiment", b.experiment}, {"trials", b.trials}};
+    const auto put = [&](const char* key, const auto& value, const auto& usual) {
+      if (value != usual) block[key] = value;
+    };
+    put("condition", b.condition, plain.condition);
+    put("day", b.day, plain.day);
+    put("practice", b.practice, plain.practice);
+    put("pause_s", b.pauseSeconds, plain.pauseSeconds);
+    if (b.foreperiodMin != 0 || b.foreperiodMax != 0) block["foreperiod_s"] = {b.foreperiodMin, b.foreperiodMax};
+    put("catch_share", b.catchShare, plain.catchShare);
+    put("repeat_aborted", b.repeatAborted, plain.repeatAborted);
+    put("rest_s", b.restSeconds, plain.restSeconds);
+    put("instructions", b.instructions, plain.instructions);
+    blocks.push_back(std::move(block));
+  }
+  Json root{{"schema_version", 1}, {"name", plan.name}, {"order_seed", plan.orderSeed}};
+  root["counterbalance"] = plan.counterbalance == Counterbalance::Permute ? "permute" : "none";
+  root["blocks"] = std::move(blocks);
+  return root.dump(2) + "\n";
 }
 
 Plan readPlan(const std::string& file) { return parsePlan(readTextFile(file), file); }

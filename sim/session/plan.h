@@ -19,6 +19,8 @@ struct PlanBlock {
   double foreperiodMin = 0, foreperiodMax = 0;  // [s] from arming to the go signal, drawn evenly
   double catchShare = 0;                        // of the trials, without a go signal
   bool repeatAborted = false;                   // a trial that was aborted is put up once more at the end of the block
+  double restSeconds = 0;                       // [s] of rest, at least, between the block before and this one
+  std::string instructions;                     // to be read before the block begins
 };
 
 /// How the order of a day's blocks differs between subjects. `Permute`: the blocks that are not practice take the subject's row
@@ -40,6 +42,8 @@ std::optional<std::string> findPlan(const std::string& fileOrName);
 /// Throws UsageError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Plan parsePlan(const std::string& text, const std::string& file);
 Plan readPlan(const std::string& file);
+/// The plan as a file that reads back equal. Experiments are named as they stand in the blocks.
+std::string toJson(const Plan& plan);
 /// Every fault of a plan as a value, each under its key; empty when fine.
 std::vector<Fault> problems(const Plan& plan);
 /// Every fault of a plan file and of the experiments it names, each at its place; empty when fine.

@@ -13,11 +13,10 @@ Programme programmeOf(const experiment::CompiledExperiment& experiment) {
   return programme;
 }
 
-Programme readProgramme(const std::string& fileOrName) {
-  const std::optional<std::string> file = findPlan(fileOrName);
-  const std::string text = file ? readTextFile(*file) : std::string();
-  if (!file || !isPlan(text, *file)) return programmeOf(experiment::openExperiment(fileOrName));
-  Programme programme{parsePlan(text, *file), {}};
+namespace {
+
+Programme programmeOfText(const std::string& text, const std::string& file) {
+  Programme programme{parsePlan(text, file), {}};
   std::map<std::string, experiment::CompiledExperiment> opened;  // many blocks do one experiment
   for (const PlanBlock& block : programme.plan.blocks) {
     auto known = opened.find(block.experiment);
@@ -25,6 +24,17 @@ Programme readProgramme(const std::string& fileOrName) {
     programme.experiments.push_back(known->second);
   }
   return programme;
+}
+
+}  // namespace
+
+Programme programmeOf(const Plan& plan, const std::string& file) { return programmeOfText(toJson(plan), file); }
+
+Programme readProgramme(const std::string& fileOrName) {
+  const std::optional<std::string> file = findPlan(fileOrName);
+  const std::string text = file ? readTextFile(*file) : std::string();
+  if (!file || !isPlan(text, *file)) return programmeOf(experiment::openExperiment(fileOrName));
+  return programmeOfText(text, *file);
 }
 
 }  // namespace reachlab::session

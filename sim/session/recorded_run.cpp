@@ -181,6 +181,12 @@ void RecordedRun::repeat(const trial::PlannedTrial& trial) {
   ++trialCount_;
 }
 
+bool RecordedRun::takeBackRepeat() {
+  if (!conductor_->takeBackAppended()) return false;
+  --trialCount_;
+  return true;
+}
+
 void RecordedRun::abort() {
   if (awaited_) {  // who aborts does not wait for the check: the trial is put up, and aborted
     awaited_ = false;

@@ -56,6 +56,8 @@ class RecordedRun {
   std::optional<haptics::ConductedTrial> runTrial(const std::atomic<bool>& stop);
   /// Puts a trial that is over up once more at the end, under its own index.
   void repeat(const trial::PlannedTrial& trial);
+  /// Takes the last repeat back that is still to be done. False when there is none.
+  bool takeBackRepeat();
   /// Ends the trial under way, by the experimenter.
   void abort();
   /// A note by the experimenter, kept with the tick it was made at.
@@ -79,6 +81,7 @@ class RecordedRun {
   const record::RunConfiguration& configuration() const { return block_.configuration; }
   const experiment::CompiledExperiment& experiment() const { return block_.experiment; }
   const std::string& logPath() const { return block_.logPath; }
+  const std::string& instructions() const { return block_.instructions; }
   /// The last trial that is safe on the disk, with what the clock says of it.
   record::RecordedTrial lastTrial() const { return recorder_->lastTrial(); }
   /// How the timing was before the first trial; nullopt until it was checked, and on the virtual clock. Also a note in the log.

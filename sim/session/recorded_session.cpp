@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace reachlab::session {
 namespace {
@@ -57,7 +58,15 @@ void RecordedSession::closeRun() {
 }
 
 bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const SessionWords& words) {
-  while (session.openNext()) {
+  bool first = true;
+  while (session.nextBlock() != nullptr) {
+    const BlockToRun& next = *session.nextBlock();
+    if (!std::exchange(first, false) && next.restSeconds > 0 && !session.isFast()) {
+      if (words.resting) words.resting(next);
+      pauseFor(next.restSeconds, stop);
+      if (stop) return false;
+    }
+    session.openNext();
     RecordedRun& run = *session.run();
     words.opened(run);
     const bool toItsEnd = conduct(run, run.configuration().clock == "virtual", stop, words);
@@ -69,6 +78,7 @@ bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const Sess
     if (fault) throw ResourceError(*fault);
     if (!toItsEnd) return false;
   }
+  session.closeRun();
   return true;
 }
 

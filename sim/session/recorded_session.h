@@ -22,7 +22,9 @@ class RecordedSession {
   const SessionNotice& notice() const { return notice_; }
   std::uint64_t seed() const { return seed_; }
   std::size_t blocksLeft() const { return blocks_.size(); }
+  const BlockToRun* nextBlock() const { return blocks_.empty() ? nullptr : &blocks_.front(); }  // null: none is left
 
+  bool isFast() const { return request_.fast; }  // on the virtual clock: nobody rests
   /// Finishes the run that is open, if any, and opens that of the next block; false when no block is left. A block whose run could not be
   /// opened is still left.
   bool openNext();
@@ -42,6 +44,7 @@ class RecordedSession {
 
 /// What a front end is told while a session is conducted to its end.
 struct SessionWords {
+  std::function<void(const BlockToRun& next)> resting;  // the plan rests before this block; may be empty
   std::function<void(const RecordedRun& run)> opened;   // before the loop starts
   std::function<void(const RecordedRun& run)> checked;  // RecordedRun::timingVerdict is there; in real time only, before the first trial
   std::function<void(const RecordedRun& run, const haptics::ConductedTrial& trial)> ended;  // the trial is safe on the disk

@@ -23,21 +23,6 @@ Plan planOf(const SessionRequest& request, const Programme& programme) {
   return plan;
 }
 
-// A session is one day: the one asked for, else the session's label when that is a number.
-int dayOf(const SessionRequest& request, const Plan& plan) {
-  const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
-  if (!daysMatter) return 0;
-  int day = 0;
-  const std::string& label = request.place.session;
-  const auto [end, fault] = std::from_chars(label.data(), label.data() + label.size(), day);
-  const bool number = fault == std::errc{} && end == label.data() + label.size();
-  if (request.day) day = *request.day;
-  else if (!number)
-    throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
-                           "01, 02 …, or a day asked for beside it"});
-  return day;
-}
-
 bool isOf(const record::RunConfiguration& c, const experiment::Experiment& experiment) {
   return c.experimentText == experiment.text && (c.definitionText.empty() || c.definitionText == experiment::definitionTextOf(experiment));
 }
@@ -126,6 +111,20 @@ void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, Ses
 
 }  // namespace
 
+int sessionDay(const SessionRequest& request, const Plan& plan) {
+  const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
+  if (!daysMatter) return 0;
+  int day = 0;
+  const std::string& label = request.place.session;
+  const auto [end, fault] = std::from_chars(label.data(), label.data() + label.size(), day);
+  const bool number = fault == std::errc{} && end == label.data() + label.size();
+  if (request.day) day = *request.day;
+  else if (!number)
+    throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
+                           "01, 02 …, or a day asked for beside it"});
+  return day;
+}
+
 std::string seedFault(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -145,7 +144,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     if (const auto fault = record::labelFault(label, key)) faults.push_back(*fault);
   if (!faults.empty()) throw FaultError(std::move(faults));
   const Plan plan = planOf(request, programme);
-  const int day = dayOf(request, plan);
+  const int day = sessionDay(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
   if (order.empty())
     throw FaultError(
@@ -182,6 +181,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     const BlockProgress* before = request.resume ? recorded[k] : nullptr;
     BlockToRun block{
         .experiment = programme.experiments[static_cast<std::size_t>(order[k])], .configuration = {}, .logPath = {}, .trials = {}};
+    block.restSeconds = planned.restSeconds;
+    block.instructions = planned.instructions;
     if (before != nullptr) {
       block.configuration = before->configuration;
     } else {

@@ -42,6 +42,8 @@ struct BlockToRun {
   std::string logPath;
   std::vector<trial::PlannedTrial> trials;  // still to be done, in order; numbered from configuration.firstTrial
   int blocksAfter = 0;                      // of the same session
+  double restSeconds = 0;                   // [s] before it, at least, once the block before is done
+  std::string instructions = {};            // of the plan, to be read before it begins
 };
 
 struct SessionToRun {
@@ -55,6 +57,10 @@ struct SessionToRun {
 SessionToRun planSession(const SessionRequest& request, const Programme& programme);
 /// The same for what `request.what` names.
 SessionToRun planSession(const SessionRequest& request);
+
+/// The plan's day that is asked for: the request's, else the session's label when that is a number; 0 where the plan has no days. Throws
+/// UsageError.
+int sessionDay(const SessionRequest& request, const Plan& plan);
 
 /// Gives the block the next free run number where another program has taken its own since it was planned; one that was `askedFor` is
 /// refused then (UsageError). Call it under a FolderHold that lasts until the log is created.
