@@ -68,11 +68,11 @@ bool same(const constraints::ConstraintSpec& a, const constraints::ConstraintSpe
 
 bool operator==(const Experiment& a, const Experiment& b) {
   const auto& [schemaVersion, name, constraint, object, coupling, task, method, handMass, forceLimit, forceLimitEndsTrial, timing,
-               velocityEstimator, arm, text] = a;
+               velocityEstimator, arm, subjectScreen, text] = a;
   return schemaVersion == b.schemaVersion && name == b.name && same(constraint, b.constraint) && same(object, b.object) &&
          same(coupling, b.coupling) && same(task, b.task) && method == b.method && handMass == b.handMass && forceLimit == b.forceLimit &&
          forceLimitEndsTrial == b.forceLimitEndsTrial && same(timing, b.timing) && same(velocityEstimator, b.velocityEstimator) &&
-         same(arm, b.arm) && text == b.text;
+         same(arm, b.arm) && subjectScreen == b.subjectScreen && text == b.text;
 }
 
 }  // namespace reachlab::experiment

@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "constraints/constraint.h"
+#include "sim/experiment/subject_screen.h"
 
 namespace reachlab::experiment {
 
@@ -94,6 +95,7 @@ struct Experiment {
   TimingLimits timing;
   VelocityEstimatorSpec velocityEstimator;
   Arm arm;
+  SubjectScreen subjectScreen;
   std::string text;  // the file as read: goes into the recording unchanged
 };
 

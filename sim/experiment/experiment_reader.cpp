@@ -160,6 +160,19 @@ void readVelocityEstimator(ObjectReader& root, Experiment& experiment) {
   reader.finish();
 }
 
+void readSubjectScreen(ObjectReader& root, SubjectScreen& screen) {
+  const JsonNode* node = root.optional("subject_screen");
+  if (node == nullptr) return;
+  ObjectReader reader(root.faults(), *node, "subject_screen");
+  reader.boolean("semaphore", screen.semaphore);
+  reader.boolean("target", screen.target);
+  reader.boolean("masses", screen.masses);
+  reader.boolean("words", screen.words);
+  reader.boolean("score", screen.score);
+  reader.boolean("photodiode", screen.photodiode);
+  reader.finish();
+}
+
 /// What cannot be judged because of what the file does not say: a count of springs where the masses are unreadable, say.
 bool hangsOn(const FaultList& file, const Fault& fault) {
   const auto about = [&](const char* key) { return fault.key.starts_with(key); };
@@ -202,6 +215,7 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   root.boolean("force_limit_ends_trial", experiment.forceLimitEndsTrial);
   readTiming(root, experiment);
   readVelocityEstimator(root, experiment);
+  readSubjectScreen(root, experiment.subjectScreen);
   readArm(root, experiment);
   root.finish();
 

@@ -87,6 +87,9 @@ std::string toJson(const Experiment& experiment) {
                  {"joint_damping_n_m_s_per_rad", arm.damping},
                  {"shoulder_m", arm.shoulder},
                  {"elbow_left", arm.elbowLeft}};
+  if (const SubjectScreen& screen = experiment.subjectScreen; !(screen == SubjectScreen{}))
+    json["subject_screen"] = {{"semaphore", screen.semaphore}, {"target", screen.target}, {"masses", screen.masses},
+                              {"words", screen.words},         {"score", screen.score},   {"photodiode", screen.photodiode}};
   return json.dump(2) + "\n";
 }
 

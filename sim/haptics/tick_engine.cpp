@@ -162,6 +162,7 @@ void TickEngine::tick(const TickInput& input) noexcept {
   state_.hand = hand;
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
+  state_.gone = protocol_.gone;
   state_.trial = protocol_.trial;
   state_.trialTime = protocol_.phase == trial::Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * kTickSeconds
                                                              : protocol_.result.movementTime;

@@ -32,6 +32,7 @@ struct TickState {
   trial::Semaphore semaphore = trial::Semaphore::Neutral;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::int32_t trial = 0;     // from 1
+  bool gone = false;          // the go signal was given
   double trialTime = 0;       // [s] since onset; 0 before
   Vec3 couplingForce;         // [N] on the object, unclamped
   Vec3 feedbackForce;         // [N] to the device, unclamped (the negative)
