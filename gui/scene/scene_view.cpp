@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "gui/widgets/colours.h"
+#include "gui/scene/ghost_actors.h"
 #include "gui/scene/scene_actors.h"
 
 namespace reachlab::gui::scene {
@@ -47,6 +48,7 @@ struct SceneView::Impl {
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   std::unique_ptr<ObjectActors> actors;
+  std::unique_ptr<GhostActors> ghosts;
   ScenePlan plan;
   SceneFrame frame;
   Camera camera;
@@ -148,11 +150,13 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
 }
 
 SceneView::~SceneView() {
-  impl_->actors.reset();  // before the renderer that holds them
+  impl_->ghosts.reset();  // before the renderer that holds them
+  impl_->actors.reset();
 }
 
 void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
   impl_->plan = plan;
+  impl_->ghosts.reset();
   impl_->actors.reset();
   impl_->actors = std::make_unique<ObjectActors>(*impl_->renderer, plan, impl_->style);
   impl_->frame = restingFrame(plan);
@@ -169,6 +173,13 @@ void SceneView::showFrame(const SceneFrame& frame) {
   impl_->actors->show(frame);
   impl_->label();
   impl_->render();
+}
+
+void SceneView::setGhosts(const std::vector<SceneFrame>& ghosts) {
+  if (!impl_->ghosts && ghosts.empty()) return;
+  if (!impl_->ghosts) impl_->ghosts = std::make_unique<GhostActors>(*impl_->renderer, impl_->plan);
+  impl_->ghosts->show(ghosts);
+  impl_->drawn = false;
 }
 
 void SceneView::setOverlay(const OverlayState& state) { impl_->overlay->setState(state); }

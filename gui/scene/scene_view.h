@@ -25,6 +25,8 @@ class SceneView : public QWidget {
   void setPlan(const ScenePlan& plan, bool resetCamera = true);
   /// Moves what there is; nothing is built, and nothing drawn while nothing has moved that could be seen.
   void showFrame(const SceneFrame& frame);
+  /// Other trials, faintly, until the next plan; drawn at the next `showFrame` or `renderNow`.
+  void setGhosts(const std::vector<SceneFrame>& ghosts);
   void setOverlay(const OverlayState& state);
   void setSurfaceStyle(SurfaceStyle style);
   void setOverlayVisible(bool visible);

@@ -1,0 +1,133 @@
+#include "gui/inspector/epsilon_panel.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/plot/criterion_style.h"
+#include "sim/analyze/wording.h"
+
+namespace reachlab::gui::inspector {
+namespace {
+
+enum Column { kName, kPaper, kFitted, kColumns };
+
+}  // namespace
+
+std::optional<double> fittedEpsilon(const analyze::StudyResult& study, std::size_t condition, predict::Criterion criterion) {
+  const auto& candidates = study.results[condition].candidates.candidates;
+  const auto place = std::find_if(candidates.begin(), candidates.end(), [&](const analyze::Candidate& c) {
+    return std::find(c.criteria.begin(), c.criteria.end(), criterion) != c.criteria.end();
+  });
+  if (place == candidates.end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(place - candidates.begin());
+  double sum = 0;
+  int people = 0;
+  for (const analyze::PersonResult& person : study.people) {
+    if (person.condition != condition || !person.fitted) continue;
+    sum += person.fit.candidates[k].epsilonOfAll;
+    ++people;
+  }
+  return people == 0 ? std::nullopt : std::optional(sum / people);
+}
+
+EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(3);
+  table_ = new QTableWidget(predict::kCriterionCount, kColumns);
+  table_->setObjectName(QStringLiteral("inspectedCriteria"));
+  table_->setHorizontalHeaderLabels({tr("criterion"), tr("ε paper"), tr("ε fitted")});
+  table_->horizontalHeaderItem(kPaper)->setToolTip(
+      tr("the paper's epsilon of the hand over the chosen trials that count, as in the report's tables [m/s]"));
+  table_->horizontalHeaderItem(kFitted)->setToolTip(
+      tr("the fitted epsilon, as in fits.csv: onset, duration and amplitude fitted to each trial; from ten trials of a person on, the mean over people [m/s]"));
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(22);
+  table_->setSelectionMode(QAbstractItemView::NoSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setShowGrid(false);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(kName, QHeaderView::Stretch);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
+    auto* name = new QTableWidgetItem(plot::titleOf(criterion));
+    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+    const bool drawn = criterion == predict::Criterion::MinHandJerk || criterion == predict::Criterion::MinCrackle;
+    name->setCheckState(drawn ? Qt::Checked : Qt::Unchecked);
+    name->setForeground(plot::colourOf(criterion));
+    table_->setItem(i, kName, name);
+    for (const int column : {kPaper, kFitted}) {
+      auto* number = new QTableWidgetItem;
+      number->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      table_->setItem(i, column, number);
+    }
+  }
+  table_->setMinimumHeight(110);
+  layout->addWidget(table_, 1);
+  told_ = new QLabel;
+  told_->setObjectName(QStringLiteral("inspectedWords"));
+  told_->setProperty("role", "quiet");
+  told_->setWordWrap(true);
+  layout->addWidget(told_);
+  connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
+    if (item->column() == kName) Q_EMIT chosenChanged();
+  });
+  clear(tr("Choose trials in the table."));
+}
+
+void EpsilonPanel::show(const analyze::StudyResult& study, std::size_t condition) {
+  const QSignalBlocker quiet(table_);
+  const analyze::ConditionResult& r = study.results[condition];
+  int best[kColumns] = {-1, -1, -1};
+  double least[kColumns] = {0, 1e300, 1e300};
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
+    std::optional<double> paper;
+    for (const analyze::EpsilonPlace& place : r.handEpsilon)
+      if (r.signals[place.criterion].criterion == criterion) paper = place.epsilon;
+    const auto put = [&](int column, const std::optional<double>& value) {
+      table_->item(i, column)->setText(value && std::isfinite(*value) ? QString::number(*value, 'f', 4) : QStringLiteral("–"));
+      if (value && *value < least[column]) least[column] = *value, best[column] = i;
+    };
+    put(kPaper, paper);
+    put(kFitted, fittedEpsilon(study, condition, criterion));
+  }
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    for (const int column : {kPaper, kFitted}) {
+      QFont font = table_->item(i, column)->font();
+      font.setBold(i == best[column]);
+      table_->item(i, column)->setFont(font);
+    }
+  QString words = tr("%1: %2 of the chosen trials count").arg(QString::fromStdString(study.conditions[condition].name)).arg(r.used);
+  QStringList out;
+  for (const auto& [why, count] : r.exclusions) out << tr("%1 × %2").arg(count).arg(QString::fromStdString(why));
+  if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(QStringLiteral(", ")));
+  if (r.onlyFailures) words += tr(". None succeeded: the failed ones are described");
+  told_->setText(words + QLatin1Char('.'));
+}
+
+void EpsilonPanel::clear(const QString& why) {
+  const QSignalBlocker quiet(table_);
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    for (const int column : {kPaper, kFitted}) table_->item(i, column)->setText({});
+  told_->setText(why);
+}
+
+std::vector<predict::Criterion> EpsilonPanel::chosen() const {
+  std::vector<predict::Criterion> chosen;
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    if (table_->item(i, kName)->checkState() == Qt::Checked) chosen.push_back(static_cast<predict::Criterion>(i));
+  return chosen;
+}
+
+predict::Criterion EpsilonPanel::first() const {
+  const std::vector<predict::Criterion> all = chosen();
+  return all.empty() ? predict::Criterion::MinHandJerk : all.front();
+}
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,38 @@
+#pragma once
+#include <QWidget>
+#include <vector>
+
+#include "sim/analyze/study.h"
+
+class QLabel;
+class QTableWidget;
+
+namespace reachlab::gui::inspector {
+
+/// The two errors of each criterion over chosen trials: the paper's epsilon and the fitted epsilon, of a person or of people as the report
+/// has them. Ticked ones are drawn.
+class EpsilonPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit EpsilonPanel(QWidget* parent = nullptr);
+  /// Of this condition of the study.
+  void show(const analyze::StudyResult& study, std::size_t condition);
+  /// Nothing is known (yet): why.
+  void clear(const QString& why);
+  std::vector<predict::Criterion> chosen() const;
+  /// The least ticked; what the table of trials tells of.
+  predict::Criterion first() const;
+
+ Q_SIGNALS:
+  void chosenChanged();
+
+ private:
+  using QWidget::show;
+  QTableWidget* table_;
+  QLabel* told_;
+};
+
+/// The fitted epsilon of a candidate that stands for `criterion`, over all samples of the condition's people who were fitted. [m/s]
+std::optional<double> fittedEpsilon(const analyze::StudyResult& study, std::size_t condition, predict::Criterion criterion);
+
+}  // namespace reachlab::gui::inspector

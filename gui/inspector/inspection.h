@@ -1,0 +1,61 @@
+#pragma once
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "sim/analyze/chosen_trials.h"
+#include "sim/analyze/dataset.h"
+
+namespace reachlab::gui::inspector {
+
+/// Chosen trials as the analysis sees them: read, measured and, a little later, judged.
+struct Inspection {
+  analyze::StudyInput input;
+  std::vector<analyze::TrialSignals> signals;             // one a trial
+  std::shared_ptr<const analyze::StudyResult> study;      // null until judged
+};
+
+/// Reads and judges beside the window: the newest request wins, and what it replaces is given up. All signals come on the window's thread.
+class Inspector : public QObject {
+  Q_OBJECT
+ public:
+  explicit Inspector(QObject* parent = nullptr);
+  ~Inspector() override;
+
+  /// `read` follows, then `judged`. The numbers are `reach analyze`'s for a dataset of just these trials.
+  void begin(std::vector<analyze::ChosenTrials> chosen);
+  /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its own folder; `reported` follows.
+  void report(const QString& path);
+  /// Gives up what is being done; `idle` follows.
+  void cancel();
+  bool busy() const { return busy_; }
+
+ Q_SIGNALS:
+  void read(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
+  void judged(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
+  void reported(const QString& file);
+  void progressed(const QString& what, int done, int of);
+  void failed(const QString& sentence);
+  void idle();
+
+ private:
+  template <typename Work>
+  void start(Work work);
+  template <typename Tell>
+  void tell(int turn, Tell tell);
+
+  int turn_ = 0;  // of the newest request
+  bool busy_ = false;
+  std::jthread thread_;
+};
+
+/// Where the report of a dataset goes, as `reach analyze` chooses it, or that of a single log: a folder beside it.
+std::string reportFolderOf(const std::string& path);
+
+/// Onset, end and velocities of trials, by the rules of the analysis.
+std::shared_ptr<Inspection> measure(analyze::StudyInput input);
+
+}  // namespace reachlab::gui::inspector

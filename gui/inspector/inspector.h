@@ -1,0 +1,110 @@
+#pragma once
+#include <QWidget>
+#include <atomic>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "gui/inspector/inspection.h"
+#include "gui/inspector/trial_table.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+class QTableView;
+class QTimer;
+class QVBoxLayout;
+
+namespace reachlab::gui::inspector {
+
+class EpsilonPanel;
+class MarksPanel;
+class ProfilePlot;
+class ReplayView;
+
+/// Recordings looked at: a table of trials, the chosen ones' velocities, a replay in three dimensions, both epsilons, and what a person marks.
+/// Line, row and replay go together. Nothing here touches a recording: marks stand beside it.
+class InspectorPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit InspectorPage(QWidget* parent = nullptr);
+  ~InspectorPage() override;
+
+  /// A dataset, a session or a log; what is wrong with it is said. Read beside the window, with progress.
+  void open(const QString& path);
+  QString path() const { return path_; }
+  TrialTable& table() { return *table_; }
+  QTableView& view() { return *view_; }
+  ProfilePlot& plot() { return *plot_; }
+  ReplayView& replay() { return *replay_; }
+  /// Of what is chosen; null while it is read.
+  const Inspection* inspection() const { return inspection_.get(); }
+  /// The row that is picked, -1: none.
+  int pickedRow() const { return picked_; }
+  bool busy() const { return opening_.valid() || inspector_.busy(); }
+  /// Everything that is chosen as a figure (by the file's ending: svg, pdf, png) or as lines (csv). Throws ResourceError.
+  void exportTo(const QString& file);
+  /// The table's rows as they are shown. Throws ResourceError.
+  void exportTable(const QString& file);
+
+ Q_SIGNALS:
+  /// One sentence for whoever looks; empty takes it away.
+  void said(const QString& sentence);
+
+ private:
+  void addTop(QVBoxLayout& layout);
+  QWidget* makeRight();
+  void wire();
+  void addKeys();
+  void pollOpening();
+  void opened(record::TrialIndex index);
+  void chosenChanged();
+  void inspect();
+  void showRead();
+  void showJudged();
+  void draw();
+  void pick(int row);
+  void showPicked();
+  void marksDragged(double onset, double end, bool done);
+  void setMark(const record::TrialMark& mark);
+  void saveFigure();
+  void saveTable();
+  void openReport();
+  std::vector<int> chosenRows() const;
+  std::size_t condition() const;
+  std::optional<std::size_t> lineOf(int row) const;
+  const record::RunLog& logOf(const std::string& path);
+  const experiment::CompiledExperiment& experimentOf(const record::RunLog& log);
+
+  QString path_;
+  std::shared_ptr<const Inspection> inspection_;
+  std::vector<int> inspectedRows_;  // of the table, one a trial of the inspection
+  int picked_ = -1;
+  Inspector inspector_;
+  std::future<record::TrialIndex> opening_;
+  std::shared_ptr<std::atomic<int>> openingDone_;  // logs of openingOf_
+  std::shared_ptr<std::atomic<int>> openingOf_;
+  std::shared_ptr<std::atomic<bool>> openingStop_;
+  std::map<std::string, record::RunLog> logs_;  // that are being looked at
+  std::map<std::string, experiment::CompiledExperiment> experiments_;  // by their text
+  TrialTable* table_;
+  TrialFilter* filter_;
+  QTableView* view_;
+  QLineEdit* words_;
+  QLabel *title_, *count_;
+  QComboBox *signal_, *axis_;
+  QCheckBox *predicted_, *fitted_;
+  ProfilePlot* plot_;
+  ReplayView* replay_;
+  EpsilonPanel* epsilons_;
+  MarksPanel* marks_;
+  QProgressBar* progress_;
+  QPushButton *cancel_, *report_;
+  QTimer *soon_, *opener_;
+};
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,94 @@
+#include "gui/inspector/marks_panel.h"
+
+#include <QCheckBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+
+namespace reachlab::gui::inspector {
+
+MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
+  auto* form = new QFormLayout(this);
+  form->setContentsMargins(6, 4, 6, 4);
+  form->setVerticalSpacing(4);
+  title_ = new QLabel;
+  title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
+  form->addRow(title_);
+  times_ = new QLabel;
+  times_->setToolTip(tr("drag the dashed lines of the picked trial to move its onset and end"));
+  byRule_ = new QPushButton(tr("by the rule"));
+  byRule_->setObjectName(QStringLiteral("marksByRule"));
+  byRule_->setToolTip(tr("onset and end as the analysis finds them"));
+  auto* times = new QHBoxLayout;
+  times->addWidget(times_, 1);
+  times->addWidget(byRule_);
+  form->addRow(tr("moves"), times);
+  flag_ = new QCheckBox(tr("flag"));
+  flag_->setObjectName(QStringLiteral("flag"));
+  exclude_ = new QCheckBox(tr("exclude:"));
+  exclude_->setObjectName(QStringLiteral("exclude"));
+  reason_ = new QLineEdit;
+  reason_->setObjectName(QStringLiteral("excludeReason"));
+  reason_->setPlaceholderText(tr("the reason, for the report"));
+  auto* out = new QHBoxLayout;
+  out->addWidget(flag_);
+  out->addWidget(exclude_);
+  out->addWidget(reason_, 1);
+  form->addRow(out);
+  note_ = new QLineEdit;
+  note_->setObjectName(QStringLiteral("trialNote"));
+  form->addRow(tr("note"), note_);
+  connect(flag_, &QCheckBox::toggled, this, &MarksPanel::tell);
+  connect(exclude_, &QCheckBox::toggled, this, [this](bool on) {
+    reason_->setEnabled(on);
+    if (on && reason_->text().trimmed().isEmpty()) return reason_->setFocus();  // without a reason nothing is left out
+    tell();
+  });
+  connect(reason_, &QLineEdit::editingFinished, this, &MarksPanel::tell);
+  connect(note_, &QLineEdit::editingFinished, this, &MarksPanel::tell);
+  connect(byRule_, &QPushButton::clicked, this, [this] {
+    mark_.onset.reset();
+    mark_.offset.reset();
+    Q_EMIT edited(mark_);
+  });
+  clear();
+}
+
+void MarksPanel::show(const QString& title, const record::TrialMark& mark, double onset, double end) {
+  const QSignalBlocker quiet[] = {QSignalBlocker(flag_), QSignalBlocker(exclude_), QSignalBlocker(reason_), QSignalBlocker(note_)};
+  mark_ = mark;
+  setEnabled(true);
+  title_->setText(title);
+  const bool found = onset == onset && end == end;
+  const bool moved = mark.onset || mark.offset;
+  times_->setText(!found ? tr("no movement was found")
+                         : tr("%1 s to %2 s%3").arg(onset, 0, 'f', 3).arg(end, 0, 'f', 3).arg(moved ? tr(", moved by hand") : QString()));
+  byRule_->setEnabled(moved);
+  flag_->setChecked(mark.flagged);
+  exclude_->setChecked(!mark.excluded.empty());
+  reason_->setText(QString::fromStdString(mark.excluded));
+  reason_->setEnabled(!mark.excluded.empty());
+  note_->setText(QString::fromStdString(mark.note));
+}
+
+void MarksPanel::clear() {
+  show(tr("no trial"), {}, 0, 0);
+  times_->clear();
+  setEnabled(false);
+}
+
+void MarksPanel::tell() {
+  if (!isEnabled()) return;
+  record::TrialMark mark = mark_;
+  mark.flagged = flag_->isChecked();
+  mark.excluded = exclude_->isChecked() ? reason_->text().trimmed().toStdString() : std::string();
+  mark.note = note_->text().trimmed().toStdString();
+  if (mark == mark_) return;
+  mark_ = mark;
+  Q_EMIT edited(mark_);
+}
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,36 @@
+#pragma once
+#include <QWidget>
+
+#include "sim/record/trial_marks.h"
+
+class QCheckBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace reachlab::gui::inspector {
+
+/// What is said of one trial: flag, exclusion with its reason, moved onset and end, a note.
+class MarksPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit MarksPanel(QWidget* parent = nullptr);
+  /// Displays; emits nothing. `title`: which trial; times [s] since arming as they hold, and whether they were moved.
+  void show(const QString& title, const record::TrialMark& mark, double onset, double end);
+  void clear();
+
+ Q_SIGNALS:
+  void edited(const reachlab::record::TrialMark& mark);
+
+ private:
+  using QWidget::show;
+  void tell();
+
+  record::TrialMark mark_;
+  QLabel *title_, *times_;
+  QCheckBox *flag_, *exclude_;
+  QLineEdit *reason_, *note_;
+  QPushButton* byRule_;
+};
+
+}  // namespace reachlab::gui::inspector

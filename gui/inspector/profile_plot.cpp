@@ -1,0 +1,267 @@
+#include "gui/inspector/profile_plot.h"
+
+#include <qwt_global.h>
+#include <qwt_legend.h>
+#include <qwt_plot.h>
+#include <qwt_plot_canvas.h>
+#include <qwt_plot_curve.h>
+#include <qwt_plot_grid.h>
+#include <qwt_plot_intervalcurve.h>
+#include <qwt_plot_layout.h>
+#include <qwt_plot_magnifier.h>
+#include <qwt_plot_marker.h>
+#include <qwt_plot_panner.h>
+#include <qwt_scale_map.h>
+#include <qwt_text.h>
+
+#include <QMouseEvent>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui::inspector {
+namespace {
+
+constexpr double kNear = 7;  // pixels: what a click means
+
+QwtText axisTitle(const QString& text) {
+  QwtText title(text);
+  QFont font;
+  font.setPointSizeF(10);
+  title.setFont(font);
+  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
+  return title;
+}
+
+std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QPen& pen, double z, const QString& title = {}) {
+  auto curve = std::make_unique<QwtPlotCurve>(title);
+  curve->setPen(pen);
+  curve->setRenderHint(QwtPlotItem::RenderAntialiased);
+  curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
+  curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
+  curve->setLegendIconSize({22, 6});
+  curve->setItemAttribute(QwtPlotItem::Legend, !title.isEmpty());
+  curve->setZ(z);
+  curve->attach(&plot);
+  return curve;
+}
+
+std::unique_ptr<QwtPlotMarker> makeMark(QwtPlot& plot, const QColor& colour, Qt::PenStyle style, const QString& label) {
+  auto mark = std::make_unique<QwtPlotMarker>();
+  mark->setLineStyle(QwtPlotMarker::VLine);
+  mark->setLinePen(QPen(colour, 1.6, style));
+  QwtText text(label);
+  text.setColor(colour);
+  mark->setLabel(text);
+  mark->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
+  mark->setZ(60);
+  mark->setVisible(false);
+  mark->attach(&plot);
+  return mark;
+}
+
+}  // namespace
+
+struct ProfilePlot::Impl {
+  QwtPlot* plot = nullptr;
+  std::unique_ptr<QwtPlotGrid> grid;
+  std::unique_ptr<QwtPlotIntervalCurve> band;
+  std::unique_ptr<QwtPlotCurve> mean, picked;
+  std::unique_ptr<QwtPlotMarker> cursor, onset, end;
+  std::vector<std::unique_ptr<QwtPlotCurve>> lines, predictions;
+  std::vector<Line> data;
+  int pickedLine = -1;
+  enum class Drag { None, Cursor, Onset, End } drag = Drag::None;
+  QPoint pressedAt;
+  bool moved = false;
+
+  double xAt(int pixel) const { return plot->invTransform(QwtPlot::xBottom, pixel); }
+  bool near(const QwtPlotMarker& mark, int pixel) const {
+    return mark.isVisible() && std::abs(plot->transform(QwtPlot::xBottom, mark.xValue()) - pixel) < kNear;
+  }
+  int lineAt(const QPoint& at) const {
+    const QwtScaleMap x = plot->canvasMap(QwtPlot::xBottom), y = plot->canvasMap(QwtPlot::yLeft);
+    int best = -1;
+    double least = kNear;
+    for (std::size_t i = 0; i < data.size(); ++i)
+      for (int k = 0; k + 1 < data[i].x.size(); ++k) {
+        const double ax = x.transform(data[i].x[k]), ay = y.transform(data[i].y[k]);
+        const double bx = x.transform(data[i].x[k + 1]) - ax, by = y.transform(data[i].y[k + 1]) - ay;
+        const double length = bx * bx + by * by, px = at.x() - ax, py = at.y() - ay;
+        const double part = length > 0 ? std::clamp((px * bx + py * by) / length, 0.0, 1.0) : 0;
+        const double apart = std::hypot(px - part * bx, py - part * by);
+        if (apart < least) least = apart, best = static_cast<int>(i);
+      }
+    return best;
+  }
+};
+
+ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(4, 2, 4, 2);
+  auto* plot = impl_->plot = new QwtPlot(this);
+  layout->addWidget(plot);
+  auto* canvas = new QwtPlotCanvas(plot);
+  canvas->setFrameStyle(QFrame::NoFrame);
+  canvas->setAutoFillBackground(true);
+  QPalette palette = canvas->palette();
+  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
+  canvas->setPalette(palette);
+  canvas->installEventFilter(this);
+  plot->setCanvas(canvas);
+  plot->plotLayout()->setAlignCanvasToScales(true);
+  for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) {
+    QFont font;
+    font.setPointSizeF(9.5);
+    plot->setAxisFont(axis, font);
+  }
+  impl_->grid = std::make_unique<QwtPlotGrid>();
+  impl_->grid->setPen(QPen(QColor(255, 255, 255, 26), 0));
+  impl_->grid->attach(plot);
+  impl_->band = std::make_unique<QwtPlotIntervalCurve>(tr("± SD"));
+  impl_->band->setBrush(QColor(255, 255, 255, 34));
+  impl_->band->setPen(QPen(Qt::NoPen));
+  impl_->band->setZ(12);
+  impl_->band->attach(plot);
+  impl_->picked = makeCurve(*plot, QPen(widgets::toQColor(widgets::colours::kLast), 2.2), 40, tr("picked"));
+  impl_->mean = makeCurve(*plot, QPen(Qt::white, 2.6), 30, tr("mean"));
+  const QColor mark = widgets::toQColor(widgets::colours::kTarget);
+  impl_->onset = makeMark(*plot, mark, Qt::DashLine, tr("onset"));
+  impl_->end = makeMark(*plot, mark, Qt::DashLine, tr("end"));
+  impl_->cursor = makeMark(*plot, QColor(255, 255, 255, 150), Qt::SolidLine, {});
+  auto* legend = new QwtLegend;
+  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
+  plot->insertLegend(legend, QwtPlot::RightLegend);
+  auto* wheel = new QwtPlotMagnifier(canvas);
+  wheel->setMouseButton(Qt::NoButton);
+  auto* shift = new QwtPlotPanner(canvas);
+  shift->setMouseButton(Qt::MiddleButton);
+  setMinimumSize(320, 180);
+  setMean({}, {}, {});
+}
+
+ProfilePlot::~ProfilePlot() = default;
+
+void ProfilePlot::setTitles(const QString& x, const QString& y) {
+  impl_->plot->setAxisTitle(QwtPlot::xBottom, axisTitle(x));
+  impl_->plot->setAxisTitle(QwtPlot::yLeft, axisTitle(y));
+}
+
+void ProfilePlot::setLines(const std::vector<Line>& lines) {
+  impl_->lines.clear();
+  impl_->data = lines;
+  QColor thin = widgets::toQColor(widgets::colours::kDriven).lighter(125);
+  thin.setAlpha(lines.size() > 40 ? 70 : lines.size() > 8 ? 120 : 190);
+  for (const Line& line : lines) {
+    auto curve = makeCurve(*impl_->plot, QPen(thin, 1), 20);
+    curve->setSamples(line.x, line.y);
+    impl_->lines.push_back(std::move(curve));
+  }
+  impl_->pickedLine = -1;
+  setPicked(lines.size() == 1 ? 0 : -1);
+  showEverything();
+}
+
+void ProfilePlot::setPicked(int line) {
+  impl_->pickedLine = line >= 0 && line < lineCount() ? line : -1;
+  const bool any = impl_->pickedLine >= 0;
+  const Line none, &shown = any ? impl_->data[static_cast<std::size_t>(impl_->pickedLine)] : none;
+  impl_->picked->setSamples(shown.x, shown.y);
+  impl_->picked->setItemAttribute(QwtPlotItem::Legend, any && lineCount() > 1);
+  impl_->plot->replot();
+}
+
+void ProfilePlot::setMean(const QVector<double>& x, const QVector<double>& mean, const QVector<double>& sd) {
+  QVector<QwtIntervalSample> band;
+  for (int i = 0; i < x.size() && i < mean.size() && i < sd.size(); ++i)
+    if (std::isfinite(sd[i])) band.push_back({x[i], mean[i] - sd[i], mean[i] + sd[i]});
+  impl_->band->setItemAttribute(QwtPlotItem::Legend, !band.isEmpty());
+  impl_->mean->setItemAttribute(QwtPlotItem::Legend, !mean.isEmpty());
+  impl_->band->setSamples(band);
+  impl_->mean->setSamples(x, mean);
+  impl_->plot->updateLegend();
+  impl_->plot->replot();
+}
+
+void ProfilePlot::setPredictions(const std::vector<Prediction>& predictions) {
+  impl_->predictions.clear();
+  for (const Prediction& p : predictions) {
+    auto curve = makeCurve(*impl_->plot, QPen(p.colour, p.fitted ? 2.2 : 1.8, p.fitted ? Qt::DotLine : Qt::DashLine), 50, p.title);
+    curve->setSamples(p.x, p.y);
+    impl_->predictions.push_back(std::move(curve));
+  }
+  impl_->plot->replot();
+}
+
+void ProfilePlot::setCursor(std::optional<double> time) {
+  impl_->cursor->setVisible(time.has_value());
+  if (time) impl_->cursor->setXValue(*time);
+  impl_->plot->replot();
+}
+
+void ProfilePlot::setMarks(std::optional<double> onset, std::optional<double> end) {
+  impl_->onset->setVisible(onset.has_value());
+  impl_->end->setVisible(end.has_value());
+  if (onset) impl_->onset->setXValue(*onset);
+  if (end) impl_->end->setXValue(*end);
+  impl_->plot->replot();
+}
+
+void ProfilePlot::showEverything() {
+  for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) impl_->plot->setAxisAutoScale(axis, true);
+  impl_->plot->replot();
+}
+
+int ProfilePlot::lineCount() const { return static_cast<int>(impl_->lines.size()); }
+int ProfilePlot::pickedLine() const { return impl_->pickedLine; }
+
+QPoint ProfilePlot::pixelOf(double x, double y) const {
+  const QPoint at(static_cast<int>(std::lround(impl_->plot->transform(QwtPlot::xBottom, x))),
+                  static_cast<int>(std::lround(impl_->plot->transform(QwtPlot::yLeft, y))));
+  return impl_->plot->canvas()->mapTo(const_cast<ProfilePlot*>(this), at);
+}
+
+bool ProfilePlot::eventFilter(QObject* watched, QEvent* event) {
+  Impl& d = *impl_;
+  using Drag = Impl::Drag;
+  if (d.plot == nullptr || watched != d.plot->canvas()) return QWidget::eventFilter(watched, event);
+  const auto* mouse = static_cast<QMouseEvent*>(event);
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+      if (mouse->button() != Qt::LeftButton) break;
+      d.pressedAt = mouse->pos();
+      d.moved = false;
+      d.drag = d.near(*d.onset, mouse->x()) ? Drag::Onset : d.near(*d.end, mouse->x()) ? Drag::End : Drag::Cursor;
+      return true;
+    case QEvent::MouseMove:
+      if (d.drag == Drag::None) break;
+      if (!d.moved && (mouse->pos() - d.pressedAt).manhattanLength() < 4) return true;
+      d.moved = true;
+      if (d.drag == Drag::Cursor) {
+        Q_EMIT cursorMoved(d.xAt(mouse->x()));
+      } else {
+        (d.drag == Drag::Onset ? *d.onset : *d.end).setXValue(d.xAt(mouse->x()));
+        d.plot->replot();
+        Q_EMIT marksMoved(d.onset->xValue(), d.end->xValue(), false);
+      }
+      return true;
+    case QEvent::MouseButtonRelease: {
+      if (d.drag == Drag::None || mouse->button() != Qt::LeftButton) break;
+      const Drag dragged = std::exchange(d.drag, Drag::None);
+      if (d.moved && dragged != Drag::Cursor) {
+        Q_EMIT marksMoved(d.onset->xValue(), d.end->xValue(), true);
+      } else if (!d.moved) {
+        if (const int line = d.lineAt(mouse->pos()); line >= 0) Q_EMIT picked(line);
+        else Q_EMIT cursorMoved(d.xAt(mouse->x()));
+      }
+      return true;
+    }
+    case QEvent::MouseButtonDblClick: showEverything(); return true;
+    default: break;
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace reachlab::gui::inspector

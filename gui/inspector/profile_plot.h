@@ -1,0 +1,60 @@
+#pragma once
+#include <QColor>
+#include <QString>
+#include <QVector>
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace reachlab::gui::inspector {
+
+/// Many trials' velocities over one another, their mean and scatter, and predictions. A click on a line picks its trial, a drag moves the
+/// time that is looked at, a drag on a dashed mark moves onset or end of the picked trial; the wheel zooms, the middle button shifts, a double
+/// click shows everything. [s], [m/s]
+class ProfilePlot : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ProfilePlot(QWidget* parent = nullptr);
+  ~ProfilePlot() override;
+
+  struct Line {
+    QVector<double> x, y;
+  };
+  struct Prediction {
+    QString title;
+    QColor colour;
+    bool fitted = false;  // dotted; else dashed
+    QVector<double> x, y;
+  };
+  void setLines(const std::vector<Line>& lines);
+  /// Which of the lines is picked; -1: none.
+  void setPicked(int line);
+  /// Empty: none.
+  void setMean(const QVector<double>& x, const QVector<double>& mean, const QVector<double>& sd);
+  void setPredictions(const std::vector<Prediction>& predictions);
+  void setCursor(std::optional<double> time);
+  void setMarks(std::optional<double> onset, std::optional<double> end);
+  void setTitles(const QString& x, const QString& y);
+  void showEverything();
+
+  int lineCount() const;
+  int pickedLine() const;
+  /// Where a point is in this widget. For tests that drive it.
+  QPoint pixelOf(double x, double y) const;
+
+ Q_SIGNALS:
+  void picked(int line);
+  void cursorMoved(double time);
+  /// While a mark is dragged (`done` false) and when it is let go.
+  void marksMoved(double onset, double end, bool done);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,152 @@
+#include "gui/inspector/replay_view.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QStyle>
+#include <QTimer>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/scene/scene_view.h"
+
+namespace reachlab::gui::inspector {
+namespace {
+
+constexpr int kFrameMs = 33;
+constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
+
+QToolButton* makeButton(const QString& name, QStyle::StandardPixmap icon, const QString& tip, QWidget& owner) {
+  auto* button = new QToolButton;
+  button->setObjectName(name);
+  button->setIcon(owner.style()->standardIcon(icon));
+  button->setToolTip(tip);
+  button->setAutoRaise(true);
+  return button;
+}
+
+}  // namespace
+
+ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  view_ = new scene::SceneView;
+  view_->setOverlayVisible(false);
+  view_->setMinimumSize(220, 150);
+  layout->addWidget(view_, 1);
+  slider_ = new QSlider(Qt::Horizontal);
+  slider_->setObjectName(QStringLiteral("replayTime"));
+  layout->addWidget(slider_);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(3);
+  back_ = makeButton(QStringLiteral("replayBack"), QStyle::SP_MediaSeekBackward, tr("one row back (,)"), *this);
+  play_ = makeButton(QStringLiteral("replayPlay"), QStyle::SP_MediaPlay, tr("play, pause (P)"), *this);
+  on_ = makeButton(QStringLiteral("replayOn"), QStyle::SP_MediaSeekForward, tr("one row on (.)"), *this);
+  play_->setCheckable(true);
+  speed_ = new QComboBox;
+  speed_->setObjectName(QStringLiteral("replaySpeed"));
+  for (const double speed : kSpeeds) speed_->addItem(QStringLiteral("%1 ×").arg(speed), speed);
+  speed_->setCurrentIndex(3);
+  loop_ = new QCheckBox(tr("loop"));
+  loop_->setObjectName(QStringLiteral("replayLoop"));
+  ghostsShown_ = new QCheckBox(tr("ghosts"));
+  ghostsShown_->setObjectName(QStringLiteral("replayGhosts"));
+  ghostsShown_->setToolTip(tr("the other chosen trials at the same time since their onset, faintly"));
+  ghostsShown_->setChecked(true);
+  told_ = new QLabel;
+  told_->setProperty("role", "quiet");
+  for (QWidget* widget : std::initializer_list<QWidget*>{back_, play_, on_, speed_, loop_, ghostsShown_}) row->addWidget(widget);
+  row->addStretch(1);
+  row->addWidget(told_);
+  layout->addLayout(row);
+  timer_ = new QTimer(this);
+  timer_->setInterval(kFrameMs);
+  connect(timer_, &QTimer::timeout, this, &ReplayView::tick);
+  connect(slider_, &QSlider::valueChanged, this, [this](int ms) { goTo(ms / 1000.0); });
+  connect(play_, &QToolButton::toggled, this, &ReplayView::setPlaying);
+  connect(back_, &QToolButton::clicked, this, [this] { step(-1); });
+  connect(on_, &QToolButton::clicked, this, [this] { step(1); });
+  connect(ghostsShown_, &QCheckBox::toggled, this, &ReplayView::draw);
+  setEnabled(false);
+}
+
+void ReplayView::show(const experiment::CompiledExperiment& experiment, Track trial, std::vector<Track> ghosts) {
+  const std::string& text = experiment.experiment().text;
+  if (text != shownExperiment_ || !isEnabled()) {
+    view_->setPlan(scene::planScene(experiment.experiment(), experiment.constraint()));
+    shownExperiment_ = text;
+  }
+  trial_ = std::move(trial);
+  ghosts_ = std::move(ghosts);
+  setEnabled(!trial_.replay.empty());
+  ghostsShown_->setEnabled(!ghosts_.empty());
+  {
+    const QSignalBlocker quiet(slider_);
+    slider_->setRange(static_cast<int>(std::floor(1000 * begin())), static_cast<int>(std::ceil(1000 * end())));
+  }
+  goTo(std::clamp(time_, begin(), end()));
+}
+
+void ReplayView::clear() {
+  setPlaying(false);
+  trial_ = {};
+  ghosts_.clear();
+  setEnabled(false);
+  told_->clear();
+}
+
+void ReplayView::goTo(double time) {
+  if (trial_.replay.empty()) return;
+  time_ = std::clamp(time, begin(), end());
+  {
+    const QSignalBlocker quiet(slider_);
+    slider_->setValue(static_cast<int>(std::lround(1000 * time_)));
+  }
+  draw();
+  Q_EMIT timeChanged(time_);
+}
+
+void ReplayView::draw() {
+  if (trial_.replay.empty()) return;
+  std::vector<scene::SceneFrame> ghosts;
+  if (ghostsShown_->isChecked())
+    for (const Track& ghost : ghosts_) ghosts.push_back(ghost.replay.frameAt(time_ + ghost.zero));
+  view_->setGhosts(ghosts);
+  view_->showFrame(trial_.replay.frameAt(time_ + trial_.zero));
+  told_->setText(tr("%1 s   %2 N").arg(time_, 0, 'f', 3).arg(trial_.replay.forceAt(time_ + trial_.zero), 0, 'f', 2));
+}
+
+bool ReplayView::playing() const { return timer_->isActive(); }
+
+double ReplayView::speed() const { return speed_->currentData().toDouble(); }
+
+void ReplayView::setPlaying(bool playing) {
+  const bool can = playing && !trial_.replay.empty();
+  if (can && time_ >= end() - 1e-6) time_ = begin();
+  if (can) clock_.start(), timer_->start();
+  else timer_->stop();
+  const QSignalBlocker quiet(play_);
+  play_->setChecked(can);
+  play_->setIcon(style()->standardIcon(can ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
+}
+
+void ReplayView::tick() {
+  const double next = time_ + speed() * static_cast<double>(clock_.restart()) / 1000;
+  if (next < end()) return goTo(next);
+  if (loop_->isChecked()) return goTo(begin());
+  goTo(end());
+  setPlaying(false);
+}
+
+void ReplayView::step(int rows) {
+  setPlaying(false);
+  goTo(trial_.replay.neighbour(time_ + trial_.zero, rows) - trial_.zero);
+}
+
+}  // namespace reachlab::gui::inspector

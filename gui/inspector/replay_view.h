@@ -1,0 +1,71 @@
+#pragma once
+#include <QElapsedTimer>
+#include <QWidget>
+#include <vector>
+
+#include "gui/inspector/replay.h"
+#include "sim/experiment/compiled_experiment.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QSlider;
+class QTimer;
+class QToolButton;
+
+namespace reachlab::gui::scene {
+class SceneView;
+}
+
+namespace reachlab::gui::inspector {
+
+/// A recorded trial in three dimensions, and how to move through its time: slider, play at 0.1 to 4 times, step by a row, over and over;
+/// other trials at the same time as ghosts.
+class ReplayView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ReplayView(QWidget* parent = nullptr);
+
+  /// `zero`: where in the replay's time the plot's time is 0 (the onset); `moment`: what is looked at first, on the plot's time. [s]
+  struct Track {
+    Replay replay;
+    double zero = 0;
+  };
+  void show(const experiment::CompiledExperiment& experiment, Track trial, std::vector<Track> ghosts);
+  void clear();
+  /// On the plot's time. [s]
+  double time() const { return time_; }
+  void goTo(double time);
+  void setPlaying(bool playing);
+  bool playing() const;
+  void togglePlaying() { setPlaying(!playing()); }
+  /// So many rows on, or back.
+  void step(int rows);
+  scene::SceneView& view() { return *view_; }
+  double speed() const;
+
+ Q_SIGNALS:
+  void timeChanged(double time);
+
+ private:
+  using QWidget::show;
+  double begin() const { return trial_.replay.begin() - trial_.zero; }
+  double end() const { return trial_.replay.end() - trial_.zero; }
+  void draw();
+  void tick();
+
+  Track trial_;
+  std::vector<Track> ghosts_;
+  std::string shownExperiment_;
+  double time_ = 0;
+  QElapsedTimer clock_;
+  QTimer* timer_;
+  scene::SceneView* view_;
+  QSlider* slider_;
+  QToolButton *play_, *back_, *on_;
+  QComboBox* speed_;
+  QCheckBox *loop_, *ghostsShown_;
+  QLabel* told_;
+};
+
+}  // namespace reachlab::gui::inspector

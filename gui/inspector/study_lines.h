@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "gui/inspector/inspection.h"
+#include "gui/inspector/profile_plot.h"
+#include "sim/figure/figure.h"
+
+/// What of an inspection is drawn, as numbers: the same for plot, figure and file. Pure.
+namespace reachlab::gui::inspector {
+
+/// Velocity of the hand along the path, or of the last mass.
+enum class Signal { Hand, Object };
+/// As it was moved, or time-scaled to the mean of the chosen trials as in the report's figures.
+enum class TimeAxis { AsMoved, Scaled };
+
+/// One a trial, in their order; time from the trial's onset (of one without a movement, from its arming). [s], [m/s]
+std::vector<ProfilePlot::Line> linesOf(const Inspection& inspection, Signal signal, TimeAxis axis);
+/// Onset of a trial on the clock of its samples: 0 on the plot. [s] since arming
+double zeroOf(const Inspection& inspection, std::size_t trial);
+
+struct MeanLine {
+  QVector<double> x, mean, sd;
+};
+/// Over the trials of the condition that count; empty where none does.
+MeanLine meanOf(const analyze::StudyResult& study, std::size_t condition, Signal signal);
+
+/// The predictions of these criteria: for the task's T, dashed, or where the chosen trials of a person were fitted the mean of the fitted
+/// movements, dotted.
+std::vector<ProfilePlot::Prediction> predictionsOf(const analyze::StudyResult& study, std::size_t condition, Signal signal,
+                                                   const std::vector<predict::Criterion>& criteria, bool fitted);
+
+/// All of it for print.
+figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis, const std::vector<predict::Criterion>& criteria);
+/// The lines as they are drawn, one row a sample: trial, time, hand and object velocity.
+std::string linesCsv(const Inspection& inspection);
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,246 @@
+#include "gui/inspector/trial_table.h"
+
+#include <QBrush>
+#include <algorithm>
+#include <cmath>
+
+#include "base/table_text.h"
+#include "gui/scene/trial_texts.h"
+#include "gui/widgets/theme.h"
+#include "sim/record/trial_measures.h"
+
+namespace reachlab::gui::inspector {
+namespace {
+
+QString from(const std::string& text) { return QString::fromStdString(text); }
+
+QString outcomeWords(const trial::TrialResult& result) {
+  return result.outcome == trial::Outcome::Success ? QStringLiteral("✓") : QStringLiteral("✗ ") + scene::reasonText(result.reason);
+}
+
+QString markWords(const record::TrialMark& mark) {
+  QStringList words;
+  if (mark.flagged) words << QStringLiteral("⚑");
+  if (!mark.excluded.empty()) words << TrialTable::tr("excluded: %1").arg(from(mark.excluded));
+  if (mark.onset || mark.offset) words << TrialTable::tr("moved");
+  if (!mark.note.empty()) words << from(mark.note);
+  return words.join(QStringLiteral("  "));
+}
+
+}  // namespace
+
+TrialTable::TrialTable(QObject* parent) : QAbstractTableModel(parent) {}
+
+void TrialTable::setIndex(record::TrialIndex index) {
+  beginResetModel();
+  index_ = std::move(index);
+  places_.clear();
+  firstRow_.clear();
+  for (std::size_t r = 0; r < index_.runs.size(); ++r) {
+    firstRow_.push_back(places_.size());
+    for (std::size_t t = 0; t < index_.runs[r].trials.size(); ++t)
+      places_.push_back({static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(t)});
+  }
+  marks_.assign(index_.runs.size(), std::nullopt);
+  errors_.clear();
+  errors_.resize(places_.size());
+  endResetModel();
+}
+
+const record::RecordedTrial& TrialTable::trial(int row) const {
+  const Place& place = places_[static_cast<std::size_t>(row)];
+  return index_.runs[place.run].trials[place.trial];
+}
+
+int TrialTable::rowOf(const std::string& log, int trial) const {
+  for (std::size_t r = 0; r < index_.runs.size(); ++r) {
+    if (index_.runs[r].path != log) continue;
+    for (std::size_t t = 0; t < index_.runs[r].trials.size(); ++t)
+      if (index_.runs[r].trials[t].trial == trial) return static_cast<int>(firstRow_[r] + t);
+  }
+  return -1;
+}
+
+const record::RunMarks& TrialTable::marksOf(std::size_t run) const {
+  if (!marks_[run]) marks_[run] = record::readMarks(index_.runs[run].path);
+  return *marks_[run];
+}
+
+record::TrialMark TrialTable::mark(int row) const {
+  record::TrialMark none;
+  none.trial = trial(row).trial;
+  const record::TrialMark* found = marksOf(places_[static_cast<std::size_t>(row)].run).find(none.trial);
+  return found == nullptr ? none : *found;
+}
+
+void TrialTable::setMark(int row, const record::TrialMark& mark) {
+  const std::size_t run = places_[static_cast<std::size_t>(row)].run;
+  record::RunMarks marks = record::readMarks(index_.runs[run].path);  // another window may have marked meanwhile
+  marks.set(mark);
+  record::writeMarks(index_.runs[run].path, marks);
+  marks_[run] = std::move(marks);
+  Q_EMIT dataChanged(index(row, 0), index(row, kColumns - 1));
+}
+
+void TrialTable::setErrors(int row, const TrialErrors& errors) {
+  errors_[static_cast<std::size_t>(row)] = std::make_unique<TrialErrors>(errors);
+  Q_EMIT dataChanged(index(row, kPaper), index(row, kFitted));
+}
+
+void TrialTable::showCriterion(predict::Criterion criterion) {
+  if (criterion == criterion_) return;
+  criterion_ = criterion;
+  if (rowCount() > 0) Q_EMIT dataChanged(index(0, kPaper), index(rowCount() - 1, kFitted));
+  Q_EMIT headerDataChanged(Qt::Horizontal, kPaper, kFitted);
+}
+
+std::optional<double> TrialTable::error(int row, bool fitted) const {
+  const TrialErrors* errors = errors_[static_cast<std::size_t>(row)].get();
+  if (errors == nullptr) return std::nullopt;
+  return (fitted ? errors->fitted : errors->paper)[static_cast<std::size_t>(criterion_)];
+}
+
+QString TrialTable::text(int row, int column) const {
+  const record::IndexedRun& r = run(row);
+  const record::RecordedTrial& t = trial(row);
+  const auto number = [](double value, int digits) { return std::isfinite(value) ? QString::number(value, 'f', digits) : QString(); };
+  const auto optional = [&](const std::optional<double>& value) { return value ? number(*value, 4) : QString(); };
+  switch (column) {
+    case kSubject: return from(r.subject);
+    case kSession: return from(r.session);
+    case kCondition: return from(r.condition) + (r.practice ? tr(" (practice)") : QString());
+    case kRun: return QString::number(r.run);
+    case kTrial: return QString::number(t.trial);
+    case kOutcome: return outcomeWords(t.result);
+    case kTime: return number(record::movementTimeOf(t), 3);
+    case kPeak: return t.result.onsetTick > 0 ? number(t.peakHandSpeed, 3) : QString();
+    case kPaper: return optional(error(row, false));
+    case kFitted: return optional(error(row, true));
+    case kMark:
+      try {
+        return markWords(mark(row));
+      } catch (const Error&) {
+        return tr("marks cannot be read");
+      }
+    default: return {};
+  }
+}
+
+QVariant TrialTable::sortKey(int row, int column) const {
+  const record::RecordedTrial& t = trial(row);
+  const double none = 1e300;  // what is not known stands last
+  const auto known = [&](double value) { return std::isfinite(value) ? value : none; };
+  switch (column) {
+    case kRun: return run(row).run;
+    case kTrial: return t.trial;
+    case kTime: return known(record::movementTimeOf(t));
+    case kPeak: return t.result.onsetTick > 0 ? known(t.peakHandSpeed) : none;
+    case kPaper: return error(row, false).value_or(none);
+    case kFitted: return error(row, true).value_or(none);
+    default: return text(row, column);
+  }
+}
+
+QVariant TrialTable::data(const QModelIndex& at, int role) const {
+  if (!at.isValid()) return {};
+  switch (role) {
+    case Qt::DisplayRole: return text(at.row(), at.column());
+    case Qt::UserRole: return sortKey(at.row(), at.column());
+    case Qt::TextAlignmentRole: {
+      const bool words = at.column() == kSubject || at.column() == kSession || at.column() == kCondition || at.column() == kOutcome ||
+                         at.column() == kMark;
+      return static_cast<int>((words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+    }
+    case Qt::ForegroundRole:
+      if (at.column() != kOutcome) return {};
+      return QBrush(trial(at.row()).result.outcome == trial::Outcome::Success ? widgets::toQColor(widgets::colours::kGreen)
+                                                                              : QColor(255, 157, 140));
+    case Qt::ToolTipRole:
+      if (at.column() == kOutcome) return scene::outcomeText(trial(at.row()).result);
+      if (at.column() == kMark) return text(at.row(), kMark);
+      return from(run(at.row()).path);
+    default: return {};
+  }
+}
+
+QVariant TrialTable::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  const QString criterion = QString::fromUtf8(predict::nameOf(criterion_).data());
+  if (role == Qt::DisplayRole) {
+    switch (section) {
+      case kSubject: return tr("subject");
+      case kSession: return tr("session");
+      case kCondition: return tr("condition");
+      case kRun: return tr("run");
+      case kTrial: return tr("trial");
+      case kOutcome: return tr("outcome");
+      case kTime: return tr("t [s]");
+      case kPeak: return tr("peak [m/s]");
+      case kPaper: return tr("ε paper");
+      case kFitted: return tr("ε fitted");
+      case kMark: return tr("marks");
+      default: return {};
+    }
+  }
+  if (role != Qt::ToolTipRole) return {};
+  if (section == kTime) return tr("from the hand's onset to the end, as the task judged it [s]");
+  if (section == kPeak) return tr("largest speed of the hand [m/s]");
+  if (section == kPaper) return tr("the paper's epsilon of the hand beside %1, of trials that were looked at [m/s]").arg(criterion);
+  if (section == kFitted) return tr("the fitted epsilon beside %1: onset, duration and amplitude fitted to the trial [m/s]").arg(criterion);
+  return {};
+}
+
+QString TrialTable::words(int row) const {
+  QStringList all;
+  for (const int column : {kSubject, kSession, kCondition, kOutcome, kMark}) all << text(row, column);
+  const record::IndexedRun& r = run(row);
+  all << QStringLiteral("sub-%1 ses-%2 run-%3 block-%4 day-%5 trial-%6")
+             .arg(from(r.subject), from(r.session))
+             .arg(r.run)
+             .arg(r.block)
+             .arg(r.day)
+             .arg(trial(row).trial);
+  const std::string_view outcome = trial::nameOf(trial(row).result.outcome);
+  all << QString::fromUtf8(outcome.data(), static_cast<int>(outcome.size()));
+  if (all.at(4).contains(QStringLiteral("⚑"))) all << QStringLiteral("flagged");
+  return all.join(QLatin1Char(' ')).toLower();
+}
+
+TrialFilter::TrialFilter(TrialTable* table) : QSortFilterProxyModel(table), table_(*table) {
+  setSourceModel(table);
+  setSortRole(Qt::UserRole);
+  setDynamicSortFilter(false);  // a row does not run away while its epsilon is computed
+}
+
+void TrialFilter::setWords(const QString& words) {
+  words_ = words.toLower().split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  invalidateFilter();
+}
+
+bool TrialFilter::filterAcceptsRow(int row, const QModelIndex&) const {
+  if (words_.isEmpty()) return true;
+  const QString all = table_.words(row);
+  return std::all_of(words_.begin(), words_.end(), [&](const QString& word) { return all.contains(word); });
+}
+
+std::string toCsv(const TrialTable& table, const std::vector<int>& rows) {
+  TableText out(',', "");
+  out.row({"subject", "session", "condition", "practice", "run", "block", "trial", "outcome", "reason", "movement_time_s",
+           "peak_speed_m_per_s", "epsilon_hand_m_per_s", "epsilon_fit_m_per_s", "flagged", "excluded", "note"});
+  for (const int row : rows) {
+    const record::IndexedRun& r = table.run(row);
+    const record::RecordedTrial& t = table.trial(row);
+    const record::TrialMark mark = table.mark(row);
+    const auto key = [&](int column) {
+      const double value = table.data(table.index(row, column), Qt::UserRole).toDouble();
+      return value < 1e299 ? value : std::nan("");
+    };
+    out.cell(r.subject).cell(r.session).cell(r.condition).whole(r.practice).whole(r.run).whole(r.block).whole(t.trial);
+    out.cell(trial::nameOf(t.result.outcome)).cell(trial::nameOf(t.result.reason));
+    for (const int column : {TrialTable::kTime, TrialTable::kPeak, TrialTable::kPaper, TrialTable::kFitted}) out.number(key(column));
+    out.whole(mark.flagged).cell(mark.excluded).cell(mark.note).endRow();
+  }
+  return out.text();
+}
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,84 @@
+#pragma once
+#include <QAbstractTableModel>
+#include <QSortFilterProxyModel>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "sim/predict/predict.h"
+#include "sim/record/trial_index.h"
+#include "sim/record/trial_marks.h"
+
+namespace reachlab::gui::inspector {
+
+/// How far a trial's hand was from each criterion. [m/s]
+struct TrialErrors {
+  using One = std::array<std::optional<double>, static_cast<std::size_t>(predict::kCriterionCount)>;
+  One paper, fitted;  // the paper's epsilon, the fitted epsilon: as `reach analyze` has them
+};
+
+/// Every trial of an index, a row each, with what was marked and computed so far. Sorts by Qt::UserRole.
+class TrialTable : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { kSubject, kSession, kCondition, kRun, kTrial, kOutcome, kTime, kPeak, kPaper, kFitted, kMark, kColumns };
+  explicit TrialTable(QObject* parent = nullptr);
+
+  void setIndex(record::TrialIndex index);
+  const record::TrialIndex& recordings() const { return index_; }
+  const record::IndexedRun& run(int row) const { return index_.runs[places_[static_cast<std::size_t>(row)].run]; }
+  const record::RecordedTrial& trial(int row) const;
+  /// The row of that trial of that log; -1: there is none.
+  int rowOf(const std::string& log, int trial) const;
+
+  /// Beside the trial's log; read when the run is first asked for, written at once. Throws what reading and writing marks throws.
+  record::TrialMark mark(int row) const;
+  void setMark(int row, const record::TrialMark& mark);
+
+  void setErrors(int row, const TrialErrors& errors);
+  /// Of which criterion the two columns of epsilon tell.
+  void showCriterion(predict::Criterion criterion);
+
+  int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : static_cast<int>(places_.size()); }
+  int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumns; }
+  QVariant data(const QModelIndex& at, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  /// Every word of a row, in small letters: what a filter looks in.
+  QString words(int row) const;
+
+ private:
+  struct Place {
+    std::uint32_t run = 0, trial = 0;
+  };
+  const record::RunMarks& marksOf(std::size_t run) const;
+  QString text(int row, int column) const;
+  QVariant sortKey(int row, int column) const;
+  std::optional<double> error(int row, bool fitted) const;
+
+  record::TrialIndex index_;
+  std::vector<Place> places_;
+  std::vector<std::size_t> firstRow_;                               // of each run
+  mutable std::vector<std::optional<record::RunMarks>> marks_;      // one a run
+  std::vector<std::unique_ptr<TrialErrors>> errors_;                // one a row; null: not computed
+  predict::Criterion criterion_ = predict::Criterion::MinHandJerk;
+};
+
+/// Shows the rows that have every one of the words typed.
+class TrialFilter : public QSortFilterProxyModel {
+  Q_OBJECT
+ public:
+  explicit TrialFilter(TrialTable* table);
+  void setWords(const QString& words);
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+
+ private:
+  TrialTable& table_;
+  QStringList words_;
+};
+
+/// As a file: the columns that are shown, of these rows of `table`, numbers with all their digits.
+std::string toCsv(const TrialTable& table, const std::vector<int>& rows);
+
+}  // namespace reachlab::gui::inspector

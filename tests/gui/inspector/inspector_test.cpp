@@ -1,0 +1,296 @@
+// A recording looked at: by the mouse and the keys, as somebody does who has never seen it.
+#define QT_NO_KEYWORDS  // the analysis has signals of its own
+#include "gui/inspector/inspector.h"
+
+#include <gtest/gtest.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSlider>
+#include <QTableView>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+#include <cmath>
+
+#include "base/ticks.h"
+#include "gui/app/main_window.h"
+#include "gui/app/window_layout.h"
+#include "gui/inspector/profile_plot.h"
+#include "gui/inspector/replay_view.h"
+#include "gui/scene/scene_view.h"
+#include "sim/analyze/tables.h"
+#include "sim/record/append_file.h"
+#include "tests/analyze/recorded.h"
+
+namespace reachlab::gui::inspector {
+namespace {
+
+class Inspecting : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new analyze::TemporaryFolder;
+    qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(folder_->path() + "/cache"));
+    analyze::recordRun(data(), {.experiment = "chain-moderate", .trials = 14});
+    analyze::recordRun(data(), {.experiment = "torus", .device = "simulated:noise=0", .subject = "02", .trials = 2});
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string data() { return folder_->path() + "/data"; }
+  static std::string log() { return data() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"; }
+
+  Inspecting() {
+    page_.resize(1500, 900);
+    page_.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&page_));
+    QObject::connect(&page_, &InspectorPage::said, [this](const QString& words) { said_ = words; });
+    page_.open(QString::fromStdString(data()));
+    EXPECT_TRUE(QTest::qWaitFor([this] { return page_.table().rowCount() == 16; }, 10000));
+    settle();
+  }
+  ~Inspecting() override { std::filesystem::remove(record::marksPathOf(log())); }
+  void settle() {
+    QTest::qWait(250);  // a choice is read a little later
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 60000));
+    QTest::qWait(20);
+  }
+  template <typename T>
+  T* find(const char* name) const {
+    T* found = page_.findChild<T*>(QLatin1String(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  QPoint cell(int viewRow, int column = 0) const {
+    return page_.view().visualRect(page_.view().model()->index(viewRow, column)).center();
+  }
+  void choose(int first, int last) {
+    QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, {}, cell(first));
+    QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, Qt::ShiftModifier, cell(last));
+    settle();
+  }
+  mutable InspectorPage page_;
+  QString said_;
+  static inline analyze::TemporaryFolder* folder_ = nullptr;
+};
+
+TEST_F(Inspecting, TheNumbersAreThoseOfTheAnalysis) {
+  choose(0, 13);
+  const analyze::StudyResult study = analyze::analyzeStudy(analyze::openDataset(log()).input, {});
+  const auto* table = find<QTableWidget>("inspectedCriteria");
+  const auto rows = analyze::fitRows(study);
+  ASSERT_FALSE(rows.empty());
+  int compared = 0;
+  for (const analyze::FitRow& row : rows)
+    for (int i = 0; i < predict::kCriterionCount; ++i)
+      if (predict::nameOf(static_cast<predict::Criterion>(i)) == row.criterion) {
+        EXPECT_EQ(table->item(i, 2)->text(), QString::number(row.epsilon, 'f', 4)) << row.criterion;
+        ++compared;
+      }
+  EXPECT_GT(compared, 3);
+  const analyze::ConditionResult& r = study.results[0];
+  for (const analyze::EpsilonPlace& place : r.handEpsilon)
+    EXPECT_EQ(table->item(static_cast<int>(r.signals[place.criterion].criterion), 1)->text(), QString::number(place.epsilon, 'f', 4));
+  // And of each trial in the table.
+  for (const analyze::StudyTrial& trial : study.trials) {
+    const int row = page_.table().rowOf(log(), trial.key.trial);
+    const QString shown = page_.table().index(row, TrialTable::kPaper).data().toString();
+    EXPECT_EQ(shown, trial.used() ? QString::number(trial.paperError[0], 'f', 4) : QString());
+  }
+}
+
+TEST_F(Inspecting, LineRowAndReplayGoTogether) {
+  choose(0, 4);
+  ASSERT_EQ(page_.plot().lineCount(), 5);
+  // The line of trial 3, clicked where it stands alone.
+  const auto& signals = page_.inspection()->signals;
+  const analyze::Movement& move = signals[2].movement;
+  double best = 0;
+  QPoint at;
+  for (double t = 0.1; t < move.duration(); t += 0.01) {
+    double apart = 1e9;
+    const double own = analyze::valueAt(signals[2].handVelocity, 100, move.onset + t);
+    for (std::size_t i = 0; i < 5; ++i)
+      if (i != 2) apart = std::min(apart, std::abs(own - analyze::valueAt(signals[i].handVelocity, 100, signals[i].movement.onset + t)));
+    if (apart > best) best = apart, at = page_.plot().pixelOf(t, own);
+  }
+  QWidget* canvas = page_.plot().childAt(at);
+  ASSERT_NE(canvas, nullptr);
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, canvas->mapFrom(&page_.plot(), at));
+  EXPECT_EQ(page_.pickedRow(), 2);
+  EXPECT_EQ(page_.plot().pickedLine(), 2);
+  EXPECT_EQ(page_.view().currentIndex().row(), 2) << "the row goes with the line";
+  EXPECT_EQ(page_.view().selectionModel()->selectedRows().size(), 5) << "and the choice stays";
+  // The replay stands where the recording does.
+  page_.replay().goTo(0.4);
+  const record::RunLog run = record::RunLog::open(log());
+  const record::RecordedTrial& trial = run.trials()[2];
+  const record::SampleRows rows = run.rows(trial);
+  const double since = page_.inspection()->input.trials[2].first + move.onset + 0.4;
+  const std::size_t column = run.configuration().table.indexOf("mass5_pos_x");
+  std::size_t row = 0;
+  while (row + 1 < rows.size() && secondsBetween(trial.armedTick, std::max(trial.armedTick, rows.ticks[row + 1])) <= since) ++row;
+  const double low = std::min(rows.at(row, column), rows.at(row + 1, column)), high = std::max(rows.at(row, column), rows.at(row + 1, column));
+  EXPECT_GE(page_.replay().view().frame().masses[4].x, low - 1e-12);
+  EXPECT_LE(page_.replay().view().frame().masses[4].x, high + 1e-12);
+}
+
+TEST_F(Inspecting, TimeIsPlayedSteppedAndLooped) {
+  choose(1, 1);
+  auto* slider = find<QSlider>("replayTime");
+  page_.replay().goTo(0);
+  const double before = page_.replay().time();
+  QTest::keyClick(&page_, Qt::Key_Period);
+  EXPECT_NEAR(page_.replay().time() - before, 0.01, 0.0101) << "a row of 100 a second";
+  QTest::keyClick(&page_, Qt::Key_Period);
+  QTest::keyClick(&page_, Qt::Key_Comma);
+  EXPECT_NEAR(page_.replay().time(), before + 0.01, 0.0101);
+  slider->setValue(300);
+  EXPECT_DOUBLE_EQ(page_.replay().time(), 0.3);
+  find<QComboBox>("replaySpeed")->setCurrentIndex(5);
+  QTest::mouseClick(find<QToolButton>("replayPlay"), Qt::LeftButton);
+  EXPECT_TRUE(page_.replay().playing());
+  EXPECT_EQ(page_.replay().speed(), 4);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !page_.replay().playing(); }, 20000)) << "it ends at the trial's end";
+  EXPECT_EQ(slider->value(), slider->maximum());
+  find<QCheckBox>("replayLoop")->click();
+  QTest::keyClick(&page_, Qt::Key_P);
+  bool back = false;
+  double last = 0;
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        back = back || page_.replay().time() < last;
+        last = page_.replay().time();
+        return back && page_.replay().playing();
+      },
+      20000))
+      << "over and over";
+}
+
+TEST_F(Inspecting, MarksAreMovedByTheMouseAndStandBesideTheRecording) {
+  choose(1, 1);
+  const std::string before = record::readWholeFile(log());
+  const analyze::Movement move = page_.inspection()->signals[0].movement;
+  const double first = page_.inspection()->input.trials[0].first;
+  QPoint from = page_.plot().pixelOf(0, 0), to = page_.plot().pixelOf(0.12, 0);
+  QWidget* canvas = page_.plot().childAt(from);
+  from = canvas->mapFrom(&page_.plot(), from);
+  to = canvas->mapFrom(&page_.plot(), to);
+  QTest::mousePress(canvas, Qt::LeftButton, {}, from);
+  QTest::mouseMove(canvas, (from + to) / 2);
+  QTest::mouseMove(canvas, to);
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, to);
+  settle();
+  const record::RunMarks marks = record::readMarks(log());
+  const record::TrialMark* mark = marks.find(2);
+  ASSERT_NE(mark, nullptr);
+  ASSERT_TRUE(mark->onset.has_value());
+  EXPECT_NEAR(*mark->onset, first + move.onset + 0.12, 0.01);
+  EXPECT_FALSE(mark->offset.has_value());
+  EXPECT_NEAR(page_.inspection()->signals[0].movement.onset, move.onset + 0.12, 0.01) << "the numbers follow";
+  EXPECT_EQ(record::readWholeFile(log()), before) << "the recording is as it was";
+  QTest::mouseClick(find<QPushButton>("marksByRule"), Qt::LeftButton);
+  settle();
+  EXPECT_TRUE(record::readMarks(log()).trials.empty());
+  EXPECT_DOUBLE_EQ(page_.inspection()->signals[0].movement.onset, move.onset);
+}
+
+TEST_F(Inspecting, ATrialIsExcludedOnlyWithAReason) {
+  choose(0, 13);
+  QTest::mouseClick(find<QCheckBox>("exclude"), Qt::LeftButton, {}, QPoint(8, 8));
+  EXPECT_TRUE(record::readMarks(log()).trials.empty());
+  auto* reason = find<QLineEdit>("excludeReason");
+  QTest::keyClicks(reason, QStringLiteral("talked"));
+  QTest::keyClick(reason, Qt::Key_Return);
+  settle();
+  const int row = page_.pickedRow();
+  const record::RunMarks marks = record::readMarks(log());
+  ASSERT_EQ(marks.trials.size(), 1u);
+  EXPECT_EQ(marks.trials[0].excluded, "talked");
+  EXPECT_TRUE(find<QLabel>("inspectedWords")->text().contains(QStringLiteral("excluded: talked"))) << find<QLabel>("inspectedWords")->text().toStdString();
+  auto* filter = find<QLineEdit>("inspectorFilter");
+  QTest::keyClicks(filter, QStringLiteral("excluded sub-01"));
+  ASSERT_EQ(page_.view().model()->rowCount(), 1);
+  EXPECT_EQ(page_.view().model()->index(0, TrialTable::kTrial).data().toInt(), page_.table().trial(row).trial);
+}
+
+TEST_F(Inspecting, TheTableSortsByNumber) {
+  page_.view().sortByColumn(TrialTable::kTrial, Qt::DescendingOrder);
+  const auto number = [&](int row) { return page_.view().model()->index(row, TrialTable::kTrial).data().toInt(); };
+  EXPECT_EQ(number(0), 14);
+  EXPECT_EQ(number(1), 13) << "not 9, as words would";
+  page_.view().sortByColumn(TrialTable::kTime, Qt::AscendingOrder);
+  double last = 0;
+  for (int row = 0; row < 16; ++row) {
+    const double t = page_.view().model()->index(row, TrialTable::kTime).data(Qt::UserRole).toDouble();
+    EXPECT_GE(t, last);
+    last = t;
+  }
+}
+
+TEST_F(Inspecting, FiguresAndTablesAreWritten) {
+  choose(0, 11);
+  const QString base = QString::fromStdString(folder_->path()) + QStringLiteral("/out");
+  page_.exportTo(base + QStringLiteral(".svg"));
+  page_.exportTo(base + QStringLiteral(".pdf"));
+  page_.exportTo(base + QStringLiteral(".csv"));
+  const std::string svg = record::readWholeFile((base + QStringLiteral(".svg")).toStdString());
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_TRUE(record::readWholeFile((base + QStringLiteral(".pdf")).toStdString()).starts_with("%PDF"));
+  const std::string csv = record::readWholeFile((base + QStringLiteral(".csv")).toStdString());
+  std::size_t samples = 0;
+  for (const analyze::TrialSignals& s : page_.inspection()->signals) samples += s.handVelocity.size();
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), samples + 1);
+  page_.exportTable(base + QStringLiteral("-table.csv"));
+  const std::string table = record::readWholeFile((base + QStringLiteral("-table.csv")).toStdString());
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 17);
+  EXPECT_THROW(page_.exportTo(base + QStringLiteral(".doc")), Error);
+}
+
+TEST_F(Inspecting, TheReportIsTheOneOfTheAnalysis) {
+  page_.open(QString::fromStdString(log()));
+  settle();
+  QTest::mouseClick(find<QPushButton>("inspectorReport"), Qt::LeftButton);
+  QTest::qWait(50);
+  settle();
+  const std::string folder = data() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_report";
+  EXPECT_TRUE(said_.contains(QString::fromStdString(folder + "/report.html"))) << said_.toStdString();
+  EXPECT_TRUE(std::filesystem::exists(folder + "/fits.csv"));
+}
+
+TEST_F(Inspecting, WhatIsNoRecordingIsSaid) {
+  page_.open(QString::fromStdString(folder_->path() + "/cache"));
+  ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 10000));
+  QTest::qWait(40);
+  EXPECT_TRUE(said_.contains(QStringLiteral("no logs"))) << said_.toStdString();
+}
+
+TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
+  const analyze::TemporaryFolder folder;
+  analyze::recordRun(folder.path() + "/data", {.experiment = "chain-moderate", .trials = 2});
+  session::SessionRequest request;
+  request.what = "chain-moderate";
+  request.device = "mouse";
+  request.place.data = folder.path() + "/data";
+  app::MainWindow window(request);
+  window.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+  QTest::keyClick(&window, Qt::Key_3, Qt::AltModifier);
+  EXPECT_TRUE(window.inspecting());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.inspector().table().rowCount() == 2; }, 10000)) << "what this session records";
+  QTest::keyClick(&window, Qt::Key_Space);
+  EXPECT_EQ(window.session().run(), nullptr);
+  QTest::keyClick(&window, Qt::Key_1, Qt::AltModifier);
+  EXPECT_FALSE(window.inspecting());
+  EXPECT_TRUE(window.view().isVisible());
+  window.openExperiment(QString::fromStdString(folder.path() + "/data"));
+  EXPECT_TRUE(window.inspecting()) << "a folder that is opened is looked at";
+  app::forgetLayout();
+}
+
+}  // namespace
+}  // namespace reachlab::gui::inspector
