@@ -1,7 +1,10 @@
 #include "gui/docks/trials_dock.h"
 
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
 
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/theme.h"
@@ -9,7 +12,7 @@
 namespace reachlab::gui::docks {
 namespace {
 
-enum Column { kNumber, kOutcome, kTime, kEpsilon, kColumns };
+enum Column { kNumber, kOutcome, kTime, kEpsilon, kMark, kColumns };
 
 QColor inkOf(trial::Outcome outcome) {
   using namespace widgets;
@@ -29,7 +32,7 @@ QString outcomeWords(const trial::TrialResult& result) {
 TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QStringLiteral("trialsDock"), parent) {
   table_ = new QTableWidget(0, kColumns);
   table_->setObjectName(QStringLiteral("trials"));
-  table_->setHorizontalHeaderLabels({QStringLiteral("trial"), QStringLiteral("outcome"), QStringLiteral("t [s]"), QStringLiteral("ε")});
+  table_->setHorizontalHeaderLabels({QStringLiteral("trial"), QStringLiteral("outcome"), QStringLiteral("t [s]"), QStringLiteral("ε"), QString()});
   table_->horizontalHeaderItem(kTime)->setToolTip(QStringLiteral("from the hand's onset to the end [s]"));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(23);
@@ -40,7 +43,33 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QString
   table_->horizontalHeader()->setSectionResizeMode(kOutcome, QHeaderView::Stretch);
   table_->setToolTip(QStringLiteral("double click: a note on this trial"));
   table_->setMinimumSize(180, 90);
-  setBody(table_, false);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  layout->addWidget(table_, 1);
+  auto* line = new QHBoxLayout;
+  const auto button = [&](const QString& text, const char* name, const QString& tip) {
+    auto* made = new QToolButton;
+    made->setText(text);
+    made->setObjectName(QLatin1String(name));
+    made->setToolTip(tip);
+    made->setFocusPolicy(Qt::NoFocus);
+    line->addWidget(made);
+    return made;
+  };
+  connect(button(tr("⚑ Flag"), "flagTrial", tr("to be looked at again: the chosen trial, else the newest")), &QToolButton::clicked, this, [this] {
+    if (const auto at = chosen()) Q_EMIT flagRequested(rows_[*at].number);
+  });
+  connect(button(tr("Exclude…"), "excludeTrial", tr("with a reason: the analysis leaves it out")), &QToolButton::clicked, this, [this] {
+    if (const auto at = chosen()) Q_EMIT excludeRequested(rows_[*at].number, QString::fromStdString(rows_[*at].mark.excluded));
+  });
+  connect(button(tr("Undo repeat"), "undoRepeat", tr("the last repeat that is still to come is not done")), &QToolButton::clicked, this,
+          &TrialsDock::takeBackRequested);
+  line->addStretch(1);
+  layout->addLayout(line);
+  setBody(body, false);
   connect(table_, &QTableWidget::cellDoubleClicked, this,
           [this](int row, int) { Q_EMIT noteRequested(rows_[rows_.size() - 1 - static_cast<std::size_t>(row)].number); });
 }
@@ -51,7 +80,7 @@ void TrialsDock::clear() {
 }
 
 void TrialsDock::add(int number, const trial::TrialResult& result) {
-  rows_.push_back({number, result, {}});
+  rows_.push_back({number, result, {}, {}});
   table_->insertRow(0);
   for (int column = 0; column < kColumns; ++column) {
     auto* item = new QTableWidgetItem;
@@ -59,6 +88,20 @@ void TrialsDock::add(int number, const trial::TrialResult& result) {
     table_->setItem(0, column, item);
   }
   fill(0);
+}
+
+std::optional<std::size_t> TrialsDock::chosen() const {
+  if (rows_.empty()) return std::nullopt;
+  const QList<QTableWidgetItem*> items = table_->selectedItems();
+  return rows_.size() - 1 - static_cast<std::size_t>(items.isEmpty() ? 0 : items.front()->row());
+}
+
+void TrialsDock::setMark(int number, const record::TrialMark& mark) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i].number != number) continue;
+    rows_[i].mark = mark;
+    fill(static_cast<int>(rows_.size() - 1 - i));
+  }
 }
 
 void TrialsDock::setErrors(const std::vector<std::optional<double>>& errors) {
@@ -81,6 +124,11 @@ void TrialsDock::fill(int tableRow) {
   table_->item(tableRow, kOutcome)->setText(outcomeWords(row.result));
   table_->item(tableRow, kOutcome)->setForeground(inkOf(row.result.outcome));
   table_->item(tableRow, kOutcome)->setToolTip(scene::outcomeText(row.result));
+  QStringList marks;
+  if (row.mark.flagged) marks << QStringLiteral("⚑");
+  if (!row.mark.excluded.empty()) marks << tr("excluded");
+  table_->item(tableRow, kMark)->setText(marks.join(QLatin1Char(' ')));
+  table_->item(tableRow, kMark)->setToolTip(QString::fromStdString(row.mark.excluded));
   table_->item(tableRow, kTime)->setText(moved ? QString::number(row.result.movementTime, 'f', 2) : QString());
   table_->item(tableRow, kEpsilon)->setText(error ? QString::number(*error, 'f', 4) : QString());
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gui/docks/dock.h"
+#include "sim/record/trial_marks.h"
 #include "sim/trial/outcome.h"
 
 class QTableWidget;
@@ -21,11 +22,17 @@ class TrialsDock : public Dock {
   void setErrors(const std::vector<std::optional<double>>& errors);
   /// Whose epsilon is shown: an index into the errors, and what it is called.
   void showCriterion(std::size_t index, const QString& title);
+  /// What is said of a trial.
+  void setMark(int number, const record::TrialMark& mark);
   int trialCount() const { return static_cast<int>(rows_.size()); }
 
  Q_SIGNALS:
   /// A row was double-clicked: something is to be noted about that trial.
   void noteRequested(int number);
+  /// Of the row that is chosen, else of the newest.
+  void flagRequested(int number);
+  void excludeRequested(int number, const QString& reason);  // as it is now
+  void takeBackRequested();
 
  protected:
   void display(const experiment::CompiledExperiment&, bool) override {}
@@ -35,7 +42,9 @@ class TrialsDock : public Dock {
     int number = 0;
     trial::TrialResult result;
     std::vector<std::optional<double>> errors;
+    record::TrialMark mark = {};
   };
+  std::optional<std::size_t> chosen() const;
   void fill(int tableRow);
 
   QTableWidget* table_;

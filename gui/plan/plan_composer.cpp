@@ -1,0 +1,389 @@
+#include "gui/plan/plan_composer.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <set>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "gui/widgets/fault_label.h"
+#include "gui/widgets/fault_words.h"
+#include "gui/widgets/unit_spin_box.h"
+#include "sim/experiment/experiment.h"
+#include "sim/record/append_file.h"
+
+namespace reachlab::gui::plan {
+namespace {
+
+enum Column { kPlace, kExperiment, kCondition, kTrials, kDay, kKind, kColumns };
+
+QString from(const std::string& text) { return QString::fromStdString(text); }
+
+QString conditionOf(const session::PlanBlock& block) {
+  return from(block.condition.empty() ? QFileInfo(from(block.experiment)).completeBaseName().toStdString() : block.condition);
+}
+
+QString kindOf(const session::PlanBlock& block) {
+  QStringList kinds;
+  if (block.practice) kinds << PlanComposer::tr("practice");
+  if (block.restSeconds > 0) kinds << PlanComposer::tr("rest %1 s before").arg(block.restSeconds);
+  if (!block.instructions.empty()) kinds << PlanComposer::tr("instructions");
+  return kinds.join(QStringLiteral(", "));
+}
+
+}  // namespace
+
+QString orderPreview(const session::Plan& plan, int subjects) {
+  std::set<int> days;
+  for (const session::PlanBlock& block : plan.blocks) days.insert(block.day);
+  if (days.size() > 1) days.erase(0);  // every day
+  QStringList lines;
+  for (const int day : days)
+    for (int s = 1; s <= (plan.counterbalance == session::Counterbalance::None ? 1 : subjects); ++s) {
+      const QString label = QStringLiteral("%1").arg(s, 2, 10, QLatin1Char('0'));
+      QStringList names;
+      for (const int k : session::blockOrder(plan, label.toStdString(), day))
+        names << conditionOf(plan.blocks[static_cast<std::size_t>(k)]).toHtmlEscaped();
+      QString who = plan.counterbalance == session::Counterbalance::None ? PlanComposer::tr("every subject") : PlanComposer::tr("subject %1").arg(label);
+      if (day != 0) who += PlanComposer::tr(", day %1").arg(day);
+      lines << QStringLiteral("<b>%1</b>: %2").arg(who, names.join(QStringLiteral(" → ")));
+    }
+  return lines.join(QStringLiteral("<br>"));
+}
+
+PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
+  setWindowTitle(tr("Session plan"));
+  setObjectName(QStringLiteral("planComposer"));
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(makeWhole());
+  auto* middle = new QHBoxLayout;
+  middle->addWidget(makeList(), 3);
+  middle->addWidget(makeBlock(), 2);
+  layout->addLayout(middle, 1);
+  preview_ = new QLabel;
+  preview_->setObjectName(QStringLiteral("planPreview"));
+  preview_->setTextFormat(Qt::RichText);
+  preview_->setWordWrap(true);
+  layout->addWidget(preview_);
+  faultLabel_ = new widgets::FaultLabel;
+  layout->addWidget(faultLabel_);
+  auto* buttons = new QDialogButtonBox;
+  auto* saveButton = buttons->addButton(tr("Save as…"), QDialogButtonBox::ActionRole);
+  use_ = buttons->addButton(tr("Save and use"), QDialogButtonBox::AcceptRole);
+  use_->setObjectName(QStringLiteral("planUse"));
+  use_->setProperty("role", "go");
+  buttons->addButton(QDialogButtonBox::Close);
+  layout->addWidget(buttons);
+  connect(saveButton, &QPushButton::clicked, this, [this] { save(true); });
+  connect(use_, &QPushButton::clicked, this, [this] {
+    if (!save(false)) return;
+    accept();
+    Q_EMIT used(file_);
+  });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  wire();
+  resize(1120, 720);
+  setPlan({}, {});
+}
+
+QWidget* PlanComposer::makeWhole() {
+  auto* whole = new QWidget;
+  auto* row = new QHBoxLayout(whole);
+  row->setContentsMargins(0, 0, 0, 0);
+  name_ = new QLineEdit;
+  name_->setObjectName(QStringLiteral("planName"));
+  permute_ = new QCheckBox(tr("another balanced order for every subject"));
+  permute_->setObjectName(QStringLiteral("planPermute"));
+  orderSeed_ = new QSpinBox;
+  orderSeed_->setRange(0, 999'999'999);
+  orderSeed_->setToolTip(tr("draws which subject gets which order"));
+  row->addWidget(new QLabel(tr("plan")));
+  row->addWidget(name_, 1);
+  row->addWidget(permute_);
+  row->addWidget(new QLabel(tr("drawn by")));
+  row->addWidget(orderSeed_);
+  return whole;
+}
+
+QWidget* PlanComposer::makeList() {
+  auto* box = new QGroupBox(tr("Blocks"));
+  auto* column = new QVBoxLayout(box);
+  list_ = new QTableWidget(0, kColumns);
+  list_->setObjectName(QStringLiteral("planBlocks"));
+  list_->setHorizontalHeaderLabels({tr("#"), tr("experiment"), tr("condition"), tr("trials"), tr("day"), tr("also")});
+  list_->verticalHeader()->hide();
+  list_->verticalHeader()->setDefaultSectionSize(24);
+  list_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  list_->setSelectionMode(QAbstractItemView::SingleSelection);
+  list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  list_->setShowGrid(false);
+  list_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  list_->horizontalHeader()->setStretchLastSection(true);
+  column->addWidget(list_, 1);
+  auto* line = new QHBoxLayout;
+  const auto button = [&](const QString& text, const char* name) {
+    auto* made = new QPushButton(text);
+    made->setObjectName(QLatin1String(name));
+    line->addWidget(made);
+    return made;
+  };
+  auto* add = button(tr("Add"), "planAdd");
+  copy_ = button(tr("Copy"), "planCopy");
+  remove_ = button(tr("Remove"), "planRemove");
+  line->addStretch(1);
+  up_ = button(tr("Earlier"), "planUp");
+  down_ = button(tr("Later"), "planDown");
+  column->addLayout(line);
+  const auto insert = [this](const session::PlanBlock& block) {
+    const int at = row() < 0 ? static_cast<int>(plan_.blocks.size()) : row() + 1;
+    plan_.blocks.insert(plan_.blocks.begin() + at, block);
+    showList(at);
+  };
+  connect(add, &QPushButton::clicked, this, [insert] {
+    session::PlanBlock block;
+    block.experiment = "chain-moderate";
+    block.trials = 20;
+    insert(block);
+  });
+  connect(copy_, &QPushButton::clicked, this, [this, insert] { insert(plan_.blocks[static_cast<std::size_t>(row())]); });
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    const int at = row();
+    plan_.blocks.erase(plan_.blocks.begin() + at);
+    showList(std::min(at, static_cast<int>(plan_.blocks.size()) - 1));
+  });
+  const auto move = [this](int by) {
+    const int at = row();
+    std::swap(plan_.blocks[static_cast<std::size_t>(at)], plan_.blocks[static_cast<std::size_t>(at + by)]);
+    showList(at + by);
+  };
+  connect(up_, &QPushButton::clicked, this, [move] { move(-1); });
+  connect(down_, &QPushButton::clicked, this, [move] { move(1); });
+  return box;
+}
+
+QWidget* PlanComposer::makeBlock() {
+  auto* box = new QGroupBox(tr("This block"));
+  block_ = box;
+  auto* form = new QFormLayout(box);
+  experiment_ = new QComboBox;
+  experiment_->setObjectName(QStringLiteral("planExperiment"));
+  experiment_->setEditable(true);
+  experiment_->setToolTip(tr("a shipped one, or a file; files beside the plan are named without their folder"));
+  for (const std::string& name : experiment::shippedExperiments()) experiment_->addItem(from(name));
+  condition_ = new QLineEdit;
+  condition_->setObjectName(QStringLiteral("planCondition"));
+  condition_->setPlaceholderText(tr("the experiment's name"));
+  const auto whole = [](const char* name, int low, int high) {
+    auto* made = new QSpinBox;
+    made->setObjectName(QLatin1String(name));
+    made->setRange(low, high);
+    return made;
+  };
+  trials_ = whole("planTrials", 1, 1'000'000);
+  day_ = whole("planDay", 0, 10'000);
+  day_->setSpecialValueText(tr("every day"));
+  practice_ = new QCheckBox(tr("practice: recorded, but in no statistics"));
+  practice_->setObjectName(QStringLiteral("planPractice"));
+  repeatAborted_ = new QCheckBox(tr("aborted trials once more at the end"));
+  const auto number = [&](const char* name, double high, const QString& unit) {
+    auto* made = new widgets::UnitSpinBox(0, high, unit);
+    made->setObjectName(QLatin1String(name));
+    return made;
+  };
+  rest_ = number("planRest", 36'000, QStringLiteral("s"));
+  pause_ = number("planPause", 3'600, QStringLiteral("s"));
+  foreperiodMin_ = number("planForeperiodMin", 60, QStringLiteral("s"));
+  foreperiodMax_ = number("planForeperiodMax", 60, QStringLiteral("s"));
+  catchShare_ = number("planCatch", 0.5, {});
+  instructions_ = new QPlainTextEdit;
+  instructions_->setObjectName(QStringLiteral("planInstructions"));
+  instructions_->setPlaceholderText(tr("what the subject reads before the block begins"));
+  instructions_->setTabChangesFocus(true);
+  instructions_->setMinimumHeight(70);
+  auto* fore = new QHBoxLayout;
+  fore->addWidget(foreperiodMin_);
+  fore->addWidget(new QLabel(tr("to")));
+  fore->addWidget(foreperiodMax_);
+  form->addRow(tr("experiment"), experiment_);
+  form->addRow(tr("condition"), condition_);
+  form->addRow(tr("trials"), trials_);
+  form->addRow(tr("day"), day_);
+  form->addRow(tr("rest before it"), rest_);
+  form->addRow(tr("pause between trials"), pause_);
+  form->addRow(tr("go signal after"), fore);
+  form->addRow(tr("share without go signal"), catchShare_);
+  form->addRow(practice_);
+  form->addRow(repeatAborted_);
+  form->addRow(tr("instructions"), instructions_);
+  return box;
+}
+
+void PlanComposer::wire() {
+  connect(list_, &QTableWidget::itemSelectionChanged, this, [this] {
+    if (!showing_) showBlock();
+  });
+  for (QSpinBox* box : {trials_, day_}) connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &PlanComposer::take);
+  for (widgets::UnitSpinBox* box : {pause_, foreperiodMin_, foreperiodMax_, catchShare_, rest_})
+    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &PlanComposer::take);
+  for (QCheckBox* box : {practice_, repeatAborted_}) connect(box, &QCheckBox::toggled, this, &PlanComposer::take);
+  connect(experiment_, &QComboBox::editTextChanged, this, &PlanComposer::take);
+  connect(condition_, &QLineEdit::textEdited, this, &PlanComposer::take);
+  connect(instructions_, &QPlainTextEdit::textChanged, this, &PlanComposer::take);
+  connect(name_, &QLineEdit::textEdited, this, &PlanComposer::takeWhole);
+  connect(permute_, &QCheckBox::toggled, this, &PlanComposer::takeWhole);
+  connect(orderSeed_, qOverload<int>(&QSpinBox::valueChanged), this, &PlanComposer::takeWhole);
+}
+
+void PlanComposer::setPlan(const session::Plan& plan, const QString& file) {
+  plan_ = plan;
+  file_ = file;
+  showing_ = true;
+  name_->setText(from(plan.name));
+  permute_->setChecked(plan.counterbalance == session::Counterbalance::Permute);
+  orderSeed_->setValue(static_cast<int>(std::min<std::uint64_t>(plan.orderSeed, 999'999'999)));
+  showing_ = false;
+  showList(plan_.blocks.empty() ? -1 : 0);
+}
+
+int PlanComposer::row() const {
+  const int at = list_->currentRow();
+  return at >= 0 && at < static_cast<int>(plan_.blocks.size()) ? at : -1;
+}
+
+void PlanComposer::showList(int select) {
+  showing_ = true;
+  list_->setRowCount(static_cast<int>(plan_.blocks.size()));
+  for (int i = 0; i < list_->rowCount(); ++i) {
+    const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(i)];
+    const QString texts[] = {QString::number(i + 1), QFileInfo(from(block.experiment)).completeBaseName(), conditionOf(block),
+                             QString::number(block.trials), block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
+    for (int column = 0; column < kColumns; ++column) {
+      if (list_->item(i, column) == nullptr) list_->setItem(i, column, new QTableWidgetItem);
+      list_->item(i, column)->setText(texts[column]);
+    }
+  }
+  list_->setCurrentCell(select, 0);
+  showing_ = false;
+  showBlock();
+  changed();
+}
+
+void PlanComposer::showBlock() {
+  const int at = row();
+  block_->setEnabled(at >= 0);
+  for (QPushButton* button : {copy_, remove_}) button->setEnabled(at >= 0);
+  up_->setEnabled(at > 0);
+  down_->setEnabled(at >= 0 && at + 1 < static_cast<int>(plan_.blocks.size()));
+  if (at < 0) return;
+  showing_ = true;
+  const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(at)];
+  experiment_->setEditText(from(block.experiment));
+  condition_->setText(from(block.condition));
+  trials_->setValue(block.trials);
+  day_->setValue(block.day);
+  practice_->setChecked(block.practice);
+  repeatAborted_->setChecked(block.repeatAborted);
+  rest_->show(block.restSeconds);
+  pause_->show(block.pauseSeconds);
+  foreperiodMin_->show(block.foreperiodMin);
+  foreperiodMax_->show(block.foreperiodMax);
+  catchShare_->show(block.catchShare);
+  instructions_->setPlainText(from(block.instructions));
+  showing_ = false;
+}
+
+void PlanComposer::take() {
+  const int at = row();
+  if (showing_ || at < 0) return;
+  session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(at)];
+  block.experiment = experiment_->currentText().trimmed().toStdString();
+  block.condition = condition_->text().trimmed().toStdString();
+  block.trials = trials_->value();
+  block.day = day_->value();
+  block.practice = practice_->isChecked();
+  block.repeatAborted = repeatAborted_->isChecked();
+  block.restSeconds = rest_->value();
+  block.pauseSeconds = pause_->value();
+  block.foreperiodMin = foreperiodMin_->value();
+  block.foreperiodMax = foreperiodMax_->value();
+  block.catchShare = catchShare_->value();
+  block.instructions = instructions_->toPlainText().toStdString();
+  const QString texts[] = {QFileInfo(from(block.experiment)).completeBaseName(), conditionOf(block), QString::number(block.trials),
+                           block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
+  for (int column = 1; column < kColumns; ++column) list_->item(at, column)->setText(texts[column - 1]);
+  changed();
+}
+
+void PlanComposer::takeWhole() {
+  if (showing_) return;
+  plan_.name = name_->text().trimmed().toStdString();
+  plan_.counterbalance = permute_->isChecked() ? session::Counterbalance::Permute : session::Counterbalance::None;
+  plan_.orderSeed = static_cast<std::uint64_t>(orderSeed_->value());
+  changed();
+}
+
+QStringList PlanComposer::faults() const {
+  QStringList lines;
+  if (plan_.name.empty()) lines << tr("the plan has no name");
+  for (const Fault& fault : session::problems(plan_)) {
+    const std::size_t open = fault.key.find('['), close = fault.key.find("].");
+    if (open == std::string::npos || close == std::string::npos) {
+      lines << (plan_.blocks.empty() ? tr("there is no block yet: Add") : widgets::inWords(fault));
+      continue;
+    }
+    Fault own = fault;
+    own.key = fault.key.substr(close + 2);
+    lines << tr("block %1: %2").arg(std::stoi(fault.key.substr(open + 1, close - open - 1)) + 1).arg(widgets::inWords(own));
+  }
+  return lines;
+}
+
+void PlanComposer::changed() {
+  const QStringList wrong = faults();
+  faultLabel_->setFaults(wrong);
+  use_->setEnabled(wrong.isEmpty());
+  preview_->setText(wrong.isEmpty() ? orderPreview(plan_, 3) : QString());
+}
+
+void PlanComposer::saveTo(const QString& file) {
+  session::Plan relative = plan_;  // experiments beside the plan move with it
+  const QString folder = QFileInfo(file).absolutePath() + QLatin1Char('/');
+  for (session::PlanBlock& block : relative.blocks)
+    if (from(block.experiment).startsWith(folder)) block.experiment = block.experiment.substr(folder.toStdString().size());
+  record::writeFileAtomically(file.toStdString(), session::toJson(relative));
+  file_ = file;
+}
+
+bool PlanComposer::save(bool askAlways) {
+  QString file = file_;
+  if (askAlways || file.isEmpty()) {
+    const QString proposed = file.isEmpty() ? from(plan_.name) + QStringLiteral(".json") : file;
+    file = QFileDialog::getSaveFileName(this, tr("Save plan"), proposed, tr("Plans (*.json)"));
+    if (file.isEmpty()) return false;
+    if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
+  }
+  try {
+    saveTo(file);
+    return true;
+  } catch (const Error& e) {
+    faultLabel_->setFaults({QString::fromUtf8(e.what())});
+    return false;
+  }
+}
+
+}  // namespace reachlab::gui::plan

@@ -1,0 +1,72 @@
+#pragma once
+#include <QDialog>
+
+#include "sim/session/plan.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPlainTextEdit;
+class QPushButton;
+class QSpinBox;
+class QTableWidget;
+
+namespace reachlab::gui::widgets {
+class FaultLabel;
+class UnitSpinBox;
+}  // namespace reachlab::gui::widgets
+
+namespace reachlab::gui::plan {
+
+/// Composes a session plan: blocks in their order, practice, breaks, instructions, counterbalancing; what subjects will do is shown below.
+/// A plan is a file: it is saved before it is used.
+class PlanComposer : public QDialog {
+  Q_OBJECT
+ public:
+  explicit PlanComposer(QWidget* parent = nullptr);
+  /// Displays. `file`: where it stands; empty: not saved yet.
+  void setPlan(const session::Plan& plan, const QString& file);
+  const session::Plan& plan() const { return plan_; }
+  /// What is wrong, a line each; empty: it can be used.
+  QStringList faults() const;
+  /// Writes it, and is then of that file. Throws ResourceError.
+  void saveTo(const QString& file);
+
+ Q_SIGNALS:
+  /// Saved into this file, and to be opened.
+  void used(const QString& file);
+
+ private:
+  QWidget* makeList();
+  QWidget* makeBlock();
+  QWidget* makeWhole();
+  void wire();
+  int row() const;
+  void showList(int select);
+  void showBlock();
+  void take();       // what the fields of the block say
+  void takeWhole();  // what those of the plan say
+  void changed();
+  bool save(bool askAlways);
+
+  session::Plan plan_;
+  QString file_;
+  bool showing_ = false;
+  QTableWidget* list_;
+  QPushButton *up_, *down_, *remove_, *copy_, *use_;
+  QWidget* block_;
+  QComboBox* experiment_;
+  QLineEdit *condition_, *name_;
+  QSpinBox *trials_, *day_, *orderSeed_;
+  QCheckBox *practice_, *repeatAborted_, *permute_;
+  widgets::UnitSpinBox *pause_, *foreperiodMin_, *foreperiodMax_, *catchShare_, *rest_;
+  QPlainTextEdit* instructions_;
+  QLabel* preview_;
+  widgets::FaultLabel* faultLabel_;
+};
+
+/// "subject 01: slow, moderate, fast" for the first subjects, day by day.
+QString orderPreview(const session::Plan& plan, int subjects);
+
+}  // namespace reachlab::gui::plan

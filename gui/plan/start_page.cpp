@@ -1,0 +1,134 @@
+#include "gui/plan/start_page.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui::plan {
+namespace {
+
+enum Column { kPlace, kCondition, kTrials, kState, kColumns };
+constexpr int kMostRows = 9;
+
+QString stateOf(const session::BlockStanding& block) {
+  QString text = block.complete() ? StartPage::tr("✓ done") : block.begun() ? StartPage::tr("broken off") : StartPage::tr("to do");
+  if (block.practice) text += StartPage::tr(", practice");
+  if (block.restSeconds > 0 && !block.complete()) text += StartPage::tr(", after %1 s of rest").arg(block.restSeconds);
+  return text;
+}
+
+}  // namespace
+
+StartPage::StartPage(QWidget* parent) : QFrame(parent) {
+  setObjectName(QStringLiteral("startPage"));
+  setStyleSheet(QStringLiteral("#startPage { background: rgba(24, 28, 35, 245); border: 1px solid #46505f; border-radius: 8px; }"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(24, 18, 24, 18);
+  layout->setSpacing(9);
+  title_ = new QLabel;
+  QFont large = title_->font();
+  large.setPointSizeF(1.6 * large.pointSizeF());
+  large.setBold(true);
+  title_->setFont(large);
+  auto* who = new QHBoxLayout;
+  const auto field = [&](const QString& words, const char* name) {
+    auto* made = new QLineEdit;
+    made->setObjectName(QLatin1String(name));
+    made->setMaximumWidth(130);
+    who->addWidget(new QLabel(words));
+    who->addWidget(made);
+    return made;
+  };
+  subject_ = field(tr("subject"), "startSubject");
+  session_ = field(tr("session"), "startSession");
+  summary_ = new QLabel;
+  summary_->setObjectName(QStringLiteral("startSummary"));
+  who->addStretch(1);
+  who->addWidget(summary_);
+  blocks_ = new QTableWidget(0, kColumns);
+  blocks_->setObjectName(QStringLiteral("startBlocks"));
+  blocks_->setHorizontalHeaderLabels({tr("block"), tr("condition"), tr("trials"), tr("state")});
+  blocks_->verticalHeader()->hide();
+  blocks_->verticalHeader()->setDefaultSectionSize(25);
+  blocks_->setSelectionMode(QAbstractItemView::NoSelection);
+  blocks_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  blocks_->setFocusPolicy(Qt::NoFocus);
+  blocks_->setShowGrid(false);
+  blocks_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  blocks_->horizontalHeader()->setSectionResizeMode(kCondition, QHeaderView::Stretch);
+  next_ = new QLabel;
+  next_->setObjectName(QStringLiteral("startNext"));
+  next_->setWordWrap(true);
+  auto* buttons = new QHBoxLayout;
+  auto* compose = new QPushButton(tr("Compose…"));
+  anew_ = new QPushButton(tr("Begin anew"));
+  anew_->setObjectName(QStringLiteral("startAnew"));
+  go_ = new QPushButton;
+  go_->setObjectName(QStringLiteral("startGo"));
+  go_->setProperty("role", "go");
+  for (QPushButton* button : {compose, anew_, go_}) button->setFocusPolicy(Qt::NoFocus);  // Space is the trial's
+  buttons->addWidget(compose);
+  buttons->addStretch(1);
+  buttons->addWidget(anew_);
+  buttons->addWidget(go_);
+  layout->addWidget(title_);
+  layout->addLayout(who);
+  layout->addWidget(blocks_);
+  layout->addWidget(next_);
+  layout->addLayout(buttons);
+  for (QLineEdit* edit : {subject_, session_})
+    connect(edit, &QLineEdit::editingFinished, this, [this] { Q_EMIT placeEdited(subject_->text().trimmed(), session_->text().trimmed()); });
+  connect(go_, &QPushButton::clicked, this, [this] {
+    if (resumes_) Q_EMIT resumeRequested();
+    else Q_EMIT beginRequested();
+  });
+  connect(anew_, &QPushButton::clicked, this, &StartPage::beginRequested);
+  connect(compose, &QPushButton::clicked, this, &StartPage::composeRequested);
+}
+
+void StartPage::show(const Shown& shown) {
+  const session::SessionStanding& standing = shown.standing;
+  title_->setText(tr("Session plan: %1").arg(shown.plan));
+  if (!subject_->hasFocus()) subject_->setText(shown.subject);
+  if (!session_->hasFocus()) session_->setText(shown.session);
+  resumes_ = shown.fault.isEmpty() && standing.begun() && !standing.complete();
+  QString summary = tr("%1 of %2 blocks done").arg(standing.blocksDone()).arg(standing.blocks.size());
+  if (shown.day > 0) summary = tr("day %1   ").arg(shown.day) + summary;
+  summary_->setText(shown.fault.isEmpty() ? summary : QString());
+  blocks_->setRowCount(static_cast<int>(standing.blocks.size()));
+  const session::BlockStanding* next = nullptr;
+  for (int i = 0; i < blocks_->rowCount(); ++i) {
+    const session::BlockStanding& block = standing.blocks[static_cast<std::size_t>(i)];
+    if (next == nullptr && !block.complete()) next = &block;
+    const QString texts[] = {QString::number(block.block), QString::fromStdString(block.condition),
+                             QStringLiteral("%1 / %2").arg(block.done).arg(block.trials), stateOf(block)};
+    for (int column = 0; column < kColumns; ++column) {
+      if (blocks_->item(i, column) == nullptr) blocks_->setItem(i, column, new QTableWidgetItem);
+      QTableWidgetItem* item = blocks_->item(i, column);
+      item->setText(texts[column]);
+      QFont font = blocks_->font();
+      font.setBold(next == &block);
+      item->setFont(font);
+      item->setForeground(widgets::toQColor(block.complete() ? widgets::colours::kFaintText : widgets::colours::kText));
+    }
+  }
+  blocks_->setFixedHeight(blocks_->horizontalHeader()->sizeHint().height() + 4 + 25 * std::clamp(blocks_->rowCount(), 1, kMostRows));
+  if (!shown.fault.isEmpty()) next_->setText(shown.fault);
+  else if (next == nullptr) next_->setText(tr("Everything of this session is recorded: another subject, or another session."));
+  else if (resumes_) next_->setText(tr("Goes on in block %1, %2, with trial %3 of %4.").arg(next->block).arg(QString::fromStdString(next->condition)).arg(next->done + 1).arg(next->trials));
+  else next_->setText(tr("Begins with block %1, %2: %3 trials.").arg(next->block).arg(QString::fromStdString(next->condition)).arg(next->trials));
+  if (next != nullptr && !next->instructions.empty()) next_->setText(next_->text() + QStringLiteral("\n") + QString::fromStdString(next->instructions));
+  const bool can = shown.fault.isEmpty() && next != nullptr;
+  go_->setEnabled(can);
+  go_->setText(resumes_ ? tr("Resume  (Space)") : tr("Begin  (Space)"));
+  anew_->setVisible(resumes_);
+  adjustSize();
+}
+
+}  // namespace reachlab::gui::plan

@@ -1,0 +1,44 @@
+#pragma once
+#include <QFrame>
+
+#include "sim/session/standing.h"
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableWidget;
+
+namespace reachlab::gui::plan {
+
+/// What stands over the scene before a session's run is opened: who, which day, which blocks are done and which are to do, and how it goes
+/// on. Knows a standing, not the session.
+class StartPage : public QFrame {
+  Q_OBJECT
+ public:
+  explicit StartPage(QWidget* parent);
+  struct Shown {
+    QString plan, subject, session;
+    int day = 0;  // 0: the plan has none
+    session::SessionStanding standing;
+    QString fault;  // why nothing can be begun; empty: it can
+  };
+  void show(const Shown& shown);
+  /// Goes on with what was begun, rather than from the beginning.
+  bool resumes() const { return resumes_; }
+
+ Q_SIGNALS:
+  void placeEdited(const QString& subject, const QString& session);
+  void beginRequested();
+  void resumeRequested();
+  void composeRequested();
+
+ private:
+  using QFrame::show;
+  bool resumes_ = false;
+  QLabel *title_, *summary_, *next_;
+  QLineEdit *subject_, *session_;
+  QTableWidget* blocks_;
+  QPushButton *go_, *anew_;
+};
+
+}  // namespace reachlab::gui::plan

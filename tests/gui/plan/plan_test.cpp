@@ -1,0 +1,172 @@
+// A plan composed, begun, rested in, broken off and resumed by who sits at the window.
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+#include <fstream>
+
+#include "gui/app/main_window.h"
+#include "gui/app/session_overlay.h"
+#include "gui/app/window_layout.h"
+#include "gui/docks/session_dock.h"
+#include "gui/plan/plan_composer.h"
+#include "gui/plan/start_page.h"
+#include "sim/record/trial_marks.h"
+#include "sim/session/programme.h"
+
+namespace reachlab::gui::plan {
+namespace {
+
+template <typename T>
+T* find(const QWidget& in, const char* name) {
+  T* found = in.findChild<T*>(QLatin1String(name));
+  EXPECT_NE(found, nullptr) << name;
+  return found;
+}
+
+TEST(PlanComposer, ComposesAPlanThatReadsBackEqual) {
+  const QTemporaryDir folder;
+  PlanComposer dialog;
+  dialog.show();
+  EXPECT_FALSE(dialog.faults().isEmpty()) << "an empty plan is none";
+  EXPECT_FALSE(find<QPushButton>(dialog, "planUse")->isEnabled());
+  QTest::keyClicks(find<QLineEdit>(dialog, "planName"), QStringLiteral("mine"));
+  QTest::mouseClick(find<QPushButton>(dialog, "planAdd"), Qt::LeftButton);
+  find<QComboBox>(dialog, "planExperiment")->setEditText(QStringLiteral("chain-slow"));
+  QTest::keyClicks(find<QLineEdit>(dialog, "planCondition"), QStringLiteral("slow"));
+  find<QSpinBox>(dialog, "planTrials")->setValue(5);
+  QTest::keyClicks(find<QPlainTextEdit>(dialog, "planInstructions"), QStringLiteral("Slowly."));
+  QTest::mouseClick(find<QPushButton>(dialog, "planCopy"), Qt::LeftButton);
+  auto* condition = find<QLineEdit>(dialog, "planCondition");
+  condition->selectAll();
+  QTest::keyClicks(condition, QStringLiteral("fast"));
+  QTest::mouseClick(find<QPushButton>(dialog, "planUp"), Qt::LeftButton);
+  ASSERT_EQ(dialog.plan().blocks.size(), 2u);
+  EXPECT_EQ(dialog.plan().blocks[0].condition, "fast");
+  EXPECT_EQ(dialog.plan().blocks[1].condition, "slow");
+  EXPECT_TRUE(dialog.faults().isEmpty()) << dialog.faults().join(QLatin1Char('\n')).toStdString();
+  EXPECT_TRUE(find<QLabel>(dialog, "planPreview")->text().contains(QStringLiteral("fast → slow")));
+  const QString file = folder.filePath(QStringLiteral("mine.json"));
+  dialog.saveTo(file);
+  const session::Plan read = session::readPlan(file.toStdString());
+  EXPECT_EQ(read.name, "mine");
+  ASSERT_EQ(read.blocks.size(), 2u);
+  EXPECT_EQ(read.blocks[1].instructions, "Slowly.");
+  EXPECT_EQ(read.blocks[1].trials, 5);
+  EXPECT_EQ(session::toJson(read), session::toJson(dialog.plan()));
+}
+
+TEST(PlanComposer, ShowsTheOrdersThatSubjectsWillHave) {
+  const session::Programme paper = session::readProgramme("paper");
+  const QString text = orderPreview(paper.plan, 3);
+  EXPECT_TRUE(text.contains(QStringLiteral("subject 01, day 1")));
+  EXPECT_TRUE(text.contains(QStringLiteral("subject 03, day 2")));
+  const std::vector<int> order = session::blockOrder(paper.plan, "02", 1);
+  QStringList names;
+  for (const int k : order) names << QString::fromStdString(paper.plan.blocks[static_cast<std::size_t>(k)].condition);
+  EXPECT_TRUE(text.contains(names.join(QStringLiteral(" → "))));
+}
+
+class PlannedSession : public ::testing::Test {
+ protected:
+  PlannedSession() {
+    const QString file = folder_.filePath(QStringLiteral("two.json"));
+    std::ofstream(file.toStdString()) << R"({"schema_version": 1, "name": "two", "blocks": [
+      {"experiment": "chain-moderate", "condition": "first", "trials": 2, "instructions": "Reach calmly."},
+      {"experiment": "chain-fast", "condition": "second", "trials": 2, "rest_s": 600, "instructions": "Now fast."}]})";
+    request_.what = file.toStdString();
+    request_.place.data = folder_.filePath(QStringLiteral("data")).toStdString();
+    request_.device = "simulated:noise=0";
+    request_.seed = 1;
+    request_.timingCheckSeconds = 0;
+  }
+  ~PlannedSession() override { app::forgetLayout(); }
+  app::MainWindow& open() {
+    window_ = std::make_unique<app::MainWindow>(request_);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
+    return *window_;
+  }
+  StartPage& page() { return *window_->findChild<StartPage*>(); }
+  QString summary() { return find<QLabel>(page(), "startSummary")->text(); }
+  QString next() { return find<QLabel>(page(), "startNext")->text(); }
+  void waitForTrials(int count) {
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return window_->session().lastTrial() && window_->session().lastTrial()->trial == count && !window_->session().underWay(); },
+        60000));
+  }
+  QTemporaryDir folder_;
+  session::SessionRequest request_;
+  std::unique_ptr<app::MainWindow> window_;
+};
+
+TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
+  app::MainWindow* window = &open();
+  EXPECT_EQ(summary(), QStringLiteral("0 of 2 blocks done"));
+  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first: 2 trials"))) << next().toStdString();
+  EXPECT_TRUE(next().contains(QStringLiteral("Reach calmly.")));
+  QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
+  ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
+  EXPECT_FALSE(page().isVisible());
+  EXPECT_TRUE(window->overlay().task.startsWith(QStringLiteral("Reach calmly."))) << "until the first reach";
+  waitForTrials(1);
+  window->endRun();  // broken off after a trial
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
+  EXPECT_TRUE(page().resumes());
+  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with trial 2 of 2"))) << next().toStdString();
+  QTest::keyClick(window, Qt::Key_Space);
+  ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
+  EXPECT_EQ(window->session().run()->configuration().firstRun, 1);
+  waitForTrials(1);
+  // The block is done: the plan rests ten minutes.
+  EXPECT_GT(window->session().restLeft(), 590);
+  EXPECT_EQ(window->session().instructions(), QStringLiteral("Now fast."));
+  QTest::keyClick(window, Qt::Key_Space);
+  EXPECT_TRUE(window->message().contains(QStringLiteral("rests"))) << window->message().toStdString();
+  EXPECT_EQ(window->session().run()->configuration().block, 1);
+  window->endRun();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
+  EXPECT_EQ(summary(), QStringLiteral("1 of 2 blocks done"));
+  // Another subject has done nothing yet.
+  auto* subject = find<QLineEdit>(page(), "startSubject");
+  subject->setFocus();
+  subject->selectAll();
+  QTest::keyClicks(subject, QStringLiteral("07"));
+  QTest::keyClick(subject, Qt::Key_Return);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return summary() == QStringLiteral("0 of 2 blocks done"); }, 3000));
+  EXPECT_EQ(window->sessionDock().request().place.subject, "07");
+}
+
+TEST_F(PlannedSession, TrialsAreFlaggedAndARepeatIsTakenBack) {
+  app::MainWindow* window = &open();
+  QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
+  waitForTrials(1);
+  const std::string log = window->session().run()->logPath();
+  QTest::mouseClick(find<QToolButton>(*window, "flagTrial"), Qt::LeftButton);
+  const record::RunMarks marks = record::readMarks(log);
+  ASSERT_EQ(marks.trials.size(), 1u);
+  EXPECT_TRUE(marks.trials[0].flagged);
+  EXPECT_EQ(marks.trials[0].trial, 1);
+  QTest::mouseClick(find<QToolButton>(*window, "flagTrial"), Qt::LeftButton);
+  EXPECT_TRUE(record::readMarks(log).trials.empty()) << "and taken back";
+  QTest::keyClick(window, Qt::Key_R, Qt::ControlModifier);
+  EXPECT_EQ(window->session().run()->trialCount(), 3u);
+  QTest::mouseClick(find<QToolButton>(*window, "undoRepeat"), Qt::LeftButton);
+  EXPECT_EQ(window->session().run()->trialCount(), 2u);
+  EXPECT_EQ(window->session().run()->trialsLeft(), 1u);
+  QTest::mouseClick(find<QToolButton>(*window, "undoRepeat"), Qt::LeftButton);
+  EXPECT_EQ(window->session().run()->trialsLeft(), 1u) << "the plan's own trials stay";
+}
+
+}  // namespace
+}  // namespace reachlab::gui::plan
