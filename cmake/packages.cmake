@@ -3,7 +3,7 @@
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(share ${CMAKE_INSTALL_DATADIR})
 
-install(DIRECTORY resources/ DESTINATION ${share}/reachlab PATTERN make_success.py EXCLUDE PATTERN LICENSE EXCLUDE)
+install(DIRECTORY resources/ DESTINATION ${share}/reachlab PATTERN make_sounds.py EXCLUDE PATTERN *.ts EXCLUDE PATTERN LICENSE EXCLUDE)
 install(DIRECTORY constraints/definitions DESTINATION ${share}/reachlab)
 file(GLOB udev_rules CONFIGURE_DEPENDS ${packaging}/udev/*.rules)
 if(udev_rules)

@@ -23,14 +23,9 @@ void writeExperiment(const experiment::Experiment& experiment, const QString& fi
     throw ResourceError(file.toStdString() + ": could not be written: " + out.errorString().toStdString());
 }
 
-QString whatElseItIs(const QString& file) {
+bool isRecorded(const QString& file) {
   const QFileInfo info(file);
-  if (info.isFile() && info.suffix() == QLatin1String("reach"))
-    return QStringLiteral("%1 is a recording, no experiment: `reach show` tells what is in it, `reach analyze` what follows from it.")
-        .arg(file);
-  if (info.isDir())
-    return QStringLiteral("%1 is a folder, no experiment; if it is a dataset, `reach show` and `reach analyze` read it.").arg(file);
-  return {};
+  return info.isDir() || (info.isFile() && info.suffix() == QLatin1String("reach"));
 }
 
 QStringList recentFiles() {

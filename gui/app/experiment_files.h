@@ -10,8 +10,8 @@ namespace reachlab::gui::app {
 /// Throws ResourceError; what was there before is then as it was.
 void writeExperiment(const experiment::Experiment& experiment, const QString& file);
 
-/// What a file or folder is that is neither experiment nor plan, and what reads it: a recording, a dataset. Empty: it may be one.
-QString whatElseItIs(const QString& file);
+/// A log, or a folder: what is looked at, not reached with.
+bool isRecorded(const QString& file);
 
 /// The newest first, at most eight; those that are gone are left out.
 QStringList recentFiles();

@@ -31,7 +31,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   r.what = "chain-moderate";
   r.device = "mouse";
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
-  app.add_option("experiment", r.what, "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]");
+  app.add_option("experiment", r.what, "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]; or what was recorded: a dataset, a session, a log");
   app.add_option("--device", r.device, "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER [mouse]");
   app.add_option("--trials", r.trials, "Trials of an experiment [20]; a plan has its own")->check(CLI::Range(1, 1000000));
   app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
@@ -44,7 +44,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
   app.footer(
-      "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab parallel --device simulated --trials "
+      "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab data\n  reachlab parallel --device simulated --trials "
       "5");
   app.parse(argc, argv);
   return a;
@@ -70,10 +70,13 @@ int run(const Arguments& arguments, int argc, char** argv) {
     std::printf("%d pictures in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
-  if (const QString other = reachlab::gui::app::whatElseItIs(QString::fromStdString(arguments.request.what)); !other.isEmpty())
-    throw reachlab::UsageError("reachlab: " + other.toStdString());
-  reachlab::gui::app::MainWindow window(arguments.request);
+  reachlab::session::SessionRequest request = arguments.request;
+  const QString what = QString::fromStdString(request.what);
+  const bool recorded = reachlab::gui::app::isRecorded(what);
+  if (recorded) request.what = "chain-moderate";
+  reachlab::gui::app::MainWindow window(request);
   window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
+  if (recorded) window.inspect(what);
   window.show();
   return QApplication::exec();
 }

@@ -8,24 +8,32 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QSettings>
+#include <QSignalBlocker>
 #include <QStatusBar>
+#include <QTabBar>
+#include <QTabWidget>
 #include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "base/ending.h"
 #include "base/error.h"
 #include "gui/app/key_focus.h"
 #include "gui/app/message_bar.h"
+#include "gui/app/plan_pages.h"
 #include "gui/app/questions.h"
 #include "gui/app/screens.h"
 #include "gui/app/session_overlay.h"
+#include "gui/app/trial_marking.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
+#include "gui/inspector/inspector.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/scene/scene_view.h"
 #include "sim/dynamics/compiled_scene.h"
@@ -43,6 +51,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) 
   setObjectName(QStringLiteral("reachlab"));
   setAcceptDrops(true);
   if (QFileInfo::exists(QString::fromStdString(request.what))) file_ = QString::fromStdString(request.what);
+  words_.setLanguage(QSettings().value(QStringLiteral("subject/language"), QStringLiteral("en")).toString());
   addCentre();
   docks_ = docks::makeDocks(*this);
   docks_.session->setRequest(request);
@@ -50,10 +59,12 @@ MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) 
   actions_ = addMenus(*this);
   screens_->setSubjectsActions({actions_.next, actions_.abort, actions_.repeat, actions_.end, actions_.subjectsScreen});
   new KeyFocus(*this, *view_);
+  plans_ = new PlanPages(session_, *docks_.session, *view_);
   wireDocks();
   wireSession();
   firstLayout_ = saveState();
   layout_ = restoreLayout(*this);
+  if (inspecting()) switchLayout(WindowLayout::SetUp);  // nothing is open yet
   showExperiment();
   showStage();
   view_->setFocus();
@@ -73,8 +84,17 @@ void MainWindow::addCentre() {
   layout->addWidget(message_);
   view_ = new scene::SceneView;
   view_->setObjectName(QStringLiteral("scene"));
-  layout->addWidget(view_, 1);
+  pages_ = new QTabWidget;
+  pages_->setObjectName(QStringLiteral("pages"));
+  pages_->setDocumentMode(true);
+  pages_->tabBar()->setExpanding(false);
+  pages_->addTab(view_, tr("Reach"));
+  auto* page = new QWidget;
+  (new QVBoxLayout(page))->setContentsMargins(0, 0, 0, 0);
+  pages_->addTab(page, tr("Inspect"));
+  layout->addWidget(pages_, 1);
   setCentralWidget(middle);
+  connect(pages_, &QTabWidget::currentChanged, this, [this](int now) { switchLayout(now == 1 ? WindowLayout::Inspect : reachLayout_); });
   screens_ = new Screens(*view_);
   screens_->setParent(this);
 }
@@ -92,6 +112,14 @@ void MainWindow::wireDocks() {
   connect(dock, &docks::SessionDock::deviceChanged, this, &MainWindow::showOverlay);
   connect(docks_.trials, &docks::TrialsDock::noteRequested, this,
           [this](int number) { docks_.session->beginNote(QStringLiteral("trial %1: ").arg(number)); });
+  wireMarking(*docks_.trials, session_, *message_);
+  connect(plans_, &PlanPages::beginRequested, this, [this] {
+    session_.beginAnew();
+    beginNext();
+  });
+  connect(plans_, &PlanPages::resumeRequested, this, &MainWindow::resumeSession);
+  connect(plans_, &PlanPages::composeRequested, this, &MainWindow::composePlan);
+  connect(plans_, &PlanPages::composed, this, &MainWindow::openExperiment);
   connect(docks_.predictions, &docks::PredictionDock::chosenChanged, this, &MainWindow::drawPredictions);
 }
 
@@ -123,6 +151,7 @@ void MainWindow::wireSession() {
   auto* slowTimer = new QTimer(this);
   connect(slowTimer, &QTimer::timeout, this, [this] {
     if (session_.run() != nullptr) status_->refresh(*session_.run());
+    plans_->refresh();
     timer_->setInterval(view_->drawsInSoftware() ? kSoftwareFrameMs : kFrameMs);  // known once a picture was drawn
   });
   slowTimer->start(kStatusMs);
@@ -135,13 +164,14 @@ void MainWindow::showExperiment() {
   trace_.setPath(task ? constraints::TaskPath(compiled.constraint(), task->start, task->target) : constraints::TaskPath());
   screens_->showExperiment(compiled);
   showOverlay();
+  plans_->refresh();
   forecast_.setExperiment(compiled);
   setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(QString::fromStdString(compiled.experiment().name)));
 }
 
 void MainWindow::showOverlay() {
   const bool mouse = docks_.session->device() == "mouse";
-  screens_->showOverlay(overlayOf(session_, mouse, screens_->massesHide()), subjectsOverlayOf(session_));
+  screens_->showOverlay(overlayOf(session_, mouse, screens_->massesHide()), subjectsOverlayOf(session_, words_, score_));
 }
 
 void MainWindow::showStage() {
@@ -153,10 +183,10 @@ void MainWindow::showStage() {
                       : session_.blocksLeft() > 0 ? Stage::BlockDone
                                                   : Stage::Finished;
   docks_.session->setStage(stage);
-  // The keys do what the buttons do: a key that went astray begins no new run where one is over.
-  actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished);
+  // The keys do what the buttons do: a key that went astray begins no new run where one is over, or while a recording is looked at.
+  actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && !inspecting());
   actions_.abort->setEnabled(stage == Stage::UnderWay);
-  for (QAction* action : {actions_.repeat, actions_.end}) action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed);
+  for (QAction* action : {actions_.repeat, actions_.end}) action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
 }
 
 void MainWindow::drawPredictions() {
@@ -169,17 +199,20 @@ void MainWindow::drawPredictions() {
 void MainWindow::runOpened() {
   const session::RecordedRun& run = *session_.run();
   docks_.session->clearTally();
+  score_ = 0;
   docks_.session->showRun(run.configuration());
   predictions().clearErrors();
   docks_.trials->clear();
   trace_.beginRun();
   status_->runOpened(run);
+  plans_->refresh();
   showStage();
 }
 
 void MainWindow::runClosed() {
   pacing_.cancel();
   status_->runClosed();
+  plans_->refresh();
   screens_->showRest();
   showStage();
   showOverlay();
@@ -194,7 +227,8 @@ void MainWindow::trialEnded() {
   const trial::TrialResult result = session_.lastTrial()->result;
   docks_.session->count(result);
   if (session_.run() != nullptr) docks_.trials->add(session_.run()->numberOf(*session_.lastTrial()), result);
-  if (result.outcome == trial::Outcome::Success) sound_.play();
+  if (result.outcome == trial::Outcome::Success) ++score_, sounds_.play(SoundCues::Cue::Success);
+  if (result.outcome == trial::Outcome::Failure) sounds_.play(SoundCues::Cue::Failure);
   if (result.outcome == trial::Outcome::Success || result.outcome == trial::Outcome::Failure)
     forecast_.compare(trace_.points(), trace_.path(), {session_.run()->configuration().sampleEveryTicks, result.onsetTick, result.endTick},
                       result.outcome == trial::Outcome::Success);
@@ -213,8 +247,16 @@ void MainWindow::oneFrame() {
   if (pacing_.takeDue(std::chrono::steady_clock::now())) nextTrial();
   if (session_.run() == nullptr) return;
   screens_->showState(session_.run()->latest());
+  playGo(session_.run()->latest());
   showOverlay();
   plot().refresh();
+}
+
+// With the picture that shows the signal.
+void MainWindow::playGo(const haptics::TickState& state) {
+  const bool gone = state.gone && (state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving);
+  if (gone && !gone_) sounds_.play(SoundCues::Cue::Go);
+  gone_ = gone;
 }
 
 plot::VelocityPlot& MainWindow::plot() { return docks_.velocity->plot(); }
@@ -223,7 +265,15 @@ const scene::OverlayState& MainWindow::overlay() const { return screens_->overla
 QString MainWindow::message() const { return message_->sentence(); }
 
 void MainWindow::nextTrial() {
+  if (plans_->resumes()) session_.resume();
+  beginNext();
+}
+
+void MainWindow::beginNext() {
   pacing_.cancel();
+  if (session_.restLeft() > 0)
+    return message_->say(tr("The plan rests %1 s more before its next block; Ctrl+E ends this block's run and the rest.")
+                             .arg(std::ceil(session_.restLeft())));
   if (session_.run() == nullptr && !docks_.session->fault().isEmpty()) return message_->say(docks_.session->fault());
   try {
     message_->say({});
@@ -242,13 +292,13 @@ void MainWindow::repeatTrial() {
 
 void MainWindow::resumeSession() {
   session_.resume();
-  nextTrial();
+  beginNext();
 }
 
 void MainWindow::endRun() { session_.endRun(); }
 
 void MainWindow::openExperiment(const QString& what) {
-  if (const QString other = whatElseItIs(what); !other.isEmpty()) return message_->say(other);
+  if (isRecorded(what)) return inspect(what);
   if (!mayEndRun(QStringLiteral("Opening another experiment")) || !mayBeLeft()) return;
   try {
     const session::Programme opened = session::readProgramme(what.toStdString());
@@ -263,9 +313,24 @@ void MainWindow::openExperiment(const QString& what) {
   }
 }
 
+inspector::InspectorPage& MainWindow::inspector() {
+  if (inspector_ == nullptr) {
+    inspector_ = new inspector::InspectorPage;
+    pages_->widget(1)->layout()->addWidget(inspector_);
+    connect(inspector_, &inspector::InspectorPage::said, this, [this](const QString& words) { message_->say(words); });
+  }
+  return *inspector_;
+}
+
+void MainWindow::inspect(const QString& path) {
+  inspector().open(path);
+  if (!inspecting()) switchLayout(WindowLayout::Inspect);
+}
+
 void MainWindow::openFile() {
   const QString chosen =
-      QFileDialog::getOpenFileName(this, QStringLiteral("Open experiment or plan"), {}, QStringLiteral("Experiments and plans (*.json)"));
+      QFileDialog::getOpenFileName(this, tr("Open experiment, plan or recording"), {},
+                                                      tr("Experiments and plans (*.json);;Recordings (*.reach)"));
   if (!chosen.isEmpty()) openExperiment(chosen);
 }
 
@@ -288,7 +353,7 @@ bool MainWindow::saveExperimentAs() {
 }
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
-  if (session_.isPlan()) return message_->say(QStringLiteral("A plan is edited in its file, and saved there.")), false;
+  if (session_.isPlan()) return message_->say(QStringLiteral("A plan is composed and saved by Session plan… (Ctrl+P).")), false;
   try {
     writeExperiment(experiment, file);
     if (experiment.name != session_.experiment().name && session_.run() == nullptr)
@@ -335,8 +400,20 @@ void MainWindow::resetLayout() {
 void MainWindow::switchLayout(WindowLayout layout) {
   rememberDocks(*this, layout_);
   layout_ = layout;
+  if (!inspecting()) reachLayout_ = layout;
   (void)restoreState(firstLayout_);
   restoreDocks(*this, layout_);
+  showPage();
+}
+
+void MainWindow::showPage() {
+  const QSignalBlocker quiet(pages_);
+  pages_->setCurrentIndex(inspecting() ? 1 : 0);
+  if (inspecting() && inspector().path().isEmpty())  // what this session records
+    if (const QString folder = QString::fromStdString(docks_.session->request().place.data); QFileInfo(folder).isDir())
+      inspector().open(folder);
+  if (!inspecting()) view_->setFocus();
+  showStage();
 }
 
 void MainWindow::openManual() {
@@ -355,15 +432,30 @@ void MainWindow::dropEvent(QDropEvent* event) {
   openExperiment(event->mimeData()->urls().front().toLocalFile());
 }
 
+void MainWindow::composePlan() { plans_->compose(this, file_); }
 void MainWindow::chooseConstraint() { docks_.constraint->choose(); }
 void MainWindow::toggleSubjectWindow() { screens_->toggleSubject(); }
+void MainWindow::showSubjectOn(const QString& screen) { screens_->showSubjectOn(screen); }
+
+void MainWindow::setSubjectsLanguage(const QString& code) {
+  words_.setLanguage(code);
+  QSettings().setValue(QStringLiteral("subject/language"), words_.language());
+  showOverlay();
+}
+
+void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
+  experiment::Experiment changed = session_.experiment();
+  changed.subjectScreen = screen;
+  if (!mayEndRun(tr("Another picture for the subject"))) return;
+  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty()) message_->say(faults.join(QLatin1Char('\n')));
+}
 
 void MainWindow::setSideBySide(bool on) {
   screens_->setSideBySide(on);
   showOverlay();
 }
 
-void MainWindow::setMuted(bool muted) { sound_.setMuted(muted); }
+void MainWindow::setMuted(bool muted) { sounds_.setMuted(muted); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!mayEndRun(QStringLiteral("Closing the window")) || !mayBeLeft()) return event->ignore();

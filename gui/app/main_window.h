@@ -6,7 +6,7 @@
 #include "gui/app/experiment_files.h"
 #include "gui/app/session_controller.h"
 #include "gui/app/status_line.h"
-#include "gui/app/success_sound.h"
+#include "gui/app/sound_cues.h"
 #include "gui/app/trial_pacing.h"
 #include "gui/app/window_layout.h"
 #include "gui/app/window_menus.h"
@@ -14,11 +14,16 @@
 #include "gui/plot/live_forecast.h"
 #include "gui/plot/live_trace.h"
 #include "gui/scene/scene_overlay.h"
+#include "gui/subject/subject_words.h"
 
+class QTabWidget;
 class QTimer;
 
 namespace reachlab::gui::docks {
 class ConstraintChooser;
+}
+namespace reachlab::gui::inspector {
+class InspectorPage;
 }
 namespace reachlab::gui::scene {
 class SceneView;
@@ -27,6 +32,7 @@ class SceneView;
 namespace reachlab::gui::app {
 
 class MessageBar;
+class PlanPages;
 class Screens;
 
 /// The window of `reachlab`: the scene in the middle, docks around it. It wires docks, pictures and session, and owns no logic of any.
@@ -43,6 +49,10 @@ class MainWindow : public QMainWindow {
   docks::PredictionDock& predictions() { return *docks_.predictions; }
   docks::SessionDock& sessionDock() { return *docks_.session; }
   docks::ConstraintChooser& chooser();  // made when first asked for
+  inspector::InspectorPage& inspector();  // made when first asked for
+  bool inspecting() const { return layout_ == WindowLayout::Inspect; }
+  SoundCues& sounds() { return sounds_; }
+  const QString& subjectsLanguage() const { return words_.language(); }
   QUndoStack& edits() { return edits_.stack(); }
   const scene::OverlayState& overlay() const;
   /// The sentence in the bar at the top, empty when there is none.
@@ -59,6 +69,8 @@ class MainWindow : public QMainWindow {
   /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
   void openExperiment(const QString& what);
   void openFile();
+  /// Shows a dataset, a session or a log.
+  void inspect(const QString& path);
   /// A sound beginning of its kind, not saved yet.
   void beginNew(const Template& from);
   /// Into the file it came from; where there is none, asks for one. False when it was not saved.
@@ -66,7 +78,13 @@ class MainWindow : public QMainWindow {
   /// False when it was not saved.
   bool saveExperimentAs();
   void chooseConstraint();
+  void composePlan();
   void toggleSubjectWindow();
+  void showSubjectOn(const QString& screen);
+  /// Remembered (QSettings).
+  void setSubjectsLanguage(const QString& code);
+  /// What the subject sees is part of the experiment.
+  void setSubjectScreen(const reachlab::experiment::SubjectScreen& screen);
   void setSideBySide(bool on);
   void setMuted(bool muted);
   void resetLayout();
@@ -81,6 +99,8 @@ class MainWindow : public QMainWindow {
 
  private:
   void addCentre();
+  void beginNext();
+  void showPage();
   void wireDocks();
   void wireSession();
   void showExperiment();
@@ -92,6 +112,7 @@ class MainWindow : public QMainWindow {
   void drainTrace();
   void trialEnded();
   void oneFrame();
+  void playGo(const haptics::TickState& state);
   void tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what);
   /// True when no trial of an open run would be lost, or the user says so.
   bool mayEndRun(const QString& doing);
@@ -103,16 +124,22 @@ class MainWindow : public QMainWindow {
   plot::LiveForecast forecast_;
   plot::LiveTrace trace_;
   TrialPacing pacing_;
-  SuccessSound sound_;
+  SoundCues sounds_;
+  subject::SubjectWords words_;  // of the subject's screen
+  int score_ = 0;                // successes of the run
+  bool gone_ = false;            // the go signal of the trial has been given, and heard
   docks::Docks docks_;
   TrialActions actions_;
   QByteArray firstLayout_;  // of the docks
-  WindowLayout layout_ = WindowLayout::SetUp;
+  WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
   QString file_;  // what was opened or saved; empty: shipped or new
   std::unique_ptr<StatusLine> status_;
   MessageBar* message_ = nullptr;
   scene::SceneView* view_ = nullptr;
+  QTabWidget* pages_ = nullptr;
+  inspector::InspectorPage* inspector_ = nullptr;
   Screens* screens_ = nullptr;
+  PlanPages* plans_ = nullptr;
   QTimer* timer_ = nullptr;
 };
 

@@ -1,13 +1,28 @@
 #include "gui/app/screens.h"
 
+#include <QLabel>
+#include <QTimer>
 #include <algorithm>
 
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 
 namespace reachlab::gui::app {
+namespace {
 
-Screens::Screens(scene::SceneView& main) : main_(main) { connect(&main, &scene::SceneView::handDragged, this, &Screens::handDragged); }
+constexpr int kMirrorMs = 250, kMirrorWidth = 220;
+
+}  // namespace
+
+Screens::Screens(scene::SceneView& main) : main_(main), mirror_(new QLabel(&main)), mirrorTimer_(new QTimer(this)) {
+  connect(&main, &scene::SceneView::handDragged, this, &Screens::handDragged);
+  mirror_->setObjectName(QStringLiteral("subjectMirror"));
+  mirror_->setStyleSheet(QStringLiteral("border: 1px solid #6b7788; background: black;"));
+  mirror_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  mirror_->hide();
+  mirrorTimer_->setInterval(kMirrorMs);
+  connect(mirrorTimer_, &QTimer::timeout, this, &Screens::mirror);
+}
 
 Screens::~Screens() { delete subject_; }
 
@@ -20,19 +35,30 @@ void Screens::rebuild() {
   const scene::ScenePlan plan = planScene(experiment_->experiment(), experiment_->constraint(), options_);
   frame_ = restingFrame(plan);
   main_.setPlan(plan);
-  if (subject_) subject_->view().setPlan(plan);
+  if (subject_) subject_->view().setPlan(subjectsPlan(plan, experiment_->experiment().subjectScreen));
+  showPatch(nullptr);
 }
 
 void Screens::showRest() {
   frame_ = restingFrame(main_.plan());
   main_.showFrame(frame_);
   if (subject_) subject_->view().showFrame(frame_);
+  showPatch(nullptr);
+}
+
+// White from the go signal to the trial's end: with the picture that shows it, not before.
+void Screens::showPatch(const haptics::TickState* state) {
+  if (!subject_) return;
+  using Patch = subject::SubjectWindow::Patch;
+  const bool white = state != nullptr && state->gone && (state->phase == trial::Phase::Armed || state->phase == trial::Phase::Moving);
+  subject_->setPatch(!experiment_->experiment().subjectScreen.photodiode ? Patch::None : white ? Patch::White : Patch::Black);
 }
 
 void Screens::showState(const haptics::TickState& state) {
   copyToFrame(state, frame_);
   main_.showFrame(frame_);
   if (subject_) subject_->view().showFrame(frame_);
+  showPatch(&state);
 }
 
 void Screens::showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects) {
@@ -57,13 +83,36 @@ bool Screens::massesHide() const {
 
 void Screens::toggleSubject() {
   if (subject_) return closeSubject();
+  openSubject({});
+}
+
+void Screens::showSubjectOn(const QString& screen) {
+  if (subject_) subject_->showFull(screen);
+  else openSubject(screen);
+}
+
+void Screens::openSubject(const QString& screen) {
   subject_ = new subject::SubjectWindow;
   subject_->setAttribute(Qt::WA_DeleteOnClose);
   connect(&subject_->view(), &scene::SceneView::handDragged, this, &Screens::handDragged);
-  subject_->view().setPlan(main_.plan());
+  subject_->view().setPlan(subjectsPlan(main_.plan(), experiment_->experiment().subjectScreen));
   subject_->view().setOverlay(subjectsOverlay_);
   subject_->addActions(actions_);
-  subject_->showFull();
+  subject_->showFull(screen);
+  showPatch(nullptr);
+  mirrorTimer_->start();
+}
+
+void Screens::mirror() {
+  mirror_->setVisible(subject_ && subject_->isVisible());
+  if (!mirror_->isVisible()) {
+    if (!subject_) mirrorTimer_->stop();
+    return;
+  }
+  mirror_->setPixmap(subject_->grab().scaledToWidth(kMirrorWidth, Qt::SmoothTransformation));
+  mirror_->adjustSize();
+  mirror_->move(main_.width() - mirror_->width() - 14, main_.height() - mirror_->height() - 64);
+  mirror_->raise();
 }
 
 void Screens::closeSubject() {

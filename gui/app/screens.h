@@ -8,6 +8,8 @@
 #include "sim/experiment/compiled_experiment.h"
 
 class QAction;
+class QLabel;
+class QTimer;
 
 namespace reachlab::gui::scene {
 class SceneView;
@@ -37,6 +39,8 @@ class Screens : public QObject {
   /// Masses beside one another, for the eye only; seen from where the camera stands.
   void setSideBySide(bool on);
   void toggleSubject();
+  /// Opens the subject's screen on the monitor of that name, or moves it there.
+  void showSubjectOn(const QString& screen);
   void closeSubject();
   const scene::OverlayState& overlay() const { return overlay_; }
   /// Masses stand at one place, so that one hides the others.
@@ -48,6 +52,9 @@ class Screens : public QObject {
 
  private:
   void rebuild();
+  void showPatch(const haptics::TickState* state);
+  void openSubject(const QString& screen);
+  void mirror();
 
   scene::SceneView& main_;
   QPointer<subject::SubjectWindow> subject_;
@@ -56,6 +63,8 @@ class Screens : public QObject {
   scene::SceneFrame frame_;
   scene::OverlayState overlay_, subjectsOverlay_;
   QList<QAction*> actions_;
+  QLabel* mirror_;  // the subject's screen, small, in a corner of the experimenter's
+  QTimer* mirrorTimer_;
 };
 
 }  // namespace reachlab::gui::app

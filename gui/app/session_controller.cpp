@@ -2,6 +2,7 @@
 #include "sim/dynamics/compiled_scene.h"
 
 #include <QStringList>
+#include <algorithm>
 #include <utility>
 
 #include "base/ending.h"
@@ -113,6 +114,28 @@ void SessionController::openRun(const session::SessionRequest& request) {
   Q_EMIT runOpened();
 }
 
+void SessionController::resume() {
+  if (run() == nullptr) recorded_.reset();  // planned anew, from what is on the disk
+  resume_ = true;
+}
+
+void SessionController::beginAnew() {
+  if (run() == nullptr) recorded_.reset();
+  resume_ = false;
+}
+
+double SessionController::restLeft() const {
+  const auto left = restUntil_ - std::chrono::steady_clock::now();
+  return std::max(0.0, std::chrono::duration<double>(left).count());
+}
+
+QString SessionController::instructions() {
+  if (run() == nullptr) return {};
+  if (run()->underWay() || run()->trialsLeft() > 0) return QString::fromStdString(run()->instructions());
+  const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr;
+  return next == nullptr ? QString() : QString::fromStdString(next->instructions);
+}
+
 bool SessionController::next(const session::SessionRequest& request) {
   if (underWay()) return false;
   if (run() != nullptr && run()->trialsLeft() == 0) {
@@ -146,6 +169,7 @@ void SessionController::note(const QString& text) {
 
 void SessionController::endRun() {
   if (run() == nullptr) return;
+  restUntil_ = {};
   endAfterTrial_ = false;
   mouse_ = nullptr;
   try {
@@ -176,6 +200,9 @@ void SessionController::poll() {
     tellTiming();
     if (!ended) return;
     last_ = *ended;
+    if (const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr; next != nullptr && run()->trialsLeft() == 0 && !recorded_->isFast())
+      restUntil_ = std::chrono::steady_clock::now() +
+                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(next->restSeconds));
     Q_EMIT trialEnded();
     if (run() == nullptr) return;
     if (const auto fault = run()->fault()) throw ResourceError(*fault);

@@ -1,6 +1,7 @@
 #pragma once
 #include <QObject>
 #include <QString>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,13 +40,21 @@ class SessionController : public QObject {
   /// Every fault of an edited experiment; it is taken over when there is none. Throws RefusedError when the scene cannot be computed.
   std::vector<Fault> tryEdit(const experiment::Experiment& experiment);
   /// The next session that is opened goes on with what this subject's session has left undone.
-  void resume() { resume_ = true; }
+  void resume();
+  /// The next session that is opened begins from the first block.
+  void beginAnew();
 
   /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error.
   bool next(const session::SessionRequest& request);
   void abort();
   /// The last trial once more, at the end of the run. False when there was none.
   bool repeat();
+  /// The last repeat is not done after all. False when none is still to come.
+  bool takeBackRepeat() { return run() != nullptr && run()->takeBackRepeat(); }
+  /// [s] that the plan rests yet before its next block; 0: it may begin.
+  double restLeft() const;
+  /// Of the block that is open or, once that is done, of the next; empty: none.
+  QString instructions();
   void note(const QString& text);
   void endRun();
   void pointTo(const Vec3& place, qint64 eventMs);
@@ -95,6 +104,7 @@ class SessionController : public QObject {
   plot::TraceSink trace_;                  // outlives the runs
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
+  std::chrono::steady_clock::time_point restUntil_{};
 };
 
 /// What is worth a word before a session, as the window says it; empty: nothing.

@@ -1,7 +1,10 @@
 #include "gui/app/session_overlay.h"
 
+#include <cmath>
+
 #include "gui/app/session_controller.h"
 #include "gui/scene/trial_texts.h"
+#include "gui/subject/subject_words.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -27,20 +30,36 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
       overlay.counter =
           QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
     if (isOver(*run)) {
-      overlay.detail = session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
+      overlay.detail = session.restLeft() > 0   ? QStringLiteral("the block is done: rest %1 s more").arg(std::ceil(session.restLeft()))
+                       : session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
                        : session.isPlan()       ? QStringLiteral("the session is complete")
                                                 : QStringLiteral("the run is complete");
     }
   }
   if (run == nullptr || isBeforeTheFirstReach(run->latest())) overlay.task = scene::taskText(experiment, massesHide);
+  if (run != nullptr && (isOver(*run) || isBeforeTheFirstReach(run->latest())))
+    if (const QString words = session.instructions(); !words.isEmpty())
+      overlay.task = overlay.task.isEmpty() ? words : words + QLatin1Char('\n') + overlay.task;
   return overlay;
 }
 
-scene::OverlayState subjectsOverlayOf(SessionController& session) {
-  const session::RecordedRun* run = session.run();
-  if (run == nullptr) return scene::subjectsRest();
-  scene::OverlayState overlay = scene::subjectsOverlayOf(run->latest());
-  if (isOver(*run)) overlay.detail = session.blocksLeft() > 0 ? QStringLiteral("Rest a little") : QStringLiteral("That was all: thank you");
+scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score) {
+  const experiment::SubjectScreen& screen = session.experiment().subjectScreen;
+  scene::OverlayState overlay;
+  overlay.rulersShown = false;
+  overlay.semaphoreShown = screen.semaphore;
+  session::RecordedRun* run = session.run();
+  const haptics::TickState idle;
+  const haptics::TickState& state = run == nullptr ? idle : run->latest();
+  overlay.semaphore = state.semaphore;
+  if (screen.score) overlay.counter = QString::number(score);
+  if (!screen.words) return overlay;
+  overlay.instruction = words.instruction(state, screen.target);
+  if (state.phase == trial::Phase::Done)
+    overlay.tone = state.result.outcome == trial::Outcome::Success ? scene::OverlayState::Tone::Good : scene::OverlayState::Tone::Bad;
+  if (run == nullptr) return overlay;
+  if (isOver(*run)) overlay.detail = session.blocksLeft() > 0 ? words.rest() : words.thanks();
+  if (isOver(*run) || isBeforeTheFirstReach(state)) overlay.task = session.instructions();
   return overlay;
 }
 

@@ -10,7 +10,7 @@
 namespace reachlab::gui::app {
 namespace {
 
-constexpr int kLayoutVersion = 3;  // another set of docks is another layout
+constexpr int kLayoutVersion = 4;  // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
 
@@ -24,7 +24,7 @@ QStringList docksOf(WindowLayout layout) {
   switch (layout) {
     case WindowLayout::SetUp: break;
     case WindowLayout::Run: return {QStringLiteral("sessionDock"), QStringLiteral("plotDock"), QStringLiteral("trialsDock")};
-    case WindowLayout::Inspect: return {QStringLiteral("plotDock"), QStringLiteral("predictionDock")};
+    case WindowLayout::Inspect: return {QStringLiteral("none")};
   }
   return {};
 }

@@ -14,8 +14,8 @@ WindowLayout restoreLayout(QMainWindow& window);
 void forgetLayout();
 
 void rememberDocks(const QMainWindow& window, WindowLayout layout);
-/// As they were left in this layout, or as it begins: everything to set up, the session and the plot to run, the plot and the criteria to
-/// inspect.
+/// As they were left in this layout, or as it begins: everything to set up, the session and the plot to run, none to
+/// inspect: a recording has its own page.
 void restoreDocks(QMainWindow& window, WindowLayout layout);
 
 }  // namespace reachlab::gui::app

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QDockWidget>
+#include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QUndoStack>
@@ -9,6 +10,7 @@
 #include "gui/app/main_window.h"
 #include "gui/plot/velocity_plot.h"
 #include "gui/app/session_controller.h"
+#include "gui/app/subject_menu.h"
 #include "gui/scene/scene_view.h"
 
 namespace reachlab::gui::app {
@@ -64,12 +66,17 @@ void addExperimentMenu(MainWindow& window) {
   QMenu* fresh = menu->addMenu(QStringLiteral("&New"));
   for (const Template& from : templates()) add(window, fresh, QLatin1String(from.title), {}, [&window, from] { window.beginNew(from); });
   add(window, menu, QStringLiteral("&Open…"), QKeySequence::Open, &MainWindow::openFile);
+  add(window, menu, QStringLiteral("&Inspect a dataset…"), QKeySequence(QStringLiteral("Ctrl+I")), [&window] {
+    const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Inspect a dataset or a session"));
+    if (!folder.isEmpty()) window.inspect(folder);
+  });
   QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
   recent->setObjectName(QStringLiteral("recent"));
   QObject::connect(menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });
   QMenu* shipped = menu->addMenu(QStringLiteral("S&hipped"));
   for (const std::string& name : experiment::shippedExperiments())
     add(window, shipped, QString::fromStdString(name), {}, [&window, name] { window.openExperiment(QString::fromStdString(name)); });
+  add(window, menu, QStringLiteral("Session &plan…"), QKeySequence(QStringLiteral("Ctrl+P")), &MainWindow::composePlan);
   add(window, menu, QStringLiteral("&Save"), QKeySequence::Save, [&window] { window.saveExperiment(); });
   add(window, menu, QStringLiteral("Save &as…"), QKeySequence::SaveAs, [&window] { window.saveExperimentAs(); });
   menu->addSeparator();
@@ -113,6 +120,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
             [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
   menu->addSeparator();
   actions.subjectsScreen = add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
+  addSubjectMenu(window, *menu);
   addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
   menu->addSeparator();
   for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu->addAction(dock->toggleViewAction());

@@ -93,11 +93,13 @@ struct ObjectActors::Impl {
     for (const Vec3& shift : from.massShift) {
       if (norm(shift) == 0) continue;
       mark(from.start + shift, widgets::colours::kStart, 0.55 * from.markRadius, 0.8);
+      if (!from.targetShown) continue;
       mark(from.target + shift, widgets::colours::kTarget, 0.55 * from.markRadius, 0.8);
       if (from.tolerance > 0.55 * from.markRadius) mark(from.target + shift, widgets::colours::kTarget, from.tolerance, 0.13);
     }
     mark(from.start, widgets::colours::kStart, from.markRadius, 1);
     mark(from.start, widgets::colours::kStart, 1.45 * std::max(ball, from.markRadius), 0.25);  // seen around the mass that stands there
+    if (!from.targetShown) return;
     mark(from.target, widgets::colours::kTarget, from.markRadius, 1);
     const bool massOnRail = from.massShift.empty() ||
                             std::any_of(from.massShift.begin(), from.massShift.end(), [](const Vec3& shift) { return norm(shift) == 0; });

@@ -129,6 +129,17 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   return plan;
 }
 
+ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) {
+  plan.targetShown = screen.target;
+  if (!screen.masses) {
+    plan.massRadius.clear();
+    plan.massRole.clear();
+    plan.massShift.clear();
+    plan.springs.clear();
+  }
+  return plan;
+}
+
 SceneFrame restingFrame(const ScenePlan& plan) {
   SceneFrame frame;
   frame.hand = plan.start;

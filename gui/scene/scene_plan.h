@@ -23,6 +23,7 @@ struct ScenePlan {
   std::vector<PlaceMark> places;  // where the formula is not smooth
   Vec3 start, target;  // [m]
   bool hasTask = false;
+  bool targetShown = true;
   double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
   Vec3 centre{};                   // [m] what the camera looks at
   double size = 0.2;               // [m] diagonal of what is seen
@@ -43,6 +44,9 @@ struct ViewOptions {
 };
 
 ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
+
+/// The same without its masses and springs, or without its target.
+ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
 
 /// One instant of it: what actors are moved to.
 struct SceneFrame {

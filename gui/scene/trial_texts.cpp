@@ -80,46 +80,6 @@ OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& 
   return o;
 }
 
-namespace {
-
-QString subjectsWords(const trial::TrialResult& result) {
-  if (result.outcome == trial::Outcome::Success) return QStringLiteral("Well done");
-  switch (result.reason) {
-    case trial::Reason::TimeShort: return QStringLiteral("Too fast");
-    case trial::Reason::TimeLong: return QStringLiteral("Too slow");
-    case trial::Reason::Position: return QStringLiteral("Not at the target in time");
-    case trial::Reason::Velocity: return QStringLiteral("Not at rest in time");
-    case trial::Reason::Early: return QStringLiteral("Too early: wait for the signal");
-    case trial::Reason::NoOnset: return QStringLiteral("No movement began");
-    default: return QStringLiteral("This trial does not count");
-  }
-}
-
-}  // namespace
-
-OverlayState subjectsRest() {
-  OverlayState o;
-  o.rulersShown = false;
-  o.instruction = QStringLiteral("Please wait");
-  return o;
-}
-
-OverlayState subjectsOverlayOf(const haptics::TickState& state) {
-  OverlayState o = subjectsRest();
-  o.semaphore = state.semaphore;
-  switch (state.phase) {
-    case trial::Phase::Idle: break;
-    case trial::Phase::Waiting: o.instruction = QStringLiteral("Move to the grey sphere and rest there"); break;
-    case trial::Phase::Armed: o.instruction = QStringLiteral("Move to the yellow sphere"); break;
-    case trial::Phase::Moving: o.instruction.clear(); break;
-    case trial::Phase::Done:
-      o.instruction = subjectsWords(state.result);
-      o.tone = state.result.outcome == trial::Outcome::Success ? OverlayState::Tone::Good : OverlayState::Tone::Bad;
-      break;
-  }
-  return o;
-}
-
 QString taskText(const experiment::Experiment& experiment, bool hiding) {
   if (!experiment.task) return {};
   const experiment::Task& task = *experiment.task;

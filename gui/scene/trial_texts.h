@@ -7,9 +7,6 @@ namespace reachlab::gui::scene {
 
 /// What stands over the scene: what the subject is to do now, and how the last trial ended. Pure.
 OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse);
-/// The same for the subject's own screen: no number, nothing for others.
-OverlayState subjectsOverlayOf(const haptics::TickState& state);
-OverlayState subjectsRest();
 /// Before a run.
 OverlayState restingOverlay(const QString& experiment, bool mouse);
 /// What the trials of this experiment ask for, in a sentence of its own numbers: what is judged, no more. `hiding`: masses stand at one

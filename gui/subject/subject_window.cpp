@@ -3,9 +3,35 @@
 #include <QCloseEvent>
 #include <QGuiApplication>
 #include <QScreen>
+#include <QSettings>
 #include <QVBoxLayout>
+#include <QWindow>
 
 namespace reachlab::gui::subject {
+namespace {
+
+constexpr int kPatchSide = 90;  // pixels: a light sensor covers it
+
+QString screenKey() { return QStringLiteral("subject/screen"); }
+
+QScreen* screenNamed(const QString& name) {
+  for (QScreen* screen : QGuiApplication::screens())
+    if (screen->name() == name) return screen;
+  return nullptr;
+}
+
+}  // namespace
+
+QString titleOf(const QScreen& screen) {
+  return QStringLiteral("%1, %2 × %3").arg(screen.name()).arg(screen.size().width()).arg(screen.size().height());
+}
+
+QString rememberedScreen() {
+  const QString known = QSettings().value(screenKey()).toString();
+  if (screenNamed(known) != nullptr) return known;
+  const QList<QScreen*> screens = QGuiApplication::screens();
+  return screens.isEmpty() ? QString() : screens[screens.size() > 1 ? 1 : 0]->name();
+}
 
 SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   setWindowTitle(QStringLiteral("Reachlab – subject"));
@@ -14,13 +40,40 @@ SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   view_ = new scene::SceneView;
   view_->setTextScale(1.8);
   layout->addWidget(view_);
+  square_ = new QWidget(this);
+  square_->setObjectName(QStringLiteral("photodiode"));
+  square_->setAutoFillBackground(true);
+  square_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  square_->hide();
   setCursor(Qt::BlankCursor);
 }
 
-void SubjectWindow::showFull() {
-  const QList<QScreen*> screens = QGuiApplication::screens();
-  if (screens.size() > 1) setGeometry(screens[1]->geometry());
+void SubjectWindow::showFull(const QString& screen) {
+  const QString wanted = screenNamed(screen) != nullptr ? screen : rememberedScreen();
+  if (!screen.isEmpty() && wanted == screen) QSettings().setValue(screenKey(), screen);
+  if (QScreen* found = screenNamed(wanted)) {
+    if (isFullScreen()) showNormal();  // or it stays where it is
+    create();
+    windowHandle()->setScreen(found);
+    setGeometry(found->geometry());
+  }
   showFullScreen();
+}
+
+void SubjectWindow::setPatch(Patch patch) {
+  if (patch == patch_) return;
+  patch_ = patch;
+  QPalette palette = square_->palette();
+  palette.setColor(QPalette::Window, patch == Patch::White ? Qt::white : Qt::black);
+  square_->setPalette(palette);
+  square_->setVisible(patch != Patch::None);
+  square_->raise();
+}
+
+void SubjectWindow::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  square_->setGeometry(0, height() - kPatchSide, kPatchSide, kPatchSide);
+  square_->raise();
 }
 
 void SubjectWindow::closeEvent(QCloseEvent* event) {

@@ -160,17 +160,6 @@ TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
   for (QWidget* top : QApplication::topLevelWidgets()) EXPECT_EQ(qobject_cast<subject::SubjectWindow*>(top), nullptr);
 }
 
-TEST(SubjectsWords, TellNoOutcomeByANumber) {
-  haptics::TickState state;
-  state.phase = trial::Phase::Done;
-  for (int reason = 0; reason <= static_cast<int>(trial::kLastReason); ++reason) {
-    state.result = {trial::Outcome::Failure, static_cast<trial::Reason>(reason), 3, 0.207};
-    const QString words = scene::subjectsOverlayOf(state).instruction;
-    EXPECT_FALSE(words.isEmpty());
-    EXPECT_FALSE(words.contains(QRegularExpression(QStringLiteral("\\d")))) << words.toStdString();
-  }
-}
-
 TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
   MainWindow& window = open();
   window.nextTrial();

@@ -124,15 +124,14 @@ TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {
   EXPECT_EQ(recentFiles().front(), QFileInfo(path_).absoluteFilePath());
 }
 
-TEST_F(Files, ARecordingIsToldForWhatItIs) {
+TEST_F(Files, ARecordingIsInspectedAndWhatIsWrongWithItIsSaid) {
   MainWindow& window = open();
   const QString log = folder_.filePath(QStringLiteral("sub-01_log.reach"));
   std::ofstream(log.toStdString()) << "RCHLOG";
   window.openExperiment(log);
-  EXPECT_TRUE(window.message().contains(QStringLiteral("is a recording, no experiment"))) << window.message().toStdString();
+  EXPECT_TRUE(window.inspecting());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.message().contains(QStringLiteral("sub-01_log.reach")); }, 5000));
   EXPECT_EQ(window.session().experiment().name, "ellipse");
-  window.openExperiment(folder_.path());
-  EXPECT_TRUE(window.message().contains(QStringLiteral("is a folder"))) << window.message().toStdString();
 }
 
 TEST_F(Files, ALayoutIsFoundAgainAsItWasLeft) {

@@ -142,7 +142,7 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   const scene::OverlayState between = overlayOf(session(), false, false);
   EXPECT_EQ(between.counter.toStdString(), "Block 1 of 2, trial 1 of 1");
   EXPECT_EQ(between.detail.toStdString(), "the block is done: rest; Space: next block");
-  EXPECT_EQ(subjectsOverlayOf(session()).detail, QStringLiteral("Rest a little"));
+  EXPECT_EQ(subjectsOverlayOf(session(), {}, 0).detail, QStringLiteral("Rest a little"));
   doTrial();
   EXPECT_EQ(overlayOf(session(), false, false).counter.toStdString(), "Block 2 of 2, trial 1 of 1");
   EXPECT_EQ(overlayOf(session(), false, false).detail, QStringLiteral("the session is complete"));
