@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab {
 
@@ -54,7 +54,7 @@ void endOnUncaught() noexcept { std::set_terminate(sayLastWord); }
 
 Ending endingOf(const std::exception& error) {
   const auto* own = dynamic_cast<const Error*>(&error);
-  if (dynamic_cast<const UsageError*>(own) != nullptr) return {own->what(), 2};
+  if (dynamic_cast<const FaultError*>(own) != nullptr) return {own->what(), 2};
   if (dynamic_cast<const RefusedError*>(own) != nullptr) return {own->what(), 4};
   if (own != nullptr) return {own->what(), 3};
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const std::length_error*>(&error) != nullptr)

@@ -8,7 +8,8 @@ std::string toText(const Fault& fault) {
     key += (key.empty() ? "character " : ", character ") + std::to_string(fault.place->column);
   } else if (fault.place) {
     text += fault.place->file;
-    if (fault.place->line > 0) text += ":" + std::to_string(fault.place->line) + ":" + std::to_string(fault.place->column);
+    if (fault.place->line > 0) text += ":" + std::to_string(fault.place->line);
+    if (fault.place->line > 0 && fault.place->column > 0) text += ":" + std::to_string(fault.place->column);
     text += ": ";
   }
   if (!key.empty()) text += key + ": ";
@@ -25,9 +26,15 @@ std::string toText(const std::vector<Fault>& faults) {
 
 std::string keyIn(const std::string& outer, const std::string& inner) { return outer.empty() ? inner : outer + "." + inner; }
 
-std::vector<Fault> faultsOf(const UsageError& error) {
-  if (const auto* told = dynamic_cast<const FaultError*>(&error)) return told->faults;
-  return {Fault{.what = error.what()}};
+std::vector<Fault> inside(const std::string& key, std::vector<Fault> faults) {
+  for (Fault& fault : faults) fault.key = fault.key.empty() ? key : keyIn(key, fault.key);
+  return faults;
+}
+
+std::vector<Fault> inFile(const std::string& file, std::vector<Fault> faults) {
+  for (Fault& fault : faults)
+    if (!fault.place) fault.place = FilePlace{file};
+  return faults;
 }
 
 }  // namespace reachlab

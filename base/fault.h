@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -32,14 +33,16 @@ std::string toText(const std::vector<Fault>& faults);
 /// "constraint.shape" of "constraint" and "shape"; without an outer one the inner.
 std::string keyIn(const std::string& outer, const std::string& inner);
 
-/// Wrong input, fault by fault.
-struct FaultError : UsageError {
-  explicit FaultError(std::vector<Fault> all) : UsageError(toText(all)), faults(std::move(all)) {}
+/// The same faults told from outside: those of "index" in "trials[3]" are of "trials[3].index".
+std::vector<Fault> inside(const std::string& key, std::vector<Fault> faults);
+/// The same faults of a file, those that have no place yet.
+std::vector<Fault> inFile(const std::string& file, std::vector<Fault> faults);
+
+/// Wrong usage or a bad file, fault by fault; `reach` ends with 2.
+struct FaultError : Error {
+  explicit FaultError(std::vector<Fault> all) : Error(toText(all)), faults(std::move(all)) {}
   explicit FaultError(Fault fault) : FaultError(std::vector<Fault>{std::move(fault)}) {}
   std::vector<Fault> faults;
 };
-
-/// What is wrong, as far as it was told fault by fault; else one fault with the whole sentence.
-std::vector<Fault> faultsOf(const UsageError& error);
 
 }  // namespace reachlab

@@ -14,7 +14,7 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab {
 namespace {
@@ -75,8 +75,7 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   bool end_array() override { return close(); }
   bool key(string_t& value) override {
     const std::size_t start = stringStart();
-    if (!keys_.back().insert(value).second)
-      throw UsageError(fmt::format("{}: {}: stands here twice; allowed: each key once", place(start), value));
+    if (!keys_.back().insert(value).second) throw FaultError(Fault{value, "stands here twice", "each key once", place(start)});
     key_ = value;
     std::tie(keyLine_, keyColumn_) = lineAndColumn(start);
     return true;
@@ -85,19 +84,18 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     const std::size_t end = offset();
     std::string what = e.what();
     if (const auto colon = what.find("] "); colon != std::string::npos) what.erase(0, colon + 2);
-    if (e.id == 406)
-      throw UsageError(fmt::format("{}: this number is beyond the range of a double; allowed: finite numbers", place(tokenStart())));
+    if (e.id == 406) throw FaultError(Fault{{}, "this number is beyond the range of a double", "finite numbers", place(tokenStart())});
     if (const auto at = what.find("column "); at != std::string::npos)
       if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
-    throw UsageError(fmt::format("{}: {}", place(end > 0 ? end - 1 : 0), what));
+    throw FaultError(Fault{{}, what, {}, place(end > 0 ? end - 1 : 0)});
   }
 
  private:
   std::size_t offset() const { return static_cast<std::size_t>(*furthest_ - text_.data()); }
 
-  std::string place(std::size_t at) {
+  FilePlace place(std::size_t at) {
     const auto [line, column] = lineAndColumn(at);
-    return fmt::format("{}:{}:{}", file_, line, column);
+    return {file_, line, column};
   }
   // Counted on from the place asked for last: values come in the order of the file, so that all of them together cost one pass.
   std::pair<int, int> lineAndColumn(std::size_t at) {
@@ -154,7 +152,7 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   }
   bool open(JsonNode::Kind kind) {
     const std::size_t start = offset() - 1;
-    if (open_.size() >= kMaxDepth) throw UsageError(fmt::format("{}: nested too deeply; allowed: {} levels", place(start), kMaxDepth));
+    if (open_.size() >= kMaxDepth) throw FaultError(Fault{{}, "nested too deeply", fmt::format("{} levels", kMaxDepth), place(start)});
     JsonNode node;
     node.kind = kind;
     // A child's address is stable: its parent gets no further child before it is closed.
@@ -217,15 +215,15 @@ std::string readTextFile(const std::string& file) {
   std::error_code error;
   // A pipe or a device might never end, or never begin.
   if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
-    throw UsageError(fmt::format("{}: is no regular file; allowed: a file on a disk", file));
+    throw FaultError(Fault{{}, "is no regular file", "a file on a disk", FilePlace{file}});
   if (const std::uintmax_t size = fs::file_size(file, error); !error && size > kMaxBytes)
-    throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", file, size, kMaxBytes));
+    throw FaultError(Fault{{}, fmt::format("has {} bytes", size), fmt::format("up to {}", kMaxBytes), FilePlace{file}});
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw UsageError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
+  if (!in) throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
   std::ostringstream text;
   text << in.rdbuf();
   if (in.bad() || (text.fail() && in.peek() != std::ifstream::traits_type::eof()))
-    throw UsageError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
+    throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
   return std::move(text).str();
 }
 

@@ -23,10 +23,10 @@ struct JsonNode {
 };
 const char* nameOf(JsonNode::Kind kind);
 
-/// Throws UsageError `FILE:LINE:COLUMN: …` on the first syntax fault, duplicate key or number beyond the range of a double.
+/// Throws FaultError with its place on the first syntax fault, duplicate key or number beyond the range of a double.
 JsonNode parseJson(const std::string& text, const std::string& file);
 
-/// Reads a whole file. Throws UsageError naming the file and the operating system's reason.
+/// Reads a whole file. Throws FaultError naming the file and the operating system's reason.
 std::string readTextFile(const std::string& file);
 
 }  // namespace reachlab

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/criterion_option.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "sim/analyze/write_analysis.h"
@@ -34,7 +35,7 @@ std::vector<double> parseMasses(const std::string& text) {
     double value = -1;
     const auto [stop, error] = std::from_chars(at, end, value);
     if (error != std::errc() || !(value >= 0) || !std::isfinite(value) || (stop != end && (*stop != ',' || stop + 1 == end)))
-      throw UsageError(fmt::format("--hand-masses {}: allowed: masses in kg, 0 or more, with commas between: 0,0.5,1,2", text));
+      throw FaultError(Fault{"--hand-masses", "is " + text, "masses in kg, 0 or more, with commas between: 0,0.5,1,2"});
     masses.push_back(value);
     at = stop == end ? end : stop + 1;
   }

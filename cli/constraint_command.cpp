@@ -38,7 +38,7 @@ double parseNumber(const std::string& text, const std::string& option) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    throw UsageError(option + ": '" + text + "' is no number; allowed: a finite number such as 0.3");
+    throw FaultError(Fault{option, fmt::format("'{}' is no number", text), "a finite number such as 0.3"});
   return value;
 }
 
@@ -57,7 +57,8 @@ std::map<std::string, double> parseShape(const std::vector<std::string>& setting
   std::map<std::string, double> shape;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) throw UsageError("--set: '" + setting + "' sets nothing; allowed: KEY=VALUE, such as radius_m=0.12");
+    if (equals == std::string::npos)
+      throw FaultError(Fault{"--set", fmt::format("'{}' sets nothing", setting), "KEY=VALUE, such as radius_m=0.12"});
     shape[setting.substr(0, equals)] = parseNumber(setting.substr(equals + 1), "--set " + setting.substr(0, equals));
   }
   return shape;
@@ -67,7 +68,7 @@ std::map<std::string, double> parseShape(const std::vector<std::string>& setting
 constraints::Definition definitionOf(const std::string& nameOrFile) {
   if (const constraints::Definition* definition = constraints::findInCatalogue(nameOrFile)) return *definition;
   if (nameOrFile.find_first_of("/.") != std::string::npos) return constraints::readDefinition(nameOrFile);
-  if (nameOrFile == "free") throw UsageError("constraint: free binds nothing: it has no formula; allowed: a curve or surface");
+  if (nameOrFile == "free") throw FaultError(Fault{"constraint", "free binds nothing: it has no formula", "a curve or surface"});
   std::error_code error;
   if (std::filesystem::is_regular_file(nameOrFile, error)) return constraints::readDefinition(nameOrFile);
   return constraints::findDefinition(nameOrFile, "constraint");
@@ -186,7 +187,7 @@ void eval(const Options& o) {
   const constraints::Constraint c = constraints::makeConstraint(d, parseShape(o.set));
   const std::vector<double> q = parseNumbers(o.at, "--at");
   if (static_cast<int>(q.size()) != c.parameterCount())
-    throw UsageError(fmt::format("--at: has {} numbers; allowed: {}", q.size(), isCurve(d) ? "one, phi" : "two, u,v"));
+    throw FaultError(Fault{"--at", fmt::format("has {} numbers", q.size()), isCurve(d) ? "one, phi" : "two, u,v"});
   std::vector<std::pair<const char*, Vec3>> rows;
   if (isCurve(d)) {
     const constraints::CurvePoint p = constraints::evaluate(c.curve, q[0]);
@@ -209,8 +210,8 @@ void eval(const Options& o) {
 constraints::Constraint makeIn(const std::string& file, const constraints::Definition& d, const std::map<std::string, double>& shape) {
   try {
     return constraints::makeConstraint(d, shape, "");
-  } catch (const UsageError& error) {
-    std::vector<Fault> faults = faultsOf(error);
+  } catch (const FaultError& error) {
+    std::vector<Fault> faults = error.faults;
     for (Fault& fault : faults) {
       for (const auto& [name, value] : shape) fault.what = fmt::format("with {} = {}: {}", name, value, fault.what);
       fault.place = FilePlace{file};
@@ -226,15 +227,16 @@ void check(const Options& o) {
     try {
       const std::string text = readTextFile(file);
       if (parseJson(text, file).find("object") != nullptr)
-        throw UsageError(fmt::format("{}: is an experiment file, no constraint definition; `reach validate` checks it", file));
+
+        throw FaultError(Fault{{}, "is an experiment file, no constraint definition; `reach validate` checks it", {}, FilePlace{file}});
       const constraints::Definition d = constraints::parseDefinition(text, file);
       const constraints::Constraint c = makeIn(file, d, {});
       for (const constraints::ShapeParameter& p : d.shape)
         for (const double value : {p.min, p.max}) makeIn(file, d, {{p.name, value}});
       fmt::print("{}: fine: {} {}\n", file, isCurve(d) ? "curve" : "surface", d.name);
       showPlaces(c);
-    } catch (const UsageError& e) {
-      for (Fault& fault : faultsOf(e)) faults.push_back(std::move(fault));
+    } catch (const FaultError& error) {
+      faults.insert(faults.end(), error.faults.begin(), error.faults.end());
     }
   }
   if (!faults.empty()) throw FaultError(std::move(faults));

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/analyze/tables.h"
 
 namespace reachlab::cli {
@@ -11,7 +11,7 @@ predict::Criterion parseCriterion(const std::string& name) {
   if (const auto criterion = predict::criterionFromName(name)) return *criterion;
   std::string names;
   for (int i = 0; i < predict::kCriterionCount; ++i) names += (i ? ", " : "") + analyze::numberedName(static_cast<predict::Criterion>(i));
-  throw UsageError(fmt::format("--criterion: '{}' is not a criterion; allowed, behind the paper's numbers: {}", name, names));
+  throw FaultError(Fault{"--criterion", fmt::format("'{}' is not a criterion; allowed, behind the paper's numbers: {}", name, names)});
 }
 
 }  // namespace reachlab::cli

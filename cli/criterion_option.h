@@ -5,7 +5,7 @@
 
 namespace reachlab::cli {
 
-/// The criterion that `--criterion` names. Throws UsageError listing the names with the paper's numbers.
+/// The criterion that `--criterion` names. Throws FaultError listing the names with the paper's numbers.
 predict::Criterion parseCriterion(const std::string& name);
 
 }  // namespace reachlab::cli

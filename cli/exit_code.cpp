@@ -41,8 +41,8 @@ int exitCodeOf(CLI::App& app, const std::function<int()>& work) {
   } catch (const CLI::ParseError& e) {
     std::fprintf(stderr, "reach: %s%s\n", e.what(), proposal(app).c_str());
     return 2;
-  } catch (const UsageError& e) {
-    std::fprintf(stderr, "%s\n", toText(inOptionWords(faultsOf(e))).c_str());
+  } catch (const FaultError& e) {
+    std::fprintf(stderr, "%s\n", toText(inOptionWords(e.faults)).c_str());
     return 2;
   } catch (const session::DatasetError& e) {
     std::fprintf(stderr, "%s: %s\n", optionOf("data").c_str(), e.what());

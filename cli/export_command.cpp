@@ -4,7 +4,7 @@
 
 #include "cli/at_option.h"
 #include "cli/commands.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/record/exporters.h"
 #include "sim/record/run_log.h"
 
@@ -25,7 +25,7 @@ fs::path datasetOf(const std::string& log) {
 
 std::vector<record::RunLog> openAll(const std::string& what) {
   std::vector<record::RunLog> runs;
-  std::string faults;
+  std::vector<Fault> faults;
   for (const std::string& path : record::findLogs(what)) {
     try {
       runs.push_back(record::RunLog::open(path));
@@ -33,12 +33,12 @@ std::vector<record::RunLog> openAll(const std::string& what) {
       if (run.goodBytes() < run.fileBytes())
         fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(), run.fileBytes(),
                    run.trials().size());
-    } catch (const UsageError& error) {
-      faults += (faults.empty() ? "" : "\n") + std::string(error.what());
+    } catch (const FaultError& error) {
+      faults.insert(faults.end(), error.faults.begin(), error.faults.end());
     }
   }
-  if (runs.empty()) throw UsageError(faults);
-  if (!faults.empty()) fmt::print(stderr, "{}\n", faults);
+  if (runs.empty()) throw FaultError(std::move(faults));
+  if (!faults.empty()) fmt::print(stderr, "{}\n", toText(faults));
   return runs;
 }
 

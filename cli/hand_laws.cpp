@@ -9,6 +9,7 @@
 
 #include "base/cubic_spline.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
@@ -73,7 +74,7 @@ HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::
 HandLaw sampledHand(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
-    throw UsageError(file + ": cannot be read; allowed for --hand: none, hold, min-jerk, min-jerk-along, or a CSV file");
+    throw FaultError(Fault{"--hand", file + " cannot be read", "none, hold, min-jerk, min-jerk-along, or a CSV file"});
   const devices::RecordedReach reach = devices::readReach(file);
   const auto spline = std::make_shared<const CubicSpline>(reach.time, reach.position, SplineEnds::NotAKnot);
   const auto at = [spline](double t) {

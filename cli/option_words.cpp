@@ -14,9 +14,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kRenamed{
     {"participant.sex", "--sex"},
     {"participant.handedness", "--handedness"},
 }};
-constexpr std::array<std::string_view, 21> kSame{"subject",  "session",      "trials", "run",          "seed",   "day",       "data",
-                                                 "device",   "fast",         "resume", "disk_reserve", "sweep",  "hand_mass", "unknowns",
-                                                 "duration", "hand_damping", "point",  "scene",        "method", "cutoff",    "until"};
+constexpr std::array<std::string_view, 25> kSame{
+    "subject", "session",      "trials", "run",           "seed",        "day",          "data",         "device", "fast",
+    "resume",  "disk_reserve", "sweep",  "hand_mass",     "unknowns",    "duration",     "hand_damping", "point",  "scene",
+    "method",  "cutoff",       "until",  "onset_percent", "onset_speed", "learning_bin", "hand_masses"};
 
 }  // namespace
 

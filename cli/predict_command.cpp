@@ -8,10 +8,11 @@
 #include <iostream>
 #include <memory>
 
+#include "base/error.h"
+#include "base/fault.h"
 #include "cli/commands.h"
 #include "cli/criterion_option.h"
 #include "cli/predict_output.h"
-#include "base/error.h"
 #include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::cli {
@@ -86,10 +87,11 @@ void runSweep(const PredictArguments& arguments, const experiment::CompiledExper
 void runPredict(const PredictArguments& arguments) {
   const predict::Criterion criterion = parseCriterion(arguments.criterion);
   if (arguments.samples < 2 || arguments.samples > kMostSamples)
-    throw UsageError(fmt::format("--samples: {}; allowed: 2 to {}", arguments.samples, kMostSamples));
+    throw FaultError(Fault{"--samples", fmt::format("is {}", arguments.samples), fmt::format("2 to {}", kMostSamples)});
   if (arguments.duration > experiment::kMaxDuration)
-    throw UsageError(fmt::format("--duration: {} s; allowed: more than 0, at most {:.0f} s", arguments.duration, experiment::kMaxDuration));
-  if (arguments.json && !arguments.sweep.empty()) throw UsageError("--sweep: writes CSV rows; --json is for a single prediction");
+    throw FaultError(Fault{"--duration", fmt::format("is {} s", arguments.duration),
+                           fmt::format("more than 0, at most {:.0f} s", experiment::kMaxDuration)});
+  if (arguments.json && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "writes CSV rows; --json is for a single prediction"});
   const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
   predict::PredictOptions options;
   options.duration = arguments.duration;

@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/record/recover.h"
 
 namespace reachlab::cli {
@@ -43,7 +44,7 @@ void addRecoverCommand(CLI::App& app, int& exitCode) {
     for (const std::string& path : *paths) {
       try {
         recover(path);
-      } catch (const UsageError& fault) {
+      } catch (const FaultError& fault) {
         failed(fault, 2);
       } catch (const ResourceError& fault) {
         failed(fault, 3);

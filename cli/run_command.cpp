@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "cli/commands.h"
 #include "cli/seed_option.h"
 #include "cli/session_runner.h"
@@ -21,7 +21,8 @@ std::string withKeptMapping(const session::SessionRequest& request, bool save) {
   const std::string file = devices::mappingFile(request.place.data, subject, kind);
   if (save) {
     if (!hand.mapped)
-      throw UsageError("--save-mapping: the device has no mapping; allowed with scale=, offset=, rotation=, mirror= or mapping=");
+      throw FaultError(
+          Fault{"--save-mapping", "the device has no mapping", "a device with scale=, offset=, rotation=, mirror= or mapping="});
     devices::saveMapping(hand.mapping, file);
     fmt::print(stderr, "mapping kept in {}\n", file);
   }

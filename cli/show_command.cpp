@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "cli/at_option.h"
 #include "cli/commands.h"
 #include "cli/success_table.h"
@@ -132,12 +132,12 @@ Json runJson(const record::RunLog& log) {
 
 const record::RecordedTrial& trialOf(const std::vector<record::RunLog>& logs, int number) {
   if (logs.size() != 1)
-    throw UsageError(fmt::format("--trial: there are {} runs here; allowed: the log of one run, such as {}", logs.size(), logs[0].path()));
+    throw FaultError(Fault{"--trial", fmt::format("there are {} runs here", logs.size()), "the log of one run, such as " + logs[0].path()});
   const std::vector<record::RecordedTrial>& trials = logs[0].trials();
   const auto found = std::find_if(trials.begin(), trials.end(), [&](const auto& t) { return t.trial == number; });
   if (found != trials.end()) return *found;
-  if (trials.empty()) throw UsageError(fmt::format("--trial: {} has no trials", logs[0].path()));
-  throw UsageError(fmt::format("--trial: is {}; allowed: {} to {}", number, trials.front().trial, trials.back().trial));
+  if (trials.empty()) throw FaultError(Fault{"--trial", logs[0].path() + " has no trials"});
+  throw FaultError(Fault{"--trial", fmt::format("is {}", number), fmt::format("{} to {}", trials.front().trial, trials.back().trial)});
 }
 
 void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bool asJson) {
@@ -163,10 +163,10 @@ void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bo
 }
 
 void show(const Options& options) {
-  if (!options.figure.empty() && options.trial == 0) throw UsageError("--figure: draws one trial; allowed: beside --trial N");
+  if (!options.figure.empty() && options.trial == 0) throw FaultError(Fault{"--figure", "draws one trial", "beside --trial N"});
   std::vector<record::RunLog> logs;
   for (const std::string& path : record::findLogs(options.what)) logs.push_back(record::RunLog::open(path));
-  if (logs.empty()) throw UsageError(fmt::format("{}: holds no recordings; allowed: a dataset, a session's folder or a log", options.what));
+  if (logs.empty()) throw FaultError(Fault{{}, "holds no recordings", "a dataset, a session's folder or a log", FilePlace{options.what}});
   if (options.trial > 0) {
     const record::RecordedTrial& trial = trialOf(logs, options.trial);
     if (!options.figure.empty()) atOption("--figure", [&] { figure::writeFigure(drawTrial(logs[0], trial), options.figure); });

@@ -9,6 +9,7 @@
 #include "cli/hand_laws.h"
 #include "cli/standard_streams.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/dynamics/compiled_scene.h"
 
 namespace reachlab::cli {
@@ -134,18 +135,17 @@ void simulate(const Request& request) {
   experiment::Experiment experiment = compiled.experiment();
   const auto positive = [](double value, const char* option) {
     if (!(value > 0) || !std::isfinite(value))
-      throw UsageError(fmt::format("{}: {} s; allowed: a positive number of seconds", option, value));
+      throw FaultError(Fault{option, fmt::format("is {} s", value), "a positive number of seconds"});
   };
   positive(request.every, "--every");
   positive(request.step, "--step");
   if (request.until < 0 && !experiment.task)
-    throw UsageError("--until: is missing, and the experiment has no task.duration_s; allowed: seconds");
+    throw FaultError(Fault{"--until", "is missing, and the experiment has no task.duration_s", "seconds"});
   const double until = request.until >= 0 ? request.until : experiment.task->duration;
-  if (!std::isfinite(until)) throw UsageError("--until: is not finite; allowed: seconds");
+  if (!std::isfinite(until)) throw FaultError(Fault{"--until", "is not finite", "seconds"});
   if (until / request.every > kMostRows || until / request.step > kMaxSteps)
-    throw UsageError(
-        fmt::format("--until: {} s are too many rows or steps; allowed: up to {:.0e} rows of --every and {:.0e} steps of --step", until,
-                    kMostRows, kMaxSteps));
+    throw FaultError(Fault{"--until", fmt::format("{} s are too many rows or steps", until),
+                           fmt::format("up to {:.0e} rows of --every and {:.0e} steps of --step", kMostRows, kMaxSteps)});
   if (!request.method.empty()) experiment.method = request.method;
 
   const constraints::Constraint& constraint = compiled.constraint();
@@ -158,15 +158,18 @@ void simulate(const Request& request) {
   if (rate.empty()) rate.assign(coordinates, 0.0);
   const auto requireCount = [&](const std::vector<double>& values, const char* option) {
     if (values.size() != coordinates)
-      throw UsageError(fmt::format("{}: has {} numbers; allowed: {} here, separated by commas", option, values.size(), coordinates));
+      throw FaultError(
+          Fault{option, fmt::format("has {} numbers", values.size()), fmt::format("{} here, separated by commas", coordinates)});
   };
   requireCount(at, "--at");
   requireCount(rate, "--rate");
-  if (!request.force.empty() && request.force.size() != 3) throw UsageError("--force: allowed: three numbers X,Y,Z in N");
+  if (!request.force.empty() && request.force.size() != 3)
+    throw FaultError(Fault{"--force", fmt::format("has {} numbers", request.force.size()), "three, X,Y,Z in N"});
   const bool body = experiment.object.kind == experiment::ObjectKind::Body;
-  if (!request.angularRate.empty() && (!body || request.angularRate.size() != 3))
-    throw UsageError(body ? "--angular-rate: allowed: three numbers X,Y,Z in rad/s"
-                          : "--angular-rate: the object does not turn; allowed: for object.kind body only");
+  if (!request.angularRate.empty() && !body)
+    throw FaultError(Fault{"--angular-rate", "the object does not turn", "for object.kind body only"});
+  if (!request.angularRate.empty() && request.angularRate.size() != 3)
+    throw FaultError(Fault{"--angular-rate", fmt::format("has {} numbers", request.angularRate.size()), "three, X,Y,Z in rad/s"});
   if (!experiment.task) experiment.task = experiment::Task{};
   experiment.task->start = at;
   if (experiment.task->target.empty()) experiment.task->target = at;

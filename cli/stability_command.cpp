@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "cli/commands.h"
 #include "devices/virtual/stability_map.h"
 #include "sim/figure/figure.h"
@@ -62,7 +63,8 @@ void writeText(const std::string& text, const std::filesystem::path& path) {
 
 void drawMap(const Request& request) {
   const devices::DeviceModel* model = devices::findDeviceModel(request.model);
-  if (model == nullptr) throw UsageError("model " + request.model + ": unknown; `reach list devices` has them as virtual:MODEL");
+  if (model == nullptr)
+    throw FaultError(Fault{"model", "is " + request.model + ", which is unknown; `reach list devices` has them as virtual:MODEL"});
   const auto map = devices::computeStabilityMap(*model, request.settings);
   if (request.out.empty()) {
     fmt::print("{}", tableOf(map));

@@ -17,7 +17,7 @@ struct TrialProfile {
   bool sinceOnset = true;
 };
 
-/// Reads the trial's rows; throws UsageError if the log has changed meanwhile.
+/// Reads the trial's rows; throws FaultError if the log has changed meanwhile.
 TrialProfile profileOf(const record::RunLog& log, const record::RecordedTrial& trial);
 /// Speeds with the task's T and T ± dT, and the coupling force, over time.
 figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial& trial);

@@ -4,9 +4,10 @@
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "cli/option_words.h"
 #include "cli/preflight_output.h"
 #include "constraints/definition.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/json_reader.h"
 #include "devices/make_device.h"
 #include "sim/experiment/compiled_experiment.h"
@@ -24,7 +25,7 @@ constexpr const char* kExpected =
 std::string fileOf(const std::string& fileOrName) {
   namespace fs = std::filesystem;
   std::error_code error;
-  if (fs::is_directory(fileOrName, error)) throw UsageError(fmt::format("{}: is a folder; allowed: {}", fileOrName, kExpected));
+  if (fs::is_directory(fileOrName, error)) throw FaultError(Fault{{}, "is a folder", kExpected, FilePlace{fileOrName}});
   const std::vector<std::string> experiments = experiment::shippedExperiments();
   if (!fs::exists(fileOrName, error) && std::find(experiments.begin(), experiments.end(), fileOrName) != experiments.end())
     return fmt::format("{}/experiments/{}.json", experiment::resourceFolder(), fileOrName);
@@ -35,11 +36,12 @@ std::string fileOf(const std::string& fileOrName) {
 void checkIsJsonObject(const std::string& text, const std::string& file) {
   const std::size_t at = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (at == std::string::npos || (text[at] != '{' && text[at] != '/'))
-    throw UsageError(fmt::format("{}:1:1: is no JSON object{}; allowed: {}", file,
-                                 file.ends_with(".csv")     ? ", but a table"
-                                 : file.ends_with(".reach") ? ", but a recording"
-                                                            : "",
-                                 kExpected));
+    throw FaultError(Fault{{},
+                           std::string("is no JSON object") + (file.ends_with(".csv")     ? ", but a table"
+                                                               : file.ends_with(".reach") ? ", but a recording"
+                                                                                          : ""),
+                           kExpected,
+                           FilePlace{file, 1, 1}});
 }
 
 // What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing.
@@ -98,8 +100,8 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
         validateFile(file);
         if (!r->json) fmt::print("{}: fine\n", file);
         if (!r->device.empty()) checkOnDevice(*r, file);
-      } catch (const UsageError& e) {
-        fmt::print(stderr, "{}\n", e.what());
+      } catch (const FaultError& e) {
+        fmt::print(stderr, "{}\n", toText(inOptionWords(e.faults)));
         exitCode = 2;
       }
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/fault.h"
 #include "constraints/definition.h"
 #include "constraints/analysis.h"
 #include "base/names.h"
@@ -141,8 +142,8 @@ template <class Work>
 Constraint under(const std::string& key, Work&& work) {
   try {
     return work();
-  } catch (const UsageError& error) {
-    std::vector<Fault> faults = faultsOf(error);
+  } catch (const FaultError& error) {
+    std::vector<Fault> faults = error.faults;
     for (Fault& fault : faults)
       if (fault.key.empty()) fault.key = key;
     throw FaultError(std::move(faults));

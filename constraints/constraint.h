@@ -97,7 +97,7 @@ struct Constraint {
   int parameterCount() const { return static_cast<int>(kind); }
 };
 
-/// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws UsageError (unknown name or shape key,
+/// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws FaultError (unknown name or shape key,
 /// value out of range, syntax with the character's place, degenerate everywhere, non-finite in the domain).
 /// Each fault stands under `key` or what it has inside: "constraint.curve[1]", "constraint.shape.a".
 Constraint makeConstraint(const ConstraintSpec& spec, const std::string& key = "constraint");

@@ -44,7 +44,7 @@ const Definition* findInCatalogue(const std::string& name);
 /// A definition of the catalogue, else NAME.json of the user's folder. Throws FaultError naming the nearest known one.
 Definition findDefinition(const std::string& name, const std::string& key);
 
-/// Reads a definition file. Throws UsageError with every fault, one a line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+/// Reads a definition file. Throws FaultError with every fault, one a line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Definition parseDefinition(const std::string& text, const std::string& file);
 Definition readDefinition(const std::string& file);
 /// Every fault of a definition as a value, each under its key; empty when fine.
@@ -52,24 +52,24 @@ std::vector<Fault> problems(const Definition& definition);
 /// The definition as a file that reads back equal.
 std::string toJson(const Definition& definition);
 
-/// All definitions (*.json) of a folder, by name; none if there is no such folder. Throws UsageError on a faulty file.
+/// All definitions (*.json) of a folder, by name; none if there is no such folder. Throws FaultError on a faulty file.
 std::vector<Definition> readDefinitionFolder(const std::string& folder);
 /// Where the user's own definitions are saved: $REACHLAB_CONSTRAINTS, else reachlab/constraints in $XDG_DATA_HOME or ~/.local/share.
 std::string userDefinitionFolder();
 
-/// The constraint of a definition with some shape values changed from their defaults. Throws UsageError as makeConstraint does.
+/// The constraint of a definition with some shape values changed from their defaults. Throws FaultError as makeConstraint does.
 Constraint makeConstraint(const Definition& definition, const std::map<std::string, double>& shape = {},
                           const std::string& key = "constraint");
 /// Parameters in the order of Curve::shape and Surface::shape.
 FormulaText formulaOf(const Definition& definition);
-/// The shape's values in that order. Throws UsageError on an unknown key or a value out of range.
+/// The shape's values in that order. Throws FaultError on an unknown key or a value out of range.
 std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape,
                                                 const std::string& key);
 /// The shape as it is when nothing is changed, in that order.
 std::array<double, kMaxShapeParameters> defaultsOf(const Definition& definition);
 /// The domain for a shape. Throws FaultError under `domain`.
 std::array<Domain, 2> domainOf(const Definition& definition, const std::array<double, kMaxShapeParameters>& shape);
-/// Value of a constant expression that may name the definition's shape parameters. Throws UsageError.
+/// Value of a constant expression that may name the definition's shape parameters. Throws FaultError.
 double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
                   const std::string& key);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/fault.h"
 #include "constraints/definition.h"
 
 namespace reachlab::constraints {
@@ -45,8 +46,8 @@ std::vector<Fault> problems(const Definition& definition) {
   std::array<Domain, 2> domain;
   try {
     domain = domainOf(definition, defaultsOf(definition));
-  } catch (const UsageError& error) {
-    for (Fault& fault : faultsOf(error)) faults.push_back(std::move(fault));
+  } catch (const FaultError& error) {
+    faults.insert(faults.end(), error.faults.begin(), error.faults.end());
     return faults;
   }
   for (std::size_t k = 0; k < dimensions; ++k) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/fault.h"
 #include "constraints/definition.h"
 #include "base/json_reader.h"
 
@@ -165,7 +166,8 @@ double constantOf(const std::string& expression, const FormulaText& names, const
                   const std::string& key) {
   ExpressionGraph graph;
   const ParsedFormula parsed = parseFormula(expression, {{}, names.parameters}, graph);
-  if (parsed.fault) throw FaultError(Fault{key, parsed.fault->what, {}, FilePlace{{}, 0, static_cast<int>(parsed.fault->character)}});
+  if (parsed.fault)
+    throw FaultError(Fault{key, parsed.fault->what, parsed.fault->allowed, FilePlace{{}, 0, static_cast<int>(parsed.fault->character)}});
   const double value = evaluateNodes(graph, std::array{parsed.root}, shape.data(), nullptr)[0];
   if (!std::isfinite(value)) throw FaultError(Fault{key, "is not finite", "a finite number"});
   return value;

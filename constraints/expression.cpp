@@ -1,10 +1,12 @@
 #include "constraints/expression.h"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 #include <iterator>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "constraints/sincos.h"
 
 namespace reachlab::constraints {
@@ -91,7 +93,8 @@ int ExpressionGraph::intern(const ExpressionNode& node) {
   Key key{node.op, node.a, node.b, std::bit_cast<std::uint64_t>(node.value)};
   if (commutes(node.op) && key.a > key.b) std::swap(key.a, key.b);
   if (const auto found = ids_.find(key); found != ids_.end()) return found->second;
-  if (size() >= kMaxExpressionNodes) throw UsageError("the formula with its derivatives is too large; allowed: 20000 operations");
+  if (size() >= kMaxExpressionNodes)
+    throw FaultError(Fault{{}, "the formula with its derivatives is too large", fmt::format("{} operations", kMaxExpressionNodes)});
   nodes_.push_back(node);
   return ids_[key] = size() - 1;
 }

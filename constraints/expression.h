@@ -50,7 +50,7 @@ double applyOp(Op op, double a, double b) noexcept;
 
 /// Expressions that share their equal parts: equal nodes are one node, operands come before what uses them, so a walk in index order
 /// needs no recursion. Building simplifies: constants fold, signs and constant factors move outwards, powers of one base join.
-/// Throws UsageError when it would hold more than kMaxExpressionNodes.
+/// Throws FaultError when it would hold more than kMaxExpressionNodes.
 class ExpressionGraph {
  public:
   static constexpr int kMaxExpressionNodes = 20000;

@@ -34,25 +34,25 @@ Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
       if (needed[id] && graph.isConstant(static_cast<int>(id)) && !std::isfinite(graph.node(static_cast<int>(id)).value)) {
         result.faults.push_back({static_cast<int>(k), 0, 1,
                                  "has no finite value anywhere: a part of it that does not move is not finite (1/0, log(0), the root of a "
-                                 "negative number); allowed: numbers that have a value"});
+                                 "negative number)",
+                                 "numbers that have a value"});
         break;
       }
   }
   if (!result.faults.empty()) return result;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i])
-      result.faults.push_back(
-          {-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate; allowed: names that the formula uses"});
+      result.faults.push_back({-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate", "names that the formula uses"});
   return result;
 }
 
 std::vector<FormulaFault> parameterFaults(const FormulaText& text) {
   std::vector<FormulaFault> faults;
   if (text.parameters.size() > kMaxShapeParameters)
-    faults.push_back({-1, 0, 0, "has " + std::to_string(text.parameters.size()) + " shape parameters; allowed: 8"});
+    faults.push_back(
+        {-1, 0, 0, "has " + std::to_string(text.parameters.size()) + " shape parameters", std::to_string(kMaxShapeParameters)});
   for (const std::string& name : text.parameters)
-    if (const std::string fault = parameterNameFault(name, variablesOf(text.kind)); !fault.empty())
-      faults.push_back({-1, 0, 0, "shape." + name.substr(0, 40) + " " + fault});
+    if (const auto fault = parameterNameFault(name, variablesOf(text.kind))) faults.push_back(*fault);
   return faults;
 }
 
@@ -68,8 +68,9 @@ std::vector<std::string> variablesOf(ConstraintKind kind) {
 
 Fault toFault(const FormulaFault& fault, ConstraintKind kind, const std::string& key) {
   const std::string formula = keyIn(key, kind == ConstraintKind::Curve ? "curve" : "surface");
-  if (fault.coordinate < 0) return {formula, fault.what};
-  return {formula + "[" + std::to_string(fault.coordinate) + "]", fault.what, {}, FilePlace{{}, 0, static_cast<int>(fault.character)}};
+  if (fault.coordinate < 0) return {formula, fault.what, fault.allowed};
+  return {formula + "[" + std::to_string(fault.coordinate) + "]", fault.what, fault.allowed,
+          FilePlace{{}, 0, static_cast<int>(fault.character)}};
 }
 
 std::vector<FormulaFault> formulaFaults(const FormulaText& text) {
@@ -102,7 +103,7 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
     for (int k = 1; k <= kMaxDerivative; ++k) {
       try {
         order = graph.differentiate(order, 0);
-      } catch (const UsageError&) {
+      } catch (const FaultError&) {
         if (k <= 2) throw FaultError(Fault{key, "the formula with its derivatives is too large", "a shorter formula"});
         break;  // the third and fourth are extras of small formulas
       }

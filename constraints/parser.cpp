@@ -25,9 +25,11 @@ std::vector<std::string> functionNames() {
   return names;
 }
 
-struct Fault {
+constexpr std::size_t kMaxNameLength = 40;
+
+struct BreaksOff {
   std::size_t position;
-  std::string what;
+  std::string what, allowed;
 };
 
 class Parser {
@@ -43,7 +45,9 @@ class Parser {
   }
 
  private:
-  [[noreturn]] static void fail(std::size_t position, std::string what) { throw Fault{position, std::move(what)}; }
+  [[noreturn]] static void fail(std::size_t position, std::string what, std::string allowed = {}) {
+    throw BreaksOff{position, std::move(what), std::move(allowed)};
+  }
 
   void skipSpaces() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
@@ -68,8 +72,7 @@ class Parser {
 
   struct Nested {
     explicit Nested(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kMaxFormulaDepth)
-        fail(parser_.at_, "nested too deeply; allowed: " + std::to_string(kMaxFormulaDepth) + " levels");
+      if (++parser_.depth_ > kMaxFormulaDepth) fail(parser_.at_, "nested too deeply", std::to_string(kMaxFormulaDepth) + " levels");
     }
     ~Nested() { --parser_.depth_; }
     Nested(const Nested&) = delete;
@@ -177,7 +180,7 @@ class Parser {
     const std::vector<std::string> functions = functionNames();
     known.insert(known.end(), functions.begin(), functions.end());
     const std::string near = nearestName(word, known);
-    std::string shown(word.substr(0, 40));
+    std::string shown(word.substr(0, kMaxNameLength));
     fail(start, "unknown name '" + shown + "'; expected " + expected + (near.empty() ? "" : "; did you mean " + near + "?"));
   }
 
@@ -200,29 +203,31 @@ ParsedFormula parseFormula(std::string_view text, const FormulaNames& names, Exp
   ParsedFormula result;
   result.used.assign(names.parameters.size(), false);
   if (text.size() > kMaxFormulaCharacters) {
-    result.fault =
-        FormulaFault{0, kMaxFormulaCharacters, kMaxFormulaCharacters + 1,
-                     "the formula has " + std::to_string(text.size()) + " characters; allowed: " + std::to_string(kMaxFormulaCharacters)};
+    result.fault = FormulaFault{0, kMaxFormulaCharacters, kMaxFormulaCharacters + 1,
+                                "the formula has " + std::to_string(text.size()) + " characters", std::to_string(kMaxFormulaCharacters)};
     return result;
   }
   try {
     result.root = Parser(text, names, graph, result.used).parse();
-  } catch (const Fault& fault) {
-    result.fault = FormulaFault{0, fault.position, countCharacters(text.substr(0, fault.position)) + 1, fault.what};
+  } catch (const BreaksOff& fault) {
+    result.fault = FormulaFault{0, fault.position, countCharacters(text.substr(0, fault.position)) + 1, fault.what, fault.allowed};
   }
   return result;
 }
 
-std::string parameterNameFault(const std::string& name, const std::vector<std::string>& variables) {
-  if (name.empty() || name.size() > 40 || !isLetter(name[0]) ||
+std::optional<FormulaFault> parameterNameFault(const std::string& name, const std::vector<std::string>& variables) {
+  const auto fault = [&](const char* what, const char* allowed) {
+    return FormulaFault{-1, 0, 0, "shape." + name.substr(0, kMaxNameLength) + " " + what, allowed};
+  };
+  if (name.empty() || name.size() > kMaxNameLength || !isLetter(name[0]) ||
       !std::all_of(name.begin(), name.end(), [](char c) { return isLetter(c) || isDigit(c); }))
-    return "is no name; allowed: a letter, then letters, digits and _, at most 40 characters";
+    return fault("is no name", "a letter, then letters, digits and _, at most 40 characters");
   if (std::find(variables.begin(), variables.end(), name) != variables.end())
-    return "is the name of the formula's variable; allowed: another name";
-  if (name == "phi" || name == "u" || name == "v") return "is the name of a variable; allowed: another name";
-  if (name == "pi" || name == "e") return "is the name of a constant; allowed: another name";
-  if (functionNamed(name)) return "is the name of a function; allowed: another name";
-  return {};
+    return fault("is the name of the formula's variable", "another name");
+  if (name == "phi" || name == "u" || name == "v") return fault("is the name of a variable", "another name");
+  if (name == "pi" || name == "e") return fault("is the name of a constant", "another name");
+  if (functionNamed(name)) return fault("is the name of a function", "another name");
+  return std::nullopt;
 }
 
 }  // namespace reachlab::constraints

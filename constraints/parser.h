@@ -16,7 +16,8 @@ struct FormulaFault {
   int coordinate = 0;        // 0 x, 1 y, 2 z
   std::size_t position = 0;  // byte of the formula at which it went wrong (its length: at the end)
   std::size_t character = 1;
-  std::string what;  // "unknown name 'phj'; expected phi, a, b, a constant or a function; did you mean phi?"
+  std::string what = {};     // "unknown name 'phj'; expected phi, a, b, a constant or a function; did you mean phi?"
+  std::string allowed = {};  // empty where `what` says it all
 };
 
 /// Names a formula may use besides `pi`, `e` and the functions.
@@ -36,7 +37,7 @@ struct ParsedFormula {
 /// kMaxFormulaDepth levels of nesting; whatever the text, it neither recurses nor allocates beyond that.
 ParsedFormula parseFormula(std::string_view text, const FormulaNames& names, ExpressionGraph& graph);
 
-/// Why `name` can't name a shape parameter (clash with a variable, constant or function; not a name); empty when it can.
-std::string parameterNameFault(const std::string& name, const std::vector<std::string>& variables);
+/// Why `name` can't name a shape parameter (clash with a variable, constant or function; not a name); none when it can.
+std::optional<FormulaFault> parameterNameFault(const std::string& name, const std::vector<std::string>& variables);
 
 }  // namespace reachlab::constraints

@@ -1,9 +1,11 @@
 #include "constraints/program.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <optional>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -76,7 +78,9 @@ class Compiler {
 
   std::uint16_t newRegister() {
     if (next_ >= kMaxRegisters)
-      throw UsageError("the formula with its derivatives needs more than 1024 operations; allowed: a shorter formula");
+      throw FaultError(Fault{{},
+                             fmt::format("the formula with its derivatives needs more than {} operations", kMaxRegisters - kMaxOutputs),
+                             "a shorter formula"});
     return static_cast<std::uint16_t>(next_++);
   }
   void emit(Code code, int a, int b, int c, int out, double number) {

@@ -74,7 +74,7 @@ struct Program {
   std::vector<Copy> copies;
 };
 
-/// Compiles roots (x, y, z of r, then of each derivative, in the order of the point's members). Throws UsageError when it needs more
+/// Compiles roots (x, y, z of r, then of each derivative, in the order of the point's members). Throws FaultError when it needs more
 /// than kMaxRegisters.
 Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int parameterCount, int variableCount);
 

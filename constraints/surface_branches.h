@@ -41,7 +41,7 @@ struct SurfaceBranches {
 /// Interval arithmetic shows that r is analytic, and r_u x r_v not 0, wherever u and v are in the range. False says nothing.
 bool isProvedRegular(const Constraint& surface, const std::array<Domain, 2>& range);
 
-/// Throws UsageError where the formula has more than kMaxGuards such lines.
+/// Throws FaultError where the formula has more than kMaxGuards such lines.
 std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& surface);
 
 }  // namespace reachlab::constraints

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "constraints/analysis.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "constraints/formula.h"
 #include "constraints/guards.h"
 #include "constraints/interval.h"
@@ -121,9 +121,11 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
     if (!isProvedAway(graph, guard, shape, c.domain)) active.push_back(guard);
   if (active.empty()) return result;
   if (active.size() > SurfaceBranches::kMaxGuards)
-    throw UsageError(
-        fmt::format("the surface's formula has {} operations that are not smooth everywhere (abs, sign, roots, quotients …); allowed: {}",
-                    active.size(), SurfaceBranches::kMaxGuards));
+    throw FaultError(
+        Fault{{},
+              fmt::format("the surface's formula has {} operations that are not smooth everywhere (abs, sign, roots, quotients …)",
+                          active.size()),
+              fmt::format("{}", SurfaceBranches::kMaxGuards)});
   const std::vector<std::string> variables = variablesOf(ConstraintKind::Surface);
   int bits = 0;
   for (const Guard& guard : active) {

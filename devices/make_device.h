@@ -17,7 +17,7 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 /// Checks and compiles the experiment first.
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
-/// What is asked of the device beside its driver's own options: mapping and guards (docs/devices.md). Throws UsageError.
+/// What is asked of the device beside its driver's own options: mapping and guards (docs/devices.md). Throws FaultError.
 HandOptions handOptionsOf(const std::string& spec);
 
 /// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws

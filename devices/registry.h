@@ -41,7 +41,7 @@ struct DeviceDriver {
   bool inWindowOnly = false;
   /// What of this kind is there, or one row that says why nothing is. Opens no more than it must, and leaves all as it was.
   std::vector<FoundDevice> (*find)(const DeviceDriver& self);
-  /// Throws UsageError (a wrong argument), ResourceError (it cannot be had).
+  /// Throws FaultError (a wrong argument), ResourceError (it cannot be had).
   std::unique_ptr<haptics::HapticDevice> (*make)(const DeviceRequest& request);
 };
 

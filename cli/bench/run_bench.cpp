@@ -11,6 +11,7 @@
 #include "cli/bench/allocation_count.h"
 #include "cli/bench/constraint_bench.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
 #include "sim/haptics/tick_timing.h"
@@ -94,7 +95,7 @@ void benchTicks(const BenchOptions& options) {
 void runBench(const BenchOptions& options) {
   const auto& scenes = options.scenes;
   if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
-    if (scenes.size() > 1) throw UsageError("bench: --scene constraint-eval stands alone; run the other scenes by themselves");
+    if (scenes.size() > 1) throw FaultError(Fault{"--scene", "constraint-eval stands alone; run the other scenes by themselves"});
     benchConstraints(options);
     return;
   }

@@ -9,6 +9,7 @@
 #include "constraints/cpp_writer.h"
 #include "constraints/definition.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/json_tree.h"
 
 namespace {
@@ -22,7 +23,7 @@ std::string generate(const std::vector<std::string>& files) {
     const std::string text = readTextFile(file);
     const Definition definition = parseDefinition(text, file);
     if (fmt::format("/{}.json", definition.name) != file.substr(file.find_last_of('/')))
-      throw UsageError(fmt::format("{}: name: is {}; allowed: the file's name", file, definition.name));
+      throw FaultError(Fault{"name", "is " + definition.name, "the file's name", FilePlace{file}});
     const std::string function = "evaluate" + upperCamel(definition.name);
     const auto formula = compileFormula(formulaOf(definition), file);
     const bool curve = definition.kind == ConstraintKind::Curve;

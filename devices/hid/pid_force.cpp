@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "devices/hid/stick_force.h"
 
 namespace reachlab::devices {
@@ -28,7 +28,8 @@ class PidForce final : public StickForce {
  public:
   explicit PidForce(const HidLayout& layout) : layout_(layout) {
     const auto need = [&](HidReportKind kind, HidUsage usage, HidUsage within, const char* what) {
-      if (layout_.find(kind, usage, within) == nullptr) throw UsageError(fmt::format("its report descriptor has no {} (HID PID)", what));
+      if (layout_.find(kind, usage, within) == nullptr)
+        throw FaultError(Fault{"report descriptor", fmt::format("has no {} (HID PID)", what)});
     };
     need(HidReportKind::Feature, kConstant, kCreate, "constant force among Create New Effect");
     need(HidReportKind::Feature, kBlockIndex, kBlockLoad, "Block Load with an Effect Block Index");
@@ -36,7 +37,7 @@ class PidForce final : public StickForce {
     need(HidReportKind::Output, kMagnitude, kSetConstantForce, "Set Constant Force with a Magnitude");
     need(HidReportKind::Output, kStart, kOperation, "Effect Operation with Start");
     full_ = layout_.find(HidReportKind::Output, kMagnitude, kSetConstantForce)->most;
-    if (full_ <= 0) throw UsageError("its report descriptor gives Magnitude no range (HID PID)");
+    if (full_ <= 0) throw FaultError(Fault{"report descriptor", "gives Magnitude no range (HID PID)"});
     axes_ = layout_.find(HidReportKind::Output, kY, kAxesEnable) != nullptr ? 2 : 1;
   }
 

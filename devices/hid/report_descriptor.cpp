@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::devices {
 namespace {
@@ -24,22 +24,24 @@ struct Locals {
   std::optional<HidUsage> first, last;
 };
 
+[[noreturn]] void refuse(const char* what) { throw FaultError(Fault{"report descriptor", what}); }
+
 class Parser {
  public:
   explicit Parser(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   HidLayout parse() {
     while (!bytes_.empty()) item();
-    if (!collections_.empty()) throw UsageError("report descriptor: a collection is not closed");
+    if (!collections_.empty()) refuse("a collection is not closed");
     return std::move(layout_);
   }
 
  private:
   void item() {
     const std::uint8_t head = bytes_[0];
-    if (head == 0xFE) throw UsageError("report descriptor: a long item");
+    if (head == 0xFE) refuse("a long item");
     const std::size_t size = (head & 3) == 3 ? 4 : head & 3;
-    if (bytes_.size() < 1 + size) throw UsageError("report descriptor: breaks off");
+    if (bytes_.size() < 1 + size) refuse("breaks off");
     std::uint32_t raw = 0;
     for (std::size_t i = 0; i < size; ++i) raw |= std::uint32_t{bytes_[1 + i]} << 8 * i;
     std::int32_t value = static_cast<std::int32_t>(raw);
@@ -61,7 +63,7 @@ class Parser {
       case 0xB: fields(HidReportKind::Feature, raw); break;
       case 0xA: collections_.push_back(local_.usages.empty() ? 0 : local_.usages.front()); break;
       case 0xC:
-        if (collections_.empty()) throw UsageError("report descriptor: closes a collection that is not open");
+        if (collections_.empty()) refuse("closes a collection that is not open");
         collections_.pop_back();
         break;
       default: break;
@@ -82,7 +84,7 @@ class Parser {
       case 0x9: global_.count = raw; break;
       case 0xA: stack_.push_back(global_); break;
       case 0xB:
-        if (stack_.empty()) throw UsageError("report descriptor: takes back globals that were not kept");
+        if (stack_.empty()) refuse("takes back globals that were not kept");
         global_ = stack_.back();
         stack_.pop_back();
         break;
@@ -95,8 +97,7 @@ class Parser {
     if (tag == 0x1) local_.first = usage;
     if (tag == 0x2) local_.last = usage;
     if (!local_.first || !local_.last) return;
-    if (*local_.last < *local_.first || *local_.last - *local_.first > kMostFields)
-      throw UsageError("report descriptor: a range of usages");
+    if (*local_.last < *local_.first || *local_.last - *local_.first > kMostFields) refuse("a range of usages");
     for (HidUsage at = *local_.first; at <= *local_.last; ++at) local_.usages.push_back(at);
     local_.first = local_.last = std::nullopt;
   }
@@ -110,10 +111,10 @@ class Parser {
     constexpr std::uint32_t kConstant = 1, kVariable = 2;
     std::uint32_t& length = lengthOf(kind);
     if (global_.count > kMostFields * 16 || std::uint64_t{length} + std::uint64_t{global_.size} * global_.count > kMostBits)
-      throw UsageError("report descriptor: a report of unreasonable size");
+      refuse("a report of unreasonable size");
     for (std::uint32_t i = 0; i < global_.count; ++i, length += global_.size) {
       if ((flags & kConstant) != 0 || local_.usages.empty() || global_.size == 0 || global_.size > 32) continue;
-      if (layout_.fields.size() >= kMostFields) throw UsageError("report descriptor: more fields than reasonable");
+      if (layout_.fields.size() >= kMostFields) refuse("more fields than reasonable");
       HidField field;
       field.kind = kind;
       field.report = global_.report;

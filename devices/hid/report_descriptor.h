@@ -35,7 +35,7 @@ struct HidLayout {
   std::vector<std::pair<std::pair<HidReportKind, std::uint8_t>, std::uint32_t>> lengths;  // in bits
 };
 
-/// Throws UsageError when it is no whole descriptor, or one of unreasonable size.
+/// Throws FaultError when it is no whole descriptor, or one of unreasonable size.
 HidLayout parseReportDescriptor(std::span<const std::uint8_t> bytes);
 
 /// A value of a report that has been received, number included where reports have one; nullopt when it is too short or of another number.

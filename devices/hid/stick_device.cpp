@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "devices/drivers.h"
 #include "devices/options.h"
 
@@ -35,7 +36,7 @@ StickDevice::StickDevice(const Options& options, std::string name, const HidLayo
                          OpenPort open)
     : options_(options), name_(std::move(name)), layout_(layout), x_(axisOf(layout_, {kX, kSteering})), y_(axisOf(layout_, {kY})),
       force_(std::move(force)), open_(std::move(open)) {
-  if (x_ == nullptr) throw UsageError(name_ + ": its report descriptor has no axis X");
+  if (x_ == nullptr) throw FaultError(Fault{"device", name_ + ": its report descriptor has no axis X"});
   this->open();
 }
 
@@ -145,7 +146,7 @@ std::vector<FoundStick> findSticks() {
       if (at.vendor == kLogitech && at.product == kG940) found.push_back({at, layout, makeG940Force()});
       else if (isWheel(at)) found.push_back({at, layout, makeWheelForce()});
       else found.push_back({at, layout, makePidForce(layout)});
-    } catch (const UsageError&) {  // not a stick that can be felt
+    } catch (const FaultError&) {  // not a stick that can be felt
     }
   }
   return found;

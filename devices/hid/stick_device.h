@@ -21,7 +21,7 @@ class StickDevice final : public Transport {
     bool reversed = false;  // the device counts forces the other way
   };
   using OpenPort = std::function<std::unique_ptr<HidPort>()>;
-  /// Throws UsageError (the descriptor has no axis), ResourceError (`open`, or the force cannot be made ready).
+  /// Throws FaultError (the descriptor has no axis), ResourceError (`open`, or the force cannot be made ready).
   StickDevice(const Options& options, std::string name, const HidLayout& layout, std::unique_ptr<StickForce> force, OpenPort open);
 
   haptics::DeviceInfo info() const override;

@@ -21,7 +21,7 @@ class StickForce {
 };
 
 /// USB HID PID 1.0 by the report descriptor: one constant-force effect for each axis, made and started once, its magnitude set anew with
-/// each force. Throws UsageError naming the report that the descriptor lacks.
+/// each force. Throws FaultError naming the report that the descriptor lacks.
 std::unique_ptr<StickForce> makePidForce(const HidLayout& layout);
 /// Logitech G940: 63 bytes, 0x51 at 0, -x at 1, -y at 31 (the kernel's hid-lg3ff). Its hand sensor must be covered.
 std::unique_ptr<StickForce> makeG940Force();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::devices {
 namespace {
@@ -98,7 +98,7 @@ std::optional<Vec3> takeVector(DeviceOptions& options, const std::string& key, d
     good = error == std::errc() && std::abs(parts[i]) <= most && (i == 2 ? next == end : next != end && *next == '/');
     at = next + (i < 2 ? 1 : 0);
   }
-  if (!good) throw UsageError(fmt::format("{}={}: allowed: X/Y/Z, each within {}", key, *text, most));
+  if (!good) throw FaultError(Fault{"device", fmt::format("{}={}", key, *text), fmt::format("X/Y/Z, each within {}", most)});
   return Vec3{parts[0], parts[1], parts[2]};
 }
 
@@ -117,8 +117,7 @@ HandOptions takeHandOptions(DeviceOptions& options) {
     double radius = 0;
     const auto [end, error] = std::from_chars(wall->data(), wall->data() + wall->size(), radius);
     const bool number = error == std::errc() && end == wall->data() + wall->size() && radius > 0 && radius <= 10;
-    if (*wall != "yes" && *wall != "no" && !number)
-      throw UsageError(fmt::format("wall={}: allowed: yes, no or a radius up to 10 m", *wall));
+    if (*wall != "yes" && *wall != "no" && !number) throw FaultError(Fault{"device", "wall=" + *wall, "yes, no or a radius up to 10 m"});
     if (*wall != "no") hand.wall = number ? radius : 0;
   }
   const double speed = options.number("speed-limit", -1, 0.01, 20);
@@ -128,17 +127,18 @@ HandOptions takeHandOptions(DeviceOptions& options) {
   hand.passivityControl = options.word("passivity", {"observe", "control"}) == "control";
   const double button = options.number("dead-man-button", 0, 1, 32);
   hand.deadManButton = static_cast<int>(button);
-  if (button != hand.deadManButton) throw UsageError(fmt::format("dead-man-button={}: allowed: a button's number, 1 to 32", button));
+  if (button != hand.deadManButton)
+    throw FaultError(Fault{"device", fmt::format("dead-man-button={}", button), "a button's number, 1 to 32"});
   return hand;
 }
 
 std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options) {
   if (!options.any()) return device;
   if (options.wall && *options.wall == 0 && !(device->info().workspaceRadius > 0))
-    throw UsageError(fmt::format("wall=yes: the workspace of {} is not known; allowed: wall=RADIUS_M", device->info().name));
+    throw FaultError(Fault{"device", fmt::format("wall=yes: the workspace of {} is not known", device->info().name), "wall=RADIUS_M"});
   if (options.deadManButton > 0 && !device->info().rendersForce)
-    throw UsageError(
-        fmt::format("dead-man-button: {} renders no force that it could take away; allowed: a force device", device->info().name));
+    throw FaultError(Fault{"device", fmt::format("dead-man-button: {} renders no force that it could take away", device->info().name),
+                           "a force device"});
   return std::make_unique<GuardedDevice>(std::move(device), options);
 }
 

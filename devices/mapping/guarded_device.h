@@ -22,7 +22,7 @@ struct HandOptions {
 };
 
 /// Takes `mapping=FILE`, `scale=`, `offset=X/Y/Z` [m], `rotation=X/Y/Z` [deg], `mirror=x`, `wall=yes|RADIUS_M`, `speed-limit=M_PER_S`,
-/// `stylus-mass=KG`, `passivity=control`, `dead-man-button=N`. Throws UsageError.
+/// `stylus-mass=KG`, `passivity=control`, `dead-man-button=N`. Throws FaultError.
 HandOptions takeHandOptions(DeviceOptions& options);
 
 /// The device as the world sees it: mapped, with its guards. With nothing asked for, the device itself.

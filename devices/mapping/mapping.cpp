@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/json_tree.h"
 
 namespace reachlab::devices {
@@ -19,15 +20,30 @@ using Json = nlohmann::ordered_json;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastScale = 0.01, kMostScale = 100, kFarthest = 10;
 
-double numberFrom(const Json& value, const std::string& where, double least, double most) {
+std::string shown(const Json& value) { return std::string("is ") + (value.is_number() ? value.dump() : value.type_name()); }
+
+double numberFrom(const Json& value, const std::string& key, double least, double most) {
   const double x = value.is_number() ? value.get<double>() : NAN;
-  if (!(x >= least) || !(x <= most)) throw UsageError(fmt::format("{}: allowed: a number from {} to {}", where, least, most));
+  if (!(x >= least) || !(x <= most)) throw FaultError(Fault{key, shown(value), fmt::format("a number from {} to {}", least, most)});
   return x;
 }
 
-Vec3 vectorFrom(const Json& value, const std::string& where, double most) {
-  if (!value.is_array() || value.size() != 3) throw UsageError(fmt::format("{}: allowed: three numbers", where));
-  return {numberFrom(value[0], where, -most, most), numberFrom(value[1], where, -most, most), numberFrom(value[2], where, -most, most)};
+Vec3 vectorFrom(const Json& value, const std::string& key, double most) {
+  if (!value.is_array() || value.size() != 3) throw FaultError(Fault{key, shown(value), "three numbers"});
+  return {numberFrom(value[0], key, -most, most), numberFrom(value[1], key, -most, most), numberFrom(value[2], key, -most, most)};
+}
+
+Mapping fromJson(const Json& json) {
+  if (!json.is_object()) throw FaultError(Fault{.what = "is no JSON object of a mapping"});
+  Mapping m;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "scale") m.scale = numberFrom(value, key, kLeastScale, kMostScale);
+    else if (key == "offset_m") m.offset = vectorFrom(value, key, kFarthest);
+    else if (key == "rotation_deg") m.rotation = kDegree * vectorFrom(value, key, 360);
+    else if (key == "mirror_x" && value.is_boolean()) m.mirrorX = value.get<bool>();
+    else throw FaultError(Fault{key, shown(value), "scale, offset_m, rotation_deg, mirror_x (true or false)"});
+  }
+  return m;
 }
 
 }  // namespace
@@ -51,18 +67,11 @@ std::string toJson(const Mapping& m) {
 }
 
 Mapping mappingFromJson(const std::string& text, const std::string& origin) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) throw UsageError(fmt::format("{}: is no JSON object of a mapping", origin));
-  Mapping m;
-  for (const auto& [key, value] : json.items()) {
-    const std::string where = fmt::format("{}: {}", origin, key);
-    if (key == "scale") m.scale = numberFrom(value, where, kLeastScale, kMostScale);
-    else if (key == "offset_m") m.offset = vectorFrom(value, where, kFarthest);
-    else if (key == "rotation_deg") m.rotation = kDegree * vectorFrom(value, where, 360);
-    else if (key == "mirror_x" && value.is_boolean()) m.mirrorX = value.get<bool>();
-    else throw UsageError(fmt::format("{}: allowed: scale, offset_m, rotation_deg, mirror_x (true or false)", where));
+  try {
+    return fromJson(Json::parse(text, nullptr, false));
+  } catch (const FaultError& error) {
+    throw FaultError(inFile(origin, error.faults));
   }
-  return m;
 }
 
 Mapping readMapping(const std::string& file) { return mappingFromJson(readTextFile(file), file); }

@@ -21,7 +21,7 @@ struct Mapping {
 std::array<Vec3, 3> directions(const Mapping& mapping) noexcept;
 
 /// `{"scale": 1, "offset_m": [x, y, z], "rotation_deg": [x, y, z], "mirror_x": false}`; every key may be left out when reading.
-/// Throws UsageError naming `origin` and the key.
+/// Throws FaultError naming `origin` and the key.
 std::string toJson(const Mapping& mapping);
 Mapping mappingFromJson(const std::string& text, const std::string& origin);
 Mapping readMapping(const std::string& file);

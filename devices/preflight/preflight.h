@@ -35,7 +35,7 @@ struct PreflightLine {
 ///                     of tick and reports. Encoder steps: Abbott and Okamura 2005, K <= 2 c/resolution with Coulomb friction c
 ///   stability         k_h against the largest that dies out on this device held by a relaxed hand (0.3 kg, 3 N s/m)
 ///   workspace         farthest place of the hand against the device's radius
-/// A device without force is asked for its workspace only. Takes some milliseconds, on a curve up to seconds. Throws UsageError (no task),
+/// A device without force is asked for its workspace only. Takes some milliseconds, on a curve up to seconds. Throws FaultError (no task),
 /// RefusedError (the scene cannot be computed).
 std::vector<PreflightLine> checkBeforeBlock(const experiment::Experiment& experiment, const haptics::DeviceInfo& device);
 

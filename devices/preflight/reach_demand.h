@@ -19,7 +19,7 @@ struct ReachDemand {
 /// computes the force: every object on every constraint. Where no such subject can plan it, a rigid body's minimum-jerk reach stands in for
 /// it: peak F = m (10/sqrt 3) d/T^2 + m g with m the whole mass, rms of x''(t) sqrt(120/7) d/T^2. `duration`: another T [s] than the task's; `centre` [m] of the
 /// device's workspace.
-/// Throws UsageError without a task, RefusedError when the scene cannot be computed.
+/// Throws FaultError without a task, RefusedError when the scene cannot be computed.
 ReachDemand computeReachDemand(const experiment::Experiment& experiment, std::optional<double> duration = std::nullopt,
                                const Vec3& centre = {});
 

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/json_tree.h"
 
 namespace reachlab::devices {
@@ -43,7 +44,7 @@ RecordedReach readReach(const std::string& file) {
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
     place[k] = static_cast<std::size_t>(std::find(header.begin(), header.end(), kColumns[k]) - header.begin());
     if (place[k] == header.size())
-      throw UsageError(fmt::format("{}:1: {}: column is missing; allowed: a header with time_s,x_m,y_m,z_m", file, kColumns[k]));
+      throw FaultError(Fault{std::string(kColumns[k]), "column is missing", "a header with time_s,x_m,y_m,z_m", FilePlace{file, 1}});
   }
 
   RecordedReach reach;
@@ -52,21 +53,22 @@ RecordedReach readReach(const std::string& file) {
     if (line.find_first_not_of(" \r") == std::string::npos) continue;
     const std::vector<std::string> cells = cellsOf(line);
     if (cells.size() != header.size())
-      throw UsageError(fmt::format("{}:{}: has {} cells; allowed: {}, as the header", file, number, cells.size(), header.size()));
+      throw FaultError(
+          Fault{{}, fmt::format("has {} cells", cells.size()), fmt::format("{}, as the header", header.size()), FilePlace{file, number}});
     std::array<double, 4> row{};
     for (std::size_t k = 0; k < row.size(); ++k) {
       const std::string& cell = cells[place[k]];
       const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), row[k]);
       if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(row[k]))
-        throw UsageError(
-            fmt::format("{}:{}: {}: '{}' is not a number; allowed: a finite number", file, number, kColumns[k], cell.substr(0, 40)));
+        throw FaultError(Fault{std::string(kColumns[k]), fmt::format("'{}' is not a number", cell.substr(0, 40)), "a finite number",
+                               FilePlace{file, number}});
     }
     if (!reach.time.empty() && !(row[0] > reach.time.back()))
-      throw UsageError(fmt::format("{}:{}: time_s: does not increase; allowed: increasing times", file, number));
+      throw FaultError(Fault{"time_s", "does not increase", "increasing times", FilePlace{file, number}});
     reach.time.push_back(row[0]);
     reach.position.push_back({row[1], row[2], row[3]});
   }
-  if (reach.time.empty()) throw UsageError(file + ": has no samples; allowed: at least one row");
+  if (reach.time.empty()) throw FaultError(Fault{{}, "has no samples", "at least one row", FilePlace{file}});
   return reach;
 }
 

@@ -14,7 +14,7 @@ struct RecordedReach {
 };
 
 /// Reads a CSV file whose header names time_s, x_m, y_m and z_m, in any order and among others; at least one row. Throws ResourceError when
-/// the file cannot be opened, UsageError (FILE:LINE: COLUMN) for what is not such a table.
+/// the file cannot be opened, FaultError (FILE:LINE: COLUMN) for what is not such a table.
 RecordedReach readReach(const std::string& file);
 
 }  // namespace reachlab::devices

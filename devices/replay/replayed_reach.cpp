@@ -49,16 +49,17 @@ std::vector<std::string> reachFiles(const std::string& path) {
 }
 
 PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
-  if (reach.time.size() < 2) throw UsageError(reach.file + ": fewer than two samples");
+  if (reach.time.size() < 2) throw FaultError(Fault{{}, "fewer than two samples", {}, FilePlace{reach.file}});
   if (const double lasts = reach.time.back() - reach.time.front(); !(lasts <= kLongestReach))
-    throw UsageError(fmt::format("{}: time_s: lasts {} s; allowed: a reach of at most {:.0f} s", reach.file, lasts, kLongestReach));
+    throw FaultError(Fault{"time_s", fmt::format("lasts {} s", lasts), fmt::format("a reach of at most {:.0f} s", kLongestReach),
+                           FilePlace{reach.file}});
   const Vec3 first = reach.position.front();
   const auto distance = [&](const Vec3& p) { return norm(p - first); };
   const Vec3 far = *std::max_element(reach.position.begin(), reach.position.end(),
                                      [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
   const Vec3 chord = far - first, wanted = target - start;
   const double length = norm(chord), asked = norm(wanted);
-  if (!(length > 0)) throw UsageError(reach.file + ": the hand does not move");
+  if (!(length > 0)) throw FaultError(Fault{{}, "the hand does not move", {}, FilePlace{reach.file}});
   if (!(asked > 0))
     throw FaultError(Fault{"task.target", "start and target are the same place; a recorded reach cannot be laid onto them", "two places"});
 

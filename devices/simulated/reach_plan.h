@@ -21,7 +21,7 @@ struct ReachPlan {
 /// The movement takes the task's T, unless it would then be judged too short even if carried out to the letter (the parallel object
 /// creeps into a wide tolerance long before T): a subject who has practised takes longer, so that it is judged to take T.
 /// Gravity is not compensated, and a body is taken for a point: held ahead of its centre on the line of the reach it follows, held more
-/// than some millimetres beside that line it swings and does not come to rest. Throws UsageError (no task, start and target are one
+/// than some millimetres beside that line it swings and does not come to rest. Throws FaultError (no task, start and target are one
 /// place, a criterion or a hand mass where no criterion is followed), RefusedError from predict.
 ReachPlan makeReachPlan(const experiment::CompiledExperiment& experiment, std::optional<predict::Criterion> criterion,
                         std::optional<double> handMass);

@@ -19,10 +19,10 @@ struct SubjectSpec {
   std::optional<double> handMass;               // [kg] for the criterion; nullopt: the experiment's
 };
 
-/// Reads `noise=0,criterion=min-hand-force-change,hand-mass=1,time-sd=0.07,speed-sd=0.07,reaction=0.2` (all optional). Throws UsageError.
+/// Reads `noise=0,criterion=min-hand-force-change,hand-mass=1,time-sd=0.07,speed-sd=0.07,reaction=0.2` (all optional). Throws FaultError.
 SubjectSpec parseSubject(const std::string& text);
 
-/// Throws UsageError, RefusedError from the plan. Trial i is a function of (seed, i) alone.
+/// Throws FaultError, RefusedError from the plan. Trial i is a function of (seed, i) alone.
 std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,
                                                          std::uint64_t seed);
 

@@ -23,7 +23,7 @@ struct Template {
   const char* shipped;
 };
 const std::vector<Template>& templates();
-/// Of that template, under a name of its own. Throws UsageError.
+/// Of that template, under a name of its own. Throws FaultError.
 experiment::CompiledExperiment newExperiment(const Template& from);
 
 /// Where the manual begins: the installed site, the one that was built, or its source. Empty: none is there.

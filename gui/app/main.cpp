@@ -10,6 +10,7 @@
 
 #include "base/ending.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/os.h"
 #include "base/stop_signals.h"
 #include "gui/app/experiment_files.h"
@@ -40,7 +41,12 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
   app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
   app.add_option("--seed", r.seed, "Seed of noise and order; default: one is drawn and stored")
-      ->check(CLI::Validator([](std::string& text) { return reachlab::session::seedFault(text); }, "SEED"));
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const auto fault = reachlab::session::seedFault(text);
+            return fault ? reachlab::toText(*fault) : std::string();
+          },
+          "SEED"));
   app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
   app.footer(

@@ -39,7 +39,7 @@ class Screens;
 class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
-  /// Throws UsageError when the experiment cannot be read.
+  /// Throws FaultError when the experiment cannot be read.
   explicit MainWindow(const session::SessionRequest& request, QWidget* parent = nullptr);
   ~MainWindow() override;
 

@@ -65,8 +65,8 @@ std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& expe
     (void)dynamics::compileScene(compiled);  // refused now, with the reason, and not when the subject sits there
     setProgramme(session::programmeOf(compiled));
     return {};
-  } catch (const UsageError& error) {
-    return faultsOf(error);
+  } catch (const FaultError& error) {
+    return error.faults;
   }
 }
 

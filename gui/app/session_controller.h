@@ -23,7 +23,7 @@ namespace reachlab::gui::app {
 class SessionController : public QObject {
   Q_OBJECT
  public:
-  /// Reads the experiment, or the plan and its first block. Throws UsageError.
+  /// Reads the experiment, or the plan and its first block. Throws FaultError.
   explicit SessionController(const session::SessionRequest& request, QObject* parent = nullptr);
   ~SessionController() override;
 

@@ -14,6 +14,7 @@
 
 #include "base/ending.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "gui/docks/formula_editor.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/shape_sliders.h"
@@ -349,8 +350,8 @@ void ConstraintChooser::save() {
   const auto values = sliders_->values();
   for (constraints::ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
   try {
-    if (name.empty()) throw UsageError("a definition needs a name: lower-case words joined by '-'");
-    if (constraints::findInCatalogue(name) != nullptr) throw UsageError("there is already a definition of the name " + name);
+    if (name.empty()) throw FaultError(Fault{.what = "a definition needs a name: lower-case words joined by '-'"});
+    if (constraints::findInCatalogue(name) != nullptr) throw FaultError(Fault{.what = "there is already a definition of the name " + name});
     const std::string content = constraints::toJson(d);
     namespace fs = std::filesystem;
     const fs::path folder = constraints::userDefinitionFolder(), file = folder / (name + ".json");

@@ -130,6 +130,7 @@ void FormulaEditor::check() {
     QString& message = messages[static_cast<std::size_t>(std::clamp(fault.coordinate, 0, 2))];
     if (!message.isEmpty()) continue;  // the first says most
     message = QStringLiteral("character %1: %2").arg(fault.character).arg(QString::fromStdString(fault.what));
+    if (!fault.allowed.empty()) message += QStringLiteral("; allowed: ") + QString::fromStdString(fault.allowed);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     lines_[i]->setStyleSheet(messages[i].isEmpty() ? QString() : QStringLiteral("border: 1px solid #c0564a;"));

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "constraints/places.h"
 #include "constraints/surface_branches.h"
 
@@ -50,7 +50,7 @@ std::vector<PlaceMark> markPlaces(const constraints::Constraint& constraint, con
     if (constraint.kind == constraints::ConstraintKind::Curve)
       return markCurve(constraint, drawn[0], about.empty() ? 0.5 * (drawn[0].lo + drawn[0].hi) : about[0]);
     if (constraint.kind == constraints::ConstraintKind::Surface) return markSurface(constraint, drawn);
-  } catch (const UsageError&) {  // too many lines: said where the scene is compiled
+  } catch (const FaultError&) {  // too many lines: said where the scene is compiled
   }
   return {};
 }

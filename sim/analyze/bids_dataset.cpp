@@ -7,7 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "sim/analyze/dataset.h"
 #include "sim/record/append_file.h"
@@ -27,7 +27,7 @@ double numberOf(const std::string& text) {
 
 std::size_t columnOf(const TsvTable& table, const std::string& name, const fs::path& file) {
   const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-  if (found == table.columns.end()) throw UsageError(fmt::format("{}: no column {}", file.string(), name));
+  if (found == table.columns.end()) throw FaultError(Fault{{}, "no column " + name, {}, FilePlace{file.string()}});
   return static_cast<std::size_t>(found - table.columns.begin());
 }
 
@@ -44,7 +44,7 @@ constexpr double kMaxRunDuration = 1e6;  // [s]
 std::uint64_t tickOf(double seconds) {
   if (!std::isfinite(seconds)) return 0;
   if (!(seconds >= 0 && seconds <= kMaxRunDuration))
-    throw UsageError(fmt::format("time {} s: allowed: 0 to {:.0f} s", seconds, kMaxRunDuration));
+    throw FaultError(Fault{"time", fmt::format("is {} s", seconds), fmt::format("0 to {:.0f} s", kMaxRunDuration)});
   return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
 }
 
@@ -86,8 +86,10 @@ record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
       rows.values.push_back(value);
     }
     if (rows.values.size() - before != columns)
-      throw UsageError(fmt::format("{}: row {} has {} columns, channels.tsv has {}", path.string(), rows.ticks.size() + 1,
-                                   rows.values.size() - before, columns));
+      throw FaultError(Fault{{},
+                             fmt::format("has {} columns", rows.values.size() - before),
+                             fmt::format("{}, as channels.tsv", columns),
+                             FilePlace{path.string(), static_cast<int>(rows.ticks.size() + 1)}});
     rows.ticks.push_back(tickOf(rows.values[before]));  // the first channel is the run's own clock
   }
   return rows;
@@ -133,7 +135,7 @@ RunSource readRun(const fs::path& motion) {
   auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table.size()));
   for (std::size_t row = 1; row < rows->size(); ++row)
     if (rows->ticks[row] <= rows->ticks[row - 1])
-      throw UsageError(fmt::format("{}: row {}: time does not increase", motion.string(), row + 1));
+      throw FaultError(Fault{"time", "does not increase", "increasing times", FilePlace{motion.string(), static_cast<int>(row + 1)}});
   double frequency = about.is_object() && about.contains("SamplingFrequency") && about["SamplingFrequency"].is_number()
                          ? about["SamplingFrequency"].get<double>()
                          : 0.0;
@@ -194,17 +196,25 @@ RunSource readRun(const fs::path& motion) {
 
 std::vector<std::string> findBidsRuns(const std::string& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error)) throw UsageError(folder + ": no such folder");
+  if (!fs::is_directory(folder, error)) throw FaultError(Fault{{}, "no such folder", {}, FilePlace{folder}});
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
     if (const std::string name = entry.path().filename().string();
         name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
       files.push_back(entry.path().string());
-  if (files.empty()) throw UsageError(folder + ": neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)");
+  if (files.empty())
+    throw FaultError(
+        Fault{{}, "neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)", {}, FilePlace{folder}});
   std::sort(files.begin(), files.end());
   return files;
 }
 
-RunSource readBidsRun(const std::string& motionFile) { return readRun(motionFile); }
+RunSource readBidsRun(const std::string& motionFile) {
+  try {
+    return readRun(motionFile);
+  } catch (const FaultError& error) {
+    throw FaultError(inFile(motionFile, error.faults));
+  }
+}
 
 }  // namespace reachlab::analyze

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "constraints/geometry/task_path.h"
 #include "sim/analyze/equal_runs.h"
@@ -221,7 +222,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
   std::vector<std::string> logs;
   try {
     logs = record::findLogs(folder);
-  } catch (const UsageError&) {
+  } catch (const FaultError&) {
     // No logs: the exported files may still be there.
   }
   std::map<std::pair<std::string, std::string>, experiment::Experiment> parsed;
@@ -288,10 +289,10 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
           "later, so that onset_s and offset_s are that much too small");
   }
   if (dataset.runs.empty()) {
-    std::string why = folder + ": nothing to analyse";
-    for (const std::string& note : dataset.notes) why += "\n" + note;
-    if (!dataset.unreadable.empty()) throw ResourceError(why);
-    throw UsageError(why);
+    std::vector<Fault> why{{{}, "nothing to analyse", {}, FilePlace{folder}}};
+    for (const std::string& note : dataset.notes) why.push_back({.what = note});
+    if (!dataset.unreadable.empty()) throw ResourceError(toText(why));
+    throw FaultError(std::move(why));
   }
   noteMixedDevices(dataset);
   return dataset;

@@ -44,7 +44,7 @@ using DatasetProgress = std::function<void(std::size_t done, std::size_t of, con
 
 /// Reads the dataset at `folder` (a session's folder or a single log do too): from the logs in sourcedata/, or where there are none from
 /// the BIDS files, whose experiment must then be a shipped one or given in `experimentFile`. A damaged log is read to its last good
-/// record and noted. A run is in or out: one that cannot be read to its end (a disk that fails) leaves no trial behind. Throws UsageError
+/// record and noted. A run is in or out: one that cannot be read to its end (a disk that fails) leaves no trial behind. Throws FaultError
 /// when there is nothing to read.
 DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile = "",
                          const DatasetProgress& progress = {});

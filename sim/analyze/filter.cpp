@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::analyze {
 namespace {
@@ -44,7 +44,8 @@ std::vector<double> filterBothWays(const Biquad& section, std::span<const double
 std::vector<double> lowPass(std::span<const double> signal, double rate, double cutoff) {
   if (cutoff == 0) return {signal.begin(), signal.end()};
   if (!(cutoff > 0) || !(cutoff < rate / 2) || !std::isfinite(rate))
-    throw UsageError(fmt::format("cut-off {} Hz at {} samples per second; allowed: more than 0 and less than half the rate", cutoff, rate));
+    throw FaultError(
+        Fault{"cutoff", fmt::format("is {} Hz at {} samples per second", cutoff, rate), "more than 0 and less than half the rate"});
   return filterBothWays(butterworthLowPass(cutoff, 1 / rate), signal);
 }
 

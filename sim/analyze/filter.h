@@ -12,7 +12,7 @@ namespace reachlab::analyze {
 /// end; this is the common odd extension). Signals of one sample come back as they are; shorter than ten: extended by what there is.
 std::vector<double> filterBothWays(const Biquad& section, std::span<const double> signal);
 
-/// Zero-lag Butterworth low-pass; `cutoff` 0 returns the signal unfiltered. 0 <= cutoff < rate / 2, both in Hz; throws UsageError otherwise.
+/// Zero-lag Butterworth low-pass; `cutoff` 0 returns the signal unfiltered. 0 <= cutoff < rate / 2, both in Hz; throws FaultError otherwise.
 std::vector<double> lowPass(std::span<const double> signal, double rate, double cutoff);
 
 /// Time derivative by central differences of fourth order (second order next to the ends, one-sided second order at them).

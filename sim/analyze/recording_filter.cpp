@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::analyze {
 
@@ -35,7 +35,8 @@ std::vector<double> gregoryWeights(std::size_t samples) {
 
 RecordingFilter::RecordingFilter(double cutoff, double rate) : cutoff_(cutoff), rate_(rate) {
   if (!(rate > 0) || !std::isfinite(rate) || !(cutoff >= 0) || !(cutoff < rate / 2))
-    throw UsageError(fmt::format("cut-off {} Hz at {} samples per second; allowed: 0 (none) or more, below half the rate", cutoff, rate));
+    throw FaultError(
+        Fault{"cutoff", fmt::format("is {} Hz at {} samples per second", cutoff, rate), "0 (none) or more, below half the rate"});
   if (cutoff == 0) return;
   reach_ = 15 / (std::numbers::sqrt2 * std::numbers::pi * cutoff);  // exp(-15) along the filter's poles
   step_ = 1 / (160 * cutoff);

@@ -9,7 +9,7 @@ namespace reachlab::analyze {
 /// Immutable; any thread.
 class RecordingFilter {
  public:
-  /// `cutoff` [Hz], 0: no filter; `rate` [Hz] of the recording. 0 <= cutoff < rate / 2, UsageError otherwise.
+  /// `cutoff` [Hz], 0: no filter; `rate` [Hz] of the recording. 0 <= cutoff < rate / 2, FaultError otherwise.
   RecordingFilter(double cutoff, double rate);
 
   bool active() const { return cutoff_ > 0; }

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/analyze/counts.h"
 #include "sim/analyze/epsilon_table.h"
 #include "sim/analyze/fit_window.h"
@@ -325,17 +326,17 @@ void addProgress(StudyResult& study) {
 }
 
 void check(const StudyOptions& options) {
-  const auto refuse = [](bool bad, const char* text) {
-    if (bad) throw UsageError(text);
+  const auto refuse = [](bool bad, const char* key, double value, const char* allowed) {
+    if (bad) throw FaultError(Fault{key, fmt::format("is {}", value), allowed});
   };
-  refuse(!(options.measure.onset.percent > 0 && options.measure.onset.percent < 100),
-         "onset percent: allowed: more than 0 and less than 100");
-  refuse(!(options.measure.onset.speed > 0), "onset speed: allowed: more than 0 m/s");
-  refuse(!(options.measure.cutoff >= 0), "cut-off: allowed: 0 (none) or more Hz");
-  refuse(options.learningBin < 1, "learning bin: allowed: 1 trial or more");
-  refuse(options.handMass && !(*options.handMass >= 0), "hand mass: allowed: 0 kg or more");
-  refuse(options.handMasses.empty(), "hand masses: allowed: one or more");
-  for (const double mass : options.handMasses) refuse(!(mass >= 0) || !std::isfinite(mass), "hand masses: allowed: 0 kg or more each");
+  const auto& onset = options.measure.onset;
+  refuse(!(onset.percent > 0 && onset.percent < 100), "onset_percent", onset.percent, "more than 0 and less than 100");
+  refuse(!(onset.speed > 0), "onset_speed", onset.speed, "more than 0 m/s");
+  refuse(!(options.measure.cutoff >= 0), "cutoff", options.measure.cutoff, "0 (none) or more Hz");
+  refuse(options.learningBin < 1, "learning_bin", options.learningBin, "1 trial or more");
+  if (options.handMass) refuse(!(*options.handMass >= 0), "hand_mass", *options.handMass, "0 kg or more");
+  if (options.handMasses.empty()) throw FaultError(Fault{"hand_masses", "is empty", "one or more"});
+  for (const double mass : options.handMasses) refuse(!(mass >= 0) || !std::isfinite(mass), "hand_masses", mass, "0 kg or more each");
 }
 
 }  // namespace

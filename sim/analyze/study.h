@@ -146,7 +146,7 @@ struct StudyResult {
 
 using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
 
-/// Takes the trials one by one and forgets their signals, then judges. Throws UsageError for options out of range.
+/// Takes the trials one by one and forgets their signals, then judges. Throws FaultError for options out of range.
 class StudyBuilder {
  public:
   explicit StudyBuilder(const StudyOptions& options);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/fault.h"
 #include "sim/bench/visit_system.h"
 
 namespace reachlab::bench {
@@ -189,7 +190,7 @@ Reference modalChainReference(const BenchScene& scene) {
 Reference exponentialReference(const BenchScene& scene) {
   return visitSystem(scene, [&]<class System>(const System& system) -> Reference {
     if constexpr (requires { system.x0; } && System::kCoordinates <= 10) return propagate(scene, system);
-    throw UsageError("bench: scene " + scene.name + " has no small matrix");
+    throw FaultError(Fault{"scene", "is " + scene.name + ", which has no small matrix"});
   });
 }
 
@@ -209,7 +210,7 @@ ExactStep computeExactStep(const BenchScene& scene, double dt) {
       }
       return out;
     }
-    throw UsageError("bench: scene " + scene.name + " has no small matrix");
+    throw FaultError(Fault{"scene", "is " + scene.name + ", which has no small matrix"});
   });
 }
 

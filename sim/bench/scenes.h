@@ -20,7 +20,7 @@ struct BenchScene {
 
 /// All of them, in the table's order.
 std::vector<BenchScene> benchScenes();
-/// One by name. Throws UsageError naming the allowed ones.
+/// One by name. Throws FaultError naming the allowed ones.
 BenchScene benchScene(const std::string& name);
 
 }  // namespace reachlab::bench

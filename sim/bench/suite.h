@@ -18,7 +18,7 @@ const std::vector<std::string>& methodNames();
 
 /// Runs it: all scenes x methods x step sizes or tolerances. `progress` gets a line as a scene is begun; `refusals` one for each
 /// method that a scene is not for, and why.
-/// Throws UsageError for a scene or method that does not exist.
+/// Throws FaultError for a scene or method that does not exist.
 std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress,
                           std::vector<std::string>& refusals);
 

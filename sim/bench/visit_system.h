@@ -1,7 +1,7 @@
 #pragma once
 #include <type_traits>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/bench/scenes.h"
 #include "sim/bench/systems.h"
 
@@ -37,7 +37,7 @@ auto visitSystem(const BenchScene& scene, F&& f) {
   if (n == "S7d" || n == "S7e") return f(SurfaceBead<SphereShape, false>{{shape.at("R")}, mass, 0, 0, 0});
   if (n == "S8")
     return f(CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
-  throw UsageError("bench: no right-hand side for scene " + n);
+  throw FaultError(Fault{"scene", "is " + n + ", which has no right-hand side here"});
 }
 
 }  // namespace reachlab::bench

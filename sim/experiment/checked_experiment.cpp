@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/fault.h"
 #include "base/number_range.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
@@ -149,8 +150,8 @@ CheckedExperiment check(const Experiment& experiment) {
     spec.inUse = placesInUse(experiment.task);
     try {
       checked.constraint = constraints::makeConstraint(spec);
-    } catch (const UsageError& error) {
-      for (Fault& fault : faultsOf(error)) faults.push_back(std::move(fault));
+    } catch (const FaultError& error) {
+      faults.insert(faults.end(), error.faults.begin(), error.faults.end());
     }
   }
   checkObject(experiment.object, faults);

@@ -9,7 +9,7 @@ namespace reachlab::experiment {
 /// A value, cheap to copy: window, haptic engine and predictions in the background share the two parts, which never change. Any thread.
 class CompiledExperiment {
  public:
-  /// Throws UsageError with every fault, each under its key.
+  /// Throws FaultError with every fault, each under its key.
   explicit CompiledExperiment(const Experiment& experiment);
 
   const Experiment& experiment() const { return *experiment_; }
@@ -25,7 +25,7 @@ class CompiledExperiment {
   std::shared_ptr<const constraints::Constraint> constraint_;
 };
 
-/// Reads and compiles an experiment file, or a shipped one by name. Throws UsageError with every fault, each with its place.
+/// Reads and compiles an experiment file, or a shipped one by name. Throws FaultError with every fault, each with its place.
 CompiledExperiment openExperiment(const std::string& fileOrName);
 /// The same from text; `file` is only named in messages. `definition`: see parseExperiment.
 CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition = {});

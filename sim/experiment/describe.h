@@ -6,7 +6,7 @@
 namespace reachlab::experiment {
 
 /// What is moved, on what, and what is asked, in one sentence with units: for reports and datasets, which are read without the program.
-/// Throws UsageError where it names a constraint that is not known.
+/// Throws FaultError where it names a constraint that is not known.
 std::string describe(const Experiment& experiment);
 
 /// The time that is asked for: "1.5 ± 0.6 s". A tolerance as long as the reach asks for no pace and only says when it must be over:

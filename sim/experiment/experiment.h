@@ -99,14 +99,14 @@ struct Experiment {
   std::string text;  // the file as read: goes into the recording unchanged
 };
 
-/// Reads an experiment file, or a shipped one by name. Throws UsageError with every fault, one a line,
+/// Reads an experiment file, or a shipped one by name. Throws FaultError with every fault, one a line,
 /// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Experiment readExperiment(const std::string& fileOrName);
 /// The same from text; `file` is only named in messages.
 /// `definition`: the text of the definition that the experiment names, where it is not to be looked up (recorded runs); empty: looked up.
 Experiment parseExperiment(const std::string& text, const std::string& file, const std::string& definition = {});
 /// The text of the definition that the experiment names, with formula, shape and domain; empty where it types its formula or moves free.
-/// Throws UsageError when there is no such definition.
+/// Throws FaultError when there is no such definition.
 std::string definitionTextOf(const Experiment& experiment);
 /// The experiment as a file that reads back equal (for saving from the window, and for the log).
 std::string toJson(const Experiment& experiment);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/compiled_experiment.h"

@@ -104,7 +104,7 @@ std::string renderPdf(const Figure& figure);
 /// [dots per inch] of a white page.
 std::string renderPng(const Figure& figure, double dpi = 150);
 
-/// Writes FILE.svg, FILE.pdf or FILE.png as its ending says. Throws UsageError for another ending, ResourceError when it cannot write.
+/// Writes FILE.svg, FILE.pdf or FILE.png as its ending says. Throws FaultError for another ending, ResourceError when it cannot write.
 void writeFigure(const Figure& figure, const std::string& path);
 
 /// Round numbers that divide [from, to] into about `wanted` parts (steps 1, 2 or 5 times a power of ten), within the interval.

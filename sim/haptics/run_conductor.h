@@ -25,7 +25,7 @@ struct ConductedTrial {
 ///   run.finish();
 class RunConductor {
  public:
-  /// Compiles the scene. Throws UsageError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
+  /// Compiles the scene. Throws FaultError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
   RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
   /// The same, of a value that nobody has validated.

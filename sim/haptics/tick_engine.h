@@ -46,7 +46,7 @@ class TickEngine {
   static constexpr std::uint32_t kGapTicks = 5;
   static constexpr int kReanchorTicks = 250;
 
-  /// Throws UsageError without a task, RefusedError from compileScene.
+  /// Throws FaultError without a task, RefusedError from compileScene.
   TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
   TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options);
 

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/os.h"
 
 namespace reachlab::record {
@@ -184,7 +185,8 @@ std::string readWholeFile(const std::string& path) {
   if (!known || !S_ISREG(status.st_mode) || status.st_size > kMaxBytesOfAFile) {
     ::close(descriptor);
     if (known && S_ISREG(status.st_mode))
-      throw UsageError(fmt::format("{}: has {} bytes; allowed: up to {}", path, status.st_size, kMaxBytesOfAFile));
+
+      throw FaultError(Fault{{}, fmt::format("has {} bytes", status.st_size), fmt::format("up to {}", kMaxBytesOfAFile), FilePlace{path}});
     throw ResourceError(path + ": is no regular file; allowed: a file on a disk");
   }
   std::string text(static_cast<std::size_t>(status.st_size), '\0');

@@ -60,7 +60,7 @@ void writeFileAtomically(const std::string& path, std::string_view text);
 /// Removes what programs that were killed while they wrote left behind in a folder and those below it (`.….reachlab-tmp`, older than ten
 /// minutes). Throws nothing: what cannot be removed stays.
 void removeLeftovers(const std::string& folder);
-/// The whole file. Throws ResourceError (also for a pipe or a device, which might never end), UsageError beyond kMaxBytesOfAFile.
+/// The whole file. Throws ResourceError (also for a pipe or a device, which might never end), FaultError beyond kMaxBytesOfAFile.
 inline constexpr std::int64_t kMaxBytesOfAFile = 1ll << 30;
 std::string readWholeFile(const std::string& path);
 /// Makes a folder and those above it. Throws ResourceError.

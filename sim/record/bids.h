@@ -23,7 +23,7 @@ std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::s
 std::string experimentPath(const RunConfiguration& configuration);
 /// The experiment as it was recorded, as an experiment file under `experiment`, with its constraint's definition, and the run's settings.
 std::string experimentJson(const RunConfiguration& configuration);
-/// Reads it back. Throws UsageError naming `origin`.
+/// Reads it back. Throws FaultError naming `origin`.
 experiment::Experiment experimentFromJson(const std::string& text, const std::string& origin);
 /// TaskDescription of motion.json: the experiment's name, and in words what was moved and asked.
 std::string describeTask(const RunConfiguration& configuration);

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/experiment/describe.h"
 #include "sim/record/bids.h"
 #include "sim/record/tidy_csv.h"
@@ -22,7 +22,7 @@ Json orNull(const std::string& text) { return text.empty() ? Json() : Json(text)
 std::optional<experiment::Experiment> understood(const RunConfiguration& c) {
   try {
     return recordedValues(c);
-  } catch (const UsageError&) {
+  } catch (const FaultError&) {
     return std::nullopt;
   }
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 
 namespace reachlab::record {
@@ -61,7 +61,7 @@ double* putVector(double* at, const Vec3& v) noexcept {
 
 std::size_t ChannelTable::indexOf(const std::string& name) const {
   const auto found = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
-  if (found == channels.end()) throw UsageError("no channel named " + name);
+  if (found == channels.end()) throw FaultError(Fault{.what = "no channel named " + name});
   return static_cast<std::size_t>(found - channels.begin());
 }
 

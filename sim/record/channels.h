@@ -28,7 +28,7 @@ struct ChannelTable {
   bool portEnergy = false;  // of a device that renders force: the passivity observer's energy is the last column
 
   std::size_t size() const { return channels.size(); }
-  /// Index of a channel; throws UsageError when there is none of that name.
+  /// Index of a channel; throws FaultError when there is none of that name.
   std::size_t indexOf(const std::string& name) const;
 };
 

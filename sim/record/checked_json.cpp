@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::record {
 namespace {
@@ -11,15 +11,15 @@ namespace {
   constexpr std::size_t kShown = 40;
   std::string shown = value.is_structured() ? value.type_name() : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   if (shown.size() > kShown) shown = shown.substr(0, kShown) + " …";
-  throw UsageError(fmt::format("{}: is {}; allowed: {}", key, shown, allowed));
+  throw FaultError(Fault{key, "is " + shown, allowed});
 }
 
 }  // namespace
 
 const nlohmann::json& memberOf(const nlohmann::json& object, const std::string& key) {
-  if (!object.is_object()) throw UsageError(fmt::format("{}: stands in no object", key));
+  if (!object.is_object()) throw FaultError(Fault{key, "stands in no object"});
   const auto found = object.find(key);
-  if (found == object.end()) throw UsageError(fmt::format("{}: is missing", key));
+  if (found == object.end()) throw FaultError(Fault{key, "is missing"});
   return *found;
 }
 

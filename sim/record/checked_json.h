@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Members of a JSON object that came out of a file, whoever wrote it: each is there, of its kind and within its bounds, or a UsageError
+/// Members of a JSON object that came out of a file, whoever wrote it: each is there, of its kind and within its bounds, or a FaultError
 /// says `KEY: what is wrong; allowed: …`. (nlohmann's own conversions cut a number to whatever type it is given to.)
 namespace reachlab::record {
 

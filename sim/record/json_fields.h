@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/vec3.h"
 #include "sim/record/checked_json.h"
 
@@ -27,6 +27,15 @@ nlohmann::json writeFields(const T& value);
 
 namespace fieldsDetail {
 
+/// What is wrong in there is told with its whole key: "trials[3].index".
+template <class T>
+void readInside(const std::string& key, const nlohmann::json& object, T& member) {
+  try {
+    readFields(object, member);
+  } catch (const FaultError& error) {
+    throw FaultError(inside(key, error.faults));
+  }
+}
 template <class T>
 void readMember(const nlohmann::json& j, const Field& f, T& member) {
   if constexpr (std::is_same_v<T, std::string>) {
@@ -41,14 +50,14 @@ void readMember(const nlohmann::json& j, const Field& f, T& member) {
     member = numberOf(j, f.key, f.least, f.most);
   } else {
     const nlohmann::json& inner = memberOf(j, f.key);
-    if (!inner.is_object()) throw UsageError(std::string(f.key) + ": is no object");
-    readFields(inner, member);
+    if (!inner.is_object()) throw FaultError(Fault{f.key, "is no object"});
+    readInside(f.key, inner, member);
   }
 }
 inline void readMember(const nlohmann::json& j, const Field& f, Vec3& member) {
   const nlohmann::json& list = listOf(j, f.key, 3);
   const bool good = list.size() == 3 && std::all_of(list.begin(), list.end(), [](const nlohmann::json& x) { return x.is_number(); });
-  if (!good) throw UsageError(std::string(f.key) + ": is not three numbers");
+  if (!good) throw FaultError(Fault{f.key, "is not three numbers"});
   member = {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
 }
 template <class T>
@@ -57,7 +66,10 @@ void readMember(const nlohmann::json& j, const Field& f, std::optional<T>& membe
 }
 template <class T>
 void readMember(const nlohmann::json& j, const Field& f, std::vector<T>& member) {
-  for (const nlohmann::json& element : listOf(j, f.key, static_cast<std::size_t>(f.most))) readFields(element, member.emplace_back());
+  for (const nlohmann::json& element : listOf(j, f.key, static_cast<std::size_t>(f.most))) {
+    const std::string key = std::string(f.key) + "[" + std::to_string(member.size()) + "]";
+    readInside(key, element, member.emplace_back());
+  }
 }
 
 template <class T>
@@ -75,7 +87,7 @@ nlohmann::json memberToJson(const std::vector<T>& member) {
 
 }  // namespace fieldsDetail
 
-/// Throws UsageError `KEY: …` for what is missing, of another kind, or out of its bounds.
+/// Throws FaultError `KEY: …` for what is missing, of another kind, or out of its bounds.
 template <class T>
 void readFields(const nlohmann::json& object, T& value) {
   visitFields(value, [&](const Field& field, auto& member) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::record {
 
@@ -85,8 +86,10 @@ LogWriter LogWriter::resume(const std::string& path, std::uint64_t size, std::ui
 
 std::uint64_t LogWriter::append(RecordType type, std::span<const std::uint8_t> payload) {
   if (payload.size() > kMaxPayloadBytes)
-    throw UsageError(
-        fmt::format("{}: a record of {} bytes; allowed: up to {}: plan fewer trials a run", path(), payload.size(), kMaxPayloadBytes));
+    throw FaultError(Fault{{},
+                           fmt::format("a record of {} bytes", payload.size()),
+                           fmt::format("up to {}: plan fewer trials a run", kMaxPayloadBytes),
+                           FilePlace{path()}});
   frame_.resize(kRecordFrameBytes + payload.size());
   const auto length = static_cast<std::uint32_t>(payload.size());
   const auto number = static_cast<std::uint16_t>(type);
@@ -113,16 +116,20 @@ LogReader::LogReader(const std::string& path) : path_(path) {
   if (descriptor_ < 0) throw ResourceError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
   try {
     struct stat status {};
-    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) throw UsageError(path + ": no regular file, so no log of reachlab");
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
+      throw FaultError(Fault{{}, "no regular file, so no log of reachlab", {}, FilePlace{path}});
     size_ = static_cast<std::uint64_t>(status.st_size);
     const std::span<const std::uint8_t> header = bytesAt(0, kLogHeaderBytes);
     const bool signature = !header.empty() && std::memcmp(header.data(), kSignature.data(), kSignature.size()) == 0 &&
                            checksum(header.data(), 12) == load<std::uint32_t>(header.data() + 12);
-    if (!signature) throw UsageError(path + ": not a log of reachlab, or its first 16 bytes are damaged");
+    if (!signature) throw FaultError(Fault{{}, "not a log of reachlab, or its first 16 bytes are damaged", {}, FilePlace{path}});
     version_ = load<std::uint32_t>(header.data() + 8);
     if (version_ > kLogSchemaVersion)
-      throw UsageError(
-          fmt::format("{}: log of schema version {}; this program reads up to {}: use a newer one", path, version_, kLogSchemaVersion));
+      throw FaultError(
+          Fault{{},
+                fmt::format("log of schema version {}; this program reads up to {}: use a newer one", version_, kLogSchemaVersion),
+                {},
+                FilePlace{path}});
   } catch (...) {
     ::close(descriptor_);
     throw;

@@ -122,7 +122,7 @@ struct RecordView {
 /// from any member.
 class LogReader {
  public:
-  /// Throws UsageError when the file is no log or of a newer schema, ResourceError when it cannot be opened.
+  /// Throws FaultError when the file is no log or of a newer schema, ResourceError when it cannot be opened.
   explicit LogReader(const std::string& path);
   ~LogReader();
   LogReader(LogReader&&) noexcept;

@@ -1,9 +1,11 @@
 #include "sim/record/records.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <limits>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::record {
 namespace {
@@ -27,15 +29,17 @@ Vec3 getVec3(ByteReader& in) {
   return v;
 }
 
+[[noreturn]] void refuse(const char* what) { throw FaultError(Fault{.what = fmt::format("{} record of an unknown form", what)}); }
+
 template <typename Enum>
 Enum getEnum(ByteReader& in, Enum last, const char* what) {
   const auto number = in.get<std::uint8_t>();
-  if (number > static_cast<std::uint8_t>(last)) throw UsageError(std::string(what) + " record of an unknown form");
+  if (number > static_cast<std::uint8_t>(last)) refuse(what);
   return static_cast<Enum>(number);
 }
 
 void requireWhole(const ByteReader& in, const char* what) {
-  if (!in.ok() || in.left() != 0) throw UsageError(std::string(what) + " record of an unknown form");
+  if (!in.ok() || in.left() != 0) refuse(what);
 }
 
 }  // namespace
@@ -127,8 +131,7 @@ void decodeSamples(std::span<const std::uint8_t> payload, std::uint64_t firstTic
   const std::size_t count = in.get<std::uint32_t>();
   const std::size_t columns = in.get<std::uint32_t>();
   const std::size_t rowBytes = (columns + 1) * sizeof(double);  // divided by, not multiplied with: both counts are the file's word
-  if (!in.ok() || columns != out.columns || in.left() % rowBytes != 0 || in.left() / rowBytes != count)
-    throw UsageError("sample record of an unknown form");
+  if (!in.ok() || columns != out.columns || in.left() % rowBytes != 0 || in.left() / rowBytes != count) refuse("sample");
   const std::uint8_t* at = payload.data() + 2 * sizeof(std::uint32_t);
   for (std::size_t row = 0; row < count; ++row, at += rowBytes) {
     std::uint64_t tick = 0;
@@ -210,7 +213,7 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   for (double* value : {&t.result.by, &t.result.movementTime}) *value = in.get<double>();
   for (std::uint64_t* tick : {&t.startTick, &t.armedTick, &t.goTick, &t.result.onsetTick, &t.result.endTick, &t.lastTick})
     *tick = in.get<std::uint64_t>();
-  if (t.startTick > t.lastTick) throw UsageError("trial record of an unknown form");
+  if (t.startTick > t.lastTick) refuse("trial");
   for (double* value : {&t.peakHandSpeed, &t.handPathLength, &t.peakForce, &t.meanForce}) *value = in.get<double>();
   t.clampedTicks = in.get<std::uint64_t>();
   t.missedTicks = in.get<std::uint64_t>();

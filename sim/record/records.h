@@ -6,7 +6,7 @@
 #include "sim/record/log.h"
 #include "sim/record/run_log.h"
 
-/// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws UsageError on bytes that no writer of
+/// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws FaultError on bytes that no writer of
 /// ours made.
 namespace reachlab::record {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <memory>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/record/trial_tracker.h"
 
@@ -76,7 +76,9 @@ Replay replayRun(const RunLog& log) {
                                                                 c.deviceThermalSeconds, c.guards});
   const ChannelTable scene = makeChannelTable(experiment, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body)
-    throw UsageError(fmt::format("{}: table: has not the masses of its experiment, so the run cannot be simulated again", log.path()));
+
+    throw FaultError(
+        Fault{"table", "has not the masses of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);
   TrialTracker tracker(c.firstTrial);
@@ -94,8 +96,10 @@ Replay replayRun(const RunLog& log) {
     const haptics::TickState& state = engine.state();
     if (replay.ticks == 0) expected = tick.tick;
     if (tick.tick != expected || state.tick != tick.tick)
-      throw UsageError(
-          fmt::format("{}: tick {} is missing (dropped while recording), so the run cannot be simulated past it", log.path(), expected));
+      throw FaultError(Fault{{},
+                             fmt::format("tick {} is missing (dropped while recording), so the run cannot be simulated past it", expected),
+                             {},
+                             FilePlace{log.path()}});
     ++expected;
     ++replay.ticks;
     rows.look(state, replay);

@@ -18,7 +18,7 @@ struct Replay {
 };
 
 /// Feeds every recorded tick to a fresh engine of the recorded experiment. Bit-identical with the program that recorded; another
-/// processor or compiler may round differently. Throws UsageError when ticks are missing in the log (dropped while recording),
+/// processor or compiler may round differently. Throws FaultError when ticks are missing in the log (dropped while recording),
 /// and what the engine's construction throws.
 Replay replayRun(const RunLog& log);
 

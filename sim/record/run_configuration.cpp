@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/fault.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/record/run_fields.h"
 
@@ -21,13 +22,13 @@ std::string toJson(const RunConfiguration& c) {
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin) {
   try {
     const json j = json::parse(text, nullptr, false);
-    if (!j.is_object()) throw UsageError("is no JSON object");
+    if (!j.is_object()) throw FaultError(Fault{.what = "is no JSON object"});
     RunConfiguration c;
     readFields(j, c);
     checkConfiguration(c);
     return c;
-  } catch (const UsageError& fault) {
-    throw UsageError(fmt::format("{}: configuration record cannot be understood: {}", origin, fault.what()));
+  } catch (const FaultError& error) {
+    throw FaultError(inFile(origin, inside("configuration", error.faults)));
   }
 }
 

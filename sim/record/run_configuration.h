@@ -49,7 +49,7 @@ struct RunConfiguration {
   haptics::GuardSettings guards;                                  // wall, compensation, passivity control
   std::string deviceMapping;                                      // DeviceInfo::mapping
   experiment::StartRest rest = experiment::kNoStartRest;  // that a trial asked for before it was armed; logs before 2026-11-22 had none
-  std::string method, methodReason;                               // what the scene was compiled to
+  std::string method, methodReason;                       // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds
   std::string clock = "steady";  // or virtual: as fast as the processor allows
@@ -61,14 +61,14 @@ struct RunConfiguration {
 };
 
 std::string toJson(const RunConfiguration& configuration);
-/// Throws UsageError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
+/// Throws FaultError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
 
 /// Keys of the fields in which two configurations differ.
 std::vector<std::string> differingKeys(const RunConfiguration& a, const RunConfiguration& b);
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
-/// Throws UsageError when its text cannot be understood.
+/// Throws FaultError when its text cannot be understood.
 experiment::Experiment recordedExperiment(const RunConfiguration& configuration);
 /// The same for who only tells what it said: its constraint is not compiled. Throws FaultError when its text cannot be understood.
 experiment::Experiment recordedValues(const RunConfiguration& configuration);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "sim/record/records.h"
 
@@ -87,16 +87,15 @@ RunLog RunLog::open(const std::string& path, LogCheck check) {
   LogReader reader(path);
   try {
     return open(path, reader, check);
-  } catch (const UsageError& fault) {
-    if (std::string_view(fault.what()).starts_with(path)) throw;
-    throw UsageError(fmt::format("{}: {}", path, fault.what()));
+  } catch (const FaultError& error) {
+    throw FaultError(inFile(path, error.faults));
   }
 }
 
 RunLog RunLog::open(const std::string& path, LogReader& reader, LogCheck check) {
   RecordView record;
   if (!reader.next(record) || record.type != RecordType::Configuration)
-    throw UsageError(path + ": the configuration at the start of the log is damaged, so nothing in it can be read");
+    throw FaultError(Fault{.what = "the configuration at the start of the log is damaged, so nothing in it can be read"});
   RunLog log;
   log.path_ = path;
   log.fileBytes_ = reader.fileSize();
@@ -179,11 +178,13 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   RecordView record;
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
-      throw UsageError(fmt::format("{}: damaged after byte {}; mend it with: reach recover {}", path_, reader.goodEnd(), path_));
+
+      throw FaultError(
+          Fault{{}, fmt::format("damaged after byte {}; mend it with: reach recover {}", reader.goodEnd(), path_), {}, FilePlace{path_}});
     try {
       if (!visit(record)) return;
-    } catch (const UsageError& fault) {
-      throw UsageError(fmt::format("{}: {}", path_, fault.what()));
+    } catch (const FaultError& error) {
+      throw FaultError(inFile(path_, error.faults));
     }
   }
 }
@@ -246,7 +247,7 @@ std::vector<std::string> findLogs(const std::string& path) {
   constexpr std::string_view kEnding = "_log.reach";
   std::error_code error;
   if (fs::is_regular_file(path, error)) return {path};
-  if (!fs::is_directory(path, error)) throw UsageError(path + ": no such log or folder");
+  if (!fs::is_directory(path, error)) throw FaultError(Fault{{}, "no such log or folder", {}, FilePlace{path}});
   // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
   // in their names.
   std::string prefix;
@@ -267,7 +268,7 @@ std::vector<std::string> findLogs(const std::string& path) {
     const std::string file = entry.path().filename().string();
     if (file.ends_with(kEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
   }
-  if (logs.empty()) throw UsageError(path + ": no logs (…_log.reach) in this folder");
+  if (logs.empty()) throw FaultError(Fault{{}, "no logs (…_log.reach) in this folder", {}, FilePlace{path}});
   std::sort(logs.begin(), logs.end());
   return logs;
 }

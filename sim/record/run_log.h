@@ -89,7 +89,7 @@ enum class LogCheck { Everything, Trials };
 /// One recorded run, read to its last good record. Rows and ticks are read when asked for. Any thread, one at a time.
 class RunLog {
  public:
-  /// Throws UsageError (not a log, configuration damaged) or ResourceError.
+  /// Throws FaultError (not a log, configuration damaged) or ResourceError.
   static RunLog open(const std::string& path, LogCheck check = LogCheck::Everything);
 
   const std::string& path() const { return path_; }
@@ -101,7 +101,7 @@ class RunLog {
   std::uint64_t goodBytes() const { return goodBytes_; }
   std::uint64_t fileBytes() const { return fileBytes_; }
 
-  /// Rows between two ticks, both included. Throws UsageError if the log has changed meanwhile.
+  /// Rows between two ticks, both included. Throws FaultError if the log has changed meanwhile.
   SampleRows rows(std::uint64_t firstTick, std::uint64_t lastTick) const;
   /// Rows of a trial (from trials()), from where it was put up to its end.
   SampleRows rows(const RecordedTrial& trial) const { return rows(trial.startTick, trial.lastTick); }
@@ -127,7 +127,7 @@ class RunLog {
   std::uint64_t goodBytes_ = 0, fileBytes_ = 0;
 };
 
-/// The logs of a dataset, a session's folder or a single file, sorted by name. Throws UsageError when there are none.
+/// The logs of a dataset, a session's folder or a single file, sorted by name. Throws FaultError when there are none.
 std::vector<std::string> findLogs(const std::string& path);
 
 }  // namespace reachlab::record

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/trial/task_check.h"
@@ -168,8 +169,8 @@ std::vector<Fault> planProblems(const std::string& file) {
   Plan plan;
   try {
     plan = parsePlan(text, file);
-  } catch (const UsageError& error) {
-    return faultsOf(error);
+  } catch (const FaultError& error) {
+    return error.faults;
   }
   std::vector<Fault> found, here;
   std::vector<std::string> seen;
@@ -179,9 +180,9 @@ std::vector<Fault> planProblems(const std::string& file) {
     seen.push_back(name);
     try {
       trial::checkTask(experiment::openExperiment(name), name);
-    } catch (const UsageError& error) {
-      for (Fault& fault : faultsOf(error)) {  // those of the experiment's file stand there
-        if (fault.place) found.push_back(std::move(fault));
+    } catch (const FaultError& error) {
+      for (const Fault& fault : error.faults) {  // those of the experiment's file stand there
+        if (fault.place) found.push_back(fault);
         else here.push_back({fmt::format("blocks[{}].experiment", i), toText(fault)});
       }
     }

@@ -39,7 +39,7 @@ struct Plan {
 bool isPlan(const std::string& text, const std::string& file);
 /// The file that `fileOrName` means: itself if it exists, else the shipped plan of that name; nullopt when neither.
 std::optional<std::string> findPlan(const std::string& fileOrName);
-/// Throws UsageError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+/// Throws FaultError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Plan parsePlan(const std::string& text, const std::string& file);
 Plan readPlan(const std::string& file);
 /// The plan as a file that reads back equal. Experiments are named as they stand in the blocks.

@@ -15,7 +15,7 @@ struct Programme {
   bool isPlan() const { return !plan.text.empty(); }
 };
 
-/// Reads a plan or an experiment: a file, or the name of a shipped one. Throws UsageError with every fault.
+/// Reads a plan or an experiment: a file, or the name of a shipped one. Throws FaultError with every fault.
 Programme readProgramme(const std::string& fileOrName);
 /// The same of a plan that is edited in a window: its text is what `toJson` gives, experiments are looked for beside `file` first.
 /// Throws UsageError with every fault.

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/fault.h"
 #include "base/os.h"
 #include "base/utc.h"
 #include "sim/record/append_file.h"

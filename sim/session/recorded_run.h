@@ -36,7 +36,7 @@ struct RecordedRunOptions {
 ///   run.finish();
 class RecordedRun {
  public:
-  /// Compiles the scene, takes the run number under the folder's lock and creates the log. The first trial starts the loop. Throws UsageError (no task, the
+  /// Compiles the scene, takes the run number under the folder's lock and creates the log. The first trial starts the loop. Throws FaultError (no task, the
   /// device moves in real time and the clock is virtual, the number is taken), RefusedError (the scene cannot be computed), DatasetError.
   RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice> device, const RecordedRunOptions& options);
   /// Ends as `finish` does, without a word where that fails.

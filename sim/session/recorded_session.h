@@ -15,7 +15,7 @@ using DeviceMaker = std::function<std::unique_ptr<haptics::HapticDevice>(
 /// window opens run after run. The controlling thread owns it.
 class RecordedSession {
  public:
-  /// Plans the session; opens nothing. `watcher` (may be null) sees every tick of every run and outlives the session. Throws UsageError.
+  /// Plans the session; opens nothing. `watcher` (may be null) sees every tick of every run and outlives the session. Throws FaultError.
   RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice, haptics::RunSink* watcher = nullptr);
 
   /// What is worth a word before it begins.

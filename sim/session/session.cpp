@@ -125,10 +125,11 @@ int sessionDay(const SessionRequest& request, const Plan& plan) {
   return day;
 }
 
-std::string seedFault(const std::string& text) {
+std::optional<Fault> seedFault(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  return fault == std::errc{} && end == text.data() + text.size() ? std::string() : "is " + text + "; allowed: 0 to 18446744073709551615";
+  if (fault == std::errc{} && end == text.data() + text.size()) return std::nullopt;
+  return Fault{{}, "is " + text, "0 to 18446744073709551615"};
 }
 
 std::uint64_t drawSeed() {

@@ -53,7 +53,7 @@ struct SessionToRun {
 };
 
 /// Works out what is to be done: draws the order, chooses run numbers, and with `resume` leaves out what is on disk already. Throws
-/// UsageError with every fault; those of the request have its member's name as key.
+/// FaultError with every fault; those of the request have its member's name as key.
 SessionToRun planSession(const SessionRequest& request, const Programme& programme);
 /// The same for what `request.what` names.
 SessionToRun planSession(const SessionRequest& request);
@@ -63,12 +63,12 @@ SessionToRun planSession(const SessionRequest& request);
 int sessionDay(const SessionRequest& request, const Plan& plan);
 
 /// Gives the block the next free run number where another program has taken its own since it was planned; one that was `askedFor` is
-/// refused then (UsageError). Call it under a FolderHold that lasts until the log is created.
+/// refused then (FaultError). Call it under a FolderHold that lasts until the log is created.
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);
 
-/// What is wrong with a seed's text, empty when it is a whole number from 0 to 2^64 - 1; a sign or a larger number would be turned into another
+/// What is wrong with a seed's text, nothing when it is a whole number from 0 to 2^64 - 1; a sign or a larger number would be turned into another
 /// seed without a word.
-std::string seedFault(const std::string& text);
+std::optional<Fault> seedFault(const std::string& text);
 /// A seed for a session that was given none, from the system's entropy.
 std::uint64_t drawSeed();
 

@@ -24,7 +24,7 @@ std::string logPath(const SessionPlace& place, const std::string& task, int run)
 std::string labelOf(const std::string& name);
 /// The session's logs, by run number. Empty when there are none.
 std::vector<RunOnDisk> recordedRuns(const SessionPlace& place);
-/// The next free run number, or the one asked for. Throws UsageError with a proposal when that is taken: nothing is overwritten.
+/// The next free run number, or the one asked for. Throws FaultError with a proposal when that is taken: nothing is overwritten.
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 
 /// Keeps a dataset to itself among the programs that record into it, while a run number is taken or a shared table is rewritten; waits for

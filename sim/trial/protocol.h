@@ -60,7 +60,7 @@ struct ProtocolSettings {
   bool forceLimitEndsTrial = false;
 };
 
-/// Throws UsageError when the experiment has no task, or its start or target is no place on the constraint.
+/// Throws FaultError when the experiment has no task, or its start or target is no place on the constraint.
 ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint);
 
 /// What the protocol sees of one tick.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/fault.h"
 #include "constraints/constraint.h"
 #include "base/json_reader.h"
 #include "constraints/geometry/arc_length.h"
@@ -28,8 +29,8 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
   ProtocolSettings place;
   try {
     place = makeProtocolSettings(experiment, constraint);
-  } catch (const UsageError& error) {
-    return faultsOf(error);
+  } catch (const FaultError& error) {
+    return error.faults;
   }
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (experiment.task->start == experiment.task->target || (flat && place.start == place.target))

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/analyze/experiment_difference.h"
 #include "sim/analyze/write_analysis.h"
 #include "sim/analyze/tables.h"
@@ -144,8 +144,8 @@ TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {
 
 TEST(Dataset, ThatIsNoneIsRefusedInOneSentence) {
   const TemporaryFolder folder;
-  EXPECT_THROW(openDataset(folder.path()), UsageError);
-  EXPECT_THROW(openDataset(folder.path() + "/nowhere"), UsageError);
+  EXPECT_THROW(openDataset(folder.path()), FaultError);
+  EXPECT_THROW(openDataset(folder.path() + "/nowhere"), FaultError);
 }
 
 TEST(Dataset, WithADamagedLogKeepsWhatIsGoodAndSaysSo) {

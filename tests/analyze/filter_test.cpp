@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::analyze {
 namespace {
@@ -49,8 +49,8 @@ TEST(LowPass, IsTheSameForwardsAndBackwards) {
 
 TEST(LowPass, RefusesACutOffBeyondHalfTheRate) {
   const std::vector<double> x(20, 0.0);
-  EXPECT_THROW(lowPass(x, 100, 50), UsageError);
-  EXPECT_THROW(lowPass(x, 100, -1), UsageError);
+  EXPECT_THROW(lowPass(x, 100, 50), FaultError);
+  EXPECT_THROW(lowPass(x, 100, -1), FaultError);
   EXPECT_EQ(lowPass(x, 100, 0), x);
 }
 

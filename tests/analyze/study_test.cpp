@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "tests/analyze/synthetic.h"
@@ -164,10 +164,10 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
 TEST(Study, RefusesOptionsOutOfRange) {
   StudyOptions options = quickOptions();
   options.measure.onset.percent = 0;
-  EXPECT_THROW(analyzeStudy({}, options), UsageError);
+  EXPECT_THROW(analyzeStudy({}, options), FaultError);
   options = quickOptions();
   options.handMasses = {};
-  EXPECT_THROW(analyzeStudy({}, options), UsageError);
+  EXPECT_THROW(analyzeStudy({}, options), FaultError);
 }
 
 TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "sim/bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
@@ -200,7 +200,7 @@ Contender makeMultistepLimit(const BenchScene& scene) {
       return makeAdams<double, 2>(scene, SaddleModel{s.shape.a, s.shape.h, s.mass, s.kHand, s.bHand, (s.bHand + s.lambda) / s.mass});
     else if constexpr (std::is_same_v<System, CurveChain<EllipseShape, 5, 6>>)
       return makeAdams<V8, 1>(scene, EllipseChainModel{s.shape.a, s.shape.b, s.mass, s.k, s.b, s.kHand, s.bHand});
-    else throw UsageError("bench: no multistep form of scene " + scene.name);
+    else throw FaultError(Fault{"scene", "is " + scene.name + ", which has no multistep form"});
   });
 }
 

@@ -1,3 +1,4 @@
+#include "base/fault.h"
 #include "cli/exit_code.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +65,7 @@ TEST(ExitCode, OfWhatLibrariesThrowHasWordsOfOurOwn) {
 }
 
 TEST(ExitCode, OfOurOwnIsTheOneBehindEach) {
-  EXPECT_EQ(endOf([] { throw UsageError("x: bad"); }).code, 2);
+  EXPECT_EQ(endOf([] { throw FaultError(Fault{"x", "is bad"}); }).code, 2);
   EXPECT_EQ(endOf([] { throw ResourceError("no disk"); }).code, 3);
   EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).code, 4);
   EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).words, "stiff\n");

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log.h"
 #include "sim/session/session_folder.h"
@@ -71,7 +71,7 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
   ::unsetenv("REACHLAB_CONSTRAINTS");
   const record::RunConfiguration recorded = record::RunLog::open(log).configuration();
   EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);
-  EXPECT_THROW((void)experiment::parseExperiment(recorded.experimentText, "eight"), UsageError)
+  EXPECT_THROW((void)experiment::parseExperiment(recorded.experimentText, "eight"), FaultError)
       << "without the definition it cannot be known";
   EXPECT_EQ(record::recordedExperiment(recorded).constraint.shape.at("w_m"), 0.12);
 }

@@ -10,6 +10,7 @@
 #include "constraints/definition.h"
 #include "constraints/geometry/arc_length.h"
 #include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -25,7 +26,7 @@ Constraint curve(const std::vector<std::string>& formula, const std::map<std::st
 std::string refusal(const ConstraintSpec& spec) {
   try {
     makeConstraint(spec, "here");
-  } catch (const UsageError& e) {
+  } catch (const FaultError& e) {
     return e.what();
   }
   return "accepted";

@@ -6,7 +6,7 @@
 
 #include "constraints/analysis.h"
 #include "constraints/definition.h"
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -124,7 +124,7 @@ TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
   const auto message = [](const ConstraintSpec& spec) {
     try {
       makeConstraint(spec, "here");
-    } catch (const UsageError& e) {
+    } catch (const FaultError& e) {
       return std::string(e.what());
     }
     return std::string("accepted");

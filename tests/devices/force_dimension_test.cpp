@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/os.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
@@ -125,8 +126,8 @@ TEST_F(ForceDimension, ClosingLeavesNoForce) {
 }
 
 TEST_F(ForceDimension, AWrongIndexIsAWrongArgument) {
-  EXPECT_THROW(open("forcedimension:x"), UsageError);
-  EXPECT_THROW(open("forcedimension:0,colour=red"), UsageError);
+  EXPECT_THROW(open("forcedimension:x"), FaultError);
+  EXPECT_THROW(open("forcedimension:0,colour=red"), FaultError);
   EXPECT_THROW(open("forcedimension:7"), ResourceError);
 }
 

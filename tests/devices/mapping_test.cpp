@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/mapping/guarded_device.h"
 
@@ -65,8 +65,8 @@ TEST(DeadManButton, GivesForceOnlyWhileItIsHeld) {
 
 TEST(DeadManButton, IsRefusedWhereThereIsNoForceToTake) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  EXPECT_THROW(makeDevice("simulated,dead-man-button=1", experiment, 1), UsageError);
-  EXPECT_THROW(makeDevice("virtual:omni,dead-man-button=33", experiment, 1), UsageError);
+  EXPECT_THROW(makeDevice("simulated,dead-man-button=1", experiment, 1), FaultError);
+  EXPECT_THROW(makeDevice("virtual:omni,dead-man-button=33", experiment, 1), FaultError);
   EXPECT_NO_THROW(makeDevice("virtual:omni,dead-man-button=1", experiment, 1));
 }
 
@@ -127,7 +127,7 @@ TEST(Mapping, IsReadBackAsItWasSaved) {
 TEST(Mapping, WhatIsNoMappingIsRefusedWithItsKey) {
   for (const char* text :
        {"[]", "{\"scale\": 0}", "{\"scale\": \"two\"}", "{\"offset_m\": [1, 2]}", "{\"colour\": 1}", "{\"mirror_x\": 1}"})
-    EXPECT_THROW(mappingFromJson(text, "here"), UsageError) << text;
+    EXPECT_THROW(mappingFromJson(text, "here"), FaultError) << text;
 }
 
 TEST(HandOptions, AreTakenBeforeTheDriversOwn) {
@@ -139,9 +139,9 @@ TEST(HandOptions, AreTakenBeforeTheDriversOwn) {
   EXPECT_EQ(info.speedLimit, 1);
   EXPECT_NEAR(info.guards.compensation.y, 0.295 * 9.80665, 1e-12);
   EXPECT_TRUE(info.guards.passivityControl);
-  EXPECT_THROW(makeDevice("virtual:omni,wall=maybe", experiment, 1), UsageError);
-  EXPECT_THROW(makeDevice("virtual:omni,offset=1/2", experiment, 1), UsageError);
-  EXPECT_THROW(makeDevice("virtual:omni,colour=red,scale=2", experiment, 1), UsageError);
+  EXPECT_THROW(makeDevice("virtual:omni,wall=maybe", experiment, 1), FaultError);
+  EXPECT_THROW(makeDevice("virtual:omni,offset=1/2", experiment, 1), FaultError);
+  EXPECT_THROW(makeDevice("virtual:omni,colour=red,scale=2", experiment, 1), FaultError);
 }
 
 }  // namespace

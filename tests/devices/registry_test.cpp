@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/options.h"
 #include "tests/devices/fakes/fake_dhd.h"
@@ -33,7 +33,7 @@ TEST(Registry, AnUnknownDeviceIsRefusedWithAllThatThereAre) {
   try {
     makeDevice("joystick", experiment, 1);
     FAIL();
-  } catch (const UsageError& error) {
+  } catch (const FaultError& error) {
     for (const DeviceDriver& driver : deviceDrivers()) EXPECT_NE(std::string(error.what()).find(driver.usage), std::string::npos);
   }
 }
@@ -44,13 +44,13 @@ TEST(DeviceOptions, TakeWhatIsKnownAndRefuseTheRest) {
   EXPECT_EQ(options.number("gain", 1, 0, 2), 0.5);
   EXPECT_EQ(options.number("absent", 7, 0, 9), 7);
   EXPECT_EQ(options.word("mode", {"slow", "fast"}), "fast");
-  EXPECT_THROW(options.done(), UsageError);
+  EXPECT_THROW(options.done(), FaultError);
   EXPECT_EQ(options.rest(), "other=1");
   EXPECT_NO_THROW(options.done());
-  EXPECT_THROW(DeviceOptions("a=1,a=2", "device x"), UsageError);
+  EXPECT_THROW(DeviceOptions("a=1,a=2", "device x"), FaultError);
   for (const char* bad : {"gain=3", "gain=-1", "gain=", "gain=1x", "gain=nan"}) {
     DeviceOptions wrong(bad, "device x");
-    EXPECT_THROW(wrong.number("gain", 1, 0, 2), UsageError) << bad;
+    EXPECT_THROW(wrong.number("gain", 1, 0, 2), FaultError) << bad;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "test_paths.h"
 
 namespace reachlab::devices {
@@ -123,12 +124,12 @@ TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}), ResourceError);
   EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
-  EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), UsageError) << "one place is no reach";
+  EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), FaultError) << "one place is no reach";
   for (const char* rows : {"", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
-    EXPECT_THROW(readReach(write("bad.csv", header + rows)), UsageError) << rows;
-  EXPECT_THROW(readReach(write("bad.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n")), UsageError);
+    EXPECT_THROW(readReach(write("bad.csv", header + rows)), FaultError) << rows;
+  EXPECT_THROW(readReach(write("bad.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n")), FaultError);
   const std::string still = write("still.csv", header + "0,1,1,1\n1,1,1,1\n");
-  EXPECT_THROW(layOnto(readReach(still), {}, {1, 0, 0}), UsageError);
+  EXPECT_THROW(layOnto(readReach(still), {}, {1, 0, 0}), FaultError);
 }
 
 // Spreadsheets write a byte order mark, spaces and CRLF; recordings have further columns.
@@ -144,7 +145,7 @@ TEST_F(Files, NamesFileAndLine) {
   try {
     readReach(file);
     FAIL();
-  } catch (const UsageError& error) {
+  } catch (const FaultError& error) {
     EXPECT_EQ(std::string(error.what()).rfind(file + ":3:", 0), 0u) << error.what();
   }
 }

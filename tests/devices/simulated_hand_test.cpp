@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "devices/make_device.h"
 #include "sim/haptics/run_conductor.h"
 
@@ -129,7 +130,7 @@ TEST(SimulatedHand, RefusesACriterionWhereItFollowsNone) {
       try {
         makeDevice(device, experiment, 1);
         ADD_FAILURE() << bent << " takes " << device;
-      } catch (const UsageError& error) {
+      } catch (const FaultError& error) {
         EXPECT_NE(std::string(error.what()).find("straight line"), std::string::npos) << error.what();
       }
     }
@@ -140,7 +141,7 @@ TEST(SimulatedHand, SaysWhatItDoesNotUnderstand) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   for (const char* bad : {"simulated:nois=0", "simulated:noise=-1", "simulated:noise=nan", "simulated:noise=", "simulated:criterion=best",
                           "simulated:noise=1,,", "robot", "", "replay", "replay:"})
-    EXPECT_THROW(makeDevice(bad, experiment, 1), UsageError) << bad;
+    EXPECT_THROW(makeDevice(bad, experiment, 1), FaultError) << bad;
   EXPECT_THROW(makeDevice("mouse", experiment, 1), ResourceError);
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::devices {
 namespace {
@@ -300,7 +301,7 @@ TEST(ReportDescriptor, ABrokenOneIsRefusedAndNoneIsFatal) {
         readField(layout, field, report);
       }
       makePidForce(layout);
-    } catch (const UsageError&) {  // said in words
+    } catch (const FaultError&) {  // said in words
     }
   }
 }

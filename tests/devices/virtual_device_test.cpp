@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/virtual/loop_stability.h"
 #include "sim/haptics/run_conductor.h"
@@ -110,10 +110,10 @@ TEST(VirtualDevice, AWholeRunIsTheSameTwiceAndWithinTheDevicesForce) {
 
 TEST(VirtualDevice, ItsOptionsAreChecked) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  EXPECT_THROW(makeDevice("virtual", experiment, 1), UsageError);
-  EXPECT_THROW(makeDevice("virtual:falcon", experiment, 1), UsageError);
-  EXPECT_THROW(makeDevice("virtual:omni,arm-mass=-1", experiment, 1), UsageError);
-  EXPECT_THROW(makeDevice("virtual:omni,colour=red", experiment, 1), UsageError);
+  EXPECT_THROW(makeDevice("virtual", experiment, 1), FaultError);
+  EXPECT_THROW(makeDevice("virtual:falcon", experiment, 1), FaultError);
+  EXPECT_THROW(makeDevice("virtual:omni,arm-mass=-1", experiment, 1), FaultError);
+  EXPECT_THROW(makeDevice("virtual:omni,colour=red", experiment, 1), FaultError);
   EXPECT_NO_THROW(makeDevice("virtual:omni,arm-mass=2,noise=0", experiment, 1));
 }
 

@@ -1,3 +1,4 @@
+#include "base/fault.h"
 #include "sim/experiment/checked_experiment.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@ std::vector<Fault> faultsOfText(const std::string& text) {
   try {
     openExperimentText(text, "x.json");
     return {};
-  } catch (const UsageError& error) {
-    return faultsOf(error);
+  } catch (const FaultError& error) {
+    return error.faults;
   }
 }
 

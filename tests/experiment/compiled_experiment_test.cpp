@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -31,7 +31,7 @@ TEST(CompiledExperiment, RefusesAValueWithAFault) {
   try {
     const CompiledExperiment compiled(e);
     FAIL();
-  } catch (const UsageError& error) {
+  } catch (const FaultError& error) {
     EXPECT_NE(std::string(error.what()).find("object.masses_kg[2]: is -1; allowed: more than 0 kg"), std::string::npos) << error.what();
   }
 }

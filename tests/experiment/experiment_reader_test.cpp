@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/experiment/experiment.h"
 
 using namespace reachlab;
@@ -30,7 +30,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 std::string faultOf(const std::string& text) {
   try {
     parseExperiment(text, "x.json");
-  } catch (const UsageError& e) {
+  } catch (const FaultError& e) {
     return e.what();
   }
   return "no fault";
@@ -120,7 +120,7 @@ TEST(ExperimentReader, UnknownNameProposesTheNearest) {
   try {
     readExperiment("chain-moderat");
     FAIL();
-  } catch (const UsageError& e) {
+  } catch (const FaultError& e) {
     EXPECT_NE(std::string(e.what()).find("did you mean chain-moderate?"), std::string::npos) << e.what();
   }
 }

@@ -7,7 +7,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 
@@ -30,7 +30,7 @@ class ShippedSchema : public testing::Test {
     try {
       parseExperiment(json.dump(), "x.json");
       return true;
-    } catch (const UsageError&) {
+    } catch (const FaultError&) {
       return false;
     }
   }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/figure/ticks.h"
 
 namespace reachlab::figure {
@@ -135,7 +136,7 @@ TEST(Figure, IsOfTheKindItsNameSays) {
   EXPECT_NE(readFile(folder + "/figure_test.svg").find("<svg"), std::string::npos);
   EXPECT_EQ(readFile(folder + "/figure_test.pdf").substr(0, 5), "%PDF-");
   EXPECT_EQ(readFile(folder + "/figure_test.png").substr(1, 3), "PNG");
-  EXPECT_THROW(writeFigure(exampleFigure(), folder + "/figure_test.bmp"), UsageError);
+  EXPECT_THROW(writeFigure(exampleFigure(), folder + "/figure_test.bmp"), FaultError);
   EXPECT_THROW(writeFigure(exampleFigure(), folder + "/no/such/folder/figure.svg"), ResourceError);
 }
 

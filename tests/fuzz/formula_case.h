@@ -8,7 +8,7 @@
 
 #include "constraints/constraint.h"
 #include "constraints/cpp_writer.h"
-#include "base/error.h"
+#include "base/fault.h"
 #include "constraints/formula.h"
 
 namespace reachlab::constraints {
@@ -29,7 +29,7 @@ inline void requireBatchOfSinglePoints(const Curve& curve, const std::array<doub
 }
 
 /// One case of the formula fuzzer: three lines are a surface, otherwise the first line is the x of a curve, through the whole pipeline. Any
-/// text must end as a constraint that evaluates or as a UsageError; what else happens is a bug, and thrown.
+/// text must end as a constraint that evaluates or as a FaultError; what else happens is a bug, and thrown.
 inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   std::vector<std::string> lines(1);
@@ -62,7 +62,7 @@ inline void runFormulaCase(const std::uint8_t* data, std::size_t size) {
     }
     writeEvaluator(*compileFormula(formula, "fuzz"), "evaluateFuzz");
     writeDynamicsCode(*compileFormula(formula, "fuzz"), "fuzz", {0.3});
-  } catch (const UsageError& e) {
+  } catch (const FaultError& e) {
     if (std::string_view(e.what()).empty()) throw std::logic_error("a refusal without words");
   }
 }

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
@@ -347,7 +347,7 @@ TEST(TickEngine, ABodyHeldOffItsCentreIsArmedWithoutForce) {
 TEST(TickEngine, RefusesAnExperimentWithoutATask) {
   experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   experiment.task.reset();
-  EXPECT_THROW(TickEngine(experiment, {}), UsageError);
+  EXPECT_THROW(TickEngine(experiment, {}), FaultError);
 }
 
 TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
@@ -22,7 +22,7 @@ TEST(TickTiming, MeasuresEveryShippedExperiment) {
 TEST(TickTiming, RefusesAnExperimentWithoutATask) {
   experiment::Experiment experiment = test::armedAtOnce("dingwell");
   experiment.task.reset();
-  EXPECT_THROW(measureTicks(experiment, 10), UsageError);
+  EXPECT_THROW(measureTicks(experiment, 10), FaultError);
 }
 
 }  // namespace

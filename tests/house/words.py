@@ -37,7 +37,7 @@ def faults_in(text):
 
 
 def self_test():
-    said = ['R"(of\nseveral lines: --check)"', 'throw UsageError("--age 200: too old");', 'x("more than 3 of --unknowns");', 'say("look into the dock");', 'say("in the Menus");']
+    said = ['R"(of\nseveral lines: --check)"', 'throw FaultError("--age 200: too old");', 'x("more than 3 of --unknowns");', 'say("look into the dock");', 'say("in the Menus");']
     silent = ['#include "a--b"', '// "--age"', 'for (; n; --n) say("n");', 'say("a -- b");', 'say("tabulated, docked");', 'x = y; // "--age"', 'json["docks"]', 'say("button 2 of the handle");']
     wrong = [line for line in said if not faults_in(line)] + [line for line in silent if faults_in(line)]
     for line in wrong:

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/predict/line/modes.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
@@ -191,10 +192,10 @@ TEST(Refusals, SayWhyNothingCanBeComputed) {
   EXPECT_THROW(predict(stiff, MinHandJerk), RefusedError);
   experiment::Experiment body = dingwell();
   body.object.kind = experiment::ObjectKind::Body;
-  EXPECT_THROW(predict(body, MinHandJerk), UsageError);
+  EXPECT_THROW(predict(body, MinHandJerk), FaultError);
   experiment::Experiment nowhere = dingwell();
   nowhere.task->target = nowhere.task->start;
-  EXPECT_THROW(predict(nowhere, MinHandJerk), UsageError);
+  EXPECT_THROW(predict(nowhere, MinHandJerk), FaultError);
 }
 
 TEST(Warnings, NameTravelTimeAndCondition) {

@@ -7,6 +7,7 @@
 
 #include "constraints/definition.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/gauss_legendre.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
@@ -271,7 +272,7 @@ TEST(Point, IsBehindItsSpringOnALineAndTheHandElsewhereUnlessAsked) {
   EXPECT_NEAR(behindOnCurve->cost / onLine->cost, 1, kProfile);
   EXPECT_GT(onLine->cost, handOnLine->cost * 1.0003);
   expectMinimumJerk(*handOnLine, 0.2);
-  EXPECT_THROW(predict(chainModerate(), Criterion::MinHandJerk, behind), UsageError);
+  EXPECT_THROW(predict(chainModerate(), Criterion::MinHandJerk, behind), FaultError);
 }
 
 TEST(Point, ThatIsTheHandMovesByTheLawsOfOneMass) {

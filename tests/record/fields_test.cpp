@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/record/run_fields.h"
 #include "tests/record/made_run.h"
 
@@ -33,8 +33,8 @@ TEST(Fields, OneThatIsAddedToTheListIsReadWrittenAndCompared) {
   Example earlier;
   readFields(json{{"old", 3}}, earlier);
   EXPECT_EQ(earlier.added, 2.5) << "recordings of earlier versions get the default";
-  EXPECT_THROW(readFields(json{{"added_m", 7.25}}, earlier), UsageError) << "what was always there is missing";
-  EXPECT_THROW(readFields(json{{"old", 3}, {"added_m", 11}}, earlier), UsageError) << "out of its bounds";
+  EXPECT_THROW(readFields(json{{"added_m", 7.25}}, earlier), FaultError) << "what was always there is missing";
+  EXPECT_THROW(readFields(json{{"old", 3}, {"added_m", 11}}, earlier), FaultError) << "out of its bounds";
 }
 
 // Converts to anything, so that a struct of n members can be made from n of it, and not from n + 1.

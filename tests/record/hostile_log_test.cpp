@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/os.h"
 #include "sim/record/records.h"
 #include "sim/record/recover.h"
@@ -45,7 +46,7 @@ void expectRefusal(const std::string& path, const std::string& key) {
   try {
     RunLog::open(path);
     FAIL() << key << ": opened";
-  } catch (const UsageError& refusal) {
+  } catch (const FaultError& refusal) {
     EXPECT_TRUE(std::string(refusal.what()).starts_with(path)) << refusal.what();
     EXPECT_NE(std::string(refusal.what()).find(key), std::string::npos) << refusal.what();
     EXPECT_EQ(std::string(refusal.what()).find("json.exception"), std::string::npos) << refusal.what();
@@ -139,7 +140,7 @@ TEST(HostileLog, CountsOfSamplesThatOverflowTheirProductAreRefused) {
     payload.put(count);
     payload.put(columns);
     const RunLog log = RunLog::open(logWithRecord(folder, RecordType::Samples, payload));
-    EXPECT_THROW(log.allRows(), UsageError) << count << " x " << columns;
+    EXPECT_THROW(log.allRows(), FaultError) << count << " x " << columns;
   }
 }
 
@@ -151,24 +152,24 @@ TEST(HostileLog, RecordsOfUnknownKindsOrLengthsAreRefused) {
     ByteWriter bad;
     bad.putBytes(trial.bytes().data(), trial.size());
     bad.overwrite(outcomeAt, std::uint8_t{200});
-    EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bad)), UsageError);
+    EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bad)), FaultError);
   }
   ByteWriter shorter;
   shorter.putBytes(trial.bytes().data(), trial.size() - 3);
-  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, shorter)), UsageError);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, shorter)), FaultError);
   RecordedTrial backwards;
   backwards.startTick = 100;
   backwards.lastTick = 5;
   ByteWriter bytes;
   encode(backwards, {}, bytes);
-  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bytes)), UsageError);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bytes)), FaultError);
   ByteWriter event;
   event.put(std::uint64_t{1});
   event.put(std::uint8_t{99});
   event.put(std::int32_t{1});
   event.put(0.0);
   event.putText("x");
-  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Event, event)), UsageError);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Event, event)), FaultError);
 }
 
 TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
@@ -182,15 +183,15 @@ TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
   ASSERT_EQ(::truncate(path.c_str(), 20'000), 0);
   while (reader.next(record)) {}
   EXPECT_LE(reader.goodEnd(), 1u << 20) << "what had been read before may still be given";
-  EXPECT_THROW(log.allRows(), UsageError);
+  EXPECT_THROW(log.allRows(), FaultError);
 }
 
 TEST(HostileLog, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
   const TemporaryFolder folder("hostile");
   const std::string pipe = folder / "pipe_log.reach";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_THROW(RunLog::open(pipe), UsageError);
-  EXPECT_THROW(RunLog::open("/dev/zero"), UsageError);
+  EXPECT_THROW(RunLog::open(pipe), FaultError);
+  EXPECT_THROW(RunLog::open("/dev/zero"), FaultError);
   EXPECT_THROW(readWholeFile(pipe), ResourceError);
   EXPECT_THROW(readWholeFile("/dev/zero"), ResourceError);
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "sim/record/recover.h"
 #include "tests/record/made_run.h"
 
@@ -140,7 +141,7 @@ TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
   std::string bytes = bytesOf(path);
   bytes[100] ^= 1;
   writeBytes(path, bytes);
-  EXPECT_THROW(recoverLog(path), UsageError);
+  EXPECT_THROW(recoverLog(path), FaultError);
 }
 
 TEST(RecoverLog, RefusesALogThatIsBeingWritten) {
@@ -202,7 +203,7 @@ TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
         for (std::size_t row = 0; row < rows.size(); ++row) ASSERT_EQ(rows.at(row, x), MadeRun::valueAt(rows.ticks[row]));
         for (const RecordedTick& tick : log.ticks()) ASSERT_EQ(tick.device.position.x, MadeRun::valueAt(tick.tick));
       }
-    } catch (const UsageError&) {
+    } catch (const FaultError&) {
       // Only damage to the header or the configuration makes a log unreadable as a whole.
       EXPECT_LT(firstTouched, good.trials()[0].offset) << "damage " << k;
       ++refused;
@@ -239,7 +240,7 @@ TEST(LogReader, RefusesANewerSchemaAndSaysWhatToDo) {
   try {
     const LogReader reader(path);
     FAIL() << "opened";
-  } catch (const UsageError& error) {
+  } catch (const FaultError& error) {
     EXPECT_NE(std::string(error.what()).find("schema version 3"), std::string::npos) << error.what();
   }
 }

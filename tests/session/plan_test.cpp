@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "base/error.h"
+#include "base/fault.h"
 #include "sim/session/trial_order.h"
 #include "test_paths.h"
 
@@ -17,7 +17,7 @@ std::string faultsOf(const std::string& text) {
   try {
     parsePlan(text, "p.json");
     return "";
-  } catch (const UsageError& error) {
+  } catch (const FaultError& error) {
     return error.what();
   }
 }

@@ -139,9 +139,9 @@ TEST_F(Recorded, TheVirtualClockIsRefusedToAHandInRealTimeBeforeAnythingIsWritte
   try {
     RecordedRun run(block(), std::make_unique<Hand>(0.1, false), options());
     FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_EQ(faultsOf(error).at(0).key, "fast");
-    EXPECT_NE(faultsOf(error).at(0).what.find("scripted"), std::string::npos);
+  } catch (const FaultError& error) {
+    EXPECT_EQ(error.faults.at(0).key, "fast");
+    EXPECT_NE(error.faults.at(0).what.find("scripted"), std::string::npos);
   }
   EXPECT_TRUE(recordedRuns(request_.place).empty());
 }
@@ -157,7 +157,7 @@ TEST_F(Recorded, EachRunTakesTheNumberThatIsFreeWhenItIsOpened) {
   const BlockToRun asked = block();
   RecordedRun seventh(asked, goodHand(), options());
   EXPECT_EQ(seventh.configuration().run, 7);
-  EXPECT_THROW(RecordedRun(asked, goodHand(), options()), UsageError) << "a number that was asked for is not exchanged";
+  EXPECT_THROW(RecordedRun(asked, goodHand(), options()), FaultError) << "a number that was asked for is not exchanged";
 }
 
 TEST_F(Recorded, AnAbortedTrialIsPutUpOnceMoreIfTheBlockSaysSoAndARepeatIsNot) {
@@ -528,7 +528,7 @@ TEST(ProgrammeOfASession, CompilesEachExperimentOfAPlanOnce) {
   EXPECT_EQ(&programme.experiments[0].experiment(), &programme.experiments[2].experiment());
   EXPECT_EQ(programme.experiments[1].experiment().name, "epitrochoid");
   EXPECT_FALSE(readProgramme("chain-slow").isPlan());
-  EXPECT_THROW(readProgramme("chain-slo"), UsageError);
+  EXPECT_THROW(readProgramme("chain-slo"), FaultError);
 }
 
 }  // namespace

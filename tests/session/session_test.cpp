@@ -82,7 +82,7 @@ TEST_F(PlannedSession, RefusesAnAgeThatTheRecordCouldNotHold) {
   SessionRequest r = request("chain-moderate");
   for (const double age : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -4.0, 131.0}) {
     r.participant.age = age;
-    EXPECT_THROW(planSession(r), UsageError) << age;
+    EXPECT_THROW(planSession(r), FaultError) << age;
   }
   r.participant.age = 24;
   EXPECT_NO_THROW(planSession(r));
@@ -101,7 +101,7 @@ TEST_F(PlannedSession, TakesTheNextNumberWhenAnotherProgramHasTakenItsOwn) {
   r.run = 2;
   BlockToRun asked = planSession(r).blocks.at(0);
   record::writeMadeRun(second.logPath, 1, record::madeConfiguration());
-  EXPECT_THROW(takeFreeRun(asked, r.place, true), UsageError) << "a number that was asked for is not exchanged";
+  EXPECT_THROW(takeFreeRun(asked, r.place, true), FaultError) << "a number that was asked for is not exchanged";
 }
 
 TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
@@ -178,10 +178,10 @@ TEST_F(PlannedSession, RefusesToResumeWithOtherTrialsOrAnotherSeedThanRecorded) 
   r.resume = true;
   EXPECT_NO_THROW(planSession(r));
   r.trials = 6;
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
   r.trials = 5;
   r.seed = 2;
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
 }
 
 TEST_F(PlannedSession, RefusesToResumeAPlanThatWasChangedSince) {
@@ -190,7 +190,7 @@ TEST_F(PlannedSession, RefusesToResumeAPlanThatWasChangedSince) {
   recordAndBreakOff(planSession(r).blocks[0], 1);
   write("p.json", text + "\n");
   r.resume = true;
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
 }
 
 TEST_F(PlannedSession, RefusesATakenRunNumberAndProposesAFreeOne) {
@@ -203,12 +203,12 @@ TEST_F(PlannedSession, RefusesATakenRunNumberAndProposesAFreeOne) {
   try {
     planSession(r);
     FAIL() << "took run 1 twice";
-  } catch (const UsageError& error) {
-    EXPECT_EQ(faultsOf(error).at(0).key, "run");
-    EXPECT_EQ(faultsOf(error).at(0).allowed, "2, the next free one, or none");
+  } catch (const FaultError& error) {
+    EXPECT_EQ(error.faults.at(0).key, "run");
+    EXPECT_EQ(error.faults.at(0).allowed, "2, the next free one, or none");
   }
   r.what = "chain-fast";  // another task of the same session has the same run numbers
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
 }
 
 TEST_F(PlannedSession, IsOneDayOfThePlan) {
@@ -221,9 +221,9 @@ TEST_F(PlannedSession, IsOneDayOfThePlan) {
     for (const BlockToRun& block : session.blocks) EXPECT_EQ(block.configuration.day, label[1] - '0');
   }
   r.place.session = "03";
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
   r.place.session = "evening";
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
   r.day = 2;
   EXPECT_EQ(planSession(r).blocks.size(), 3u);
 }
@@ -232,7 +232,7 @@ TEST_F(PlannedSession, TakesLettersAndDigitsOnlyAsLabels) {
   SessionRequest r = request("chain-moderate");
   for (const char* label : {"", "a b", "a_b", "../x", "ü"}) {
     r.place.subject = label;
-    EXPECT_THROW(planSession(r), UsageError) << label;
+    EXPECT_THROW(planSession(r), FaultError) << label;
   }
 }
 
@@ -299,7 +299,7 @@ TEST_F(PlannedSession, RefusesToResumeAnExperimentThatWasChangedUnderItsName) {
   recordAndBreakOff(planSession(r).blocks[0], 1);
   write("mine.json", text + "\n");
   r.resume = true;
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
 }
 
 TEST_F(PlannedSession, RefusesToResumeAPlanWhoseExperimentWasChanged) {
@@ -316,9 +316,9 @@ TEST_F(PlannedSession, RefusesToResumeAPlanWhoseExperimentWasChanged) {
   try {
     planSession(r);
     FAIL() << "the rest would be recorded under the text of the old file";
-  } catch (const UsageError& error) {
-    EXPECT_EQ(faultsOf(error).at(0).key, "resume");
-    EXPECT_NE(faultsOf(error).at(0).what.find("mine"), std::string::npos) << error.what();
+  } catch (const FaultError& error) {
+    EXPECT_EQ(error.faults.at(0).key, "resume");
+    EXPECT_NE(error.faults.at(0).what.find("mine"), std::string::npos) << error.what();
   }
 }
 
@@ -405,7 +405,7 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
 TEST_F(PlannedSession, RefusesTrialsForAPlanAndAsksForTheTrialsOnOfferOtherwise) {
   SessionRequest r = request(write("p.json", R"({ "schema_version": 1, "trials": 4, "blocks": [ { "experiment": "chain-slow" } ] })"));
   r.trials = 4;
-  EXPECT_THROW(planSession(r), UsageError);
+  EXPECT_THROW(planSession(r), FaultError);
   r.what = "chain-slow";
   EXPECT_EQ(planSession(r).blocks[0].trials.size(), 4u);
   r.trials.reset();
@@ -430,7 +430,7 @@ TEST_F(PlannedSession, RefusesATaskThatCannotBeCarriedOut) {
   const std::string text = R"({ "schema_version": 1, "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
       "object": { "kind": "point", "masses_kg": [1], "stiffness_n_per_m": [] }, "coupling": { "stiffness_n_per_m": 600 },
       "task": { "start": [0], "target": [0], "duration_s": 1, "tolerance": { "position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5 } } })";
-  EXPECT_THROW(planSession(request(write("still.json", text))), UsageError);
+  EXPECT_THROW(planSession(request(write("still.json", text))), FaultError);
 }
 
 TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
@@ -457,7 +457,7 @@ TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
   EXPECT_EQ(runs[1].run, 10);
   EXPECT_EQ(chooseRun(place, {}), 11);
   EXPECT_EQ(chooseRun(place, 3), 3);
-  EXPECT_THROW(chooseRun(place, 10), UsageError);
+  EXPECT_THROW(chooseRun(place, 10), FaultError);
 }
 
 }  // namespace

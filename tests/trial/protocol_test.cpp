@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::trial {
 namespace {
@@ -420,7 +420,7 @@ TEST(ProtocolSettings, WindowInTicksIsExactForDecimalTimes) {
 }
 
 TEST(ProtocolSettings, RefusesAnExperimentWithoutATask) {
-  EXPECT_THROW(makeProtocolSettings(experiment::Experiment{}, constraints::Constraint{}), UsageError);
+  EXPECT_THROW(makeProtocolSettings(experiment::Experiment{}, constraints::Constraint{}), FaultError);
 }
 
 TEST_F(Protocol, AMovementThatMissedMoreTicksThanAllowedIsInterrupted) {

@@ -23,7 +23,7 @@ struct LineObject {
   double totalMass() const;  // [kg] with the hand
 };
 
-/// Takes the object out of the experiment. Throws UsageError for an object that has no form on a line, RefusedError for a spring
+/// Takes the object out of the experiment. Throws FaultError for an object that has no form on a line, RefusedError for a spring
 /// of zero stiffness (what hangs on it cannot be brought to rest).
 LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping);
 

@@ -27,7 +27,7 @@ struct SweepKey {
   std::string_view name, meaning;
 };
 std::span<const SweepKey> sweepKeys();
-/// Sets one key of experiment or options. Throws UsageError for a value that makes no sense for this object.
+/// Sets one key of experiment or options. Throws FaultError for a value that makes no sense for this object.
 void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options);
 
 struct SweepRow {
