@@ -227,7 +227,6 @@ void check(const Options& o) {
     try {
       const std::string text = readTextFile(file);
       if (parseJson(text, file).find("object") != nullptr)
-
         throw FaultError(Fault{{}, "is an experiment file, no constraint definition; `reach validate` checks it", {}, FilePlace{file}});
       const constraints::Definition d = constraints::parseDefinition(text, file);
       const constraints::Constraint c = makeIn(file, d, {});

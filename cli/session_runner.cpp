@@ -32,7 +32,7 @@ std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec
                                                          std::uint64_t seed) {
   auto device = devices::makeDevice(spec, experiment, seed);
   if (const haptics::DeviceInfo info = device->info(); info.rendersForce && experiment.experiment().task)
-    fmt::print(stderr, "{}", preflightWarnings(devices::checkBeforeBlock(experiment.experiment(), info)));
+    fmt::print(stderr, "{}", preflightWarnings(devices::checkBeforeBlock(experiment, info)));
   return device;
 }
 

@@ -76,7 +76,7 @@ void checkOnDevice(const Request& r, const std::string& file) {
   const session::Programme programme = session::readProgramme(file);
   for (const experiment::CompiledExperiment& block : programme.experiments) {
     const auto device = devices::makeDevice(r.device, block, 0);
-    const auto lines = devices::checkBeforeBlock(block.experiment(), device->info());
+    const auto lines = devices::checkBeforeBlock(block, device->info());
     if (r.json) fmt::print("{}", preflightJson(lines));
     else fmt::print("{} on {}:\n{}", block.experiment().name, device->info().name, preflightText(lines));
   }

@@ -17,6 +17,7 @@ constexpr double kRelaxedHandMass = 0.3;    // [kg] that moves with the handle
 constexpr double kRelaxedHandDamping = 3;   // [N s/m]; a held hand brings 1 to 10
 constexpr double kLightestHandDamping = 1;  // [N s/m]
 
+using experiment::CompiledExperiment;
 using experiment::Experiment;
 
 // What the hand feels of the springs that it holds: those of parallel masses act together.
@@ -28,7 +29,8 @@ experiment::Coupling feltCoupling(const Experiment& experiment) {
 }
 
 // The shortest T whose force keeps below `limit`, to 2 %: force falls about as 1/T^2, and each guess is computed again.
-std::optional<double> longerDuration(const Experiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& now) {
+std::optional<double> longerDuration(const CompiledExperiment& experiment, double limit, double ReachDemand::*force,
+                                     const ReachDemand& now) {
   constexpr int kTries = 6;
   constexpr double kMargin = 1.01;
   double duration = now.duration, felt = now.*force;
@@ -40,7 +42,7 @@ std::optional<double> longerDuration(const Experiment& experiment, double limit,
   return felt <= limit ? std::optional(duration) : std::nullopt;
 }
 
-std::string forceRemedy(const Experiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& demand) {
+std::string forceRemedy(const CompiledExperiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& demand) {
   const double scale = limit / (demand.*force);
   const auto duration = longerDuration(experiment, limit, force, demand);
   const std::string slower = duration ? fmt::format("a longer reach (duration_s {:.3g} instead of {:.3g})", *duration, demand.duration)
@@ -48,9 +50,9 @@ std::string forceRemedy(const Experiment& experiment, double limit, double Reach
   return fmt::format("{}, a reach or masses scaled by {:.2g}, or a device of {:.3g} N", slower, scale, demand.*force);
 }
 
-PreflightLine peakForce(const Experiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
+PreflightLine peakForce(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
   PreflightLine line{"peak_force", Verdict::Fine, demand.peakForce, device.maxForce, "N", {}, {}};
-  if (experiment.forceLimit) line.limit = std::min(device.maxForce, *experiment.forceLimit);
+  if (experiment.experiment().forceLimit) line.limit = std::min(device.maxForce, *experiment.experiment().forceLimit);
   line.sentence =
       fmt::format("the reach needs {:.3g} N at its peak ({}); {} gives {:.3g} N", demand.peakForce, demand.law, device.name, *line.limit);
   if (demand.peakForce <= *line.limit) return line;
@@ -60,7 +62,7 @@ PreflightLine peakForce(const Experiment& experiment, const haptics::DeviceInfo&
   return line;
 }
 
-PreflightLine continuousForce(const Experiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
+PreflightLine continuousForce(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
   PreflightLine line{"continuous_force", Verdict::Unknown, demand.rmsForce, std::nullopt, "N", {}, {}};
   if (!(device.maxContinuousForce > 0)) {
     line.sentence =
@@ -162,14 +164,14 @@ std::string_view nameOf(Verdict verdict) {
   return "unknown";
 }
 
-std::vector<PreflightLine> checkBeforeBlock(const Experiment& experiment, const haptics::DeviceInfo& device) {
+std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, const haptics::DeviceInfo& device) {
   const ReachDemand demand = computeReachDemand(experiment, std::nullopt, device.workspaceCentre);
   std::vector<PreflightLine> lines;
   if (device.rendersForce) {
     lines.push_back(peakForce(experiment, device, demand));
     lines.push_back(continuousForce(experiment, device, demand));
-    lines.push_back(passivity(experiment, device));
-    lines.push_back(stability(experiment, device));
+    lines.push_back(passivity(experiment.experiment(), device));
+    lines.push_back(stability(experiment.experiment(), device));
   }
   lines.push_back(workspace(device, demand));
   return lines;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
@@ -37,7 +37,7 @@ struct PreflightLine {
 ///   workspace         farthest place of the hand against the device's radius
 /// A device without force is asked for its workspace only. Takes some milliseconds, on a curve up to seconds. Throws FaultError (no task),
 /// RefusedError (the scene cannot be computed).
-std::vector<PreflightLine> checkBeforeBlock(const experiment::Experiment& experiment, const haptics::DeviceInfo& device);
+std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::DeviceInfo& device);
 
 /// One sentence of a line that is not fine, with its remedy: "peak force: …; …".
 std::string describe(const PreflightLine& line);

@@ -58,16 +58,16 @@ ReachDemand simulatedDemand(const experiment::CompiledExperiment& experiment, ha
 
 }  // namespace
 
-ReachDemand computeReachDemand(const experiment::Experiment& experiment, std::optional<double> duration, const Vec3& centre) {
-  experiment::Experiment asked = experiment;
+ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment, std::optional<double> duration, const Vec3& centre) {
+  experiment::Experiment asked = experiment.experiment();
   asked.forceLimit.reset();
   asked.forceLimitEndsTrial = false;
   if (asked.task && duration) asked.task->duration = *duration;
   haptics::EngineOptions options;
   options.deviceMaxForce = kNoLimit;
   options.virtualHand = true;
-  const experiment::CompiledExperiment compiled(asked);
-  haptics::TickEngine engine(asked, options);
+  const experiment::CompiledExperiment compiled(asked, experiment);
+  haptics::TickEngine engine(compiled, options);
   ReachDemand demand;
   try {
     demand = simulatedDemand(compiled, engine, centre);

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::devices {
 
@@ -20,7 +20,7 @@ struct ReachDemand {
 /// it: peak F = m (10/sqrt 3) d/T^2 + m g with m the whole mass, rms of x''(t) sqrt(120/7) d/T^2. `duration`: another T [s] than the task's; `centre` [m] of the
 /// device's workspace.
 /// Throws FaultError without a task, RefusedError when the scene cannot be computed.
-ReachDemand computeReachDemand(const experiment::Experiment& experiment, std::optional<double> duration = std::nullopt,
+ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment, std::optional<double> duration = std::nullopt,
                                const Vec3& centre = {});
 
 }  // namespace reachlab::devices

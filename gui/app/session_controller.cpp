@@ -77,7 +77,7 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
   if (spec != "mouse") {
     auto device = devices::makeDevice(spec, experiment, seed);
     if (const haptics::DeviceInfo info = device->info(); info.rendersForce)
-      for (const devices::PreflightLine& line : devices::checkBeforeBlock(experiment.experiment(), info))
+      for (const devices::PreflightLine& line : devices::checkBeforeBlock(experiment, info))
         if (line.verdict == devices::Verdict::Warning) Q_EMIT told(QString::fromStdString(describe(line)));
     return device;
   }

@@ -32,7 +32,7 @@ struct Shape {
   double fastest = 0;       // [rad/s]
 };
 
-Shape shapeOf(const experiment::Experiment& experiment, predict::Criterion criterion, double mass, double damping) {
+Shape shapeOf(const experiment::CompiledExperiment& experiment, predict::Criterion criterion, double mass, double damping) {
   predict::PredictOptions how;
   how.handMass = mass;
   how.handDamping = damping;
@@ -53,9 +53,9 @@ bool same(const Shape& a, const Shape& b) {
   return apart <= kSame * peak;
 }
 
-Predictor predictorOf(const experiment::Experiment& experiment, predict::Criterion criterion, double mass, double damping) {
-  return [&experiment, criterion, mass, damping](double duration,
-                                                 std::span<const predict::Prediction* const> near) -> std::unique_ptr<predict::Prediction> {
+Predictor predictorOf(const experiment::CompiledExperiment& experiment, predict::Criterion criterion, double mass, double damping) {
+  return [experiment, criterion, mass, damping](double duration,
+                                                std::span<const predict::Prediction* const> near) -> std::unique_ptr<predict::Prediction> {
     predict::PredictOptions how;
     how.duration = duration;
     how.handMass = mass;
@@ -111,7 +111,8 @@ struct Draft {
 
 }  // namespace
 
-CandidateSet makeCandidates(const experiment::Experiment& experiment, const CandidateOptions& options) {
+CandidateSet makeCandidates(const experiment::CompiledExperiment& compiled, const CandidateOptions& options) {
+  const experiment::Experiment& experiment = compiled.experiment();
   CandidateSet out;
   out.massGiven = options.handMass.has_value() || experiment.handMass > 0;
   out.masses = out.massGiven ? std::vector<double>{options.handMass.value_or(experiment.handMass)} : options.handMasses;
@@ -122,7 +123,7 @@ CandidateSet makeCandidates(const experiment::Experiment& experiment, const Cand
     std::string why;
     for (const double mass : dependsOnHandMass(criterion) ? out.masses : std::vector<double>{out.masses.front()}) {
       try {
-        draft.shapes.push_back(shapeOf(experiment, criterion, mass, options.handDamping));
+        draft.shapes.push_back(shapeOf(compiled, criterion, mass, options.handDamping));
         draft.masses.push_back(mass);
       } catch (const Error& error) {
         why = error.what();
@@ -157,7 +158,7 @@ CandidateSet makeCandidates(const experiment::Experiment& experiment, const Cand
     candidate.criteria = {draft.criterion};
     if (dependsOnHandMass(draft.criterion)) candidate.masses = draft.masses;
     for (const double mass : draft.masses) {
-      const Predictor predictor = predictorOf(experiment, draft.criterion, mass, options.handDamping);
+      const Predictor predictor = predictorOf(compiled, draft.criterion, mass, options.handDamping);
       candidate.families.push_back(draft.criterion == predict::Criterion::MinTorqueChange
                                        ? costlyFamily(predictor, filter, grid, T)
                                        : std::make_unique<ProfileFamily>(samplerOf(predictor), filter, grid));

@@ -26,7 +26,7 @@ struct CandidateOptions {
   double rate = 100;                             // [Hz] of the recording
 };
 
-/// What can be predicted for an experiment (which must outlive the set), and the reference: a minimum jerk of the hand that ignores the object, 30 s^2 (1 - s)^2, last.
+/// What can be predicted for an experiment, and the reference: a minimum jerk of the hand that ignores the object, 30 s^2 (1 - s)^2, last.
 /// Candidates whose hand velocities agree within 1e-6 of the peak at every mass are one. Refusals say what cannot be predicted and why.
 struct CandidateSet {
   std::vector<Candidate> candidates;
@@ -34,6 +34,6 @@ struct CandidateSet {
   std::vector<double> masses;  // [kg] that were tried for (4) to (6); one: it was given
   bool massGiven = false;
 };
-CandidateSet makeCandidates(const experiment::Experiment& experiment, const CandidateOptions& options);
+CandidateSet makeCandidates(const experiment::CompiledExperiment& experiment, const CandidateOptions& options);
 
 }  // namespace reachlab::analyze

@@ -10,7 +10,7 @@ namespace reachlab::analyze {
 StudyInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn) {
   StudyInput input;
   DatasetIndex index;
-  std::map<std::pair<std::string, std::string>, experiment::Experiment> parsed;
+  std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
   for (const ChosenTrials& some : chosen) {
     if (goOn && !goOn()) break;
     const record::RunLog log = record::RunLog::open(some.log, record::LogCheck::Trials);

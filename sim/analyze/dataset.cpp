@@ -70,14 +70,15 @@ std::string nameApart(const std::string& name, const std::vector<std::string>& d
   return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
 }
 
-std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const experiment::Experiment& experiment) {
+std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const experiment::CompiledExperiment& compiled) {
+  const experiment::Experiment& experiment = compiled.experiment();
   auto& conditions = dataset.conditions;
   const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return c.name == name; });
   if (first == conditions.end()) {
-    conditions.push_back({name, experiment});
+    conditions.push_back({name, compiled});
     return conditions.size() - 1;
   }
-  const std::vector<std::string> different = differences(first->experiment, experiment);
+  const std::vector<std::string> different = differences(first->experiment(), experiment);
   if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
   // One name over unlike experiments would mix what cannot be compared.
   const std::string base = nameApart(name, different);
@@ -86,13 +87,13 @@ std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const
     const auto known =
         std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return fileNameOf(c.name) == fileNameOf(own); });
     if (known == conditions.end()) break;
-    if (differences(known->experiment, experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
+    if (differences(known->experiment(), experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
     own = fmt::format("{} {}", base, number);
   }
   dataset.notes.push_back(
       fmt::format("{} was recorded with more than one experiment; they are kept apart. {} differs from the first in: {}", name, own,
                   fmt::join(different, ", ")));
-  conditions.push_back({own, experiment});
+  conditions.push_back({own, compiled});
   return conditions.size() - 1;
 }
 
@@ -132,16 +133,17 @@ void noteMixedDevices(DatasetIndex& dataset) {
 
 }  // namespace
 
-void addRun(const RunSource& run, const experiment::Experiment& experiment, DatasetIndex& index, const TrialSink& sink) {
+void addRun(const RunSource& run, const experiment::CompiledExperiment& compiled, DatasetIndex& index, const TrialSink& sink) {
+  const experiment::Experiment& experiment = compiled.experiment();
   const record::RunConfiguration& c = run.configuration;
   index.runs.push_back(provenanceOf(c, run.trials.size()));
   if (!experiment.task) {
     index.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
     return;
   }
-  const std::size_t condition = conditionIndex(index, index.runs.back().condition, experiment);
+  const std::size_t condition = conditionIndex(index, index.runs.back().condition, compiled);
   const Columns columns(c.table);
-  const constraints::TaskPath path(constraints::makeConstraint(experiment.constraint), experiment.task->start, experiment.task->target);
+  const constraints::TaskPath path(compiled.constraint(), experiment.task->start, experiment.task->target);
   const std::uint64_t every = std::max<std::uint64_t>(1, c.sampleEveryTicks);
   for (const record::RecordedTrial& recorded : run.trials) {
     TrialData trial;
@@ -188,7 +190,7 @@ class WholeRun {
   WholeRun(DatasetIndex& index, const TrialSink& sink)
       : index_(index), sink_(sink), conditions_(index.conditions.size()), runs_(index.runs.size()), notes_(index.notes.size()) {}
 
-  void add(const RunSource& run, const experiment::Experiment& experiment) {
+  void add(const RunSource& run, const experiment::CompiledExperiment& experiment) {
     addRun(run, experiment, index_,
            {[this](TrialData&& trial, std::size_t condition) {
               ++trials_;
@@ -202,7 +204,7 @@ class WholeRun {
   bool refused() const { return handing_; }
   void takeBack() {
     if (trials_ > 0) sink_.takeBack(std::exchange(trials_, 0));
-    index_.conditions.resize(conditions_);
+    index_.conditions.erase(index_.conditions.begin() + static_cast<std::ptrdiff_t>(conditions_), index_.conditions.end());
     index_.runs.resize(runs_);
     index_.notes.resize(notes_);
   }
@@ -225,7 +227,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
   } catch (const FaultError&) {
     // No logs: the exported files may still be there.
   }
-  std::map<std::pair<std::string, std::string>, experiment::Experiment> parsed;
+  std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
   EqualRuns equalRuns;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
@@ -240,8 +242,6 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
       const record::RunConfiguration& c = log.configuration();
       auto known = parsed.find({c.experimentText, c.definitionText});
       if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
-      experiment::Experiment experiment = known->second;
-      experiment.text = c.experimentText;
       if (const std::string twin = equalRuns.twinOf(logs[i], c, log.trials()); !twin.empty()) {
         dataset.notes.push_back(fmt::format(
             "{}: left out: it is {} recorded again (same experiment, seed and movements); two equal runs count once", logs[i], twin));
@@ -252,7 +252,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(logs[i]);
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks}, experiment);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks}, known->second);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
@@ -277,7 +277,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
       if (run.armedFromRows) old = true;
       addRun(run,
              hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
-                    : experiment::readExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
+                    : experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
              dataset, sink);
       dataset.runs.back().file = runs[i];
     }

@@ -60,7 +60,7 @@ struct RunSource {
   record::RunMarks marks;      // what was said of the trials afterwards
 };
 /// Hands on the run's trials; the day of a run without one is 0.
-void addRun(const RunSource& run, const experiment::Experiment& experiment, DatasetIndex& index, const TrialSink& sink);
+void addRun(const RunSource& run, const experiment::CompiledExperiment& experiment, DatasetIndex& index, const TrialSink& sink);
 
 /// The runs of a dataset without logs, by their motion files, in order.
 std::vector<std::string> findBidsRuns(const std::string& folder);

@@ -276,7 +276,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   const ConditionResult& r = study.results[c];
   const std::string file = fileNameOf(study.conditions[c].name);
   html.heading(2, study.conditions[c].name);
-  html.paragraph("Moved: " + experiment::describe(study.conditions[c].experiment) + ".");
+  html.paragraph("Moved: " + experiment::describe(study.conditions[c].experiment()) + ".");
   html.paragraph(describeCounts(r));
   if (r.onlyFailures)
     html.paragraph(

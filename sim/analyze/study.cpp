@@ -51,7 +51,7 @@ void orderConditions(StudyResult& study) {
   std::vector<std::size_t> order(study.conditions.size()), place(order.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto durationOf = [&](std::size_t c) {
-    const auto& task = study.conditions[c].experiment.task;
+    const auto& task = study.conditions[c].experiment().task;
     return task ? task->duration : 0.0;
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return durationOf(a) > durationOf(b); });
@@ -89,11 +89,11 @@ std::vector<predict::Criterion> wantedCriteria(const StudyOptions& options) {
 std::unique_ptr<predict::Prediction> predictLasting(const StudyCondition& condition, predict::Criterion criterion,
                                                     predict::PredictOptions how, const StudyOptions& options,
                                                     const ConditionResult& result) {
-  how.duration = condition.experiment.task->duration;
+  how.duration = condition.experiment().task->duration;
   std::unique_ptr<predict::Prediction> prediction;
   for (int step = 0; step < 8; ++step) {
-    prediction = predict::predict(condition.experiment, criterion, how);
-    const PredictedSignal signal = recordPrediction(*prediction, options.measure, *condition.experiment.task);
+    prediction = predict::predict(condition.compiled, criterion, how);
+    const PredictedSignal signal = recordPrediction(*prediction, options.measure, *condition.experiment().task);
     const double ratio = result.duration.mean / durationUntil(signal, result.endLevel);
     if (std::abs(ratio - 1) < 1e-6) break;
     how.duration *= ratio;
@@ -102,7 +102,7 @@ std::unique_ptr<predict::Prediction> predictLasting(const StudyCondition& condit
 }
 
 void addPredictions(const StudyCondition& condition, const StudyOptions& options, ConditionResult& result) {
-  if (!condition.experiment.task) {
+  if (!condition.experiment().task) {
     result.refusals.push_back("the experiment has no task to predict");
     return;
   }
@@ -113,8 +113,8 @@ void addPredictions(const StudyCondition& condition, const StudyOptions& options
     try {
       std::unique_ptr<predict::Prediction> prediction = options.predictFor == PredictionDuration::Moved && result.used > 0
                                                             ? predictLasting(condition, criterion, how, options, result)
-                                                            : predict::predict(condition.experiment, criterion, how);
-      result.signals.push_back(recordPrediction(*prediction, options.measure, *condition.experiment.task));
+                                                            : predict::predict(condition.compiled, criterion, how);
+      result.signals.push_back(recordPrediction(*prediction, options.measure, *condition.experiment().task));
       result.predictions.push_back(std::move(prediction));
     } catch (const Error& error) {
       const std::string what = error.what();
@@ -224,7 +224,7 @@ void fitPeople(StudyResult& study, std::size_t condition, const StudyProgress& p
         how.handDamping = study.options.handDamping;
         how.cutoff = study.options.measure.cutoff;
         how.rate = windows.front().rate;
-        result.candidates = makeCandidates(study.conditions[condition].experiment, how);
+        result.candidates = makeCandidates(study.conditions[condition].compiled, how);
       }
       person.fit = fitPerson(windows, durations, result.candidates);
       person.fitted = true;

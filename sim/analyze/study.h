@@ -12,6 +12,7 @@
 #include "sim/analyze/person_fit.h"
 #include "sim/analyze/progress_model.h"
 #include "sim/analyze/signal_store.h"
+#include "sim/experiment/compiled_experiment.h"
 
 /// From recorded trials to everything that tables, figures and report show. Pure: the same trials and options give the same numbers.
 namespace reachlab::analyze {
@@ -35,7 +36,8 @@ struct StudyOptions {
 /// What a condition asks, and the experiment it was recorded with.
 struct StudyCondition {
   std::string name;
-  experiment::Experiment experiment;
+  experiment::CompiledExperiment compiled;
+  const experiment::Experiment& experiment() const { return compiled.experiment(); }
 };
 
 /// A recorded study: trials in any order, each of a condition (index). Filled by openDataset or by a test.

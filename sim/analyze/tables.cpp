@@ -365,7 +365,7 @@ void conditionsTable(const StudyResult& study, const TableWriter& write) {
   TableText& table = sheet.table;
   for (std::size_t c = 0; c < study.results.size(); ++c) {
     const ConditionResult& r = study.results[c];
-    const experiment::Experiment& e = study.conditions[c].experiment;
+    const experiment::Experiment& e = study.conditions[c].experiment();
     table.cell(study.conditions[c].name).cell(e.name).number(e.task ? e.task->duration : kNotMeasured);
     for (const std::size_t n : {r.counts.success, r.counts.failure, r.counts.aborted, r.counts.interrupted, r.counts.invalidTiming,
                                 r.counts.practice, r.counts.catchTrials, r.counts.beforeGo, r.counts.otherWay, r.used})

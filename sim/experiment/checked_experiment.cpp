@@ -139,13 +139,15 @@ std::optional<std::array<constraints::Domain, 2>> placesInUse(const std::optiona
   return range;
 }
 
-CheckedExperiment check(const Experiment& experiment) {
+CheckedExperiment check(const Experiment& experiment, const constraints::Constraint* compiled) {
   CheckedExperiment checked;
   std::vector<Fault>& faults = checked.faults;
   if (experiment.schemaVersion != 1)
     faults.push_back({"schema_version", fmt::format("is {}", experiment.schemaVersion), "1, the version that this program reads"});
   checkShape(experiment.constraint, faults);
-  if (faults.empty()) {
+  if (compiled != nullptr) {
+    checked.constraint = *compiled;
+  } else if (faults.empty()) {
     constraints::ConstraintSpec spec = experiment.constraint;
     spec.inUse = placesInUse(experiment.task);
     try {

@@ -16,7 +16,8 @@ struct CheckedExperiment {
   std::vector<Fault> faults;
   std::optional<constraints::Constraint> constraint;
 };
-CheckedExperiment check(const Experiment& experiment);
+/// `compiled`: the experiment's constraint, where somebody has it; compiled here otherwise.
+CheckedExperiment check(const Experiment& experiment, const constraints::Constraint* compiled = nullptr);
 
 /// What a file says, whether or not it holds as a value: nothing is compiled. For one that was recorded, and so held when it was.
 /// Throws FaultError where the file itself is at fault. `definition`: see parseExperiment.

@@ -11,14 +11,15 @@ class CompiledExperiment {
  public:
   /// Throws FaultError with every fault, each under its key.
   explicit CompiledExperiment(const Experiment& experiment);
+  /// The same for a value that was made from `origin`: as long as its constraint is the same, nothing is compiled again.
+  CompiledExperiment(const Experiment& experiment, const CompiledExperiment& origin);
 
   const Experiment& experiment() const { return *experiment_; }
   const constraints::Constraint& constraint() const { return *constraint_; }
 
  private:
-  CompiledExperiment(Experiment experiment, constraints::Constraint constraint)
-      : experiment_(std::make_shared<const Experiment>(std::move(experiment))),
-        constraint_(std::make_shared<const constraints::Constraint>(std::move(constraint))) {}
+  CompiledExperiment(Experiment experiment, std::shared_ptr<const constraints::Constraint> constraint)
+      : experiment_(std::make_shared<const Experiment>(std::move(experiment))), constraint_(std::move(constraint)) {}
   friend CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition);
 
   std::shared_ptr<const Experiment> experiment_;

@@ -58,18 +58,18 @@ bool same(const std::optional<T>& a, const std::optional<T>& b) {
   return a.has_value() == b.has_value() && (!a || same(*a, *b));
 }
 
-bool same(const constraints::ConstraintSpec& a, const constraints::ConstraintSpec& b) {
+}  // namespace
+
+bool isSameConstraint(const constraints::ConstraintSpec& a, const constraints::ConstraintSpec& b) {
   const auto& [name, curve, surface, shape, inUse, definition] = a;
   return name == b.name && curve == b.curve && surface == b.surface && shape == b.shape && same(inUse, b.inUse) &&
          definition == b.definition;
 }
 
-}  // namespace
-
 bool operator==(const Experiment& a, const Experiment& b) {
   const auto& [schemaVersion, name, constraint, object, coupling, task, method, handMass, forceLimit, forceLimitEndsTrial, timing,
                velocityEstimator, arm, subjectScreen, text] = a;
-  return schemaVersion == b.schemaVersion && name == b.name && same(constraint, b.constraint) && same(object, b.object) &&
+  return schemaVersion == b.schemaVersion && name == b.name && isSameConstraint(constraint, b.constraint) && same(object, b.object) &&
          same(coupling, b.coupling) && same(task, b.task) && method == b.method && handMass == b.handMass && forceLimit == b.forceLimit &&
          forceLimitEndsTrial == b.forceLimitEndsTrial && same(timing, b.timing) && same(velocityEstimator, b.velocityEstimator) &&
          same(arm, b.arm) && subjectScreen == b.subjectScreen && text == b.text;

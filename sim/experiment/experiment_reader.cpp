@@ -233,7 +233,7 @@ CompiledExperiment openExperimentText(const std::string& text, const std::string
   CheckedExperiment checked = check(experiment);
   addProblems(tree, checked.faults, faults);
   faults.throwIfAny();
-  return {std::move(experiment), std::move(*checked.constraint)};
+  return {std::move(experiment), std::make_shared<const constraints::Constraint>(std::move(*checked.constraint))};
 }
 
 Experiment readUnchecked(const std::string& text, const std::string& file, const std::string& definition) {
@@ -248,13 +248,26 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
   return openExperimentText(text, file, definition).experiment();
 }
 
-CompiledExperiment::CompiledExperiment(const Experiment& experiment) {
-  CheckedExperiment checked = check(experiment);
-  if (!checked.faults.empty()) throw FaultError(std::move(checked.faults));
-  auto own = std::make_shared<Experiment>(experiment);
-  own->constraint.inUse = placesInUse(experiment.task);
-  experiment_ = std::move(own);
-  constraint_ = std::make_shared<const constraints::Constraint>(std::move(*checked.constraint));
+namespace {
+
+Experiment knowingItsPlaces(Experiment experiment) {
+  experiment.constraint.inUse = placesInUse(experiment.task);
+  return experiment;
 }
+
+std::shared_ptr<const constraints::Constraint> constraintOf(const Experiment& experiment, const CompiledExperiment* origin) {
+  const bool same = origin != nullptr && isSameConstraint(experiment.constraint, origin->experiment().constraint);
+  CheckedExperiment checked = check(experiment, same ? &origin->constraint() : nullptr);
+  if (!checked.faults.empty()) throw FaultError(std::move(checked.faults));
+  return std::make_shared<const constraints::Constraint>(std::move(*checked.constraint));
+}
+
+}  // namespace
+
+CompiledExperiment::CompiledExperiment(const Experiment& experiment)
+    : CompiledExperiment(knowingItsPlaces(experiment), constraintOf(experiment, nullptr)) {}
+
+CompiledExperiment::CompiledExperiment(const Experiment& experiment, const CompiledExperiment& origin)
+    : CompiledExperiment(knowingItsPlaces(experiment), constraintOf(knowingItsPlaces(experiment), &origin)) {}
 
 }  // namespace reachlab::experiment

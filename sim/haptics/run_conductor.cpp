@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <chrono>
 
-#include "sim/dynamics/compiled_scene.h"
-#include "sim/experiment/checked_experiment.h"
-
 namespace reachlab::haptics {
 namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
 std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, const HapticDevice& device) {
-  experiment::requiredTask(experiment.experiment());
-  return std::make_unique<TickEngine>(experiment.experiment(), dynamics::compileScene(experiment), engineOptions(device.info()));
+  return std::make_unique<TickEngine>(experiment, engineOptions(device.info()));
 }
 
 }  // namespace

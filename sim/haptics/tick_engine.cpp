@@ -5,6 +5,7 @@
 #include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
+#include "sim/dynamics/compiled_scene.h"
 #include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::haptics {
@@ -32,6 +33,10 @@ EngineOptions engineOptions(const DeviceInfo& device) {
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOptions& options)
     : TickEngine(experiment, (experiment::requiredTask(experiment), dynamics::compileScene(experiment)), options) {}
+
+TickEngine::TickEngine(const experiment::CompiledExperiment& experiment, const EngineOptions& options)
+    : TickEngine(experiment.experiment(), (experiment::requiredTask(experiment.experiment()), dynamics::compileScene(experiment)),
+                 options) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),

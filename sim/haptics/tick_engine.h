@@ -6,6 +6,7 @@
 
 #include "sim/dynamics/end_masses.h"
 #include "sim/dynamics/hand_path.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/force_safety.h"
 #include "sim/haptics/tick_state.h"
@@ -48,6 +49,8 @@ class TickEngine {
 
   /// Throws FaultError without a task, RefusedError from compileScene.
   TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
+  /// The same, with the constraint that is compiled already.
+  TickEngine(const experiment::CompiledExperiment& experiment, const EngineOptions& options);
   TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options);
 
   /// Haptic thread: neither allocates, locks, waits nor throws.

@@ -185,7 +185,6 @@ std::string readWholeFile(const std::string& path) {
   if (!known || !S_ISREG(status.st_mode) || status.st_size > kMaxBytesOfAFile) {
     ::close(descriptor);
     if (known && S_ISREG(status.st_mode))
-
       throw FaultError(Fault{{}, fmt::format("has {} bytes", status.st_size), fmt::format("up to {}", kMaxBytesOfAFile), FilePlace{path}});
     throw ResourceError(path + ": is no regular file; allowed: a file on a disk");
   }

@@ -24,7 +24,7 @@ std::string experimentPath(const RunConfiguration& configuration);
 /// The experiment as it was recorded, as an experiment file under `experiment`, with its constraint's definition, and the run's settings.
 std::string experimentJson(const RunConfiguration& configuration);
 /// Reads it back. Throws FaultError naming `origin`.
-experiment::Experiment experimentFromJson(const std::string& text, const std::string& origin);
+experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin);
 /// TaskDescription of motion.json: the experiment's name, and in words what was moved and asked.
 std::string describeTask(const RunConfiguration& configuration);
 /// The experiment's name in such a description; empty where there is none.

@@ -64,10 +64,11 @@ std::string experimentJson(const RunConfiguration& c) {
   return j.dump(2) + "\n";
 }
 
-experiment::Experiment experimentFromJson(const std::string& text, const std::string& origin) {
+experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin) {
   try {
     const Json j = Json::parse(text);
-    return experiment::parseExperiment(j.at("experiment").dump(2), origin, j.at("definition").is_null() ? "" : j.at("definition").dump(2));
+    return experiment::openExperimentText(j.at("experiment").dump(2), origin,
+                                          j.at("definition").is_null() ? "" : j.at("definition").dump(2));
   } catch (const nlohmann::json::exception&) {
     throw FaultError(Fault{
         .what = "is no experiment of a dataset", .allowed = "what reach export writes into code/experiments", .place = FilePlace{origin}});

@@ -71,12 +71,12 @@ void compareTrials(const RunLog& log, Replay& replay) {
 
 Replay replayRun(const RunLog& log) {
   const RunConfiguration& c = log.configuration();
-  const experiment::Experiment experiment = recordedExperiment(c);
-  haptics::TickEngine engine(experiment, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce,
-                                                                c.deviceThermalSeconds, c.guards});
+  const experiment::CompiledExperiment compiled = recordedExperiment(c);
+  const experiment::Experiment& experiment = compiled.experiment();
+  haptics::TickEngine engine(compiled, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce,
+                                                              c.deviceThermalSeconds, c.guards});
   const ChannelTable scene = makeChannelTable(experiment, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body)
-
     throw FaultError(
         Fault{"table", "has not the masses of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
   const std::vector<TrialSetup> setups = log.setups();

@@ -38,11 +38,12 @@ experiment::Experiment recordedValues(const RunConfiguration& c) {
   return experiment::readUnchecked(c.experimentText, c.experimentName, c.definitionText);
 }
 
-experiment::Experiment recordedExperiment(const RunConfiguration& c) {
-  experiment::Experiment experiment = experiment::parseExperiment(c.experimentText, c.experimentName, c.definitionText);
+experiment::CompiledExperiment recordedExperiment(const RunConfiguration& c) {
+  const auto written = experiment::openExperimentText(c.experimentText, c.experimentName, c.definitionText);
+  experiment::Experiment experiment = written.experiment();
   experiment.timing = c.timing;  // what held then, which the text may leave to a default
   if (experiment.task) experiment.task->rest = c.rest;
-  return experiment;
+  return {experiment, written};
 }
 
 void checkConfiguration(const RunConfiguration& c) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/record/channels.h"
 #include "sim/trial/planned_trial.h"
 
@@ -69,7 +70,7 @@ std::vector<std::string> differingKeys(const RunConfiguration& a, const RunConfi
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws FaultError when its text cannot be understood.
-experiment::Experiment recordedExperiment(const RunConfiguration& configuration);
+experiment::CompiledExperiment recordedExperiment(const RunConfiguration& configuration);
 /// The same for who only tells what it said: its constraint is not compiled. Throws FaultError when its text cannot be understood.
 experiment::Experiment recordedValues(const RunConfiguration& configuration);
 

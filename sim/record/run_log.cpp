@@ -178,7 +178,6 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   RecordView record;
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
-
       throw FaultError(
           Fault{{}, fmt::format("damaged after byte {}; mend it with: reach recover {}", reader.goodEnd(), path_), {}, FilePlace{path_}});
     try {

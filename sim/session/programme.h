@@ -18,7 +18,7 @@ struct Programme {
 /// Reads a plan or an experiment: a file, or the name of a shipped one. Throws FaultError with every fault.
 Programme readProgramme(const std::string& fileOrName);
 /// The same of a plan that is edited in a window: its text is what `toJson` gives, experiments are looked for beside `file` first.
-/// Throws UsageError with every fault.
+/// Throws FaultError with every fault.
 Programme programmeOf(const Plan& plan, const std::string& file);
 /// A single experiment, as it is edited in a window or made by a program.
 Programme programmeOf(const experiment::CompiledExperiment& experiment);

@@ -59,7 +59,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
 SessionToRun planSession(const SessionRequest& request);
 
 /// The plan's day that is asked for: the request's, else the session's label when that is a number; 0 where the plan has no days. Throws
-/// UsageError.
+/// FaultError.
 int sessionDay(const SessionRequest& request, const Plan& plan);
 
 /// Gives the block the next free run number where another program has taken its own since it was planned; one that was `askedFor` is

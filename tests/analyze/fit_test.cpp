@@ -60,7 +60,7 @@ TEST(RecordingFilter, IntegratesPolynomialsOfSeventhDegreeExactly) {
 TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
   for (const double T : {0.68, 1.35, 2.26}) {
     const experiment::Experiment chain = chainExperiment(T);
-    const CandidateSet set = makeCandidates(chain, of(kQuick));
+    const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of(kQuick));
     for (const Candidate& candidate : set.candidates)
       for (const auto& family : candidate.families)
         for (const double t : {0.8 * T, 0.93 * T, 1.21 * T}) {
@@ -73,7 +73,7 @@ TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
 // Joint torque change is predicted at few durations, each started from its neighbours: against predictions of its own for each duration.
 TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother) {
   experiment::Experiment chain = experiment::readExperiment("chain-moderate");
-  const CandidateSet set = makeCandidates(chain, of({Criterion::MinTorqueChange}));
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinTorqueChange}));
   const ProfileFamily& family = *set.candidates.front().families.front();
   for (const double t : {1.35, 0.95, 1.4, 1.77, 1.0}) {  // half-way between two of its durations, where it is worst, in any order
     const double node = std::floor(t / family.grid().spacing) * family.grid().spacing;
@@ -93,7 +93,7 @@ TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother
 
 TEST(MovementFit, FindsOnsetDurationAndAmplitudeOfASampledPrediction) {
   const experiment::Experiment chain = chainExperiment(1.35);
-  const CandidateSet set = makeCandidates(chain, of(kQuick));
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of(kQuick));
   for (const Candidate& candidate : set.candidates) {
     const ProfileFamily& family = *candidate.families.back();
     const FitWindow window = recorded(family, 1.2, 0.47, 0.16);
@@ -124,7 +124,7 @@ PersonFit fitOf(const CandidateSet& set, std::size_t truth, std::size_t family, 
 TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
   for (const experiment::Experiment& e :
        {chainExperiment(1.35), parallelExperiment(2.5), lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)}) {
-    const CandidateSet set = makeCandidates(e, of(kQuick));
+    const CandidateSet set = makeCandidates(experiment::CompiledExperiment(e), of(kQuick));
     for (std::size_t truth = 0; truth < set.candidates.size(); ++truth)
       for (const bool onePlan : {false, true}) {
         if (onePlan && set.candidates[truth].reference()) continue;
@@ -145,7 +145,8 @@ TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
 // A fold's choice must not depend on its own trials: changing them changes neither the choice nor the other folds' scores' shapes.
 TEST(PersonFit, ScoresNoTrialByAChoiceItTookPartIn) {
   const experiment::Experiment chain = chainExperiment(1.35);
-  const CandidateSet set = makeCandidates(chain, of({Criterion::MinHandForceChange, Criterion::MinHandJerk}));
+  const CandidateSet set =
+      makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinHandForceChange, Criterion::MinHandJerk}));
   const std::size_t force = 0;
   std::vector<FitWindow> windows;
   std::vector<double> durations;
@@ -162,7 +163,8 @@ TEST(PersonFit, ScoresNoTrialByAChoiceItTookPartIn) {
 TEST(PersonFit, GivesEveryCandidateTheSameWindowAndWeights) {
   const experiment::Experiment chain = chainExperiment(1.35);
   const auto weightsWith = [&](std::vector<Criterion> criteria) {
-    const CandidateSet truth = makeCandidates(chain, of({Criterion::MinHandJerk})), set = makeCandidates(chain, of(std::move(criteria)));
+    const CandidateSet truth = makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinHandJerk})),
+                       set = makeCandidates(experiment::CompiledExperiment(chain), of(std::move(criteria)));
     std::vector<FitWindow> windows;
     std::vector<double> durations;
     for (int i = 0; i < 10; ++i) {

@@ -30,7 +30,7 @@ TEST(StudyMemory, IsWhatIsSaidOfATrialAndNotItsSignals) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps a heap of its own";
 #endif
-  const StudyInput person = simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 10, 1);
+  const StudyInput person = simulatedStudy({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 10, 1);
   const double few = heldBy(200, person), many = heldBy(1000, person);
   const double bytesATrial = (many - few) / 800;
   EXPECT_GT(bytesATrial, sizeof(StudyTrial) / 2.0) << "something is kept, or nothing was measured";

@@ -22,7 +22,7 @@ std::string followed(const Conclusion& c, const std::vector<std::vector<predict:
 }
 
 TEST(Study, OfFiveSubjectsPlannedByMinimumHandJerkIsDecidedForIt) {
-  const std::vector<StudyCondition> paces{{"slow", chainExperiment(2.26)}, {"moderate", chainExperiment(1.35)}};
+  const std::vector<StudyCondition> paces{{"slow", compiledChain(2.26)}, {"moderate", compiledChain(1.35)}};
   const StudyResult study = analyzeStudy(simulatedStudy(paces, predict::Criterion::MinHandJerk, 0, 5, 1, 15, 1), quickOptions());
   EXPECT_EQ(followed(study.overall, study.common), "min-hand-jerk") << describeConclusion(study.overall, study.common);
   EXPECT_TRUE(study.overall.overSubjects);
@@ -31,7 +31,7 @@ TEST(Study, OfFiveSubjectsPlannedByMinimumHandJerkIsDecidedForIt) {
 
 TEST(Study, PlannedByForceChangeWithAHandMassIsDecidedForThatAndFindsTheMass) {
   const StudyResult study = analyzeStudy(
-      simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandForceChange, 1.0, 5, 1, 25, 2), quickOptions());
+      simulatedStudy({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandForceChange, 1.0, 5, 1, 25, 2), quickOptions());
   EXPECT_EQ(followed(study.overall, study.common), "min-hand-force-change") << describeConclusion(study.overall, study.common);
   for (const FitRow& row : fitRows(study)) {
     if (row.criterion == "min-hand-force-change") {
@@ -41,8 +41,9 @@ TEST(Study, PlannedByForceChangeWithAHandMassIsDecidedForThatAndFindsTheMass) {
 }
 
 TEST(Study, NamesForceAndCentreOfMassTogetherBecauseTheyPredictTheSame) {
-  const StudyResult study = analyzeStudy(
-      simulatedStudy({{"parallel", parallelExperiment(2.5)}}, predict::Criterion::MinHandForce, 0.5, 1, 1, 15, 3), quickOptions());
+  const StudyResult study = analyzeStudy(simulatedStudy({{"parallel", experiment::CompiledExperiment(parallelExperiment(2.5))}},
+                                                        predict::Criterion::MinHandForce, 0.5, 1, 1, 15, 3),
+                                         quickOptions());
   const auto names = candidatesOf(study.results[0]);
   ASSERT_EQ(names.size(), 5u);  // (1), (4) and (6), (5), (3h), the reference
   const std::vector<predict::Criterion> both{predict::Criterion::MinHandForce, predict::Criterion::MinComAcceleration};
@@ -52,7 +53,7 @@ TEST(Study, NamesForceAndCentreOfMassTogetherBecauseTheyPredictTheSame) {
 
 TEST(Study, OfOneSubjectSaysNothingAboutOtherPeople) {
   const StudyResult study =
-      analyzeStudy(simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandForce, 1, 1, 1, 30, 3), quickOptions());
+      analyzeStudy(simulatedStudy({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandForce, 1, 1, 1, 30, 3), quickOptions());
   EXPECT_FALSE(study.overall.overSubjects);
   EXPECT_EQ(followed(study.overall, study.common), "min-hand-force");
   EXPECT_NE(describeConclusion(study.overall, study.common).find("nothing follows about other people"), std::string::npos);
@@ -65,7 +66,8 @@ TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
   };
   for (const auto& e :
        {chainExperiment(1.35), parallelExperiment(2.5), lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)}) {
-    const StudyResult study = analyzeStudy(simulatedStudy({{"blind", e}}, blind, 5, 1, 15, 11), quickOptions());
+    const StudyResult study =
+        analyzeStudy(simulatedStudy({{"blind", experiment::CompiledExperiment(e)}}, blind, 5, 1, 15, 11), quickOptions());
     EXPECT_EQ(followed(study.overall, study.common), "undecided: reference") << describeConclusion(study.overall, study.common);
     EXPECT_TRUE(study.overall.referenceFirst);
     for (const PersonResult& person : study.people) EXPECT_FALSE(person.follows) << person.subject;
@@ -73,7 +75,7 @@ TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
 }
 
 TEST(Study, OfTwoCampsIsNeverDecided) {
-  const std::vector<StudyCondition> moderate{{"moderate", chainExperiment(1.35)}};
+  const std::vector<StudyCondition> moderate{{"moderate", compiledChain(1.35)}};
   StudyInput camps = simulatedStudy(moderate, predict::Criterion::MinHandJerk, 0, 3, 1, 20, 1);
   StudyInput others = simulatedStudy(moderate, predict::Criterion::MinHandForceChange, 1, 2, 1, 20, 2);
   for (TrialData& trial : others.trials) {
@@ -88,12 +90,12 @@ TEST(Study, OfTwoCampsIsNeverDecided) {
 
 TEST(Study, OfTooFewTrialsConcludesNothing) {
   const StudyResult study =
-      analyzeStudy(simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 5, 1, 10, 3), quickOptions());
+      analyzeStudy(simulatedStudy({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 5, 1, 10, 3), quickOptions());
   EXPECT_EQ(followed(study.overall, study.common), "undecided: too_few_trials");  // 8 successes each
 }
 
 TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
-  StudyInput input = simulatedStudy({{"moderate", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 4);
+  StudyInput input = simulatedStudy({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 4);
   for (TrialData& trial : input.trials)
     if (trial.key.trial == 1) trial.practice = true;
   input.trials[3].result = {};
@@ -117,7 +119,7 @@ TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
 
 TEST(Study, LearningPointsNeverSpanTwoSessions) {
   const StudyResult study =
-      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
+      analyzeStudy(simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
   ASSERT_EQ(study.learning.size(), 4u);  // 10 + 5 trials on each of two days
   EXPECT_EQ(study.learning[1].firstTrial, 11);
   EXPECT_EQ(study.learning[1].lastTrial, 15);
@@ -127,7 +129,7 @@ TEST(Study, LearningPointsNeverSpanTwoSessions) {
 
 TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
   const StudyResult study =
-      analyzeStudy(simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
+      analyzeStudy(simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
   ASSERT_EQ(study.series.size(), 4u);
   double sum = 0;
   int n = 0;
@@ -137,7 +139,7 @@ TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
 }
 
 TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
-  const std::vector<StudyCondition> conditions{{"m", chainExperiment(1.35)}};
+  const std::vector<StudyCondition> conditions{{"m", compiledChain(1.35)}};
   StudyInput one = simulatedStudy(conditions, predict::Criterion::MinHandJerk, 0, 1, 1, 1, 7);
   StudyInput failed = one;
   failed.trials[0].result.outcome = trial::Outcome::Failure;
@@ -171,7 +173,7 @@ TEST(Study, RefusesOptionsOutOfRange) {
 }
 
 TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
-  StudyInput input = simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
+  StudyInput input = simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
   input.trials[0].result.reason = trial::Reason::Timing;
   input.trials[0].result.outcome = trial::Outcome::Interrupted;
   input.trials[1].goTime = 1.0;  // the hand leaves at 0.4 s
@@ -186,7 +188,7 @@ TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
 }
 
 TEST(Study, OfAClosedCurveTravelledTheOtherWayScoresTheWayThatTheHandWent) {
-  StudyInput input = simulatedStudy({{"m", chainExperiment(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 4, 4);
+  StudyInput input = simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 4, 4);
   const StudyInput straight = input;
   for (TrialData& trial : input.trials) {
     trial.closed = true;

@@ -37,6 +37,7 @@ inline experiment::Experiment lineExperiment(experiment::ObjectKind kind, std::v
 inline experiment::Experiment chainExperiment(double duration) {
   return lineExperiment(experiment::ObjectKind::Chain, std::vector<double>(5, 0.6), std::vector<double>(4, 600.0), 600, duration);
 }
+inline experiment::CompiledExperiment compiledChain(double duration) { return experiment::CompiledExperiment(chainExperiment(duration)); }
 inline experiment::Experiment parallelExperiment(double duration) {
   return lineExperiment(experiment::ObjectKind::Parallel, {3, 3}, {50, 250}, 0, duration);
 }
@@ -100,7 +101,7 @@ inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, 
   input.conditions = conditions;
   std::mt19937_64 random(seed);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
-    const auto plan = planOf(conditions[c].experiment);
+    const auto plan = planOf(conditions[c].experiment());
     for (int s = 1; s <= subjects; ++s)
       for (int d = 1; d <= days; ++d)
         for (int t = 1; t <= trials; ++t) {

@@ -62,4 +62,20 @@ TEST(Compilations, OfASimulationAndOfValidationAreOne) {
   EXPECT_EQ(compiledBy("validate " + experimentFile(folder)), std::vector<std::string>{kFormula});
 }
 
+TEST(Compilations, OfACheckBeforeABlockAreOneWhateverReachesItTries) {
+  const Folder folder;
+  const std::string heavy = experimentFile(folder, R"("kind": "point", "masses_kg": [10])");
+  EXPECT_EQ(compiledBy("validate " + heavy + " --device virtual:omni"), std::vector<std::string>{kFormula});
+}
+
+TEST(Compilations, OfAReplayAndOfAnAnalysisOfManyRunsAreOne) {
+  const Folder folder;
+  const std::string file = experimentFile(folder), data = (folder / "data").string();
+  for (const char* run : {"1", "2"})
+    compiledBy("run " + file + " --device simulated --trials 3 --fast --seed " + std::string(run) + " --run " + run + " --data " + data);
+  EXPECT_EQ(compiledBy("replay " + data + "/sourcedata/sub-01_ses-01_task-typed_run-01_log.reach --check"),
+            std::vector<std::string>{kFormula});
+  EXPECT_EQ(compiledBy("analyze " + data + " --criterion min-hand-jerk --criterion min-hand-force"), std::vector<std::string>{kFormula});
+}
+
 }  // namespace reachlab::test

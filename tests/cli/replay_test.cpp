@@ -73,7 +73,7 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
   EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);
   EXPECT_THROW((void)experiment::parseExperiment(recorded.experimentText, "eight"), FaultError)
       << "without the definition it cannot be known";
-  EXPECT_EQ(record::recordedExperiment(recorded).constraint.shape.at("w_m"), 0.12);
+  EXPECT_EQ(record::recordedExperiment(recorded).experiment().constraint.shape.at("w_m"), 0.12);
 }
 
 // The same log with one number of one row changed, every record good in itself.

@@ -16,6 +16,10 @@ haptics::DeviceInfo infoOf(const std::string& device, const experiment::Experime
   return makeDevice(device, experiment, 1)->info();
 }
 
+std::vector<PreflightLine> check(const experiment::Experiment& experiment, const haptics::DeviceInfo& info) {
+  return checkBeforeBlock(experiment::CompiledExperiment(experiment), info);
+}
+
 PreflightLine lineOf(const std::vector<PreflightLine>& lines, const std::string& name) {
   for (const PreflightLine& line : lines)
     if (line.name == name) return line;
@@ -35,7 +39,7 @@ experiment::Experiment stiffPoint(double mass, double duration) {
 // Newton's law on a minimum-jerk reach: F = m (10/sqrt 3) d/T^2, rms sqrt(120/7) of the same unit. A coupling of 20 kN/m is stiff beside a
 // reach of 1 s (the hand leads the mass by 0.2 mm of 200), so 2 % hold.
 TEST(ReachDemand, OfAPointOnAStiffCouplingIsNewtonsLaw) {
-  const ReachDemand demand = computeReachDemand(stiffPoint(0.7, 1.0));
+  const ReachDemand demand = computeReachDemand(experiment::CompiledExperiment(stiffPoint(0.7, 1.0)));
   const double unit = 0.7 * 0.2 / (1.0 * 1.0);
   EXPECT_NEAR(demand.peakForce, 10 / std::sqrt(3.0) * unit, 0.02 * 10 / std::sqrt(3.0) * unit);
   // Onset (1 mm) to end, not 0 to T: the still parts that are left out raise the mean.
@@ -46,7 +50,7 @@ TEST(ReachDemand, OfAPointOnAStiffCouplingIsNewtonsLaw) {
 
 TEST(Preflight, ChainFastOnAnOmniIsWarnedAboutWithTheForceItNeeds) {
   const auto experiment = experiment::readExperiment("chain-fast");
-  const auto lines = checkBeforeBlock(experiment, infoOf("virtual:omni", experiment));
+  const auto lines = check(experiment, infoOf("virtual:omni", experiment));
   const PreflightLine peak = lineOf(lines, "peak_force");
   EXPECT_EQ(peak.verdict, Verdict::Warning);
   EXPECT_EQ(peak.limit, 3.3);
@@ -59,18 +63,18 @@ TEST(Preflight, ChainFastOnAnOmniIsWarnedAboutWithTheForceItNeeds) {
 TEST(Preflight, TheLongerReachItNamesIsFine) {
   experiment::Experiment experiment = experiment::readExperiment("chain-fast");
   const auto info = infoOf("virtual:omni", experiment);
-  const std::string remedy = lineOf(checkBeforeBlock(experiment, info), "peak_force").remedy;
+  const std::string remedy = lineOf(check(experiment, info), "peak_force").remedy;
   const std::size_t at = remedy.find("duration_s ");
   ASSERT_NE(at, std::string::npos) << remedy;
   experiment.task->duration = std::stod(remedy.substr(at + 11)) * 1.005;  // it is written with three digits
-  const PreflightLine again = lineOf(checkBeforeBlock(experiment, info), "peak_force");
+  const PreflightLine again = lineOf(check(experiment, info), "peak_force");
   EXPECT_EQ(again.verdict, Verdict::Fine) << describe(again);
   EXPECT_GT(again.asked, 0.8 * 3.3) << "and it is not much longer than it must be";
 }
 
 TEST(Preflight, ChainSlowOnAPremiumIsFine) {
   const auto experiment = experiment::readExperiment("chain-slow");
-  for (const PreflightLine& line : checkBeforeBlock(experiment, infoOf("virtual:premium15", experiment)))
+  for (const PreflightLine& line : check(experiment, infoOf("virtual:premium15", experiment)))
     EXPECT_TRUE(line.verdict == Verdict::Fine || line.verdict == Verdict::Held) << describe(line);
 }
 
@@ -78,38 +82,38 @@ TEST(Preflight, AnExperimentsLowerLimitHoldsItsHigherOneDoesNot) {
   experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   const auto info = infoOf("virtual:premium15", experiment);
   experiment.forceLimit = 0.5;
-  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "peak_force").verdict, Verdict::Warning);
+  EXPECT_EQ(lineOf(check(experiment, info), "peak_force").verdict, Verdict::Warning);
   experiment.forceLimit = 20;
-  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "peak_force").limit, 8.5);
+  EXPECT_EQ(lineOf(check(experiment, info), "peak_force").limit, 8.5);
 }
 
 TEST(Preflight, ColgatesFrictionFollowsTheDevicesRate) {
   const auto experiment = experiment::readExperiment("chain-moderate");  // 600 N/m
   haptics::DeviceInfo info = infoOf("virtual:premium15", experiment);
-  EXPECT_NEAR(lineOf(checkBeforeBlock(experiment, info), "passivity").asked, 600 * 0.001 / 2, 1e-12);
-  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "passivity").verdict, Verdict::Held);
+  EXPECT_NEAR(lineOf(check(experiment, info), "passivity").asked, 600 * 0.001 / 2, 1e-12);
+  EXPECT_EQ(lineOf(check(experiment, info), "passivity").verdict, Verdict::Held);
   info.rate = 125;
-  const PreflightLine slow = lineOf(checkBeforeBlock(experiment, info), "passivity");
+  const PreflightLine slow = lineOf(check(experiment, info), "passivity");
   EXPECT_NEAR(slow.asked, 600 * 0.008 / 2, 1e-12);
   EXPECT_EQ(slow.verdict, Verdict::Warning);
   EXPECT_NE(slow.remedy.find("k_h <= 250"), std::string::npos) << slow.remedy;  // 2 * 1 N s/m / 8 ms
   info.viscosity = 3;
-  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "passivity").verdict, Verdict::Fine);
+  EXPECT_EQ(lineOf(check(experiment, info), "passivity").verdict, Verdict::Fine);
 }
 
 TEST(Preflight, AStiffnessBeyondTheStableOneIsWarnedAbout) {
   experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   const auto info = infoOf("virtual:premium15", experiment);
-  const PreflightLine fine = lineOf(checkBeforeBlock(experiment, info), "stability");
+  const PreflightLine fine = lineOf(check(experiment, info), "stability");
   ASSERT_TRUE(fine.limit.has_value());
   EXPECT_EQ(fine.verdict, Verdict::Fine);
   experiment.coupling->stiffness = *fine.limit * 1.1;
-  EXPECT_EQ(lineOf(checkBeforeBlock(experiment, info), "stability").verdict, Verdict::Warning);
+  EXPECT_EQ(lineOf(check(experiment, info), "stability").verdict, Verdict::Warning);
 }
 
 TEST(Preflight, AReachBeyondTheWorkspaceNamesTheScale) {
   const auto experiment = experiment::readExperiment("chain-slow");
-  const PreflightLine line = lineOf(checkBeforeBlock(experiment, infoOf("virtual:omega3", experiment)), "workspace");
+  const PreflightLine line = lineOf(check(experiment, infoOf("virtual:omega3", experiment)), "workspace");
   EXPECT_EQ(line.verdict, Verdict::Warning) << "0.1 m on a radius of 0.08 m";
   EXPECT_NE(line.remedy.find("scale 1.25"), std::string::npos) << line.remedy;
 }
@@ -121,7 +125,7 @@ TEST(Preflight, EveryShippedExperimentIsJudged) {
     haptics::DeviceInfo info;
     info.name = "device";
     info.rendersForce = true;
-    const auto lines = checkBeforeBlock(experiment, info);
+    const auto lines = check(experiment, info);
     ASSERT_EQ(lines.size(), 5u) << name;
     EXPECT_TRUE(std::isfinite(lines[0].asked)) << name;
     EXPECT_GT(lines[0].asked, 0) << name;

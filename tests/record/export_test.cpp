@@ -192,7 +192,7 @@ TEST(ExportedExperiment, SaysWhatWasMovedAndAsked) {
   const RunLog run = RunLog::open(log);
   writeBidsRun(run, folder / ".");
   const std::string file = folder / experimentPath(c);
-  const experiment::Experiment back = experimentFromJson(readWholeFile(file), file);
+  const experiment::Experiment back = experimentFromJson(readWholeFile(file), file).experiment();
   EXPECT_EQ(experiment::toJson(back), experiment::toJson(recorded));
   EXPECT_FALSE(back.constraint.definition.empty()) << "the formula as it was then";
   const json j = json::parse(readWholeFile(file));

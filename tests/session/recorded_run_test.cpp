@@ -332,13 +332,13 @@ TEST_F(InRealTime, WhatWasRecordedBeforeThereWereLimitsIsReplayedWithoutThem) {
     run.finish();
   }
   const record::RunConfiguration now = logs().at(0).configuration();
-  EXPECT_EQ(record::recordedExperiment(now).timing.maxMissedTicks, 5);
+  EXPECT_EQ(record::recordedExperiment(now).experiment().timing.maxMissedTicks, 5);
   std::string text = record::toJson(now);
   const std::size_t key = text.find("\"timing\""), end = text.find("},", key);
   text.erase(key, end + 2 - key);
   const record::RunConfiguration before = record::configurationFromJson(text, "a log of before");
-  EXPECT_EQ(record::recordedExperiment(before).timing.maxMissedTicks, experiment::kNoTimingLimits.maxMissedTicks);
-  EXPECT_EQ(record::recordedExperiment(before).timing.maxGap, experiment::kNoTimingLimits.maxGap);
+  EXPECT_EQ(record::recordedExperiment(before).experiment().timing.maxMissedTicks, experiment::kNoTimingLimits.maxMissedTicks);
+  EXPECT_EQ(record::recordedExperiment(before).experiment().timing.maxGap, experiment::kNoTimingLimits.maxGap);
 }
 
 TEST_F(InRealTime, TheTimingIsCheckedBeforeTheFirstTrialAndTheVerdictIsKept) {

@@ -103,7 +103,7 @@ TEST_F(RecordingWindow, AnEditedExperimentIsRecordedAsItWasEdited) {
   EXPECT_TRUE(session().tryEdit(edited).empty());
   doTrial();
   session().endRun();
-  experiment::Experiment recorded = record::recordedExperiment(logs().at(0).configuration());
+  experiment::Experiment recorded = record::recordedExperiment(logs().at(0).configuration()).experiment();
   recorded.constraint.definition.clear();  // the recording brings its own, the window looks it up
   EXPECT_EQ(recorded.coupling->stiffness, 555);
   EXPECT_EQ(recorded, session().experiment());
