@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "devices/drivers.h"
+#include "devices/haply/web_socket_link.h"
 #include "devices/options.h"
 #include "devices/virtual/device_model.h"
 

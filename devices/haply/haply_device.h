@@ -5,7 +5,7 @@
 #include <string>
 
 #include "devices/haply/haply_message.h"
-#include "devices/haply/message_link.h"
+#include "devices/message_link.h"
 #include "devices/io/polled_device.h"
 
 namespace reachlab::devices {

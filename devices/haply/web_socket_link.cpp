@@ -1,3 +1,5 @@
+#include "devices/haply/web_socket_link.h"
+
 #include <fmt/format.h>
 
 #include <boost/asio/connect.hpp>
@@ -8,7 +10,6 @@
 #include <chrono>
 
 #include "base/error.h"
-#include "devices/haply/message_link.h"
 
 namespace reachlab::devices {
 namespace {

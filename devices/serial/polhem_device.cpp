@@ -10,6 +10,7 @@
 #include "devices/drivers.h"
 #include "devices/options.h"
 #include "devices/serial/polhem_line.h"
+#include "devices/serial/serial_port.h"
 
 namespace reachlab::devices {
 namespace {
@@ -45,11 +46,12 @@ Exchange PolhemSerial::exchange(ForceSource& source, haptics::DeviceSample& samp
     awaiting_ = true;
   }
   std::string line, newer;
-  const LinePort::Got got = port_->receive(line, kAnswerMs);
-  if (got == LinePort::Got::Gone) return Exchange::Lost;
+  const MessageLink::Got got = port_->receive(line, kAnswerMs);
+  if (got == MessageLink::Got::Gone) return Exchange::Lost;
   constexpr int kMostDrained = 64;
-  for (int i = 0; got == LinePort::Got::Line && i < kMostDrained && port_->receive(newer, 0) == LinePort::Got::Line; ++i) line.swap(newer);
-  const auto state = got == LinePort::Got::Line ? readPolhemLine(line) : std::nullopt;
+  for (int i = 0; got == MessageLink::Got::Message && i < kMostDrained && port_->receive(newer, 0) == MessageLink::Got::Message; ++i)
+    line.swap(newer);
+  const auto state = got == MessageLink::Got::Message ? readPolhemLine(line) : std::nullopt;
   if (!state) return ++unanswered_ >= kMostUnanswered ? Exchange::Lost : Exchange::Nothing;
   awaiting_ = false;
   unanswered_ = 0;

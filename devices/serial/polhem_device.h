@@ -5,14 +5,14 @@
 #include <string>
 
 #include "devices/io/polled_device.h"
-#include "devices/serial/line_port.h"
+#include "devices/message_link.h"
 
 namespace reachlab::devices {
 
 /// A Polhem v3 over its serial line: one force out, one place back. Verified against the published host code, not on a device.
 class PolhemSerial final : public Transport {
  public:
-  using OpenPort = std::function<std::unique_ptr<LinePort>()>;
+  using OpenPort = std::function<std::unique_ptr<MessageLink>()>;
   /// `open` throws ResourceError; called again after the device was lost.
   PolhemSerial(std::string name, OpenPort open);
 
@@ -26,7 +26,7 @@ class PolhemSerial final : public Transport {
  private:
   std::string name_;
   OpenPort open_;
-  std::unique_ptr<LinePort> port_;
+  std::unique_ptr<MessageLink> port_;
   bool awaiting_ = false;
   int unanswered_ = 0;  // times in a row that nothing, or no line of its form, came back
   std::int64_t sentNs_ = 0;

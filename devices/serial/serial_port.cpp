@@ -1,3 +1,5 @@
+#include "devices/serial/serial_port.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/serial.h>
@@ -10,12 +12,11 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "devices/serial/line_port.h"
 
 namespace reachlab::devices {
 namespace {
 
-class SerialPort final : public LinePort {
+class SerialPort final : public MessageLink {
  public:
   explicit SerialPort(const std::string& path) : file_(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
     if (file_ < 0) {
@@ -53,8 +54,10 @@ class SerialPort final : public LinePort {
         continue;
       }
       pollfd at{file_, POLLOUT, 0};
-      if (sent < 0 && errno != EAGAIN && errno != EINTR) return false;
-      if (::poll(&at, 1, kPatienceMs) <= 0 || (at.revents & (POLLERR | POLLHUP)) != 0) return false;
+      if (sent < 0 && errno != EAGAIN && errno != EINTR) return lose(errno);
+      const int ready = ::poll(&at, 1, kPatienceMs);
+      if (ready <= 0) return lose(ready < 0 ? errno : ETIMEDOUT);
+      if ((at.revents & (POLLERR | POLLHUP)) != 0) return lose(EIO);
     }
     return true;
   }
@@ -64,27 +67,38 @@ class SerialPort final : public LinePort {
       if (const std::size_t end = waiting_.find('\n'); end != std::string::npos) {
         line.assign(waiting_, 0, end);
         waiting_.erase(0, end + 1);
-        return Got::Line;
+        return Got::Message;
       }
       if (waiting_.size() > kLongestLine) waiting_.clear();
       pollfd at{file_, POLLIN, 0};
       const int ready = ::poll(&at, 1, waited ? 1 : milliseconds);
-      if (ready < 0 && errno != EINTR) return Got::Gone;
+      if (ready < 0 && errno != EINTR) return gone(errno);
       if (ready <= 0) return Got::Nothing;
       char bytes[kLongestLine];
       const ssize_t got = ::read(file_, bytes, sizeof bytes);
       if (got > 0) waiting_.append(bytes, static_cast<std::size_t>(got));
-      else if (got == 0 || (errno != EAGAIN && errno != EINTR)) return Got::Gone;
+      else if (got == 0 || (errno != EAGAIN && errno != EINTR)) return gone(got == 0 ? EIO : errno);
     }
   }
 
+  std::string fault() const override { return std::strerror(fault_); }
+
  private:
-  int file_;
+  bool lose(int error) noexcept {
+    fault_ = error;
+    return false;
+  }
+  Got gone(int error) noexcept {
+    fault_ = error;
+    return Got::Gone;
+  }
+
+  int file_, fault_ = 0;
   std::string waiting_;
 };
 
 }  // namespace
 
-std::unique_ptr<LinePort> openSerial(const std::string& path) { return std::make_unique<SerialPort>(path); }
+std::unique_ptr<MessageLink> openSerial(const std::string& path) { return std::make_unique<SerialPort>(path); }
 
 }  // namespace reachlab::devices

@@ -156,7 +156,7 @@ class PolhemRig final : public PolledRig {
   double toldLimit() const override { return 5.002; }  // each axis is rounded to a millinewton
 
  protected:
-  struct Port final : LinePort {
+  struct Port final : MessageLink {
     explicit Port(PolhemRig& r) : rig(r) {}
     bool send(std::string_view line) noexcept override {
       if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
@@ -179,12 +179,13 @@ class PolhemRig final : public PolledRig {
         std::snprintf(text, sizeof text, "%.3f %.3f %.3f 0 0 0 0 0", 1e3 * at.z, 1e3 * at.x, 1e3 * at.y);
         line = text;
       }
-      return Got::Line;
+      return Got::Message;
     }
+    std::string fault() const override { return "gone"; }
     PolhemRig& rig;
   };
   std::shared_ptr<Transport> transport() override {
-    return std::make_shared<PolhemSerial>("Polhem", [this]() -> std::unique_ptr<LinePort> {
+    return std::make_shared<PolhemSerial>("Polhem", [this]() -> std::unique_ptr<MessageLink> {
       if (has(Fault::Unplug)) throw ResourceError("gone");
       return std::make_unique<Port>(*this);
     });

@@ -1,0 +1,14 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "devices/message_link.h"
+
+namespace reachlab::devices {
+
+/// A terminal device, raw, 115200 baud: a message is a line without its end. What is longer than kLongestLine without an end is thrown
+/// away. Throws ResourceError in the system's words.
+std::unique_ptr<MessageLink> openSerial(const std::string& path);
+inline constexpr std::size_t kLongestLine = 256;
+
+}  // namespace reachlab::devices
