@@ -26,41 +26,23 @@
 #include "gui/subject/subject_window.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::app {
 namespace {
 
-class Day : public ::testing::Test {
+class Day : public AtTheWindow {
  protected:
   Day() {
     request_.what = "chain-moderate";
-    request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
-    request_.device = "mouse";
     request_.trials = 3;
-    request_.seed = 1;
   }
   ~Day() override { forgetLayout(); }
-  MainWindow& open() {
-    window_ = std::make_unique<MainWindow>(request_);
-    window_->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());
-    return *window_;
-  }
-  template <typename T>
-  T* find(const char* name) const {
-    T* found = window_->findChild<T*>(QLatin1String(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
-  }
   void key(Qt::Key key, Qt::KeyboardModifiers with = {}) const { QTest::keyClick(window_->windowHandle(), key, with); }
   void clickIntoScene() const {
     const QPoint at = window_->view().mapTo(window_.get(), QPoint(500, 300));
     QTest::mouseClick(window_->windowHandle(), Qt::LeftButton, {}, at);
   }
-  QTemporaryDir folder_;
-  session::SessionRequest request_;
-  std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(Day, AClickIntoTheSceneLeavesTheFieldAndSpaceIsTheTrialsAgain) {

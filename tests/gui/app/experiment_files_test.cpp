@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "gui/app/main_window.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -59,21 +60,12 @@ TEST(WritingAnExperiment, ThatCannotBeWrittenIsAFaultWithTheFilesName) {
   }
 }
 
-class Files : public ::testing::Test {
+class Files : public AtTheWindow {
  protected:
   Files() {
     path_ = folder_.filePath(QStringLiteral("mine.json"));
     writeExperiment(experiment::openExperiment("ellipse").experiment(), path_);
     request_.what = path_.toStdString();
-    request_.place.data = folder_.filePath(QStringLiteral("data")).toStdString();
-    request_.device = "mouse";
-  }
-  MainWindow& open() {
-    window_ = std::make_unique<MainWindow>(request_);
-    window_->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());
-    return *window_;
   }
   void changeMasses(const char* to) {
     auto* masses = window_->findChild<QLineEdit*>(QStringLiteral("masses"));
@@ -81,10 +73,7 @@ class Files : public ::testing::Test {
     Q_EMIT masses->editingFinished();
   }
 
-  QTemporaryDir folder_;
   QString path_;
-  session::SessionRequest request_;
-  std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(Files, ASavedChangeIsInTheFileAndTheStarGoes) {

@@ -29,6 +29,7 @@
 #include "gui/plot/velocity_plot.h"
 #include "sim/record/run_log.h"
 #include "tests/gui/answer_box.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -41,42 +42,22 @@ constexpr const char* kEasy = R"({ "schema_version": 1, "name": "easy", "constra
   "task": { "start": [0], "target": [6.283185307179586], "duration_s": 10.2, "timeout_s": 60,
             "tolerance": { "position_m": 0.012, "velocity_m_per_s": 0.03, "time_s": 9.9 } } })";
 
-class Window : public ::testing::Test {
+class Window : public AtTheWindow {
  protected:
   Window() {
     request_.what = (folder_.path() + QStringLiteral("/easy.json")).toStdString();
     std::ofstream(request_.what) << kEasy;
-    request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
-    request_.device = "mouse";
     request_.trials = 3;
-    request_.seed = 1;
     request_.timingCheckSeconds = 0;
-  }
-  MainWindow& open() {
-    window_ = std::make_unique<MainWindow>(request_);
-    window_->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());  // there may be no window manager to do it, and shortcuts ask for it
-    return *window_;
   }
   // The pointer goes through the window system's queue, as a real one does; places are the scene's.
   QPoint inWindow(const QPoint& inScene) const { return window_->view().mapTo(window_.get(), inScene); }
   void press(Qt::MouseButton button, const QPoint& at) const { QTest::mousePress(window_->windowHandle(), button, {}, inWindow(at)); }
   void moveTo(const QPoint& at) const { QTest::mouseMove(window_->windowHandle(), inWindow(at)); }
   void release(Qt::MouseButton button, const QPoint& at) const { QTest::mouseRelease(window_->windowHandle(), button, {}, inWindow(at)); }
-  template <typename T>
-  T* find(const char* name) const {
-    T* found = window_->findChild<T*>(QLatin1String(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
-  }
   bool waitForPhase(trial::Phase phase) const {
     return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
   }
-
-  QTemporaryDir folder_;
-  session::SessionRequest request_;
-  std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(Window, StartsWithItsDocksAndAPicture) {

@@ -22,25 +22,21 @@
 #include "sim/record/run_log.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-class RecordingWindow : public ::testing::Test {
+class RecordingWindow : public AtTheWindow {
  protected:
   RecordingWindow() {
     request_.what = "chain-moderate";
-    request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
     request_.device = "simulated:noise=0";
-    request_.seed = 1;
     request_.fast = true;  // a trial is computed when it is looked for
   }
-  MainWindow& open() {
-    window_ = std::make_unique<MainWindow>(request_);
-    return *window_;
-  }
+  MainWindow& open() { return make(); }
   SessionController& session() { return window_->session(); }
   // Space, and the frame that sees the trial's end.
   void doTrial() {
@@ -58,10 +54,6 @@ class RecordingWindow : public ::testing::Test {
     for (const session::RunOnDisk& run : session::recordedRuns(request_.place)) logs.push_back(record::RunLog::open(run.path));
     return logs;
   }
-
-  QTemporaryDir folder_;
-  session::SessionRequest request_;
-  std::unique_ptr<MainWindow> window_;
 };
 
 std::string shippedText(const std::string& name) { return readTextFile(experiment::resourceFolder() + "/experiments/" + name + ".json"); }

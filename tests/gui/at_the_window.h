@@ -1,0 +1,45 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QTemporaryDir>
+#include <QTest>
+#include <memory>
+
+#include "gui/app/main_window.h"
+
+namespace reachlab::gui {
+
+/// Whoever sits at a window whose data lie in a folder of the test's own.
+class AtTheWindow : public ::testing::Test {
+ protected:
+  AtTheWindow() {
+    request_.place.data = folder_.filePath(QStringLiteral("data")).toStdString();
+    request_.device = "mouse";
+    request_.seed = 1;
+  }
+  /// As its program makes it, on no screen.
+  app::MainWindow& make() {
+    window_ = std::make_unique<app::MainWindow>(request_);
+    return *window_;
+  }
+  /// On the screen, with the keys.
+  app::MainWindow& open() {
+    make().show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());  // there may be no window manager to do it, and shortcuts ask for it
+    return *window_;
+  }
+  template <typename T>
+  T* find(const char* name) const {
+    T* found = window_->findChild<T*>(QLatin1String(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+
+  QTemporaryDir folder_;
+  session::SessionRequest request_;
+  std::unique_ptr<app::MainWindow> window_;
+};
+
+}  // namespace reachlab::gui
