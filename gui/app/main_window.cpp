@@ -33,6 +33,7 @@
 #include "gui/docks/session_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
+#include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/scene/scene_view.h"
@@ -135,6 +136,12 @@ void MainWindow::wireSession() {
     predictions().addErrors(errors, succeeded);
     docks_.trials->setErrors(errors);
   });
+  connect(&runFits_, &inspector::Inspector::judged, this, [this](const std::shared_ptr<const inspector::Inspection>& run) {
+    std::vector<std::optional<double>> fitted;
+    for (int i = 0; i < predict::kCriterionCount; ++i)
+      fitted.push_back(inspector::fittedEpsilon(*run->study, 0, static_cast<predict::Criterion>(i)));
+    predictions().setFitted(fitted);
+  });
   connect(&session_, &SessionController::experimentChanged, this, &MainWindow::showExperiment);
   connect(&session_, &SessionController::runOpened, this, &MainWindow::runOpened);
   connect(&session_, &SessionController::runClosed, this, &MainWindow::runClosed);
@@ -200,6 +207,8 @@ void MainWindow::runOpened() {
   const session::RecordedRun& run = *session_.run();
   docks_.session->clearTally();
   score_ = 0;
+  succeeded_.clear();
+  runFits_.cancel();
   docks_.session->showRun(run.configuration());
   predictions().clearErrors();
   docks_.trials->clear();
@@ -232,12 +241,20 @@ void MainWindow::trialEnded() {
   if (result.outcome == trial::Outcome::Success || result.outcome == trial::Outcome::Failure)
     forecast_.compare(trace_.points(), trace_.path(), {session_.run()->configuration().sampleEveryTicks, result.onsetTick, result.endTick},
                       result.outcome == trial::Outcome::Success);
+  if (result.outcome == trial::Outcome::Success && session_.run() != nullptr) fitRun();
   if (const session::RecordedRun* run = session_.run(); run != nullptr && run->trialsLeft() > 0) {
     const double planned = run->configuration().pauseSeconds;
     if (planned > 0 || docks_.session->repeatsByItself())
       pacing_.plan(std::chrono::steady_clock::now(), planned > 0 ? planned : docks_.session->pauseSeconds());
   }
   showStage();
+}
+
+// What `reach analyze` would fit if the run ended here: the same rows, the same code.
+void MainWindow::fitRun() {
+  succeeded_.push_back(session_.run()->numberOf(*session_.lastTrial()));
+  if (succeeded_.size() < analyze::kFewestTrials || session_.run()->configuration().practice) return;
+  runFits_.begin({{session_.run()->logPath(), succeeded_}});
 }
 
 void MainWindow::oneFrame() {

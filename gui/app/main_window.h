@@ -11,6 +11,7 @@
 #include "gui/app/window_layout.h"
 #include "gui/app/window_menus.h"
 #include "gui/docks/all_docks.h"
+#include "gui/inspector/inspection.h"
 #include "gui/plot/live_forecast.h"
 #include "gui/plot/live_trace.h"
 #include "gui/scene/scene_overlay.h"
@@ -111,6 +112,7 @@ class MainWindow : public QMainWindow {
   void runClosed();
   void drainTrace();
   void trialEnded();
+  void fitRun();
   void oneFrame();
   void playGo(const haptics::TickState& state);
   void tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what);
@@ -123,6 +125,8 @@ class MainWindow : public QMainWindow {
   EditHistory edits_;
   plot::LiveForecast forecast_;
   plot::LiveTrace trace_;
+  inspector::Inspector runFits_;        // of the run's trials, from their rows on the disk
+  std::vector<int> succeeded_;          // trials of the run, as recorded
   TrialPacing pacing_;
   SoundCues sounds_;
   subject::SubjectWords words_;  // of the subject's screen

@@ -14,7 +14,7 @@
 namespace reachlab::gui::docks {
 namespace {
 
-enum Column { kName, kPeak, kLast, kAll, kColumns };
+enum Column { kName, kPeak, kLast, kAll, kFitted, kColumns };
 
 QString speed(double metresPerSecond) { return QString::number(metresPerSecond, 'f', 4); }
 
@@ -30,12 +30,15 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_ = new QTableWidget(predict::kCriterionCount, kColumns);
   table_->setObjectName(QStringLiteral("criteria"));
   table_->setHorizontalHeaderLabels(
-      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run")});
+      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run"), QStringLiteral("ε fit")});
   table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [m/s]"));
   table_->horizontalHeaderItem(kLast)->setToolTip(
       QStringLiteral("the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]"));
   table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral(
       "the paper's epsilon over the trials of this run that succeeded, as in reach analyze; grey: over failed ones, while none has [m/s]"));
+  table_->horizontalHeaderItem(kFitted)->setToolTip(QStringLiteral(
+      "the fitted epsilon over the trials of this run that succeeded, from ten on, as in reach analyze: onset, duration and amplitude "
+      "fitted to each trial [m/s]"));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(23);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
@@ -52,7 +55,7 @@ PredictionDock::PredictionDock(QWidget* parent)
     name->setForeground(plot::colourOf(criterion));
     name->setToolTip(text(predict::describe(criterion)));
     table_->setItem(i, kName, name);
-    for (const int column : {kPeak, kLast, kAll}) {
+    for (const int column : {kPeak, kLast, kAll, kFitted}) {
       auto* item = new QTableWidgetItem;
       item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
       table_->setItem(i, column, item);
@@ -102,7 +105,16 @@ void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors,
   fillErrors();
 }
 
+void PredictionDock::setFitted(const std::vector<std::optional<double>>& fitted) {
+  const QSignalBlocker quiet(table_);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    table_->item(i, kFitted)->setText(k < fitted.size() && fitted[k] ? speed(*fitted[k]) : QString());
+  }
+}
+
 void PredictionDock::clearErrors() {
+  setFitted({});
   latest_.assign(predict::kCriterionCount, std::nullopt);
   succeeded_.assign(predict::kCriterionCount, {});
   failed_.assign(predict::kCriterionCount, {});

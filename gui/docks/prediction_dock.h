@@ -20,6 +20,8 @@ class PredictionDock : public Dock {
   /// The paper's epsilon of a trial, one a criterion, in the forecasts' order [m/s]. The run's is over the trials that succeeded, as in
   /// `reach analyze`, and over the failed ones while none has.
   void addErrors(const std::vector<std::optional<double>>& errors, bool succeeded);
+  /// The fitted epsilon over the trials of the run that succeeded, one a criterion [m/s].
+  void setFitted(const std::vector<std::optional<double>>& fitted);
   void clearErrors();
   std::vector<predict::Criterion> chosen() const;
   void setChosen(const std::vector<predict::Criterion>& criteria);

@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <QProcess>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QUndoStack>
@@ -19,6 +20,8 @@
 #include "gui/app/session_controller.h"
 #include "gui/app/session_overlay.h"
 #include "gui/docks/session_dock.h"
+#include "sim/analyze/dataset.h"
+#include "sim/analyze/tables.h"
 #include "sim/record/run_log.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
@@ -306,6 +309,27 @@ TEST_F(RecordingWindow, RecordsByteForByteWhatTheCommandLineRecords) {
   for (const auto& entry : fs::recursive_directory_iterator(other.place.data))
     files -= entry.is_regular_file() && entry.path().extension() != ".reach";
   EXPECT_EQ(files, 0) << "as many files there";
+}
+
+TEST_F(RecordingWindow, TheFittedEpsilonOfTheRunIsThatOfTheAnalysis) {
+  request_.device = "simulated";
+  request_.trials = 16;
+  open();
+  for (int i = 0; i < 16; ++i) doTrial();
+  const auto* table = window_->findChild<QTableWidget*>(QStringLiteral("criteria"));
+  ASSERT_NE(table, nullptr);
+  const auto analysed = analyze::analyzeStudy(analyze::openDataset(session().run()->logPath()).input, {});
+  const auto rows = analyze::fitRows(analysed);
+  ASSERT_FALSE(rows.empty()) << "the simulated hand succeeds ten times of sixteen with this seed";
+  const auto shows = [&] {
+    for (const analyze::FitRow& row : rows)
+      for (int i = 0; i < predict::kCriterionCount; ++i)
+        if (predict::nameOf(static_cast<predict::Criterion>(i)) == row.criterion &&
+            table->item(i, 4)->text() != QString::number(row.epsilon, 'f', 4))
+          return false;
+    return true;
+  };
+  EXPECT_TRUE(QTest::qWaitFor(shows, 30000));
 }
 
 }  // namespace
