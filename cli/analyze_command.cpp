@@ -14,6 +14,7 @@
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "sim/analyze/write_analysis.h"
+#include "sim/record/derivative.h"
 
 namespace reachlab::cli {
 namespace {
@@ -285,6 +286,7 @@ void run(const AnalyzeOptions& o) {
   const analyze::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o)};
   const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
   const analyze::AnalysisFiles files = atOption("--out", [&] { return analyze::writeAnalysis(study, dataset, header, out, recovery); });
+  if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
   if (o.json) fmt::print("{}", summaryJson(study, dataset, files, recovery));
   else printSummary(study, dataset, files, recovery);
   if (!dataset.unreadable.empty())

@@ -48,7 +48,7 @@ void exportLogs(const Options& options) {
   std::vector<std::string> written;
   atOption("--out", [&] {
     const record::Exporter& exporter = *record::findExporter(options.format);
-    written = exporter.write(runs, options.out.empty() ? record::folderIn(dataset.string(), exporter) : options.out);
+    written = options.out.empty() ? record::writeInto(dataset.string(), exporter, runs) : exporter.write(runs, options.out);
   });
   for (const std::string& path : written) fmt::print("{}\n", path);
 }
@@ -56,7 +56,7 @@ void exportLogs(const Options& options) {
 }  // namespace
 
 void addExportCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("export", "Writes recorded runs as Motion-BIDS or tidy CSV");
+  CLI::App* command = app.add_subcommand("export", "Writes recorded runs in formats that other programs read");
   const auto options = std::make_shared<Options>();
   std::string formats;
   std::vector<std::string> names;
@@ -66,14 +66,15 @@ void addExportCommand(CLI::App& app, int&) {
   }
   command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")->required();
   command->add_option("--format", options->format, formats)->required()->check(CLI::IsMember(names));
-  command->add_option("--out", options->out, "Folder to write into; default: the dataset itself (bids), its derivatives/csv (csv)");
+  command->add_option("--out", options->out, "Folder to write into; default: the dataset itself (bids), its derivatives/FORMAT (the others)");
   command->footer(
       "Columns carry their units (movement_time_s, mass1_x_m, …); docs/recording.md lists them. A damaged log is read up to the "
       "damage.\n"
-      "The files written are named on stdout.\n\n"
+      "The files written are named on stdout; docs/exports.md tells what is in each and how to read it.\n\n"
       "Examples:\n"
       "  reach export data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --format csv --out tables\n"
       "  reach export data/sub-01/ses-01 --format csv --out tables\n"
+      "  reach export data --format mat\n"
       "  reach export data --format bids");
   command->callback([options] { exportLogs(*options); });
 }

@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/os.h"
+#include "sim/record/foreign_file.h"
 
 namespace reachlab::record {
 namespace {
@@ -175,6 +176,28 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
   AtomicFile file(path);
   file.append(text);
   file.commit();
+}
+
+ForeignFile::ForeignFile(const std::string& path) : path_(path) {
+  makeFolders(std::filesystem::path(path).parent_path().string());
+  descriptor_ = openTemporary(path, temporary_);
+  if (descriptor_ < 0) fail("cannot be created", path);
+}
+
+ForeignFile::~ForeignFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void ForeignFile::commit() {
+  if (!os::syncFile(descriptor_) || ::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be written", path_);
+  ::close(std::exchange(descriptor_, -1));
+  syncFolderOf(path_);
+}
+
+void ForeignFile::giveUp(const std::string& what) {
+  throw ResourceError(fmt::format("{}: cannot be written: {}; check the folder and the space on its disk", path_, what));
 }
 
 std::string readWholeFile(const std::string& path) {

@@ -8,6 +8,7 @@
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 #include "base/table_text.h"
+#include "sim/record/run_tables.h"
 #include "sim/record/tidy_csv.h"
 #include "sim/record/trial_measures.h"
 
@@ -136,6 +137,7 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
 
 std::string eventsJson(const RunConfiguration& c) {
   Json j;
+  j["onset"] = described("Since the first sample of the recording. " + clockStatement(c), "s");
   j["trial_type"] = described("Kind of trial");
   j["trial_type"]["Levels"] = {{"reach", "Rest-to-rest reach; onset is the start of the movement, duration ends with the trial"},
                                {"catch", "Trial without a go signal: the hand should stay"}};

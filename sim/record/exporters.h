@@ -21,6 +21,8 @@ struct Exporter {
 const std::vector<Exporter>& exporters();
 /// Where it writes to in a dataset unless told otherwise.
 std::string folderIn(const std::string& dataset, const Exporter& exporter);
+/// Writes these runs there; a folder of derivatives then also says what it is. Throws ResourceError.
+std::vector<std::string> writeInto(const std::string& dataset, const Exporter& exporter, const std::vector<RunLog>& runs);
 /// Null when there is none of that name.
 const Exporter* findExporter(std::string_view name);
 

@@ -1,4 +1,5 @@
 #include "sim/record/column_dictionary.h"
+#include "sim/record/run_tables.h"
 #include "sim/record/tidy_csv.h"
 
 namespace reachlab::record {
@@ -54,12 +55,14 @@ constexpr ColumnMeaning kTrialMeanings[] = {
 
 std::string trialsDictionary(std::string_view csv) { return columnDictionary(csv, kTrialMeanings); }
 
-std::string samplesDictionary(const ChannelTable& table, std::string_view csv) {
+std::string samplesDictionary(const RunConfiguration& configuration, std::string_view csv) {
+  const std::string clock = clockStatement(configuration);
   std::vector<ColumnMeaning> meanings{
       {"phase",
        "Phase of the trial at this sample: 0 idle, 1 waiting, 2 armed, 3 moving, 4 done. In trials.csv a column of this name says whether "
        "the block is practice or recorded"}};
-  for (const Channel& channel : table.channels) meanings.push_back({channel.column, channel.description});
+  for (const Channel& channel : configuration.table.channels)
+    meanings.push_back({channel.column, channel.type == "LATENCY" ? std::string_view(clock) : std::string_view(channel.description)});
   return columnDictionary(csv, meanings);
 }
 

@@ -219,7 +219,7 @@ void RecordedRun::finish() {
     const std::vector<record::RunLog> run{record::RunLog::open(block_.logPath)};
     const FolderHold hold(options_.place.data);  // the tables are of all runs
     for (const record::Exporter& exporter : record::exporters())
-      if (exporter.withEachRun) exporter.write(run, record::folderIn(options_.place.data, exporter));
+      if (exporter.withEachRun) record::writeInto(options_.place.data, exporter, run);
   });
 }
 
