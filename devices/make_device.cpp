@@ -2,7 +2,7 @@
 
 #include "base/fault.h"
 #include "devices/registry.h"
-#include "devices/replay/replayed_reach.h"
+#include "devices/replay/reach_source.h"
 
 namespace reachlab::devices {
 namespace {
@@ -55,7 +55,7 @@ HandOptions handOptionsOf(const std::string& spec) {
 
 int trialsOnOffer(const std::string& spec) {
   const Spec asked = parse(spec);
-  return asked.name == "replay" && !asked.argument.empty() ? static_cast<int>(reachFiles(asked.argument).size()) : 1;
+  return asked.name == "replay" && !asked.argument.empty() ? static_cast<int>(readReaches(reachSourceOf(asked.argument)).size()) : 1;
 }
 
 }  // namespace reachlab::devices

@@ -20,7 +20,7 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 /// What is asked of the device beside its driver's own options: mapping and guards (docs/devices.md). Throws FaultError.
 HandOptions handOptionsOf(const std::string& spec);
 
-/// Trials of a run that is not told how many: a replayed folder offers each of its files once, every other device one. Throws
+/// Trials of a run that is not told how many: a replayed source offers each of its reaches once, every other device one. Throws
 /// ResourceError when there is nothing to replay.
 int trialsOnOffer(const std::string& spec);
 

@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "base/cubic_spline.h"
 #include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
+#include "devices/replay/reach_source.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kLongestReach = 600;       // [s]
 constexpr double kRest = 0.3, kJoin = 0.1;  // [s]
@@ -33,20 +31,6 @@ Vec3 turn(const Vec3& v, const Vec3& from, const Vec3& to) {
 }
 
 }  // namespace
-
-std::vector<std::string> reachFiles(const std::string& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) {
-    std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(path, error))
-      if (entry.path().extension() == ".csv") files.push_back(entry.path().string());
-    if (files.empty()) throw ResourceError(path + ": no CSV files to replay in this folder");
-    std::sort(files.begin(), files.end());
-    return files;
-  }
-  if (!fs::exists(path, error)) throw ResourceError(path + ": no such file or folder to replay");
-  return {path};
-}
 
 PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
   if (reach.time.size() < 2) throw FaultError(Fault{{}, "fewer than two samples", {}, FilePlace{reach.file}});
@@ -80,9 +64,9 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
   return played;
 }
 
-std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target) {
+std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& argument, const Vec3& start, const Vec3& target) {
   std::vector<PlayedReach> reaches;
-  for (const std::string& file : reachFiles(path)) reaches.push_back(layOnto(readReach(file), start, target));
+  for (const RecordedReach& reach : readReaches(reachSourceOf(argument))) reaches.push_back(layOnto(reach, start, target));
   haptics::DeviceInfo info;
   info.name = "replay";
   info.version = "1";
@@ -101,8 +85,12 @@ std::unique_ptr<haptics::HapticDevice> makeReplay(const DeviceRequest& request) 
 }  // namespace
 
 DeviceDriver replayDriver() {
-  return {"replay", "replay:FILE|FOLDER", "replay:FILE|FOLDER, recorded reaches laid onto start and target, one a trial",
-          false,    alwaysThere,          makeReplay};
+  return {"replay",
+          "replay:FILE|FOLDER[,KEY=VALUE…]",
+          "replay:FILE|FOLDER, recorded reaches (CSV, BIDS motion, C3D) laid onto start and target, one a trial",
+          false,
+          alwaysThere,
+          makeReplay};
 }
 
 }  // namespace reachlab::devices

@@ -14,10 +14,7 @@ namespace reachlab::devices {
 /// estimator, as with any device that has none. Throws FaultError for fewer than two samples, more than 600 s, or no movement.
 PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target);
 
-/// The files that `path` stands for: itself, or the CSV files of the folder in name order. Throws ResourceError when there are none.
-std::vector<std::string> reachFiles(const std::string& path);
-
-/// A device that plays the file, or the CSV files of a folder in name order, one a trial, again from the first.
-std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& path, const Vec3& start, const Vec3& target);
+/// A device that plays the reaches of a source (reach_source.h), one a trial, again from the first.
+std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& argument, const Vec3& start, const Vec3& target);
 
 }  // namespace reachlab::devices

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "devices/replay/recorded_reach.h"
+#include "devices/replay/reach_source.h"
 #include "devices/replay/replayed_reach.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/haptics/velocity_estimator.h"
@@ -60,7 +60,7 @@ VelocityRow judge(const std::string& kind, double resolution, const std::vector<
 
 std::vector<VelocityRow> compareVelocityEstimators(const std::string& path, const VelocityTableSettings& settings) {
   std::vector<PlayedReach> reaches;
-  for (const std::string& file : reachFiles(path)) reaches.push_back(layOnto(readReach(file), {-0.1, 0, 0}, {0.1, 0, 0}));
+  for (const RecordedReach& reach : readReaches(reachSourceOf(path))) reaches.push_back(layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0}));
   std::vector<VelocityRow> rows;
   for (const double resolution : settings.resolutions)
     for (const std::string& kind : experiment::velocityEstimatorNames()) {

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/c3d_file.h"
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/json_tree.h"
+#include "devices/replay/recorded_reach.h"
+
+namespace reachlab::devices {
+namespace {
+
+std::size_t pointAsked(const C3dFile& c3d, const std::string& file, const std::string& point) {
+  if (point.empty() && c3d.points.size() == 1) return 0;
+  std::vector<std::string> names;
+  for (const C3dLabel& label : c3d.points) names.push_back(label.name);
+  const auto at = std::find(names.begin(), names.end(), point);
+  if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
+  throw FaultError(Fault{.what = fmt::format("{}: {}; allowed: point= with one of {}", file,
+                               point.empty() ? fmt::format("has {} points, and none is named", names.size()) : "has no point " + point,
+                               fmt::join(names, ", "))});
+}
+
+}  // namespace
+
+RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
+  const C3dFile c3d = readC3d(readTextFile(file), file);
+  const std::size_t point = pointAsked(c3d, file, columns.point);
+  const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, file);
+  SeenSamples samples(file);
+  for (std::size_t frame = 0; frame < c3d.frames; ++frame) {
+    const std::size_t at = frame * c3d.points.size() + point;
+    if (c3d.seen[at] == 0) {
+      samples.miss();
+      continue;
+    }
+    const auto metres = [&](std::size_t axis) { return unit * static_cast<double>(c3d.places[3 * at + axis]); };
+    samples.add(static_cast<double>(frame) / c3d.rate, {metres(0), metres(1), metres(2)});
+  }
+  return samples.take();
+}
+
+}  // namespace reachlab::devices

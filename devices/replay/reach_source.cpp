@@ -1,0 +1,73 @@
+#include "devices/replay/reach_source.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/fault.h"
+#include "devices/options.h"
+
+namespace reachlab::devices {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isThere(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+bool isBids(const fs::path& file) { return file.filename().string().ends_with("_motion.tsv"); }
+bool isC3d(const fs::path& file) { return file.extension() == ".c3d" || file.extension() == ".C3D"; }
+
+// Where the path ends: the longest that is there, else the first comma.
+std::size_t endOfPath(const std::string& argument) {
+  for (std::size_t end = argument.size(); end != std::string::npos && end > 0; end = argument.rfind(',', end - 1))
+    if (isThere(argument.substr(0, end))) return end;
+  return std::min(argument.find(','), argument.size());
+}
+
+}  // namespace
+
+ReachSource reachSourceOf(const std::string& argument) {
+  const std::size_t end = endOfPath(argument);
+  ReachSource source{argument.substr(0, end), {}};
+  DeviceOptions options(argument.substr(end), "device replay");
+  ReachColumns& c = source.columns;
+  for (const auto& [key, value] : {std::pair{"time", &c.time}, {"x", &c.x}, {"y", &c.y}, {"z", &c.z}, {"point", &c.point},
+                                   {"trial_type", &c.trialType}})
+    *value = options.take(key).value_or("");
+  c.unit = options.word("unit", {"", "m", "cm", "mm"});
+  c.timeUnit = options.word("time_unit", {"", "s", "ms"});
+  constexpr double kNoRate = -1;
+  if (const double rate = options.number("rate", kNoRate, 1, 1e6); rate != kNoRate) c.rate = rate;
+  options.done();
+  return source;
+}
+
+std::vector<std::string> reachFiles(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(path, error))
+      if (entry.path().extension() == ".csv" || isBids(entry.path()) || isC3d(entry.path())) files.push_back(entry.path().string());
+    if (files.empty()) throw ResourceError(path + ": no CSV, BIDS motion or C3D files to replay in this folder");
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+  if (!fs::exists(path, error)) throw ResourceError(path + ": no such file or folder to replay");
+  return {path};
+}
+
+std::vector<RecordedReach> readReaches(const ReachSource& source) {
+  std::vector<RecordedReach> reaches;
+  for (const std::string& file : reachFiles(source.path)) {
+    if (isBids(file)) {
+      for (RecordedReach& reach : readBidsReaches(file, source.columns)) reaches.push_back(std::move(reach));
+    } else {
+      reaches.push_back(isC3d(file) ? readC3dReach(file, source.columns) : readReach(file, source.columns));
+    }
+  }
+  return reaches;
+}
+
+}  // namespace reachlab::devices

@@ -1,0 +1,192 @@
+#include "devices/replay/reach_source.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/c3d_file.h"
+#include "base/error.h"
+#include "devices/replay/replayed_reach.h"
+
+namespace reachlab::devices {
+namespace {
+
+class OthersFiles : public ::testing::Test {
+ protected:
+  OthersFiles() : folder(std::filesystem::temp_directory_path() / ("reach-source-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder);
+  }
+  ~OthersFiles() override { std::filesystem::remove_all(folder); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return (folder / name).string();
+  }
+  std::string at(const std::string& name) const { return (folder / name).string(); }
+  std::filesystem::path folder;
+};
+
+std::vector<RecordedReach> read(const std::string& argument) { return readReaches(reachSourceOf(argument)); }
+
+std::string refusalOf(const std::string& argument) {
+  try {
+    (void)read(argument);
+    return "read";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+// Two rows at 0 and 0.5 s, from (1, 2, 3) m to (4, 5, 6) m, as others write them.
+void expectTwoRows(const RecordedReach& reach) {
+  ASSERT_EQ(reach.time.size(), 2u) << reach.file;
+  EXPECT_EQ(reach.time[1] - reach.time[0], 0.5) << reach.file;
+  EXPECT_NEAR(norm(reach.position[0] - Vec3{1, 2, 3}), 0, 1e-15) << reach.file << ": a product with 0.001 is rounded";
+  EXPECT_NEAR(norm(reach.position[1] - Vec3{4, 5, 6}), 0, 1e-15) << reach.file;
+}
+
+TEST_F(OthersFiles, ColumnsSayTheirUnit) {
+  expectTwoRows(read(write("si.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n")).front());
+  expectTwoRows(read(write("mm.csv", "time_ms,x_mm,y_mm,z_mm\n0,1000,2000,3000\n500,4000,5000,6000\n")).front());
+  expectTwoRows(read(write("cm.csv", "z_cm;frame;y_cm;x_cm;time_s\n300;1;200;100;7\n600;2;500;400;7.5\n")).front());
+}
+
+TEST_F(OthersFiles, ColumnsAreNamed) {
+  const std::string file = write("optotrak.csv", "Time (ms)\tHandX\tHandY\tHandZ\n0\t1000\t2000\t3000\n500\t4000\t5000\t6000\n");
+  expectTwoRows(read(file + ",time=Time (ms),time_unit=ms,x=HandX,y=HandY,z=HandZ,unit=mm").front());
+  const std::string untimed = write("rate.csv", "X,Y,Z\n1,2,3\n4,5,6\n");
+  expectTwoRows(read(untimed + ",rate=2,x=X,y=Y,z=Z,unit=m").front());
+  const RecordedReach plane = read(untimed + ",rate=2,x=X,y=Y,unit=m").front();
+  EXPECT_EQ(plane.position[1].z, 0) << "the hand moved in a plane";
+}
+
+TEST_F(OthersFiles, APathMayHoldCommas) { expectTwoRows(read(write("a,b.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n")).front()); }
+
+TEST_F(OthersFiles, WhatIsWrongWithATableIsSaid) {
+  const std::string file = write("t.csv", "T,X,Y,Z\n0,1,2,3\n0.5,4,5,6\n");
+  EXPECT_NE(refusalOf(file).find("t.csv:1: time_s: column is missing"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",time=T,x=X,y=Y,z=Z").find("t.csv:1: T: the unit of time is not told; allowed: s, ms"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",time=T,time_unit=s,x=X,y=Y,z=Z").find("X: the unit of length is not told; allowed: m, cm, mm"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",time=T,time_unit=s,x=A,y=Y,z=Z,unit=m").find("A: column is missing; allowed: T, X, Y, Z"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",unit=inch").find("unit=inch"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",colour=red").find("colour is not known"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",rate=0").find("rate=0"), std::string::npos);
+  EXPECT_NE(refusalOf(write("inch.csv", "time_s,x_in,y_in,z_in\n0,1,2,3\n")).find("x_m: column is missing"), std::string::npos);
+  EXPECT_NE(refusalOf(write("comma.csv", "time_s;x_m;y_m;z_m\n0;1,5;2;3\n")).find("comma.csv:2: x_m: '1,5' is not a number"), std::string::npos);
+}
+
+struct Bids {
+  std::string channels =
+      "name\tcomponent\ttype\ttracked_point\tunits\n"
+      "hx\tx\tPOS\thand\tmm\nhy\ty\tPOS\thand\tmm\nhz\tz\tPOS\thand\tmm\n"
+      "ex\tx\tPOS\telbow\tm\ney\ty\tPOS\telbow\tm\nez\tz\tPOS\telbow\tm\n";
+  std::string motion = "1000\t2000\t3000\t1\t2\t3\n4000\t5000\t6000\t4\t5\t6\n";
+  std::string json = R"({"SamplingFrequency": 2})";
+  std::string events;
+};
+
+std::string writeBids(const OthersFiles&, const std::filesystem::path& folder, const Bids& bids) {
+  const auto put = [&](const std::string& name, const std::string& text) {
+    std::filesystem::remove(folder / name);
+    if (!text.empty()) std::ofstream(folder / name) << text;
+  };
+  const std::string base = "sub-A_task-reach_tracksys-omc_run-1";
+  put(base + "_motion.tsv", bids.motion);
+  put(base + "_motion.json", bids.json);
+  put(base + "_channels.tsv", bids.channels);
+  put("sub-A_task-reach_run-1_events.tsv", bids.events);
+  return (folder / (base + "_motion.tsv")).string();
+}
+
+TEST_F(OthersFiles, ABidsPointIsReadWithItsUnits) {
+  expectTwoRows(read(writeBids(*this, folder, {}) + ",point=hand").front());
+  expectTwoRows(read(writeBids(*this, folder, {}) + ",point=elbow").front());
+}
+
+TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
+  Bids bids;
+  bids.json = R"({"SamplingFrequency": 20})";
+  bids.motion.clear();
+  for (int i = 0; i < 100; ++i) bids.motion += (i == 31 ? "n/a" : std::to_string(10 * i)) + "\t0\t0\t0\t0\t0\n";
+  bids.events = "onset\tduration\ttrial_type\n0.5\t1\treach\n1.6\t0\tbeep\n2\t0.5\tcatch\n3\t1.5\treach\n4\tn/a\treach\n";
+  const std::string file = writeBids(*this, folder, bids);
+  EXPECT_EQ(read(file + ",point=hand").size(), 3u);
+  const std::vector<RecordedReach> reaches = read(file + ",point=hand,trial_type=reach");
+  ASSERT_EQ(reaches.size(), 2u);
+  EXPECT_NEAR(reaches[0].time.front(), 0.5, 1e-12);
+  EXPECT_NEAR(reaches[1].time.back(), 4.5, 1e-12);
+  EXPECT_NEAR(reaches[1].position.front().x, 0.6, 1e-12) << "row 60, in mm";
+  EXPECT_NE(refusalOf(file + ",point=hand,trial_type=point").find("no event of trial_type point that lasts"), std::string::npos);
+}
+
+TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
+  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") { return refusalOf(writeBids(*this, folder, bids) + options); };
+  EXPECT_EQ(refusal({}), "read");
+  EXPECT_NE(refusal({}, "").find("has 2 tracked points, and none is named; allowed: point= with one of hand, elbow"), std::string::npos);
+  EXPECT_NE(refusal({}, ",point=foot").find("has no x, y and z of type POS for the point foot"), std::string::npos);
+  Bids bids;
+  bids.channels.clear();
+  EXPECT_NE(refusal(bids).find("_channels.tsv: is missing"), std::string::npos);
+  bids = {};
+  bids.json.clear();
+  EXPECT_NE(refusal(bids).find("_motion.json: is missing, and there is no LATENCY channel"), std::string::npos);
+  bids.json = "{";
+  EXPECT_NE(refusal(bids).find("SamplingFrequency: is missing or no number"), std::string::npos);
+  bids = {};
+  bids.motion = "hx\thy\thz\tex\tey\tez\n" + bids.motion;
+  EXPECT_NE(refusal(bids).find("_motion.tsv:1: column 1: 'hx' is not a number; allowed: a number or n/a (motion.tsv has no header)"), std::string::npos);
+  bids.motion = "1\t2\t3\n";
+  EXPECT_NE(refusal(bids).find("_motion.tsv:1: has 3 cells; allowed: 6, as its channels"), std::string::npos);
+  bids = {};
+  bids.channels.replace(bids.channels.find("\tmm"), 3, "\tinch");
+  EXPECT_NE(refusal(bids).find("_channels.tsv:2: the unit of length is 'inch'; allowed: m, cm, mm"), std::string::npos);
+  bids = {};
+  bids.motion = "n/a\tn/a\tn/a\t0\t0\t0\n" + std::string("n/a\t0\t0\t0\t0\t0\n");
+  EXPECT_NE(refusal(bids).find("the point is never seen"), std::string::npos);
+}
+
+TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
+  C3dFile c3d;
+  c3d.rate = 100;
+  c3d.pointUnit = "mm";
+  c3d.points = {{"WRIST"}, {"INDEX"}};
+  c3d.frames = 60;
+  for (std::size_t i = 0; i < 120; ++i)
+    for (const float value : {static_cast<float>(i), 2.0f, 3.0f}) c3d.places.push_back(value);
+  c3d.seen.assign(120, 1);
+  c3d.seen[1] = c3d.seen[2 * 20 + 1] = 0;  // the first frame, and one inside
+  const std::string file = write("reach.c3d", c3dBytes(c3d));
+  const RecordedReach reach = read(file + ",point=INDEX").front();
+  ASSERT_EQ(reach.time.size(), 58u);
+  EXPECT_EQ(reach.time.front(), 0.01);
+  EXPECT_NEAR(reach.position.front().x, 0.003, 1e-9) << "single precision";
+  EXPECT_NE(refusalOf(file).find("has 2 points, and none is named; allowed: point= with one of WRIST, INDEX"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",point=NOSE").find("has no point NOSE; allowed: point= with one of WRIST, INDEX"), std::string::npos);
+  for (std::size_t frame = 20; frame < 40; ++frame) c3d.seen[2 * frame + 1] = 0;
+  EXPECT_NE(refusalOf(write("gap.c3d", c3dBytes(c3d)) + ",point=INDEX").find("not seen for 0.210 s from 0.190 s; allowed: gaps of up to 0.1 s"),
+            std::string::npos);
+  c3d.pointUnit = "furlong";
+  EXPECT_NE(refusalOf(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST").find("the unit of length is 'furlong'"), std::string::npos);
+  EXPECT_EQ(refusalOf(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST,unit=mm"), "read");
+  EXPECT_NE(refusalOf(write("no.c3d", "hello")).find("is no C3D file"), std::string::npos);
+}
+
+TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
+  write("a.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n");
+  C3dFile c3d;
+  c3d.pointUnit = "m";
+  c3d.points = {{"hand"}};
+  c3d.frames = 2;
+  c3d.places = {1, 2, 3, 4, 5, 6};
+  c3d.seen = {1, 1};
+  c3d.rate = 2;  // half a second apart is no gap at this rate
+  write("b.c3d", c3dBytes(c3d));
+  write("c.txt", "no reach");
+  const std::vector<RecordedReach> reaches = read(folder.string());
+  ASSERT_EQ(reaches.size(), 2u);
+  EXPECT_TRUE(reaches[1].file.ends_with("b.c3d"));
+}
+
+}  // namespace
+}  // namespace reachlab::devices
