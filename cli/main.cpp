@@ -7,6 +7,7 @@
 #include "cli/standard_streams.h"
 #include "base/ending.h"
 #include "base/os.h"
+#include "base/processor_level.h"
 #include "base/stop_signals.h"
 
 namespace {
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reachlab::requireProcessorLevel();
   reachlab::endOnUncaught();
   reachlab::os::holdStandardDescriptors();
   reachlab::cli::guardStandardStreams();

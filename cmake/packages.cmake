@@ -87,12 +87,15 @@ set(CPACK_DEBIAN_CLI_PACKAGE_NAME reachlab-cli)
 set(CPACK_DEBIAN_CLI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_CLI_PACKAGE_DEPENDS "adduser, fonts-dejavu-core")
 set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "reachlab-doc")
-set(CPACK_DEBIAN_CLI_PACKAGE_CONTROL_EXTRA "${packaging}/debian/postinst;${packaging}/debian/postrm;${packaging}/debian/conffiles")
+set(CPACK_DEBIAN_CLI_PACKAGE_CONTROL_EXTRA "${packaging}/debian/preinst;${packaging}/debian/postinst;${packaging}/debian/postrm;${packaging}/debian/conffiles")
 set(CPACK_DEBIAN_CLI_DESCRIPTION "laboratory for reaching movements: command line
  Records, judges, predicts and analyses how people move masses and springs that
  are bound to curves and surfaces, from rest to rest. The program reach does
  every job of the window of package reachlab: sessions with a force device or a
- simulated subject, datasets in Motion-BIDS and CSV, tables, figures.")
+ simulated subject, datasets in Motion-BIDS and CSV, tables, figures.
+ .
+ For processors of level x86-64-v3 (AVX2 and FMA, most since 2013); an older one
+ is refused in words.")
 set(CPACK_DEBIAN_GUI_PACKAGE_NAME reachlab)
 set(CPACK_DEBIAN_GUI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), libqt5svg5, libgl1-mesa-dri")

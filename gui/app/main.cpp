@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/os.h"
+#include "base/processor_level.h"
 #include "base/stop_signals.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
@@ -105,6 +106,7 @@ int main(int argc, char** argv) {
   reachlab::endOnSignals();
   CLI::App app{"reachlab: the window of Reachlab", "reachlab"};
   try {
+  reachlab::requireProcessorLevel();
     return run(parse(app, argc, argv), argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);

@@ -11,6 +11,7 @@
 
 #include "base/fault.h"
 #include "base/os.h"
+#include "base/processor_level.h"
 #include "base/utc.h"
 #include "sim/record/append_file.h"
 #include "sim/record/exporters.h"
@@ -103,7 +104,7 @@ void RecordedRun::completeConfiguration() {
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   c.softwareVersion = "reachlab " REACHLAB_VERSION;
-  c.buildDescription = "g++ " __VERSION__;
+  c.buildDescription = std::string("g++ " __VERSION__ ", for ") + processorLevel();
   c.computer = computerName();
   c.startedUtc = utcText(std::chrono::system_clock::now());
   c.clock = options_.virtualClock ? "virtual" : "monotonic";
