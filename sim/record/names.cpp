@@ -18,6 +18,7 @@ std::string_view nameOf(EventKind kind) {
     case EventKind::Note: return "note";
     case EventKind::DeviceState: return "device_state";
     case EventKind::Intervention: return "intervention";
+    case EventKind::Instrument: return "instrument";
   }
   return "unknown";
 }

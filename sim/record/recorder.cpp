@@ -152,6 +152,15 @@ void Recorder::note(const std::string& text) {
   impl_->throwIfFaulty();
 }
 
+void Recorder::add(const std::vector<RecordedEvent>& events) {
+  if (events.empty()) return;
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->throwIfFaulty();
+  impl_->drain();
+  impl_->guarded([&] { impl_->writer.add(events); });
+  impl_->throwIfFaulty();
+}
+
 void Recorder::close() {
   if (impl_->thread.joinable()) {
     impl_->thread.request_stop();

@@ -156,7 +156,7 @@ RecordedEvent decodeEvent(std::span<const std::uint8_t> payload) {
   ByteReader in(payload);
   RecordedEvent event;
   event.tick = in.get<std::uint64_t>();
-  event.kind = getEnum(in, EventKind::Intervention, "event");
+  event.kind = getEnum(in, EventKind::Instrument, "event");
   event.trial = in.get<std::int32_t>();
   event.value = in.get<double>();
   event.text = in.getText();

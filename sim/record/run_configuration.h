@@ -50,6 +50,7 @@ struct RunConfiguration {
   haptics::GuardSettings guards;                                  // wall, compensation, passivity control
   std::string deviceMapping;                                      // DeviceInfo::mapping
   experiment::StartRest rest = experiment::kNoStartRest;  // that a trial asked for before it was armed; logs before 2026-11-22 had none
+  std::string instruments;                                // InstrumentLink::names; empty: none
   std::string method, methodReason;                       // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds

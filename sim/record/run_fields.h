@@ -101,6 +101,7 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"device_renders_force", 0, 0, kMayMiss}, c.rendersForce);
   visit(Field{"device_continuous_force_n", 0, kMaxNewtons, kMayMiss}, c.deviceContinuousForce);
   visit(Field{"device_thermal_s", 1e-3, 1e6, kMayMiss}, c.deviceThermalSeconds);
+  visit(Field{"instruments", 0, 0, kMayMiss}, c.instruments);
   visit(Field{"method"}, c.method);
   visit(Field{"method_reason"}, c.methodReason);
   visit(Field{"software_version"}, c.softwareVersion);

@@ -115,6 +115,11 @@ void RunWriter::note(const std::string& text) {
   flush();
 }
 
+void RunWriter::add(const std::vector<RecordedEvent>& events) {
+  events_.insert(events_.end(), events.begin(), events.end());
+  flush();
+}
+
 void RunWriter::close() {
   flush();
   if (tracker_.underWay()) writeTrial(tracker_.brokenOff());

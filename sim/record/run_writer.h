@@ -21,6 +21,7 @@ class RunWriter {
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
   bool add(const QueuedTick& tick, const double* row);
   void note(const std::string& text);
+  void add(const std::vector<RecordedEvent>& events);
   /// Hands what has gathered to the kernel; done by `add` when 1000 ticks or, by the clock, 100 ms have gathered.
   void flush();
   void flushIfDue();

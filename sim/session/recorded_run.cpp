@@ -48,24 +48,25 @@ void inDataset(Work&& work) {
   }
 }
 
-/// Ticks go to the recorder, which may count one as lost, and to who watches.
+/// Ticks go to the recorder, which may count one as lost, and to who sees them as well.
 class WatchedSink final : public haptics::RunSink {
  public:
-  WatchedSink(haptics::RunSink& recorder, haptics::RunSink& watcher) : recorder_(recorder), watcher_(watcher) {}
+  WatchedSink(haptics::RunSink& recorder, std::vector<haptics::RunSink*> watchers) : recorder_(recorder), watchers_(std::move(watchers)) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override {
-    watcher_.onTick(state, command, missedTicks);
+    for (haptics::RunSink* watcher : watchers_) watcher->onTick(state, command, missedTicks);
     return recorder_.onTick(state, command, missedTicks);
   }
   std::uint32_t massesEvery() const noexcept override { return std::gcd(recorder_.massesEvery(), watcher_.massesEvery()); }
   void announce(std::int32_t trial, const trial::PlannedTrial& planned) override {
     recorder_.announce(trial, planned);
-    watcher_.announce(trial, planned);
+    for (haptics::RunSink* watcher : watchers_) watcher->announce(trial, planned);
   }
   void awaitTrial(std::int32_t trial) override { recorder_.awaitTrial(trial); }
   void close() override { recorder_.close(); }
 
  private:
-  haptics::RunSink &recorder_, &watcher_;
+  haptics::RunSink& recorder_;
+  std::vector<haptics::RunSink*> watchers_;
 };
 
 }  // namespace
@@ -74,6 +75,8 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
     : block_(std::move(block)), options_(options), trialCount_(block_.trials.size()) {
   if (options.virtualClock && !device->info().virtualHand)
     throw FaultError(Fault{"fast", fmt::format("device {} moves in real time", block_.configuration.device), "simulated, replay"});
+  if (options.virtualClock && options.instruments != nullptr)
+    throw FaultError(Fault{"fast", "there are instruments, which are on the real clock", "either of them"});
   conductor_ = std::make_unique<haptics::RunConductor>(block_.experiment, std::move(device), block_.trials,
                                                        haptics::LoopOptions{.virtualClock = options.virtualClock, .clock = options.clock});
   choice_ = conductor_->engine().choice();
@@ -101,6 +104,7 @@ void RecordedRun::completeConfiguration() {
   c.guards = device.guards;
   c.deviceMapping = device.mapping;
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
+  if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   c.softwareVersion = "reachlab " REACHLAB_VERSION;
@@ -130,7 +134,13 @@ void RecordedRun::repeatIfAborted(const haptics::ConductedTrial& trial) {
 
 void RecordedRun::start() {
   if (std::exchange(started_, true)) return;
-  if (options_.watcher != nullptr) sink_ = std::make_unique<WatchedSink>(*recorder_, *options_.watcher);
+  std::vector<haptics::RunSink*> watchers;
+  if (options_.watcher != nullptr) watchers.push_back(options_.watcher);
+  if (options_.instruments != nullptr) {
+    options_.instruments->begin(block_.configuration);
+    watchers.push_back(options_.instruments);
+  }
+  if (!watchers.empty()) sink_ = std::make_unique<WatchedSink>(*recorder_, std::move(watchers));
   conductor_->start(sink_ ? sink_.get() : recorder_.get());
   checkUntilNs_ = os::now() + std::llround((options_.timingCheckSeconds + kCheckPatience) * 1e9);
 }
@@ -167,14 +177,27 @@ std::optional<haptics::ConductedTrial> RecordedRun::poll() {
     (void)conductor_->putUpNext();
   }
   const std::optional<haptics::ConductedTrial> trial = conductor_->poll();
-  if (trial) repeatIfAborted(*trial);
+  if (trial) {
+    repeatIfAborted(*trial);
+    keepInstrumentEvents();
+  }
   return trial;
+}
+
+// Of a trial that has ended, and of the time before it.
+void RecordedRun::keepInstrumentEvents() {
+  if (options_.instruments == nullptr || !started_) return;
+  options_.instruments->awaitTrial(0);
+  recorder_->add(options_.instruments->takeEvents());
 }
 
 std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop) {
   checkTiming(stop);
   const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop);
-  if (trial) repeatIfAborted(*trial);
+  if (trial) {
+    repeatIfAborted(*trial);
+    keepInstrumentEvents();
+  }
   return trial;
 }
 
@@ -208,6 +231,10 @@ void RecordedRun::closeLog() {
   if (started_ && !options_.virtualClock) {
     timing_ = describe(report());
     note(timing_);
+  }
+  if (started_ && options_.instruments != nullptr) {
+    options_.instruments->close();
+    recorder_->add(options_.instruments->takeEvents());
   }
   conductor_->finish();
   recorder_->close();

@@ -7,6 +7,7 @@
 #include "base/fault.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/haptics/timing_check.h"
+#include "sim/record/instrument_link.h"
 #include "sim/record/recorder.h"
 #include "sim/session/session.h"
 
@@ -25,6 +26,7 @@ struct RecordedRunOptions {
   double timingCheckSeconds = 0;              // in real time: how long the loop is watched before the first trial; 0: not at all
   std::shared_ptr<haptics::LoopClock> clock;  // LoopOptions::clock
   haptics::RunSink* watcher = nullptr;        // sees every tick as well (a plot), may lose them, outlives the run
+  record::InstrumentLink* instruments = nullptr;  // beside the haptic device; outlive the run
 };
 
 /// One run, recorded: an experiment on a device, trial after trial, into a log of its own, and into the dataset at the end. The one place
@@ -95,6 +97,7 @@ class RecordedRun {
   void completeConfiguration();
   void openLog();
   void start();
+  void keepInstrumentEvents();
   bool checksTiming();
   void repeatIfAborted(const haptics::ConductedTrial& trial);
 
@@ -108,7 +111,7 @@ class RecordedRun {
   std::optional<haptics::TimingVerdict> timingVerdict_;
   std::string timing_;
   std::unique_ptr<record::Recorder> recorder_;
-  std::unique_ptr<haptics::RunSink> sink_;            // recorder and watcher
+  std::unique_ptr<haptics::RunSink> sink_;            // recorder and who sees the ticks as well
   std::unique_ptr<haptics::RunConductor> conductor_;  // last: its loop ends before what it writes to
 };
 

@@ -29,8 +29,8 @@ bool conduct(RecordedRun& run, bool virtualClock, const std::atomic<bool>& stop,
 }  // namespace
 
 RecordedSession::RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice,
-                                 haptics::RunSink* watcher)
-    : request_(request), makeDevice_(std::move(makeDevice)), watcher_(watcher) {
+                                 haptics::RunSink* watcher, record::InstrumentLink* instruments)
+    : request_(request), makeDevice_(std::move(makeDevice)), watcher_(watcher), instruments_(instruments) {
   SessionToRun session = planSession(request, programme);
   notice_ = session.notice;
   seed_ = session.seed;
@@ -48,6 +48,7 @@ bool RecordedSession::openNext() {
   options.diskReserve = request_.diskReserve;
   options.timingCheckSeconds = request_.timingCheckSeconds;
   options.watcher = watcher_;
+  options.instruments = instruments_;
   run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.experiment, block.configuration.seed), options);
   blocks_.pop_front();
   return true;

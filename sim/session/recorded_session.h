@@ -15,8 +15,9 @@ using DeviceMaker = std::function<std::unique_ptr<haptics::HapticDevice>(
 /// window opens run after run. The controlling thread owns it.
 class RecordedSession {
  public:
-  /// Plans the session; opens nothing. `watcher` (may be null) sees every tick of every run and outlives the session. Throws FaultError.
-  RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice, haptics::RunSink* watcher = nullptr);
+  /// Plans the session; opens nothing. `watcher` (may be null) sees every tick of every run and outlives the session; so do `instruments`. Throws FaultError.
+  RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice, haptics::RunSink* watcher = nullptr,
+                  record::InstrumentLink* instruments = nullptr);
 
   /// What is worth a word before it begins.
   const SessionNotice& notice() const { return notice_; }
@@ -36,6 +37,7 @@ class RecordedSession {
   SessionRequest request_;
   DeviceMaker makeDevice_;
   haptics::RunSink* watcher_;
+  record::InstrumentLink* instruments_;
   SessionNotice notice_;
   std::uint64_t seed_ = 0;
   std::deque<BlockToRun> blocks_;  // to be opened yet

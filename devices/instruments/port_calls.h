@@ -1,0 +1,17 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace reachlab::devices {
+
+/// The calls of the operating system that ports are driven by, errno and all: the lowest place at which a test can stand in for a port.
+struct PortCalls {
+  int (*open)(const char* path, int flags);
+  int (*close)(int file);
+  int (*control)(int file, unsigned long request, void* argument);
+  long (*write)(int file, const void* bytes, std::size_t count);
+  long (*read)(int file, void* bytes, std::size_t count);
+};
+const PortCalls& systemPortCalls();
+
+}  // namespace reachlab::devices
