@@ -35,8 +35,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
   for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
-                    addShowCommand, addReplayCommand, addExportCommand, addRecoverCommand, addConstraintCommand, addBenchCommand,
-                    addStabilityCommand, addVelocityCommand})
+                    addShowCommand, addReplayCommand, addExportCommand, addBackupCommand, addRecoverCommand, addConstraintCommand,
+                    addBenchCommand, addStabilityCommand, addVelocityCommand})
     add(app, exitCode);
   for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   return exitCodeOf(app, [&] {

@@ -40,12 +40,16 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("experiment", r->what, "Experiment or session plan: a file, or the name of a shipped one")->required();
   command->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
       ->required();
+  command->add_option("--instrument", r->instruments,
+                      "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
+      ->expected(1)->take_all();
   command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
   command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", r->place.session, "Session's label, letters and digits [01]; a number is the plan's day");
   command->add_option("--data", r->place.data, "Folder of the dataset [./data]");
+  command->add_option("--backup", r->backup, "Second data folder: every finished run is copied there and verified");
   command->add_option("--seed", r->seed, "Seed of noise and order; default: one is drawn, printed and stored")->check(wholeSeed());
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
   command->add_flag("--resume", r->resume, "Goes on with the trial at which this session broke off, in the same order");

@@ -7,7 +7,9 @@
 #include "cli/preflight_output.h"
 #include "base/stop_signals.h"
 #include "cli/success_table.h"
+#include "devices/instruments/instruments.h"
 #include "devices/make_device.h"
+#include "sim/session/backup_worker.h"
 #include "sim/session/recorded_session.h"
 #include "sim/trial/task_places.h"
 
@@ -39,7 +41,8 @@ std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec
 }  // namespace
 
 int runSession(const session::SessionRequest& request) {
-  session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice);
+  const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
+  session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice, nullptr, instruments.get());
   printNotice(session.notice());
   if (session.notice().seedDrawn) fmt::print("seed={}\n", session.seed());
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
@@ -57,19 +60,35 @@ int runSession(const session::SessionRequest& request) {
     stop.emplace();  // from here on a signal ends the trial, not the program
   };
   words.checked = [](const session::RecordedRun& run) { fmt::print(stderr, "{}\n", run.timingVerdict()->sentence); };
+  const auto warn = [&] {
+    if (instruments == nullptr) return;
+    for (const std::string& sentence : instruments->takeWarnings()) fmt::print(stderr, "warning: {}\n", sentence);
+  };
   words.ended = [&](const session::RecordedRun& run, const haptics::ConductedTrial& trial) {
+    warn();
     fmt::print("{}\n", trialLine(run.numberOf(trial), trial.result));
     std::fflush(stdout);
     table.add(run.configuration().condition + (trial.planned.catchTrial ? " (catch)" : ""), trial.result);
   };
   words.logClosed = [&](const session::RecordedRun& run) {
+    warn();
     if (!run.timing().empty()) fmt::print(stderr, "{}\n", run.timing());
     stop->allInOrder();
   };
-  words.closed = [&](const session::RecordedRun&) { stop.reset(); };
+  std::optional<session::BackupWorker> backup;
+  if (!request.backup.empty()) backup.emplace(request.place.data, request.backup);
+  words.closed = [&](const session::RecordedRun&) {
+    stop.reset();
+    if (backup) backup->request();
+  };
   const bool done = session::conduct(session, StopRequest::asked(), words);
   fmt::print("{}", table.text());
   std::fflush(stdout);
+  if (backup) {
+    const session::BackupState state = backup->finish();
+    if (state.kind == session::BackupState::Kind::Failed) throw ResourceError(state.sentence);
+    fmt::print(stderr, "{}\n", state.sentence);
+  }
   return done ? 0 : StopRequest::exitCode();
 }
 

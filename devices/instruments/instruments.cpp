@@ -57,6 +57,8 @@ class Link final : public record::InstrumentLink {
     return true;
   }
 
+  std::uint32_t massesEvery() const noexcept override { return 0; }
+
   void announce(std::int32_t trial, const trial::PlannedTrial& planned) override {
     const std::scoped_lock lock(mutex_);
     setups_.push_back({trial + firstTrial_ - 1, planned});
@@ -98,18 +100,22 @@ class Link final : public record::InstrumentLink {
     os::requestExactSleep();
     eachPresent([&](Instrument& instrument, std::vector<InstrumentNote>& notes) { instrument.begin(configuration, notes); });
     while (!stop.stop_requested()) {
-      takeSetups();
-      const double* row = nullptr;
-      while (const record::QueuedTick* tick = ring_->front(row)) {
-        handle(*tick);
-        ring_->pop(false);
-        taken_.fetch_add(1);
-      }
+      drain();
       const std::int64_t now = os::now();
       eachPresent([&](Instrument& instrument, std::vector<InstrumentNote>& notes) { instrument.look(now, notes); });
       os::sleepUntil(now + kLookEvery);
     }
+    drain();
     eachPresent([](Instrument& instrument, std::vector<InstrumentNote>& notes) { instrument.end(notes); });
+  }
+
+  void drain() {
+    const double* row = nullptr;
+    while (const record::QueuedTick* tick = ring_->front(row)) {
+      handle(*tick);
+      ring_->pop(false);
+      taken_.fetch_add(1);
+    }
   }
 
   void takeSetups() {

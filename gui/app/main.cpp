@@ -35,6 +35,11 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
   app.add_option("experiment", r.what, "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]; or what was recorded: a dataset, a session, a log");
   app.add_option("--device", r.device, "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER [mouse]");
+  app.add_option("--instrument", r.instruments,
+                 "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--backup", r.backup, "Second data folder: every finished run is copied there and verified");
   app.add_option("--trials", r.trials, "Trials of an experiment [20]; a plan has its own")->check(CLI::Range(1, 1000000));
   app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
   app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [01]");
@@ -101,12 +106,12 @@ int sayFault(const char* sentence, int status, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reachlab::requireProcessorLevel();
   reachlab::endOnUncaught();
   reachlab::os::holdStandardDescriptors();
   reachlab::endOnSignals();
   CLI::App app{"reachlab: the window of Reachlab", "reachlab"};
   try {
-  reachlab::requireProcessorLevel();
     return run(parse(app, argc, argv), argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);

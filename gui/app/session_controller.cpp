@@ -7,6 +7,7 @@
 
 #include "base/ending.h"
 #include "base/fault.h"
+#include "devices/instruments/instruments.h"
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
 #include "devices/preflight/preflight.h"
@@ -91,9 +92,10 @@ void SessionController::openRun(const session::SessionRequest& request) {
     session::SessionRequest asked = request;
     asked.resume = resume_;
     if (numberUsed_) asked.run.reset();
+    if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
     auto planned = std::make_unique<session::RecordedSession>(
         programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
-        &trace_);
+        &trace_, instruments_.get());
     if (planned->blocksLeft() == 0)
       throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
     recorded_ = std::move(planned);
@@ -179,7 +181,16 @@ void SessionController::endRun() {
     Q_EMIT failed(QString::fromUtf8(e.what()));
   }
   try {
+    const std::string dataset = asked_.place.data;
     recorded_->closeRun();
+    tellInstruments();
+    if (!asked_.backup.empty()) {
+      if (!backup_ || backupOf_ != dataset) {
+        backup_.reset();
+        backup_.emplace(backupOf_ = dataset, asked_.backup);
+      }
+      backup_->request();
+    }
   } catch (const std::exception& e) {
     Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
   }
@@ -194,11 +205,13 @@ void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
 
 void SessionController::poll() {
   if (StopRequest::asked()) return stopInOrder();
+  tellBackup();
   if (run() == nullptr) return;
   try {
     const auto ended = run()->poll();
     tellTiming();
     if (!ended) return;
+    tellInstruments();
     last_ = *ended;
     if (const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr; next != nullptr && run()->trialsLeft() == 0 && !recorded_->isFast())
       restUntil_ = std::chrono::steady_clock::now() +
@@ -219,6 +232,21 @@ void SessionController::tellTiming() {
   const auto& verdict = run()->timingVerdict();
   if (!verdict || std::exchange(timingTold_, true) || (verdict->good && verdict->realTime)) return;
   Q_EMIT told(QString::fromStdString(verdict->sentence));
+}
+
+void SessionController::tellInstruments() {
+  if (!instruments_) return;
+  for (const std::string& sentence : instruments_->takeWarnings()) Q_EMIT failed(QString::fromStdString(sentence));
+}
+
+// Each state once.
+void SessionController::tellBackup() {
+  if (!backup_) return;
+  const session::BackupState state = backup_->state();
+  if (std::exchange(backupTold_, state.kind) == state.kind || state.kind == session::BackupState::Kind::Idle) return;
+  const QString sentence = QString::fromStdString(state.sentence);
+  if (state.kind == session::BackupState::Kind::Failed) Q_EMIT failed(sentence);
+  else Q_EMIT told(sentence);
 }
 
 void SessionController::stopInOrder() {

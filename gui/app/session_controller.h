@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "base/stop_signals.h"
 #include "gui/plot/trial_trace.h"
+#include "sim/session/backup_worker.h"
 #include "sim/session/recorded_session.h"
 
 namespace reachlab::devices {
@@ -91,6 +92,8 @@ class SessionController : public QObject {
                                                         std::uint64_t seed);
   void fail(const std::exception& fault);
   void tellTiming();
+  void tellInstruments();
+  void tellBackup();
   void stopInOrder();
 
   session::Programme programme_;
@@ -102,6 +105,10 @@ class SessionController : public QObject {
   session::SessionRequest asked_;          // what `recorded_` was planned for
   devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open
   plot::TraceSink trace_;                  // outlives the runs
+  std::unique_ptr<record::InstrumentLink> instruments_;  // so do these
+  std::string backupOf_;  // the dataset that this is of
+  std::optional<session::BackupWorker> backup_;
+  session::BackupState::Kind backupTold_ = session::BackupState::Kind::Idle;
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
   std::chrono::steady_clock::time_point restUntil_{};

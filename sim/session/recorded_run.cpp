@@ -56,7 +56,11 @@ class WatchedSink final : public haptics::RunSink {
     for (haptics::RunSink* watcher : watchers_) watcher->onTick(state, command, missedTicks);
     return recorder_.onTick(state, command, missedTicks);
   }
-  std::uint32_t massesEvery() const noexcept override { return std::gcd(recorder_.massesEvery(), watcher_.massesEvery()); }
+  std::uint32_t massesEvery() const noexcept override {
+    std::uint32_t every = recorder_.massesEvery();
+    for (const haptics::RunSink* watcher : watchers_) every = std::gcd(every, watcher->massesEvery());
+    return every;
+  }
   void announce(std::int32_t trial, const trial::PlannedTrial& planned) override {
     recorder_.announce(trial, planned);
     for (haptics::RunSink* watcher : watchers_) watcher->announce(trial, planned);

@@ -22,10 +22,12 @@ struct SessionRequest {
   bool resume = false;
   bool fast = false, everyTick = false;
   std::string device;                                        // as asked for
+  std::vector<std::string> instruments;                      // beside it, as asked for
   std::uint64_t diskReserve = 1'000'000'000;                 // [bytes] RecorderOptions::diskReserve
   double timingCheckSeconds = haptics::kTimingCheckSeconds;  // RecordedRunOptions::timingCheckSeconds
   record::Participant participant;
   std::string notes;
+  std::string backup;  // second data folder, to which every finished run is copied; empty: none
 };
 
 /// What is worth a word before a session begins; each front end has its own.

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -19,6 +20,7 @@
 #include "devices/instruments/lab_streaming.h"
 #include "devices/instruments/trigger_lines.h"
 #include "tests/devices/fakes/fake_lsl.h"
+#include "tests/until.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::devices {
@@ -205,6 +207,7 @@ TEST_F(Triggers, BytesComeOutOfALineAndGoIn) {
     int byte;
   };
   std::vector<Arrival> arrived;
+  std::atomic<int> count{0};
   std::vector<record::RecordedEvent> events;
   std::vector<std::unique_ptr<Instrument>> instruments;
   instruments.push_back(openByteLine("box", name, {{1, 2, 4}, 0}, 115200));
@@ -218,10 +221,12 @@ TEST_F(Triggers, BytesComeOutOfALineAndGoIn) {
           continue;
         }
         arrived.push_back({os::now(), byte});
+        ++count;
         if (byte == 2 && ::write(wire, "\xfe", 1) != 1) ADD_FAILURE();  // the box answers an onset
       }
     });
     events = eventsOf(*link, 3, true);
+    test::until([&] { return count >= 8; });
   }
   std::vector<int> bytes;
   for (const Arrival& arrival : arrived) bytes.push_back(arrival.byte);

@@ -1,0 +1,237 @@
+#include "sim/session/backup.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "sim/record/append_file.h"
+#include "sim/record/run_log.h"
+
+namespace reachlab::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::string_view kLogEnding = "_log.reach";
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new()) {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) throw ResourceError("SHA-256 cannot be computed here");
+  }
+  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
+  std::string text() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned size = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
+    std::string hex;
+    for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
+    return hex;
+  }
+
+ private:
+  struct Free {
+    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+  };
+  std::unique_ptr<EVP_MD_CTX, Free> context_;
+};
+
+// Reads a file piece by piece. `fromDisk`: not from what the system still has of it in memory, as far as it can be asked.
+class Pieces {
+ public:
+  Pieces(const std::string& path, bool fromDisk) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    if (file_ < 0) fail("cannot be opened");
+    if (fromDisk) (void)::posix_fadvise(file_, 0, 0, POSIX_FADV_DONTNEED);
+    buffer_.resize(kPiece);
+  }
+  ~Pieces() { ::close(file_); }
+  Pieces(const Pieces&) = delete;
+  Pieces& operator=(const Pieces&) = delete;
+  std::string_view next() {
+    ssize_t count = -1;
+    do count = ::read(file_, buffer_.data(), buffer_.size());
+    while (count < 0 && errno == EINTR);
+    if (count < 0) fail("cannot be read");
+    return {buffer_.data(), static_cast<std::size_t>(count)};
+  }
+
+ private:
+  [[noreturn]] void fail(const char* what) const { throw ResourceError(fmt::format("{}: {}: {}", path_, what, std::strerror(errno))); }
+  std::string path_, buffer_;
+  int file_;
+};
+
+std::string hashOf(const std::string& path, bool fromDisk) {
+  Pieces pieces(path, fromDisk);
+  Sha256 hash;
+  for (std::string_view piece = pieces.next(); !piece.empty(); piece = pieces.next()) hash.add(piece);
+  return hash.text();
+}
+
+// File by its path in the dataset, to its hash.
+using List = std::map<std::string, std::string>;
+
+List readList(const std::string& backup) {
+  const std::string path = backup + "/" + kBackupList;
+  List list;
+  std::error_code error;
+  if (!fs::exists(path, error)) return list;
+  std::istringstream lines(record::readWholeFile(path));
+  for (std::string line; std::getline(lines, line);)
+    if (line.size() > 66) list[line.substr(66)] = line.substr(0, 64);
+  return list;
+}
+
+void writeList(const std::string& backup, const List& list) {
+  std::string text;
+  for (const auto& [file, hash] : list) text += hash + "  " + file + "\n";
+  record::writeFileAtomically(backup + "/" + kBackupList, text);
+}
+
+std::string inDataset(const fs::path& file, const fs::path& dataset) { return file.lexically_relative(dataset).generic_string(); }
+
+// "sub-01_ses-01_task-reach" and 3, of a log's or a dataset file's name.
+struct RunName {
+  std::string stem;
+  std::string run;
+  bool operator==(const RunName&) const = default;
+};
+RunName runNameOf(const std::string& file) {
+  const std::size_t run = file.find("_run-");
+  if (run == std::string::npos) return {};
+  const std::size_t end = std::min(file.find('_', run + 1), file.size());
+  return {file.substr(0, std::min(file.find("_tracksys-"), run)), file.substr(run, end - run)};
+}
+
+bool isTemporary(const std::string& name) { return name.starts_with('.'); }
+
+// Every file of the dataset that is to be kept: not what can be made again from it, not what is being written.
+std::vector<fs::path> filesOf(const fs::path& dataset, const fs::path& backup) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  auto entry = fs::recursive_directory_iterator(dataset, error);
+  if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", dataset.string(), error.message()));
+  for (; entry != fs::end(entry); entry.increment(error)) {
+    if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", dataset.string(), error.message()));
+    const bool isDerived = entry.depth() == 0 && entry->path().filename() == "derivatives";
+    if (entry->is_directory(error) && (isDerived || entry->path() == backup)) entry.disable_recursion_pending();
+    else if (entry->is_regular_file(error) && !isTemporary(entry->path().filename().string())) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Copies one file and reads it back. Returns its hash.
+std::string copyVerified(const std::string& from, const std::string& to, std::uint64_t& bytes) {
+  Pieces pieces(from, false);
+  Sha256 hash;
+  record::AtomicFile copy(to);
+  for (std::string_view piece = pieces.next(); !piece.empty(); piece = pieces.next()) {
+    hash.add(piece);
+    copy.append(piece);
+    bytes += piece.size();
+  }
+  copy.commit();
+  std::string wanted = hash.text();
+  if (hashOf(to, true) == wanted) return wanted;
+  std::error_code error;
+  fs::remove(to, error);
+  throw ResourceError(fmt::format("{}: reads back with other bytes than were written; the copy was removed: that disk cannot be trusted", to));
+}
+
+class Backup {
+ public:
+  Backup(const std::string& dataset, const std::string& backup)
+      : dataset_(fs::absolute(dataset).lexically_normal()), backup_(fs::absolute(backup).lexically_normal()), list_(readList(backup)) {
+    if (!dataset_.has_filename()) dataset_ = dataset_.parent_path();
+    if (!backup_.has_filename()) backup_ = backup_.parent_path();
+  }
+
+  BackupReport run() {
+    const auto [end, rest] = std::mismatch(dataset_.begin(), dataset_.end(), backup_.begin(), backup_.end());
+    if (end == dataset_.end())
+      throw FaultError(Fault{.what = fmt::format("{}: lies in the dataset itself; allowed: a folder elsewhere, best on another disk", backup_.string())});
+    const std::vector<fs::path> files = filesOf(dataset_, backup_);
+    std::vector<RunName> open;
+    for (const fs::path& file : files) {
+      const std::string name = file.filename().string();
+      if (!name.ends_with(kLogEnding)) continue;
+      if (record::isBeingWritten(file.string())) open.push_back(runNameOf(name));
+      else ++report_.runs;
+    }
+    report_.pending = open.size();
+    for (const fs::path& file : files)
+      if (std::find(open.begin(), open.end(), runNameOf(file.filename().string())) == open.end() || runNameOf(file.filename().string()).run.empty())
+        keep(file);
+    if (report_.copiedFiles > 0) writeList(backup_.string(), list_);
+    return report_;
+  }
+
+ private:
+  void keep(const fs::path& file) {
+    const std::string name = inDataset(file, dataset_);
+    if (name == kBackupList) return;
+    const fs::path copy = backup_ / name;
+    const bool isLog = name.ends_with(kLogEnding);
+    std::error_code error;
+    const auto listed = list_.find(name);
+    const bool sameSize = fs::exists(copy, error) && fs::file_size(copy, error) == fs::file_size(file, error);
+    // A closed log never changes; what is written again may, at the same length.
+    if (listed != list_.end() && sameSize && (isLog || hashOf(file.string(), false) == listed->second)) return;
+    if (isLog && fs::exists(copy, error)) {
+      if (hashOf(file.string(), false) != hashOf(copy.string(), true))
+        throw ResourceError(fmt::format("{}: is there already with other bytes; nothing is overwritten: choose another folder", copy.string()));
+      list_[name] = hashOf(copy.string(), true);
+      ++report_.copiedFiles;
+      return;
+    }
+    list_[name] = copyVerified(file.string(), copy.string(), report_.copiedBytes);
+    ++report_.copiedFiles;
+    if (isLog) writeList(backup_.string(), list_);  // what is safe is said to be, whatever comes after
+  }
+
+  fs::path dataset_, backup_;
+  List list_;
+  BackupReport report_;
+};
+
+}  // namespace
+
+BackupReport backUp(const std::string& dataset, const std::string& backup) { return Backup(dataset, backup).run(); }
+
+std::vector<std::string> faultsOfBackup(const std::string& backup) {
+  std::error_code error;
+  if (!fs::exists(backup + "/" + kBackupList, error)) throw ResourceError(fmt::format("{}/{}: is missing: no backup was made there", backup, kBackupList));
+  std::vector<std::string> faults;
+  for (const auto& [file, hash] : readList(backup)) {
+    const std::string path = backup + "/" + file;
+    if (!fs::exists(path, error)) {
+      faults.push_back(path + ": is missing");
+      continue;
+    }
+    try {
+      if (hashOf(path, true) != hash) faults.push_back(path + ": has other bytes than were copied");
+    } catch (const ResourceError& fault) {
+      faults.emplace_back(fault.what());
+    }
+  }
+  return faults;
+}
+
+std::size_t filesOfBackup(const std::string& backup) { return readList(backup).size(); }
+
+}  // namespace reachlab::session

@@ -1,0 +1,54 @@
+// A whole run with a trigger box at the other end of a pseudo-terminal, in real time.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include "sim/record/run_log.h"
+#include "tests/cli/program.h"
+
+using namespace reachlab;
+using namespace reachlab::test;
+
+TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
+  int wire = -1, slave = -1;
+  char name[128] = {};
+  ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
+  ::fcntl(wire, F_SETFL, O_NONBLOCK);
+  const Folder folder;
+  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder.string() + " --instrument byte:" + name);
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  std::string bytes(16, '\0');
+  bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(wire, bytes.data(), bytes.size()))));
+  EXPECT_TRUE(bytes.starts_with("\1\2")) << "go, onset";
+  const record::RunLog log = record::RunLog::open(record::findLogs(folder.string()).front());
+  EXPECT_EQ(log.configuration().instruments, std::string("byte:") + name);
+  std::vector<record::RecordedEvent> sent;
+  for (const record::RecordedEvent& event : log.events())
+    if (event.kind == record::EventKind::Instrument) sent.push_back(event);
+  EXPECT_EQ(sent.size(), bytes.size()) << "an event a byte";
+  for (const record::RecordedEvent& event : sent) {
+    EXPECT_GT(event.value, 0);
+    const record::RecordedTrial& trial = log.trials().at(static_cast<std::size_t>(event.trial - 1));
+    if (event.text.ends_with(" out go")) { EXPECT_EQ(event.tick, trial.goTick); }
+    if (event.text.ends_with(" out onset")) { EXPECT_EQ(event.tick, trial.result.onsetTick); }
+    if (event.text.ends_with(" out success")) { EXPECT_EQ(event.tick, trial.lastTick); }
+  }
+  ::close(wire);
+  ::close(slave);
+}
+
+TEST(Instruments, AreRefusedOnAVirtualClock) {
+  const Folder folder;
+  const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.string() + " --instrument lsl",
+                            "LD_LIBRARY_PATH=" + (std::filesystem::path(REACHLAB_BINARY_DIR) / "tests/fakes").string());
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("there are instruments, which are on the real clock"), std::string::npos) << ended.err;
+}
+
+TEST(Instruments, AMissingLibraryIsSaid) {
+  const Folder folder;
+  const Ended ended = reach("run dingwell --device simulated --data " + folder.string() + " --instrument lsl");
+  EXPECT_EQ(ended.exitCode, 3);
+  EXPECT_NE(ended.err.find("liblsl.so"), std::string::npos) << ended.err;
+}

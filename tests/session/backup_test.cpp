@@ -1,0 +1,145 @@
+#include "sim/session/backup.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "base/error.h"
+#include "sim/record/append_file.h"
+#include "sim/record/bids.h"
+#include "sim/session/backup_worker.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Backups : public testing::Test {
+ protected:
+  void SetUp() override { addRun(1); }
+  std::string logOf(int run) const { return dataset_ + "/sourcedata/sub-01_ses-01_task-made_run-0" + std::to_string(run) + "_log.reach"; }
+  void addRun(int run) {
+    record::RunConfiguration configuration = record::madeConfiguration();
+    configuration.run = configuration.firstRun = run;
+    record::writeMadeRun(logOf(run), 2, configuration);
+    std::vector<record::RunLog> runs;
+    runs.push_back(record::RunLog::open(logOf(run)));
+    record::writeBids(runs, dataset_);
+  }
+  static std::string contentOf(const std::string& path) { return record::readWholeFile(path); }
+  std::string inBackup(const std::string& path) const { return backup_ + path.substr(dataset_.size()); }
+  std::string refusal() const {
+    try {
+      (void)backUp(dataset_, backup_);
+      return "made";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  record::TemporaryFolder folder_{"backup"};
+  std::string dataset_ = folder_ / "data", backup_ = folder_ / "second/data";
+};
+
+TEST_F(Backups, HoldEveryFileOfFinishedRunsByteByByte) {
+  fs::create_directories(dataset_ + "/derivatives/reachlab");
+  std::ofstream(dataset_ + "/derivatives/reachlab/report.html") << "can be made again";
+  std::ofstream(dataset_ + "/.0123.reachlab-tmp") << "half";
+  const BackupReport report = backUp(dataset_, backup_);
+  EXPECT_EQ(report.runs, 1u);
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(dataset_)) {
+    const std::string path = entry.path().string();
+    if (!entry.is_regular_file() || path.find("derivatives") != std::string::npos || path.ends_with("-tmp")) continue;
+    ++files;
+    EXPECT_EQ(contentOf(inBackup(path)), contentOf(path)) << path;
+  }
+  EXPECT_EQ(report.copiedFiles, files);
+  EXPECT_FALSE(fs::exists(backup_ + "/derivatives"));
+  EXPECT_TRUE(faultsOfBackup(backup_).empty());
+}
+
+// The list is for who does not have this program.
+TEST_F(Backups, AreCheckedBySha256sum) {
+  (void)backUp(dataset_, backup_);
+  const std::string check = "cd '" + backup_ + "' && sha256sum --quiet -c sourcedata/sha256sums.txt > /dev/null 2>&1";
+  EXPECT_EQ(std::system(check.c_str()), 0);
+  std::ofstream(backup_ + "/README.md", std::ios::app) << "x";
+  EXPECT_NE(std::system(check.c_str()), 0);
+}
+
+TEST_F(Backups, CopyOnlyWhatIsNew) {
+  (void)backUp(dataset_, backup_);
+  EXPECT_EQ(backUp(dataset_, backup_).copiedFiles, 0u);
+  addRun(2);
+  const BackupReport report = backUp(dataset_, backup_);
+  EXPECT_EQ(report.runs, 2u);
+  EXPECT_TRUE(fs::exists(inBackup(logOf(2))));
+  EXPECT_EQ(contentOf(inBackup(dataset_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv")), contentOf(dataset_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"))
+      << "a table that the runs share is brought up to date";
+}
+
+TEST_F(Backups, LeaveARunThatIsBeingRecorded) {
+  record::RunConfiguration configuration = record::madeConfiguration();
+  configuration.run = configuration.firstRun = 2;
+  record::Recorder recorder(logOf(2), configuration, {.threaded = false});
+  const BackupReport report = backUp(dataset_, backup_);
+  EXPECT_EQ(report.runs, 1u);
+  EXPECT_EQ(report.pending, 1u);
+  EXPECT_FALSE(fs::exists(inBackup(logOf(2))));
+  recorder.close();
+}
+
+TEST_F(Backups, SayWhichFileHasOtherBytes) {
+  (void)backUp(dataset_, backup_);
+  {
+    std::fstream log(inBackup(logOf(1)), std::ios::in | std::ios::out | std::ios::binary);
+    log.seekp(100);
+    log.put('!');
+  }
+  fs::remove(backup_ + "/README.md");
+  const auto faults = faultsOfBackup(backup_);
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0], backup_ + "/README.md: is missing");
+  EXPECT_EQ(faults[1], inBackup(logOf(1)) + ": has other bytes than were copied");
+}
+
+TEST_F(Backups, NeverOverwriteALogOfAnother) {
+  record::makeFolders(backup_ + "/sourcedata");
+  std::ofstream(inBackup(logOf(1))) << "another laboratory's only copy";
+  EXPECT_NE(refusal().find("is there already with other bytes; nothing is overwritten"), std::string::npos);
+  EXPECT_EQ(contentOf(inBackup(logOf(1))), "another laboratory's only copy");
+}
+
+TEST_F(Backups, LieElsewhere) {
+  backup_ = dataset_;
+  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
+  backup_ = dataset_ + "/copy";
+  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
+  std::ofstream(folder_ / "file") << "no folder";
+  backup_ = folder_ / "file";
+  EXPECT_NE(refusal(), "made");
+  EXPECT_THROW(faultsOfBackup(folder_ / "nowhere"), ResourceError);
+}
+
+TEST_F(Backups, AreMadeOnAThreadOfTheirOwnAndSayHowTheyStand) {
+  BackupWorker worker(dataset_, backup_);
+  EXPECT_EQ(worker.state().kind, BackupState::Kind::Idle);
+  worker.request();
+  BackupState state = worker.finish();
+  EXPECT_EQ(state.kind, BackupState::Kind::Verified) << state.sentence;
+  EXPECT_NE(state.sentence.find("all 1 finished run is there and verified"), std::string::npos) << state.sentence;
+  addRun(2);
+  record::makeFolders(backup_ + "/sourcedata");
+  std::ofstream(inBackup(logOf(2))) << "in the way";
+  worker.request();
+  state = worker.finish();
+  EXPECT_EQ(state.kind, BackupState::Kind::Failed);
+  EXPECT_NE(state.sentence.find("not made: "), std::string::npos) << state.sentence;
+  EXPECT_NE(state.sentence.find("; the recording itself is safe"), std::string::npos) << state.sentence;
+}
+
+}  // namespace
+}  // namespace reachlab::session
