@@ -36,6 +36,11 @@ void paintWhite(cairo_t* context) {
   cairo_paint(context);
 }
 
+/// Nothing to show, not even a title: a place in the row that stays white.
+bool isEmpty(const Panel& panel) {
+  return panel.title.empty() && panel.bands.empty() && panel.series.empty() && panel.rules.empty() && panel.words.empty();
+}
+
 /// Draws the figure, or with `draw` false only finds out how large it is.
 Size paint(const Figure& figure, cairo_t* context, bool draw) {
   Canvas canvas(context);
@@ -69,7 +74,7 @@ Size paint(const Figure& figure, cairo_t* context, bool draw) {
       const std::size_t i = row * columns + column;
       x += left[column];
       if (i < painters.size()) {
-        if (draw) painters[i].draw(x, y, top[row]);
+        if (draw && !isEmpty(figure.panels[i])) painters[i].draw(x, y, top[row]);
         size.width = std::max(size.width, x + width + right[column] + kOuter);
       }
       x += width + right[column] + kBetween;

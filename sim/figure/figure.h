@@ -90,7 +90,7 @@ struct Panel {
   bool equalScale = false;                 // one metre along x is as long as one along y
 };
 
-/// Panels in rows of `columns`, each `panelWidth` by `panelHeight` of plotting area.
+/// Panels in rows of `columns` (an empty one leaves its place white), each `panelWidth` by `panelHeight` of plotting area.
 struct Figure {
   std::string title;  // above everything; usually empty: a caption says it
   std::vector<Panel> panels;

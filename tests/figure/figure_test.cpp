@@ -164,5 +164,21 @@ TEST(Figure, BearsHolesEmptySeriesAndHugeValues) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+// The last row of subjects may be shorter than the others: no axes from -1 to 1 stand there.
+TEST(Figure, LeavesThePlaceOfAnEmptyPanelWhite) {
+  Figure figure = exampleFigure();
+  const auto strokes = [&] {
+    const std::string svg = renderSvg(figure);
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = svg.find("<path", at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  const std::size_t before = strokes();
+  figure.panels.push_back({});
+  EXPECT_EQ(strokes(), before);
+  figure.panels.back().title = "Subject 06";
+  EXPECT_GT(strokes(), before);
+}
+
 }  // namespace
 }  // namespace reachlab::figure
