@@ -220,9 +220,9 @@ double computeFittedEpsilon(const FitWindow& window, const Profile& profile, con
   return std::sqrt(sum / static_cast<double>(window.velocity.size()));
 }
 
-PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set) {
+PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart) {
   PersonFit out;
-  out.own = makeTemplate(windows, durations);
+  out.own = makeTemplate(windows, durations, keepApart);
   const std::size_t n = windows.size();
   std::vector<double> rest;
   double wholeRest = 0;

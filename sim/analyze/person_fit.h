@@ -45,8 +45,8 @@ struct PersonFit {
 };
 
 /// `windows` in the order that the trials were made (a trial's fold is its place modulo 5), `durations` [s] by the onset rule; weights are
-/// written into the windows. At least kFewestTrials.
-PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set);
+/// written into the windows. At least kFewestTrials. `keepApart`: see makeTemplate.
+PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart = false);
 
 /// Fitted epsilon of one trial: sqrt(sum r^2 / N) over the window.   [m/s]
 double computeFittedEpsilon(const FitWindow& window, const Profile& profile, const MovementFit& fit);

@@ -73,16 +73,17 @@ std::vector<double> smoothed(const std::vector<double>& values) {
   return out;
 }
 
-/// sigma(s): the variance over trials, smoothed; where fewer than half of the trials have samples, the nearest phase where they have.
-std::vector<double> scatterOf(const std::vector<std::vector<float>>& apart, const Mean& mean) {
-  const std::size_t n = apart.size();
-  std::vector<double> variance(gridSize(), 0.0);
+/// sigma(s) from the sum of n trials' squared differences to the mean: the variance over trials, smoothed; where fewer than half of the
+/// trials have samples, the nearest phase where they have.
+std::vector<double> scatterOf(std::vector<double> variance, std::size_t n, const Mean& mean) {
   std::ptrdiff_t first = -1, last = -1;
   for (std::size_t i = 0; i < variance.size(); ++i) {
-    if (2 * mean.count[i] < n || mean.count[i] < 2) continue;
+    if (2 * mean.count[i] < n || mean.count[i] < 2) {
+      variance[i] = 0;
+      continue;
+    }
     if (first < 0) first = static_cast<std::ptrdiff_t>(i);
     last = static_cast<std::ptrdiff_t>(i);
-    for (const auto& trial : apart) variance[i] += static_cast<double>(trial[i]) * static_cast<double>(trial[i]);
     variance[i] /= static_cast<double>(mean.count[i] - 1);
   }
   if (first < 0) return std::vector<double>(gridSize(), 1.0);
@@ -133,7 +134,7 @@ double effectiveSamplesOf(std::span<const FitWindow> windows, const Profile& mea
 
 }  // namespace
 
-PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations) {
+PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart) {
   PersonTemplate out;
   const std::size_t n = windows.size();
   const double meanDuration = meanOf(durations);
@@ -173,14 +174,17 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
     normalise(out.place, meanDuration);
     average();
   }
+  std::vector<double> squares(gridSize(), 0.0);
+  std::vector<float> apart;
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<float> apart(gridSize(), 0.0F);
+    apart.assign(gridSize(), 0.0F);
     layOver(windows[i], out.place[i], laid);
     for (std::size_t k = 0; k < apart.size(); ++k)
       if (std::isfinite(laid[k])) apart[k] = static_cast<float>(laid[k] - out.place[i].amplitude * out.mean.value[k]);
-    out.apart.push_back(std::move(apart));
+    for (std::size_t k = 0; k < apart.size(); ++k) squares[k] += static_cast<double>(apart[k]) * static_cast<double>(apart[k]);
+    if (keepApart) out.apart.push_back(apart);
   }
-  out.scatter = scatterOf(out.apart, mean);
+  out.scatter = scatterOf(std::move(squares), n, mean);
   for (std::size_t i = 0; i < n; ++i) weigh(windows[i], out.place[i], out.scatter);
 
   double left = 0, whole = 0;

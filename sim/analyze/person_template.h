@@ -21,7 +21,7 @@ struct PersonTemplate {
 
 /// Three rounds of aligning and averaging, started from the moments of v^2; then w(s) = 1 / max(sigma(s), 0.1 max sigma), whose square is
 /// written into every window's weights. `durations` [s] is what the trials last by the onset rule: it fixes what s = 0 … 1 means. Two
-/// trials or more.
-PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations);
+/// trials or more. `apart`, 2 kB a trial, is left empty unless asked for.
+PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart = false);
 
 }  // namespace reachlab::analyze

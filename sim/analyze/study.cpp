@@ -226,10 +226,9 @@ void fitPeople(StudyResult& study, std::size_t condition, const StudyProgress& p
         how.rate = windows.front().rate;
         result.candidates = makeCandidates(study.conditions[condition].compiled, how);
       }
-      person.fit = fitPerson(windows, durations, result.candidates);
+      person.fit = fitPerson(windows, durations, result.candidates, study.options.keepScatter);
       person.fitted = true;
       for (const FitWindow& w : windows) person.rest.push_back(restCost(w));
-      if (!study.options.keepScatter) person.fit.own.apart.clear(), person.fit.own.apart.shrink_to_fit();
       PersonScores scores = scoresOf(person);
       const std::size_t candidates = result.candidates.candidates.size();
       person.follows = concludePerson(scores, candidates, candidates - 1).follows;
