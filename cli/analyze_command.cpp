@@ -109,6 +109,7 @@ Json jsonOf(const analyze::Conclusion& c, const Names& names, const std::vector<
           {"p", judged ? Json(c.p) : Json(nullptr)},
           {"rival", name(c.rival)},
           {"level", c.level},
+          {"least_difference", analyze::kLeastDifference},
           {"subjects", c.subjects},
           {"trials", c.trials},
           {"posterior", posterior},

@@ -47,16 +47,24 @@ void compareAll(Conclusion& out, std::size_t reference, Compare&& compare) {
     if (!out.rival || out.against[c].p > out.p) out.p = out.against[c].p, out.rival = c;
   }
   out.referenceP = out.referenceFirst ? 1 : out.against[reference].p;
-  std::vector<double> p;
+  std::vector<double> p, difference;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < candidates; ++a)
-    for (std::size_t b = a + 1; b < candidates; ++b) pairs.emplace_back(a, b), p.push_back(compare(a, b).p);
+    for (std::size_t b = a + 1; b < candidates; ++b) {
+      const TTest test = compare(a, b);
+      pairs.emplace_back(a, b), p.push_back(test.p), difference.push_back(std::abs(test.mean));
+    }
   const std::vector<double> adjusted = adjustByHolm(p);
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (!(adjusted[i] < out.level)) out.notToldApart.push_back(pairs[i]);
+    if (!(adjusted[i] < out.level && difference[i] >= kLeastDifference)) out.notToldApart.push_back(pairs[i]);
 }
 
-bool referenceStands(const Conclusion& c) { return c.referenceFirst || !(c.referenceP < c.level); }
+bool isToldFromAll(const Conclusion& c) {
+  for (std::size_t k = 0; k < c.against.size(); ++k)
+    if (k != *c.best && !c.told(k)) return false;
+  return true;
+}
+bool referenceStands(const Conclusion& c, std::size_t reference) { return c.referenceFirst || !c.told(reference); }
 bool describesPoorly(const Conclusion& c) { return c.r2 < c.ceiling - kPoor; }
 
 }  // namespace
@@ -93,8 +101,8 @@ Conclusion concludePerson(const PersonScores& person, std::size_t candidates, st
     out.ceiling += c.ceiling / static_cast<double>(person.conditions.size());
   }
   if (candidates < 3) out.reason = Obstacle::NothingToCompare;
-  else if (referenceStands(out)) out.reason = Obstacle::Reference;
-  else if (!(out.p < out.level)) out.reason = Obstacle::NotToldApart;
+  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
+  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
   else if (describesPoorly(out)) out.reason = Obstacle::Poor;
   else out.reason = Obstacle::None, out.follows = out.best;
   out.each = {out.follows};
@@ -149,8 +157,8 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   if (candidates < 3) out.reason = Obstacle::NothingToCompare;
   else if (people.size() < kFewestSubjects) out.reason = Obstacle::TooFewSubjects;
   else if (differ) out.reason = Obstacle::SubjectsDiffer;
-  else if (referenceStands(out)) out.reason = Obstacle::Reference;
-  else if (!(out.p < out.level)) out.reason = Obstacle::NotToldApart;
+  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
+  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
   else if (!frequent) out.reason = Obstacle::SubjectsDiffer;
   else if (describesPoorly(out)) out.reason = Obstacle::Poor;
   else out.reason = Obstacle::None, out.follows = out.best;

@@ -27,6 +27,9 @@ enum class Obstacle { None, TooFewTrials, TooFewSubjects, Reference, NotToldApar
 /// "", "too_few_trials", "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "poor", "nothing_to_compare".
 std::string_view nameOf(Obstacle reason);
 
+/// Of ln S: a candidate whose squared errors are less than 10 % above the closest one's is not told from it, whatever p says. Trials of one
+/// hand tell such neighbours apart significantly, and now and then the wrong way round (docs/analysis.md, "Does it find the truth?").
+inline constexpr double kLeastDifference = 0.1;
 inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85, kPoor = 0.1;
 inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;
 
@@ -45,18 +48,20 @@ struct Conclusion {
   std::optional<double> signFlipP;  // of the nearest rival, from six people on
   std::vector<double> score;        // Y of each candidate: mean over conditions of the mean over trials, over people
   std::vector<TTest> against;       // of each candidate: score - best's score
-  std::vector<std::pair<std::size_t, std::size_t>> notToldApart;  // pairs with p above the level after Holm's correction
+  std::vector<std::pair<std::size_t, std::size_t>> notToldApart;  // pairs with p above the level after Holm's correction, or too small a difference
   double r2 = 0, ceiling = 0;                                     // of the best candidate; of people's own means
   std::vector<std::optional<std::size_t>> each;                   // what each person was decided for; parallel to the people given
   bool decided() const { return follows.has_value(); }
+  /// The closest candidate is told from `candidate`: p below the level, and a score that is lower by kLeastDifference or more.
+  bool told(std::size_t candidate) const { return against[candidate].p < level && against[candidate].mean >= kLeastDifference; }
 };
 
 /// `reference` is the index of the candidate that ignores the object; `candidates` counts it. One person, however many conditions:
-/// decided if p < 0.01 against every other candidate and the reference (an intersection-union test). Says nothing of other people.
+/// decided if it is told from every other candidate and the reference at p < 0.01 (an intersection-union test). Says nothing of other people.
 Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference);
 
-/// People: with one, concludePerson. From two on one number a person, decided for from five on if p < 0.05 (paired t over people) against
-/// every other, and the protected exceedance probability of the same candidate is 0.85 or more, and no person is decided for another.
+/// People: with one, concludePerson. From two on one number a person, decided for from five on if told from every other at p < 0.05 (paired t
+/// over people), and the protected exceedance probability of the same candidate is 0.85 or more, and no person is decided for another.
 /// People without conditions are left out.
 Conclusion concludePeople(const std::vector<PersonScores>& people, std::size_t candidates, std::size_t reference);
 

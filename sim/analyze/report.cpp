@@ -169,7 +169,7 @@ void addScores(Html& html, const Conclusion& c, const std::vector<std::vector<pr
                          best ? "0" : fmt::format("{:.3f}", c.against[k].mean),
                          best ? "" : escaped(c.against[k].p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", c.against[k].p))));
     if (!c.posterior.empty()) html.add(fmt::format("<td>{:.3f}</td>", c.posterior[k]));
-    html.add(fmt::format("<td class=\"text\">{}</td></tr>", best ? "" : c.against[k].p < c.level ? "yes" : "no"));
+    html.add(fmt::format("<td class=\"text\">{}</td></tr>", best ? "" : c.told(k) ? "yes" : "no"));
   }
   html.add("</tbody></table>");
 }

@@ -39,6 +39,9 @@ std::string eachOf(const Conclusion& c, const Names& names) {
   return joined(parts);
 }
 
+// A difference that is significant and yet too small, in words.
+const std::string kTooNear = fmt::format("their squared errors differ by less than {:.0f} %", 100 * kLeastDifference);
+
 std::string whoMoved(const Conclusion& c) {
   return c.overSubjects ? fmt::format("The movements of these {} ({})", plural(c.subjects, "subject"), plural(c.trials, "trial"))
                         : fmt::format("This person's movements in these {}", plural(c.trials, "trial"));
@@ -85,12 +88,13 @@ std::string describeConclusion(const Conclusion& c, const Names& names) {
           c.referenceFirst
               ? "a minimum jerk that ignores the object describes the movements better than every candidate"
               : fmt::format("a minimum jerk that ignores the object describes the movements as well as the closest candidate, {} ({})",
-                            best, pText(c.referenceP)));
+                            best, c.referenceP < c.level ? kTooNear : pText(c.referenceP)));
     case Obstacle::NotToldApart: {
       std::vector<std::string> rivals;
       for (std::size_t k = 0; k < c.against.size(); ++k)
-        if (k != *c.best && !(c.against[k].p < c.level)) rivals.push_back(describeCandidate(names[k]));
-      return nothing(fmt::format("{} is the closest candidate, but cannot be told from {} ({})", best, joined(rivals), pText(c.p)));
+        if (k != *c.best && !c.told(k)) rivals.push_back(describeCandidate(names[k]));
+      return nothing(fmt::format("{} is the closest candidate, but cannot be told from {} ({})", best, joined(rivals),
+                                 c.p < c.level ? kTooNear : pText(c.p)));
     }
     case Obstacle::SubjectsDiffer:
       return nothing(fmt::format("people differ. Closest over all is {}; each judged alone: {}", best, eachOf(c, names)));
@@ -204,9 +208,10 @@ std::string describeMethods(const StudyResult& study) {
       "is the "
       "mean over trials, over conditions the mean of their means. One person is decided for a criterion if p < {} against every other and "
       "the "
-      "reference (two-sided t over trials, the number of trials reduced by their serial correlation). People are decided for one from {} "
+      "reference (two-sided t over trials, the number of trials reduced by their serial correlation) and their scores are {} or more above "
+      "its own: squared errors that differ by less are not told apart, however many trials there are. People are decided for one from {} "
       "on if p "
-      "< {} against every other and the reference (paired t over subjects), the protected exceedance probability of random-effects model "
+      "< {} against every other and the reference (paired t over subjects), the same least difference, the protected exceedance probability of random-effects model "
       "selection is at least {}, and no subject is decided for another. Fewer than {} successful trials of a subject and condition are "
       "described only. The paper's ε is its root mean squared difference of velocity against the prediction for {}, each trial time-scaled "
       "to "
@@ -221,7 +226,7 @@ std::string describeMethods(const StudyResult& study) {
       "corrected by "
       "Holm's method.",
       filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
-      kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
+      kLeastDifference, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
       o.predictFor == PredictionDuration::Task ? "the task's duration" : "the duration that was moved");
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -38,6 +39,24 @@ TEST(Conclusion, OfOnePersonIsOverTrialsAlone) {
   EXPECT_FALSE(c.overSubjects);
   EXPECT_EQ(c.follows, 1u);
   EXPECT_TRUE(c.posterior.empty());
+}
+
+// 200 trials of one hand tell candidates apart whose squared errors differ by 8 %, at any level; nothing may be concluded from so little.
+TEST(Conclusion, OfASmallDifferenceIsNoneHoweverSignificant) {
+  std::mt19937_64 random(11);
+  PersonScores one = person(random, 0, 0.5, 200);
+  for (double& y : one.conditions[0].score[1]) y -= 0.42;
+  const Conclusion c = concludePerson(one, kCandidates, kReference);
+  EXPECT_LT(c.p, kTrialsLevel);
+  EXPECT_LT(c.against[1].mean, kLeastDifference);
+  EXPECT_EQ(c.reason, Obstacle::NotToldApart);
+  EXPECT_NE(std::find(c.notToldApart.begin(), c.notToldApart.end(), std::pair<std::size_t, std::size_t>{0, 1}), c.notToldApart.end());
+  for (double& y : one.conditions[0].score[1]) y += 0.1;
+  EXPECT_EQ(concludePerson(one, kCandidates, kReference).follows, 0u);
+  std::vector<PersonScores> many(8, one);
+  for (std::size_t i = 0; i < many.size(); ++i)
+    for (double& y : many[i].conditions[0].score[1]) y -= 0.1 + 0.001 * static_cast<double>(i);
+  EXPECT_EQ(concludePeople(many, kCandidates, kReference).reason, Obstacle::NotToldApart);
 }
 
 TEST(Conclusion, OfTwoToFourPeopleIsNeverDecided) {

@@ -220,10 +220,17 @@ TEST(Wording, SaysWhatCannotBeToldApart) {
   c.against.resize(3);
   c.against[0].p = 0.3;
   c.against[2].p = 1e-9;
+  c.against[2].mean = 1;
   c.p = 0.3;
   const std::string text = describeConclusion(c, {{predict::Criterion::MinHandJerk}, {predict::Criterion::MinCrackle}, {}});
   EXPECT_EQ(text,
             "Nothing can be concluded: (3) min-crackle is the closest candidate, but cannot be told from (1) min-hand-jerk (p = 0.3).");
+  c.against[0] = {.mean = 0.04, .p = 0.001};
+  c.against[2].mean = 1;
+  c.p = 0.001;
+  EXPECT_EQ(describeConclusion(c, {{predict::Criterion::MinHandJerk}, {predict::Criterion::MinCrackle}, {}}),
+            "Nothing can be concluded: (3) min-crackle is the closest candidate, but cannot be told from (1) min-hand-jerk (their squared "
+            "errors differ by less than 10 %).");
   EXPECT_NE(describeConclusion({}, {}).find("no subject has 10 successful trials"), std::string::npos);
 }
 
