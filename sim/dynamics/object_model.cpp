@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "sim/dynamics/shared_plant.h"
 
 namespace reachlab::dynamics {
 namespace {
@@ -53,6 +54,17 @@ ObjectModel makeObjectModel(const experiment::Experiment& experiment) {
     model.handDamping.assign(n, 0.0);
     model.handStiffness[0] = coupling.stiffness;
     model.handDamping[0] = coupling.damping;
+  }
+  if (experiment.hands.empty()) return model;
+  model.handStiffness.assign(n, 0.0);
+  model.handDamping.assign(n, 0.0);
+  for (const HandSprings& hand : handSpringsOf(experiment)) {
+    requireUsable(hand.stiffness, "the hand's stiffness", false);
+    requireUsable(hand.damping, "the hand's damping", false);
+    for (std::size_t i = 0; i < n; ++i) {
+      model.handStiffness[i] += hand.stiffness[i];
+      model.handDamping[i] += hand.damping[i];
+    }
   }
   return model;
 }

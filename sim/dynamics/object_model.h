@@ -11,7 +11,7 @@ struct ObjectModel {
   experiment::ObjectKind kind = experiment::ObjectKind::Point;
   std::vector<double> mass;                        // [kg] N
   std::vector<double> stiffness, damping;          // [N/m], [N s/m] between neighbours, N-1; empty for parallel
-  std::vector<double> handStiffness, handDamping;  // [N/m], [N s/m] to the hand, N
+  std::vector<double> handStiffness, handDamping;  // [N/m], [N s/m] to the hand, N; of several hands the sum
   double viscosity = 0;                            // [N s/m] on every mass
   Vec3 gravity;                                    // [m/s^2]
 

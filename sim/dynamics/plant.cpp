@@ -10,6 +10,7 @@ std::string_view describe(StepStatus status) {
     case StepStatus::Capped: return "too many sub-steps";
     case StepStatus::AtEnd: return "end of the constraint";
     case StepStatus::NoContinuation: return "no continuation";
+    case StepStatus::PeerLost: return "peer lost";
   }
   return "";
 }

@@ -12,8 +12,8 @@
 namespace reachlab::dynamics {
 
 /// How a step ended; everything but Ok leads to zero force. Counted per kind, never thrown.
-enum class StepStatus : std::uint8_t { Ok, HandLost, NotFinite, Capped, AtEnd, NoContinuation };
-inline constexpr int kStepStatusCount = 6;
+enum class StepStatus : std::uint8_t { Ok, HandLost, NotFinite, Capped, AtEnd, NoContinuation, PeerLost };
+inline constexpr int kStepStatusCount = 7;
 std::string_view describe(StepStatus status);
 
 /// One mass in world coordinates, with its constraint parameters (unused ones 0; none for a free object).
@@ -87,8 +87,11 @@ struct SceneOptions {
   double tolerance = 0;  // adaptive methods; 0: default
 };
 
+class SharedPlant;
+
 struct Scene {
   std::unique_ptr<Plant> plant;
+  SharedPlant* shared = nullptr;  // the same plant where several hands hold the object (shared_plant.h)
   MethodChoice choice;
   constraints::Constraint constraint;
 };

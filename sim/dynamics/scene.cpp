@@ -10,6 +10,7 @@
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/rk4_error.h"
+#include "sim/dynamics/shared_plant.h"
 
 namespace reachlab::dynamics {
 
@@ -136,6 +137,24 @@ void estimateRk4(Scene& scene, const experiment::Experiment& experiment, double 
         choice.fastestMode * step, choice.predictedError));
 }
 
+// Several hands are computed by one method, for whatever they hold.
+std::string methodFor(const experiment::Experiment& experiment, const SceneOptions& options) {
+  const std::string asked = options.method.empty() ? experiment.method : options.method;
+  if (experiment.hands.empty()) return asked;
+  if (asked != "auto" && asked != "rk4")
+    throw RefusedError(fmt::format("method {} is for one hand; several hands are computed by rk4: use auto or rk4", asked));
+  return "rk4";
+}
+
+void compileShared(Scene& scene, const experiment::Experiment& experiment, bool smooth) {
+  if (!smooth) throw RefusedError("several hands need a curve that is smooth throughout; on this one use one hand");
+  auto plant = makeSharedPlant(experiment, scene.constraint);
+  scene.shared = plant.get();
+  scene.plant = std::move(plant);
+  scene.choice.form = fmt::format("{} hands, {} states", experiment.hands.size(), scene.shared->placeCount() + scene.shared->rateCount());
+  scene.choice.reason = "several hands hold the object: rk4, one step a tick; " + scene.choice.reason;
+}
+
 Scene compile(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
   Scene scene;
   scene.constraint = constraint;
@@ -172,11 +191,13 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
         throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start",
                                        start[0], nameOf(place.kind)));
   }
-  scene.choice = chooseMethod(options.method.empty() ? experiment.method : options.method, model, facts);
+  scene.choice = chooseMethod(methodFor(experiment, options), model, facts);
   MethodChoice& choice = scene.choice;
   const MethodRequest request{choice.method, options.tolerance};
 
-  if (linear) {
+  if (!experiment.hands.empty()) {
+    compileShared(scene, experiment, !regularity || regularity->whole);
+  } else if (linear) {
     const LinearSpace space = linearSpace(constraint);
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
     if (choice.method == "exact") scene.plant = makeExactPlant(model, space, options.step);
@@ -213,7 +234,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
       scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
     }
   }
-  if (choice.method == "rk4") estimateRk4(scene, experiment, options.step);
+  if (choice.method == "rk4" && scene.shared == nullptr) estimateRk4(scene, experiment, options.step);
   if (experiment.task) scene.plant->placeAtRest(start);
   return scene;
 }

@@ -60,6 +60,25 @@ void checkCoupling(const Experiment& e, std::vector<Fault>& faults) {
   checkNumber("coupling.damping_n_s_per_m", e.coupling->damping, atLeastZero("N s/m"), faults);
 }
 
+void checkHands(const Experiment& e, std::vector<Fault>& faults) {
+  if (e.hands.size() > kMaxHands)
+    return faults.push_back({"hands", fmt::format("has {} hands", e.hands.size()), fmt::format("up to {}", kMaxHands)});
+  const int masses = static_cast<int>(e.object.masses.size());
+  for (std::size_t i = 0; i < e.hands.size(); ++i) {
+    const Hand& hand = e.hands[i];
+    const std::string key = fmt::format("hands[{}]", i);
+    if (hand.mass < 0 || hand.mass > masses)
+      faults.push_back({key + ".mass", fmt::format("is {}", hand.mass), fmt::format("1 to {}, a mass of the object", masses)});
+    const int springs = hand.mass == 0 ? masses : 1;
+    checkNumbers(key + ".stiffness_n_per_m", hand.stiffness, springs, atLeastZero("N/m"), faults);
+    checkNumbers(key + ".damping_n_s_per_m", hand.damping, springs, atLeastZero("N s/m"), faults);
+    checkVector(key + ".fp_offset_m", hand.fpOffset, faults);
+    const bool holds = std::any_of(hand.stiffness.begin(), hand.stiffness.end(), [](double k) { return k > 0; });
+    if (!hand.stiffness.empty() && !holds)
+      faults.push_back({key + ".stiffness_n_per_m", "is 0 throughout: this hand holds nothing", "a stiffness above 0 N/m"});
+  }
+}
+
 /// `coordinates` < 0: the constraint is at fault itself, and how many there are is not known.
 void checkTask(const Task& task, int coordinates, std::vector<Fault>& faults) {
   for (const auto& [key, place] : {std::pair{"task.start", &task.start}, std::pair{"task.target", &task.target}}) {
@@ -100,7 +119,8 @@ void checkShape(const constraints::ConstraintSpec& spec, std::vector<Fault>& fau
   for (const auto& [key, value] : spec.shape) checkNumber("constraint.shape." + key, value, anyNumber(), faults);
 }
 
-void checkObjectOnConstraint(const Object& object, const constraints::Constraint& constraint, std::vector<Fault>& faults) {
+void checkObjectOnConstraint(const Experiment& e, const constraints::Constraint& constraint, std::vector<Fault>& faults) {
+  const Object& object = e.object;
   using constraints::ConstraintKind;
   if (object.kind == ObjectKind::Body && constraint.kind != ConstraintKind::Free)
     faults.push_back({"object.kind", "is body, which moves free", "constraint { \"name\": \"free\" }"});
@@ -109,6 +129,7 @@ void checkObjectOnConstraint(const Object& object, const constraints::Constraint
     faults.push_back({"object.masses_kg", fmt::format("has {} masses on a surface", object.masses.size()),
                       "one mass on a surface; chains and parallel objects on curves or free"});
   if (object.kind == ObjectKind::Parallel) faults.push_back({"object.kind", "is parallel on a surface", "parallel on curves or free"});
+  if (!e.hands.empty()) faults.push_back({"hands", "hold an object on a surface", "several hands on lines, curves or free"});
 }
 
 }  // namespace
@@ -158,6 +179,7 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   }
   checkObject(experiment.object, faults);
   checkCoupling(experiment, faults);
+  checkHands(experiment, faults);
   if (experiment.task) {
     const auto& constraint = checked.constraint;
     checkTask(*experiment.task,
@@ -173,7 +195,7 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   checkChoice("velocity_estimator.kind", experiment.velocityEstimator.kind, velocityEstimatorNames(), faults);
   checkNumber("velocity_estimator.cutoff_hz", experiment.velocityEstimator.cutoff, positiveUpTo(400, "Hz"), faults);
   checkArm(experiment.arm, faults);
-  if (checked.constraint && faults.empty()) checkObjectOnConstraint(experiment.object, *checked.constraint, faults);
+  if (checked.constraint && faults.empty()) checkObjectOnConstraint(experiment, *checked.constraint, faults);
   return checked;
 }
 

@@ -1,5 +1,6 @@
 #include "sim/experiment/equality.h"
 
+#include <algorithm>
 #include <tuple>
 
 // Every member is named: whoever adds one to a struct and not here is told by the compiler.
@@ -14,6 +15,11 @@ auto parts(const Coupling& c) {
 auto parts(const Object& o) {
   const auto& [kind, masses, stiffness, damping, viscosity, gravity, inertia, fpOffset] = o;
   return std::tie(kind, masses, stiffness, damping, viscosity, gravity, inertia, fpOffset);
+}
+
+auto parts(const Hand& h) {
+  const auto& [mass, stiffness, damping, fpOffset] = h;
+  return std::tie(mass, stiffness, damping, fpOffset);
 }
 
 auto parts(const Tolerance& t) {
@@ -54,6 +60,11 @@ bool same(const T& a, const T& b) {
 }
 
 template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& one, const T& other) { return same(one, other); });
+}
+
+template <class T>
 bool same(const std::optional<T>& a, const std::optional<T>& b) {
   return a.has_value() == b.has_value() && (!a || same(*a, *b));
 }
@@ -67,10 +78,11 @@ bool isSameConstraint(const constraints::ConstraintSpec& a, const constraints::C
 }
 
 bool operator==(const Experiment& a, const Experiment& b) {
-  const auto& [schemaVersion, name, constraint, object, coupling, task, method, handMass, forceLimit, forceLimitEndsTrial, timing,
+  const auto& [schemaVersion, name, constraint, object, coupling, hands, task, method, handMass, forceLimit, forceLimitEndsTrial, timing,
                velocityEstimator, arm, subjectScreen, text] = a;
   return schemaVersion == b.schemaVersion && name == b.name && isSameConstraint(constraint, b.constraint) && same(object, b.object) &&
-         same(coupling, b.coupling) && same(task, b.task) && method == b.method && handMass == b.handMass && forceLimit == b.forceLimit &&
+         same(coupling, b.coupling) && same(hands, b.hands) && same(task, b.task) && method == b.method && handMass == b.handMass &&
+         forceLimit == b.forceLimit &&
          forceLimitEndsTrial == b.forceLimitEndsTrial && same(timing, b.timing) && same(velocityEstimator, b.velocityEstimator) &&
          same(arm, b.arm) && subjectScreen == b.subjectScreen && text == b.text;
 }

@@ -11,6 +11,7 @@
 namespace reachlab::experiment {
 
 inline constexpr int kMaxMasses = 512;
+inline constexpr int kMaxHands = 8;  // on one object
 
 enum class ObjectKind { Point, Chain, Parallel, Body };
 
@@ -31,6 +32,13 @@ struct Object {
 struct Coupling {
   double stiffness = 0;  // [N/m]
   double damping = 0;    // [N s/m]
+};
+
+/// One of several hands on one object, each coupled by Eq. (8) for itself: to one mass, or to every mass by a spring of its own.
+struct Hand {
+  int mass = 1;                           // from 1; 0: to all, and both lists have a number for each
+  std::vector<double> stiffness, damping;  // [N/m], [N s/m]; one number where one mass is held
+  Vec3 fpOffset;                          // [m] where it holds a body, body frame
 };
 
 struct Tolerance {
@@ -87,6 +95,7 @@ struct Experiment {
   constraints::ConstraintSpec constraint;
   Object object;
   std::optional<Coupling> coupling;  // required, but none for parallel
+  std::vector<Hand> hands;           // empty: one hand, by `coupling` or a parallel object's own springs
   std::optional<Task> task;
   std::string method = "auto";       // auto | rk4 | exact | abm | adaptive | stiff
   double handMass = 0;               // [kg] predictions only
@@ -113,8 +122,9 @@ std::string toJson(const Experiment& experiment);
 /// Every fault of the value, each under its key as in the files; empty when fine. The reader adds the places.
 std::vector<Fault> problems(const Experiment& experiment);
 
-/// Names of the shipped experiments, sorted.
+/// Names of the shipped experiments, sorted: those that one hand does with one device, and those for two.
 std::vector<std::string> shippedExperiments();
+std::vector<std::string> shippedForTwoHands();
 /// Folder of resources: $REACHLAB_RESOURCES, else beside the source or installed. Throws ResourceError when there is none.
 std::string resourceFolder();
 

@@ -98,6 +98,54 @@ void readCoupling(ObjectReader& root, Experiment& experiment) {
   experiment.coupling = coupling;
 }
 
+// What a hand's springs are where they are not given: those that a single hand would have.
+void readHand(ObjectReader& reader, const Experiment& experiment, Hand& hand) {
+  const Object& object = experiment.object;
+  const bool parallel = object.kind == ObjectKind::Parallel;
+  const JsonNode* stiffness = reader.optional("stiffness_n_per_m");
+  const JsonNode* damping = reader.optional("damping_n_s_per_m");
+  const auto isList = [](const JsonNode* node) { return node != nullptr && node->kind == JsonNode::Kind::Array; };
+  const bool toAll = isList(stiffness) || isList(damping) || (parallel && reader.optional("mass") == nullptr);
+  if (toAll) {
+    hand.mass = 0;
+    hand.stiffness = object.stiffness;
+    hand.damping = object.damping;
+    if (!parallel) hand.stiffness.clear(), hand.damping.assign(object.masses.size(), 0.0);
+    if (stiffness != nullptr) reader.numbers(*stiffness, "stiffness_n_per_m", -1, anyNumber(), hand.stiffness);
+    if (damping != nullptr) reader.numbers(*damping, "damping_n_s_per_m", -1, anyNumber(), hand.damping);
+    if (reader.optional("mass") != nullptr)
+      reader.faults().add(*reader.optional("mass"), reader.keyPath("mass"), "stands beside a list of springs, one for each mass",
+                          "a mass and one stiffness, or a list without a mass");
+  } else {
+    const Coupling coupling = experiment.coupling.value_or(Coupling{});
+    hand.stiffness = {coupling.stiffness};
+    hand.damping = {coupling.damping};
+    reader.integer("mass", 1, kMaxMasses, hand.mass);
+    if (parallel && stiffness == nullptr)
+      reader.faults().add(reader.node(), reader.keyPath("stiffness_n_per_m"), "is missing, and a parallel object has no coupling",
+                          "a stiffness in N/m");
+    reader.number("stiffness_n_per_m", anyNumber(), hand.stiffness[0]);
+    reader.number("damping_n_s_per_m", anyNumber(), hand.damping[0]);
+  }
+  hand.fpOffset = object.fpOffset;
+  if (object.kind != ObjectKind::Body) return;
+  std::vector<double> triple;
+  if (const JsonNode* offset = reader.optional("fp_offset_m"))
+    if (reader.numbers(*offset, "fp_offset_m", 3, anyNumber(), triple)) hand.fpOffset = vec3(triple);
+}
+
+void readHands(ObjectReader& root, Experiment& experiment) {
+  const JsonNode* node = root.optional("hands");
+  if (node == nullptr) return;
+  if (node->kind != JsonNode::Kind::Array || node->items.empty())
+    return root.faults().add(*node, "hands", "is no list of hands", "[ { \"mass\": 1 }, { \"mass\": 5 } ], one for each hand");
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
+    ObjectReader reader(root.faults(), node->items[i], fmt::format("hands[{}]", i));
+    readHand(reader, experiment, experiment.hands.emplace_back());
+    reader.finish();
+  }
+}
+
 void readTask(ObjectReader& root, Experiment& experiment) {
   const JsonNode* node = root.optional("task");
   if (node == nullptr) return;
@@ -206,6 +254,7 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   readConstraint(root, experiment);
   readObject(root, experiment);
   readCoupling(root, experiment);
+  readHands(root, experiment);
   readTask(root, experiment);
   root.text("method", experiment.method);
   root.number("hand_mass_kg", anyNumber(), experiment.handMass);

@@ -49,6 +49,20 @@ Json objectJson(const Object& object) {
   return json;
 }
 
+Json handJson(const Hand& hand, bool body) {
+  Json json;
+  if (hand.mass > 0) {
+    json["mass"] = hand.mass;
+    json["stiffness_n_per_m"] = hand.stiffness.at(0);
+    json["damping_n_s_per_m"] = hand.damping.at(0);
+  } else {
+    json["stiffness_n_per_m"] = hand.stiffness;
+    json["damping_n_s_per_m"] = hand.damping;
+  }
+  if (body) json["fp_offset_m"] = toArray(hand.fpOffset);
+  return json;
+}
+
 Json taskJson(const Task& task) {
   return {{"start", task.start},
           {"target", task.target},
@@ -72,6 +86,7 @@ std::string toJson(const Experiment& experiment) {
   json["object"] = objectJson(experiment.object);
   if (experiment.coupling)
     json["coupling"] = {{"stiffness_n_per_m", experiment.coupling->stiffness}, {"damping_n_s_per_m", experiment.coupling->damping}};
+  for (const Hand& hand : experiment.hands) json["hands"].push_back(handJson(hand, experiment.object.kind == ObjectKind::Body));
   if (experiment.task) json["task"] = taskJson(*experiment.task);
   json["method"] = experiment.method;
   json["hand_mass_kg"] = experiment.handMass;

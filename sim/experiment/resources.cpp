@@ -24,13 +24,23 @@ std::string resourceFolder() {
   throw ResourceError("the resources (shipped experiments) are not found; set REACHLAB_RESOURCES to their folder");
 }
 
-std::vector<std::string> shippedExperiments() {
+namespace {
+
+constexpr const char* kTwoHands = "two-hands";
+
+std::vector<std::string> namesIn(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(resourceFolder()) / "experiments"))
+  for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
+
+}  // namespace
+
+std::vector<std::string> shippedExperiments() { return namesIn(fs::path(resourceFolder()) / "experiments"); }
+
+std::vector<std::string> shippedForTwoHands() { return namesIn(fs::path(resourceFolder()) / "experiments" / kTwoHands); }
 
 CompiledExperiment openExperiment(const std::string& fileOrName) {
   std::error_code ignored;
@@ -41,6 +51,8 @@ CompiledExperiment openExperiment(const std::string& fileOrName) {
     const std::string file = (fs::path(resourceFolder()) / "experiments" / (fileOrName + ".json")).string();
     return openExperimentText(readTextFile(file), file);
   }
+  const fs::path twoHands = fs::path(resourceFolder()) / "experiments" / kTwoHands / (fileOrName + ".json");
+  if (!looksLikeFile && fs::is_regular_file(twoHands, ignored)) return openExperimentText(readTextFile(twoHands.string()), twoHands.string());
   if (fs::is_directory(fileOrName, ignored)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
   if (looksLikeFile) throw FaultError(Fault{fileOrName, "there is no such file", "an experiment file, or one of " + listOf(names)});
   const std::string nearest = nearestName(fileOrName, names);

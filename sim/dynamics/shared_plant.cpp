@@ -1,0 +1,468 @@
+#include "sim/dynamics/shared_plant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "sim/dynamics/body_system.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+struct Hand {
+  HandSprings springs;
+  HandSegment segment;
+  HandSample end;
+  double grip = 1;
+  double work = 0;  // [J]
+};
+
+Vec3 at3(std::span<const double> numbers, int i) noexcept { return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]}; }
+void put3(std::span<double> numbers, int i, const Vec3& v) noexcept {
+  numbers[3 * i] = v.x, numbers[3 * i + 1] = v.y, numbers[3 * i + 2] = v.z;
+}
+void put3(std::vector<double>& numbers, int i, const Vec3& v) noexcept { put3(std::span<double>(numbers), i, v); }
+
+/// State, room for the method and what all geometries share. `Geometry` maps places and rates to the masses' r and v, and the masses' forces
+/// to accelerations of the rates.
+template <class Geometry>
+class HeldObject final : public SharedPlant {
+ public:
+  HeldObject(const ObjectModel& model, std::vector<HandSprings> springs, Geometry geometry)
+      : model_(model), geometry_(std::move(geometry)), places_(geometry_.placeCount()), rates_(geometry_.rateCount()) {
+    for (HandSprings& hand : springs) hands_.push_back({std::move(hand), {}, {}, 1, 0});
+    for (auto* room : {&atPlaces_, &k1q_, &k2q_, &k3q_, &k4q_}) room->resize(places_.size());
+    for (auto* room : {&atRates_, &k1v_, &k2v_, &k3v_, &k4v_, &extra_}) room->resize(rates_.size());
+    const auto count = static_cast<std::size_t>(model_.count());
+    for (auto* room : {&r_, &v_, &force_, &before_}) room->resize(count);
+    points_.resize(hands_.size());
+    startForce_.resize(hands_.size() * count);
+  }
+
+  int massCount() const noexcept override { return model_.count(); }
+  int handCount() const noexcept override { return static_cast<int>(hands_.size()); }
+  int placeCount() const noexcept override { return static_cast<int>(places_.size()); }
+  int rateCount() const noexcept override { return static_cast<int>(rates_.size()); }
+  std::span<const double> places() const noexcept override { return places_; }
+  std::span<const double> rates() const noexcept override { return rates_; }
+
+  void placeAtRest(std::span<const double> q) noexcept override {
+    const std::array<double, 3> rest{};
+    place(q, std::span(rest).first(q.size()));
+  }
+  void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
+    geometry_.place(q, qRate, places_, rates_);
+    std::fill(extra_.begin(), extra_.end(), 0.0);
+    geometry_.locate(places_, rates_, r_, v_);
+    gravityZero_ = gravityEnergy();
+    for (Hand& hand : hands_) {
+      hand.end = {pointOf(hand), {}, true};
+      hand.segment = {};
+      hand.segment.position[0] = hand.end.position;
+      hand.work = 0;
+      hand.grip = 1;
+    }
+    fraction_ = 1;
+  }
+  void setExtraForce(const Vec3& force) noexcept override { extraForce_ = force; }
+  void setCoupled(bool coupled) noexcept override { coupled_ = coupled; }
+  void restart() noexcept override {}
+
+  void setHand(int hand, const HandSegment& segment, const HandSample& end, double grip) noexcept override {
+    Hand& held = hands_[static_cast<std::size_t>(hand)];
+    held.segment = segment;
+    held.end = end;
+    held.grip = grip;
+  }
+  void setExtraAcceleration(std::span<const double> acceleration) noexcept override {
+    std::copy(acceleration.begin(), acceleration.end(), extra_.begin());
+  }
+
+  StepStatus step(const HandSegment& segment, double dt) noexcept override {
+    hands_[0].segment = segment;
+    hands_[0].end = endOf(segment);
+    fraction_ = 1;
+    geometry_.locate(places_, rates_, r_, v_);
+    rememberForces();
+
+    derive(0, places_, rates_, k1q_, k1v_);
+    advance(dt / 2, k1q_, k1v_);
+    derive(0.5, atPlaces_, atRates_, k2q_, k2v_);
+    advance(dt / 2, k2q_, k2v_);
+    derive(0.5, atPlaces_, atRates_, k3q_, k3v_);
+    advance(dt, k3q_, k3v_);
+    derive(1, atPlaces_, atRates_, k4q_, k4v_);
+    rhs_ += 4;
+    double check = 0;
+    const auto sum = [&](const std::vector<double>& y, const auto& k1, const auto& k2, const auto& k3, const auto& k4, auto& next) {
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        next[i] = y[i] + dt / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
+        check += 0.0 * next[i];
+      }
+    };
+    sum(places_, k1q_, k2q_, k3q_, k4q_, atPlaces_);
+    sum(rates_, k1v_, k2v_, k3v_, k4v_, atRates_);
+    if (check != 0) return StepStatus::NotFinite;
+    geometry_.settle(atPlaces_);
+    if (!geometry_.inside(atPlaces_)) {
+      fraction_ = 0;
+      return StepStatus::AtEnd;
+    }
+    places_.swap(atPlaces_);
+    rates_.swap(atRates_);
+    countWork();
+    return StepStatus::Ok;
+  }
+  double lastStepFraction() const noexcept override { return fraction_; }
+
+  void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
+    hands_[0].end = hand;
+    geometry_.locate(places_, rates_, r_, v_);
+    derive(1, places_, rates_, k4q_, k4v_, true);
+    geometry_.observe(places_, rates_, k4v_, masses);
+    for (int i = 0; i < model_.count(); ++i) masses[i].r = r_[i], masses[i].v = v_[i];
+  }
+  Vec3 couplingForce(const HandSample& hand) const noexcept override {
+    hands_[0].end = hand;
+    return couplingForceOf(0);
+  }
+  Vec3 couplingForceOf(int hand) const noexcept override {
+    geometry_.locate(places_, rates_, r_, v_);
+    const Hand& held = hands_[static_cast<std::size_t>(hand)];
+    Vec3 total;
+    for (int i = 0; i < model_.count(); ++i) total += forceOn(held, i, held.end.position, held.end.velocity);
+    return total;
+  }
+  Vec3 fixedPoint(int hand) const noexcept override {
+    geometry_.locate(places_, rates_, r_, v_);
+    return pointOf(hands_[static_cast<std::size_t>(hand)]);
+  }
+  double work(int hand) const noexcept override { return hands_[static_cast<std::size_t>(hand)].work; }
+
+  double energy(const HandSample& sample) const noexcept override {
+    hands_[0].end = sample;
+    double energy = objectEnergy() + gravityZero_;
+    if (!coupled_) return energy;
+    for (const Hand& hand : hands_)
+      for (int i = 0; i < model_.count(); ++i) {
+        const Vec3 stretch = hand.end.position - pointOn(hand, i);
+        energy += 0.5 * hand.grip * hand.springs.stiffness[i] * dot(stretch, stretch);
+      }
+    return energy;
+  }
+  double objectEnergy() const noexcept override {
+    geometry_.locate(places_, rates_, r_, v_);
+    double energy = kinetic() + gravityEnergy() - gravityZero_;
+    for (std::size_t i = 0; i < model_.stiffness.size(); ++i) {
+      const Vec3 stretch = r_[i + 1] - r_[i];
+      energy += 0.5 * model_.stiffness[i] * dot(stretch, stretch);
+    }
+    return energy;
+  }
+  double kineticEnergy() const noexcept override {
+    geometry_.locate(places_, rates_, r_, v_);
+    return kinetic();
+  }
+  void difference(std::span<const double> target, std::span<double> out) const noexcept override {
+    geometry_.difference(places_, target, out);
+  }
+  double distanceBetween(std::span<const double> a, std::span<const double> b) const noexcept override {
+    double squares = 0;
+    for (int i = 0; i < model_.count(); ++i) {
+      const Vec3 apart = geometry_.placeOf(a, i) - geometry_.placeOf(b, i);
+      squares += dot(apart, apart);
+    }
+    return std::sqrt(squares / model_.count());
+  }
+  void setAngularVelocity(const Vec3& velocity) noexcept override { geometry_.setAngularVelocity(velocity, rates_); }
+  BodyState body() const noexcept override { return geometry_.body(places_, rates_); }
+  std::uint64_t rhsEvaluations() const noexcept override { return rhs_; }
+  std::string stopReason() const override { return fraction_ < 1 ? "a mass reached the end of the constraint's domain" : std::string(); }
+
+ private:
+  /// Where the hand holds mass i, and how fast that place moves; r_, v_ hold the masses.
+  Vec3 pointOn(const Hand& hand, int i) const noexcept { return r_[i] + geometry_.arm(hand.springs.fpOffset); }
+  Vec3 speedOn(const Hand& hand, int i) const noexcept { return v_[i] + geometry_.armSpeed(hand.springs.fpOffset); }
+  Vec3 pointOf(const Hand& hand) const noexcept {
+    Vec3 sum;
+    double weight = 0;
+    for (int i = 0; i < model_.count(); ++i) {
+      sum += hand.springs.stiffness[i] * pointOn(hand, i);
+      weight += hand.springs.stiffness[i];
+    }
+    return weight > 0 ? sum / weight : pointOn(hand, 0);
+  }
+  Vec3 forceOn(const Hand& hand, int i, const Vec3& place, const Vec3& speed) const noexcept {
+    const double k = hand.grip * hand.springs.stiffness[i], b = hand.grip * hand.springs.damping[i];
+    if (!coupled_ || (k == 0 && b == 0)) return {};
+    return k * (place - pointOn(hand, i)) + b * (speed - speedOn(hand, i));
+  }
+
+  // Rates of places and rates at s of the step; `now`: with the hands where they are at its end, as they were told.
+  void derive(double s, const std::vector<double>& places, const std::vector<double>& rates, std::vector<double>& dPlaces,
+              std::vector<double>& dRates, bool now = false) const noexcept {
+    geometry_.locate(places, rates, r_, v_);
+    for (int i = 0; i < model_.count(); ++i) force_[i] = model_.mass[i] * model_.gravity - model_.viscosity * v_[i];
+    force_[0] += extraForce_;
+    for (std::size_t i = 0; i < model_.stiffness.size(); ++i) {
+      const Vec3 pull = model_.stiffness[i] * (r_[i + 1] - r_[i]) + model_.damping[i] * (v_[i + 1] - v_[i]);
+      force_[i] += pull;
+      force_[i + 1] -= pull;
+    }
+    Vec3 moment;  // about a body's centre
+    for (const Hand& hand : hands_) {
+      const Vec3 place = now ? hand.end.position : valueAt(hand.segment.position, hand.segment.degree, s);
+      const Vec3 speed = now ? hand.end.velocity : valueAt(hand.segment.velocity, hand.segment.degree, s);
+      for (int i = 0; i < model_.count(); ++i) {
+        const Vec3 force = forceOn(hand, i, place, speed);
+        force_[i] += force;
+        if constexpr (Geometry::kTurns) moment += cross(geometry_.arm(hand.springs.fpOffset), force);
+      }
+    }
+    geometry_.accelerate(model_, places, rates, force_, moment, dPlaces, dRates);
+    for (std::size_t i = 0; i < extra_.size(); ++i) dRates[i] += extra_[i];
+  }
+  void advance(double dt, const std::vector<double>& dPlaces, const std::vector<double>& dRates) noexcept {
+    for (std::size_t i = 0; i < places_.size(); ++i) atPlaces_[i] = places_[i] + dt * dPlaces[i];
+    for (std::size_t i = 0; i < rates_.size(); ++i) atRates_[i] = rates_[i] + dt * dRates[i];
+  }
+
+  // r_, v_ are those before the step.
+  void rememberForces() noexcept {
+    const auto count = static_cast<std::size_t>(model_.count());
+    before_ = r_;
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      const Hand& hand = hands_[h];
+      points_[h] = geometry_.arm(hand.springs.fpOffset);
+      for (std::size_t i = 0; i < count; ++i)
+        startForce_[h * count + i] = forceOn(hand, static_cast<int>(i), hand.segment.position[0], hand.segment.velocity[0]);
+    }
+  }
+  void countWork() noexcept {
+    const auto count = static_cast<std::size_t>(model_.count());
+    geometry_.locate(places_, rates_, r_, v_);
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      Hand& hand = hands_[h];
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 moved = r_[i] - before_[i] + (geometry_.arm(hand.springs.fpOffset) - points_[h]);
+        hand.work += 0.5 * dot(startForce_[h * count + i] + forceOn(hand, static_cast<int>(i), hand.end.position, hand.end.velocity), moved);
+      }
+    }
+  }
+
+  double kinetic() const noexcept {
+    double energy = geometry_.turningEnergy(rates_);
+    for (int i = 0; i < model_.count(); ++i) energy += 0.5 * model_.mass[i] * dot(v_[i], v_[i]);
+    return energy;
+  }
+  double gravityEnergy() const noexcept {
+    double energy = 0;
+    for (int i = 0; i < model_.count(); ++i) energy -= model_.mass[i] * dot(model_.gravity, r_[i]);
+    return energy;
+  }
+
+  ObjectModel model_;
+  mutable Geometry geometry_;
+  std::vector<double> places_, rates_;
+  bool coupled_ = true;
+  Vec3 extraForce_;
+  double gravityZero_ = 0;  // [J]
+  double fraction_ = 1;
+  std::uint64_t rhs_ = 0;
+  mutable std::vector<Hand> hands_;  // the last sample of hand 0 is what was asked about last
+  // Room, so that a step allocates nothing.
+  mutable std::vector<double> atPlaces_, atRates_, k1q_, k2q_, k3q_, k4q_, k1v_, k2v_, k3v_, k4v_, extra_;
+  mutable std::vector<Vec3> r_, v_, force_, before_, points_, startForce_;
+};
+
+/// What is the same for everything that does not turn.
+struct Unturned {
+  static constexpr bool kTurns = false;
+  static Vec3 arm(const Vec3&) noexcept { return {}; }
+  static Vec3 armSpeed(const Vec3&) noexcept { return {}; }
+  static double turningEnergy(std::span<const double>) noexcept { return 0; }
+  static void setAngularVelocity(const Vec3&, std::vector<double>&) noexcept {}
+  static BodyState body(std::span<const double>, std::span<const double>) noexcept { return {}; }
+  static void settle(std::vector<double>&) noexcept {}
+  static void difference(std::span<const double> from, std::span<const double> to, std::span<double> out) noexcept {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = to[i] - from[i];
+  }
+};
+
+struct FreeMasses : Unturned {
+  int count;
+  int placeCount() const { return 3 * count; }
+  int rateCount() const { return 3 * count; }
+  void place(std::span<const double> q, std::span<const double> qRate, std::vector<double>& places, std::vector<double>& rates) noexcept {
+    for (int i = 0; i < count; ++i) put3(places, i, {q[0], q[1], q[2]}), put3(rates, i, {qRate[0], qRate[1], qRate[2]});
+  }
+  void locate(std::span<const double> places, std::span<const double> rates, std::vector<Vec3>& r, std::vector<Vec3>& v) noexcept {
+    for (int i = 0; i < count; ++i) r[i] = at3(places, i), v[i] = at3(rates, i);
+  }
+  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force, const Vec3&,
+                  std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+    for (int i = 0; i < count; ++i) put3(dPlaces, i, at3(rates, i)), put3(dRates, i, force[i] / model.mass[i]);
+  }
+  void observe(std::span<const double>, std::span<const double>, std::span<const double> dRates, std::span<MassState> masses) noexcept {
+    for (int i = 0; i < count; ++i) masses[i].a = at3(dRates, i);
+  }
+  static bool inside(std::span<const double>) noexcept { return true; }
+  static Vec3 placeOf(std::span<const double> places, int i) noexcept { return at3(places, i); }
+};
+
+/// Masses on a curve: m |r_phi|^2 phi'' + m (r_phi . r_phiphi) phi'^2 = r_phi . F.
+struct CurveMasses : Unturned {
+  constraints::Curve curve;
+  constraints::Domain domain;
+  std::shared_ptr<const void> owner;
+  std::optional<constraints::CurvePoint> straight;  // at phi = 0, where r_phi is the same everywhere
+  std::vector<constraints::CurvePoint> points;
+
+  constraints::CurvePoint pointAt(double phi) const noexcept {
+    return straight ? constraints::CurvePoint{straight->r + phi * straight->rPhi, straight->rPhi, {}} : evaluate(curve, phi);
+  }
+  int placeCount() const { return static_cast<int>(points.size()); }
+  int rateCount() const { return placeCount(); }
+  void place(std::span<const double> q, std::span<const double> qRate, std::vector<double>& places, std::vector<double>& rates) noexcept {
+    std::fill(places.begin(), places.end(), q[0]);
+    std::fill(rates.begin(), rates.end(), qRate[0]);
+  }
+  void locate(std::span<const double> places, std::span<const double> rates, std::vector<Vec3>& r, std::vector<Vec3>& v) noexcept {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] = pointAt(places[i]);
+      r[i] = points[i].r;
+      v[i] = rates[i] * points[i].rPhi;
+    }
+  }
+  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force, const Vec3&,
+                  std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const constraints::CurvePoint& p = points[i];
+      dPlaces[i] = rates[i];
+      dRates[i] = (dot(p.rPhi, force[i]) / model.mass[i] - dot(p.rPhi, p.rPhiPhi) * rates[i] * rates[i]) / dot(p.rPhi, p.rPhi);
+    }
+  }
+  void observe(std::span<const double> places, std::span<const double> rates, std::span<const double> dRates,
+               std::span<MassState> masses) noexcept {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      masses[i].q = {places[i], 0};
+      masses[i].qRate = {rates[i], 0};
+      masses[i].a = dRates[i] * points[i].rPhi + (rates[i] * rates[i]) * points[i].rPhiPhi;
+    }
+  }
+  Vec3 placeOf(std::span<const double> places, int i) const noexcept { return pointAt(places[static_cast<std::size_t>(i)]).r; }
+  bool inside(std::span<const double> places) const noexcept {
+    if (domain.periodic) return true;
+    return std::all_of(places.begin(), places.end(), [&](double phi) { return phi >= domain.lo && phi <= domain.hi; });
+  }
+};
+
+/// A rigid body, BodySystem's equations with more hands: places r, quaternion; rates v, angular velocity in body axes.
+struct FreeBody {
+  static constexpr bool kTurns = true;
+  Matrix3 inertia{}, inverseInertia{};
+  BodySystem::Pose pose{};  // of the latest `locate`
+
+  static int placeCount() { return 7; }
+  static int rateCount() { return 6; }
+  void place(std::span<const double> q, std::span<const double> qRate, std::vector<double>& places, std::vector<double>& rates) noexcept {
+    places = {q[0], q[1], q[2], 1, 0, 0, 0};
+    rates = {qRate[0], qRate[1], qRate[2], 0, 0, 0};
+  }
+  void locate(std::span<const double> s, std::span<const double> rates, std::vector<Vec3>& r, std::vector<Vec3>& v) noexcept {
+    pose = {at3(s, 0), at3(rates, 0), at3(rates, 1), s[3], s[4], s[5], s[6]};
+    r[0] = pose.r;
+    v[0] = pose.v;
+  }
+  Vec3 arm(const Vec3& offset) const noexcept { return pose.toWorld(offset); }
+  Vec3 armSpeed(const Vec3& offset) const noexcept { return cross(pose.toWorld(pose.turn), pose.toWorld(offset)); }
+  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double>, const std::vector<Vec3>& force,
+                  const Vec3& moment, std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+    const Vec3& o = pose.turn;
+    const Vec3 spin = times(inverseInertia, pose.toBody(moment) - cross(o, times(inertia, o)));
+    put3(dPlaces, 0, pose.v);
+    dPlaces[3] = 0.5 * (-pose.x * o.x - pose.y * o.y - pose.z * o.z);
+    dPlaces[4] = 0.5 * (pose.w * o.x + pose.y * o.z - pose.z * o.y);
+    dPlaces[5] = 0.5 * (pose.w * o.y + pose.z * o.x - pose.x * o.z);
+    dPlaces[6] = 0.5 * (pose.w * o.z + pose.x * o.y - pose.y * o.x);
+    put3(dRates, 0, force[0] / model.mass[0]);
+    put3(dRates, 1, spin);
+  }
+  void observe(std::span<const double>, std::span<const double>, std::span<const double> dRates, std::span<MassState> masses) noexcept {
+    masses[0].a = at3(dRates, 0);
+  }
+  static bool inside(std::span<const double>) noexcept { return true; }
+  static Vec3 placeOf(std::span<const double> places, int) noexcept { return at3(places, 0); }
+  double turningEnergy(std::span<const double> rates) const noexcept {
+    const Vec3 turn = at3(rates, 1);
+    return 0.5 * dot(turn, times(inertia, turn));
+  }
+  void setAngularVelocity(const Vec3& velocity, std::vector<double>& rates) const noexcept { put3(rates, 1, pose.toBody(velocity)); }
+  BodyState body(std::span<const double> s, std::span<const double> rates) noexcept {
+    pose = {at3(s, 0), at3(rates, 0), at3(rates, 1), s[3], s[4], s[5], s[6]};
+    return {{s[3], s[4], s[5], s[6]}, pose.toWorld(pose.turn)};
+  }
+  static void settle(std::vector<double>& s) noexcept {
+    const double length = 1 / std::sqrt(s[3] * s[3] + s[4] * s[4] + s[5] * s[5] + s[6] * s[6]);
+    for (int i = 3; i < 7; ++i) s[i] *= length;
+  }
+  // The rotation between two near orientations: twice the vector part of q* q', in the axes of q.
+  static void difference(std::span<const double> a, std::span<const double> b, std::span<double> out) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) out[i] = b[i] - a[i];
+    const double w = a[3], x = -a[4], y = -a[5], z = -a[6];
+    const double turned = w * b[3] - x * b[4] - y * b[5] - z * b[6];
+    const double sign = turned < 0 ? -2.0 : 2.0;
+    out[3] = sign * (w * b[4] + x * b[3] + y * b[6] - z * b[5]);
+    out[4] = sign * (w * b[5] - x * b[6] + y * b[3] + z * b[4]);
+    out[5] = sign * (w * b[6] + x * b[5] - y * b[4] + z * b[3]);
+  }
+};
+
+}  // namespace
+
+std::vector<HandSprings> handSpringsOf(const experiment::Experiment& experiment) {
+  const experiment::Object& object = experiment.object;
+  const std::size_t count = object.masses.size();
+  const auto onOne = [&](int mass, double stiffness, double damping, const Vec3& offset) {
+    HandSprings hand{std::vector<double>(count), std::vector<double>(count), offset};
+    hand.stiffness.at(static_cast<std::size_t>(mass - 1)) = stiffness;
+    hand.damping.at(static_cast<std::size_t>(mass - 1)) = damping;
+    return hand;
+  };
+  std::vector<HandSprings> hands;
+  for (const experiment::Hand& hand : experiment.hands)
+    hands.push_back(hand.mass > 0 ? onOne(hand.mass, hand.stiffness.at(0), hand.damping.at(0), hand.fpOffset)
+                                  : HandSprings{hand.stiffness, hand.damping, hand.fpOffset});
+  if (!hands.empty()) return hands;
+  if (object.kind == experiment::ObjectKind::Parallel) return {{object.stiffness, object.damping, {}}};
+  const experiment::Coupling coupling = experiment.coupling.value_or(experiment::Coupling{});
+  return {onOne(1, coupling.stiffness, coupling.damping, object.fpOffset)};
+}
+
+std::unique_ptr<SharedPlant> makeSharedPlant(const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
+  const ObjectModel model = makeObjectModel(experiment);
+  std::vector<HandSprings> hands = handSpringsOf(experiment);
+  if (constraint.kind == constraints::ConstraintKind::Surface)
+    throw RefusedError("several hands hold an object on lines, on curves and in free space, not on surfaces");
+  if (constraint.kind == constraints::ConstraintKind::Curve) {
+    if (constraint.domain[0].atEnd == constraints::AtEnd::Bounce && !constraint.domain[0].periodic)
+      throw RefusedError("several hands need a curve without elastic ends; use one that stops there, or one hand");
+    CurveMasses geometry;
+    geometry.curve = constraint.curve;
+    geometry.domain = constraint.domain[0];
+    geometry.owner = constraint.owner;
+    if (constraint.straight) geometry.straight = evaluate(constraint.curve, 0.0);
+    geometry.points.resize(static_cast<std::size_t>(model.count()));
+    return std::make_unique<HeldObject<CurveMasses>>(model, std::move(hands), std::move(geometry));
+  }
+  if (model.kind == experiment::ObjectKind::Body) {
+    const BodySystem system(model, experiment.object);
+    return std::make_unique<HeldObject<FreeBody>>(model, std::move(hands), FreeBody{system.inertia, system.inverseInertia, {}});
+  }
+  FreeMasses geometry;
+  geometry.count = model.count();
+  return std::make_unique<HeldObject<FreeMasses>>(model, std::move(hands), geometry);
+}
+
+}  // namespace reachlab::dynamics
