@@ -27,6 +27,7 @@ QString outcomeText(const trial::TrialResult& result) {
     case trial::Reason::Early: return QStringLiteral("Too early: wait for the signal");
     case trial::Reason::Timing: return QStringLiteral("The computer was too busy: this trial does not count");
     case trial::Reason::NoStart: return QStringLiteral("The hand was never at the start");
+    case trial::Reason::PeerLost: return QStringLiteral("Another station fell silent");
     case trial::Reason::None: break;
   }
   if (result.outcome == trial::Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
@@ -49,6 +50,7 @@ QString reasonText(trial::Reason reason) {
     case trial::Reason::Early: return QStringLiteral("too early");
     case trial::Reason::Timing: return QStringLiteral("computer too busy");
     case trial::Reason::NoStart: return QStringLiteral("hand never at the start");
+    case trial::Reason::PeerLost: return QStringLiteral("other station silent");
     case trial::Reason::None: break;
   }
   return QStringLiteral("no reason");

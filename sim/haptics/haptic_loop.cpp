@@ -86,7 +86,7 @@ void HapticLoop::start() {
     });
     ready->wait(false, std::memory_order_acquire);
   }
-  if (core_->info.rendersForce)
+  if (core_->anyRendersForce)
     watchdog_ = LeavableThread([core = core_, priority = options_.priority] {
       os::requestRealTime(priority);
       watchLoop(*core);
@@ -101,13 +101,13 @@ void HapticLoop::stop() {
   stopped_ = true;
   core_->stopping.store(true, std::memory_order_release);
   if (!started_) {
-    core_->device->write({});
+    core_->writeZero();
     return;
   }
   if (core_->info.drivesClock)
     thread_ = LeavableThread([core = core_] {
       core->device->stopClock();
-      core->device->write({});
+      core->writeZero();
     });
   if (!thread_.join(kPatience)) {
     core_->latch(DeviceFault::Stalled);

@@ -11,10 +11,23 @@ void raise(std::atomic<T>& counter, T by) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
+bool forcesAreFinite(const TickState& state) noexcept {
+  for (int hand = 0; hand < state.handCount; ++hand)
+    if (!isFinite(handOf(state, hand).couplingForce)) return false;
+  return true;
+}
+
 }  // namespace
 
 LoopCore::LoopCore(std::unique_ptr<TickEngine> theEngine, std::shared_ptr<HapticDevice> theDevice, RunSink* theSink)
-    : engine(std::move(theEngine)), device(std::move(theDevice)), info(device->info()), sink(theSink), deviceWatch(info) {
+    : engine(std::move(theEngine)), device(std::move(theDevice)), info(device->info()), sink(theSink), deviceWatch(info),
+      anyRendersForce(info.rendersForce) {
+  for (HapticDevice* other : device->otherHands()) {
+    const DeviceInfo about = other->info();
+    others.push_back({other, about, DeviceWatch(about)});
+    anyRendersForce = anyRendersForce || about.rendersForce;
+  }
+  otherSamples.resize(others.size());
   // A virtual hand may look at every mass at every tick.
   if (const std::uint32_t every = sink != nullptr ? sink->massesEvery() : 0; every > 0 && !info.virtualHand) engine->setMassesEvery(every);
   copyState(engine->state(), snapshots.back());
@@ -51,28 +64,40 @@ void LoopCore::countLateness(std::int64_t latenessNs, std::uint32_t missed) noex
 }
 
 // The watchdog may latch while this tick is being computed: what it has told the device must be the last word.
-void LoopCore::writeForce(const Vec3& force) noexcept {
-  device->write(fault.load(std::memory_order_acquire) == DeviceFault::None ? force : Vec3{});
-  if (fault.load(std::memory_order_acquire) != DeviceFault::None) device->write({});
+void LoopCore::writeForces() noexcept {
+  const TickState& state = engine->state();
+  const bool give = fault.load(std::memory_order_acquire) == DeviceFault::None;
+  device->write(give ? state.deviceForce : Vec3{});
+  for (std::size_t i = 0; i < others.size(); ++i) others[i].device->write(give ? state.others[i].deviceForce : Vec3{});
+  if (fault.load(std::memory_order_acquire) != DeviceFault::None) writeZero();
 }
 
-DeviceSample LoopCore::watched(const DeviceSample& sample, std::uint32_t missed, std::int64_t measuredNs) noexcept {
-  if (resetAsked.load(std::memory_order_acquire)) {
-    resetAsked.store(false, std::memory_order_release);
-    deviceWatch.reset();
-    fault.store(DeviceFault::None, std::memory_order_release);
-  }
-  deviceWatch.latch(fault.load(std::memory_order_acquire));
+void LoopCore::writeZero() noexcept {
+  device->write({});
+  for (const OtherDevice& other : others) other.device->write({});
+}
+
+void LoopCore::acceptReset() noexcept {
+  if (!resetAsked.load(std::memory_order_acquire)) return;
+  resetAsked.store(false, std::memory_order_release);
+  deviceWatch.reset();
+  for (OtherDevice& other : others) other.watch.reset();
+  fault.store(DeviceFault::None, std::memory_order_release);
+}
+
+DeviceSample LoopCore::watched(HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
+                               std::int64_t measuredNs) noexcept {
+  watch.latch(fault.load(std::memory_order_acquire));
   const TickState& before = engine->state();
-  const DeviceSample believed = deviceWatch.look(sample, {trial::isEngaged(before.phase), missed, measuredNs});
-  if (device->health() == DeviceHealth::Failed) deviceWatch.latch(DeviceFault::Device);
-  latch(deviceWatch.fault());
+  const DeviceSample believed = watch.look(sample, {trial::isEngaged(before.phase), missed, measuredNs});
+  if (watchedDevice.health() == DeviceHealth::Failed) watch.latch(DeviceFault::Device);
+  latch(watch.fault());
   return believed;
 }
 
 void LoopCore::writeLastZero() noexcept {
   if (!enterDevice(Where::Idle)) return;
-  device->write({});
+  writeZero();
   if (leaveDevice()) where.store(Where::Idle, std::memory_order_release);
 }
 
@@ -80,11 +105,17 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   TickInput input;
   if (!enterDevice(Where::Idle)) return false;
   input.device = device->read();
+  for (std::size_t i = 0; i < others.size(); ++i) otherSamples[i] = others[i].device->read();
   if (!leaveDevice()) return false;
-  if (info.rendersForce) {
-    input.device = watched(input.device, missed, measuredNs);
+  if (anyRendersForce) {
+    acceptReset();
+    if (info.rendersForce) input.device = watched(*device, deviceWatch, input.device, missed, measuredNs);
+    for (std::size_t i = 0; i < others.size(); ++i)
+      if (OtherDevice& other = others[i]; other.info.rendersForce)
+        otherSamples[i] = watched(*other.device, other.watch, otherSamples[i], missed, measuredNs);
     input.deviceFault = fault.load(std::memory_order_acquire) != DeviceFault::None;
   }
+  input.others = otherSamples;
   Order order;
   if (commands.tryPop(order)) {
     input.command = order.command;
@@ -94,10 +125,10 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   input.measuredNs = measuredNs;
   engine->tick(input);
   const TickState& state = engine->state();
-  if (info.rendersForce && !isFinite(state.couplingForce)) latch(DeviceFault::NotFinite);
+  if (anyRendersForce && !forcesAreFinite(state)) latch(DeviceFault::NotFinite);
 
   if (!enterDevice(Where::Computing)) return false;
-  writeForce(state.deviceForce);
+  writeForces();
   if (const auto cue = engine->cue()) device->cue(*cue);
   device->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
   if (!leaveDevice()) return false;
@@ -116,7 +147,7 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   }
   raise(ticks, std::uint64_t{1});
   lastNs.store(measuredNs, std::memory_order_relaxed);
-  if (info.rendersForce) completedNs.store(os::now(), std::memory_order_release);
+  if (anyRendersForce) completedNs.store(os::now(), std::memory_order_release);
   where.store(Where::Idle, std::memory_order_release);
   return true;
 }
@@ -130,7 +161,7 @@ void LoopCore::tickOfDevice() noexcept {
   }
   if (now < deadlineNs - kPeriodNs / 2) {  // called twice in a period: not yet time for a tick
     if (!enterDevice(Where::Idle)) return;
-    writeForce(engine->state().deviceForce);
+    writeForces();
     if (leaveDevice()) where.store(Where::Idle, std::memory_order_release);
     return;
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/spsc_queue.h"
 #include "base/ticks.h"
@@ -49,6 +50,8 @@ struct LoopCore {
 
   /// One tick. False: the loop was abandoned while the device held it, and nothing may be touched any more.
   bool tick(std::uint32_t missed, std::int64_t measuredNs) noexcept;
+  /// To every device.
+  void writeZero() noexcept;
   /// At the end of the haptic thread.
   void writeLastZero() noexcept;
   void countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept;
@@ -64,6 +67,15 @@ struct LoopCore {
   DeviceInfo info;
   RunSink* sink;
   DeviceWatch deviceWatch;
+  /// The second hand's device on, which `device` keeps.
+  struct OtherDevice {
+    HapticDevice* device;
+    DeviceInfo info;
+    DeviceWatch watch;
+  };
+  std::vector<OtherDevice> others;
+  std::vector<DeviceSample> otherSamples;
+  bool anyRendersForce;
   SpscQueue<Order, 16> commands;
   TripleBuffer<TickState> snapshots;
   LatenessHistogram lateness;
@@ -84,8 +96,10 @@ struct LoopCore {
  private:
   bool enterDevice(Where from) noexcept;
   bool leaveDevice() noexcept;
-  void writeForce(const Vec3& force) noexcept;
-  DeviceSample watched(const DeviceSample& sample, std::uint32_t missed, std::int64_t measuredNs) noexcept;
+  void writeForces() noexcept;
+  void acceptReset() noexcept;
+  DeviceSample watched(HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
+                       std::int64_t measuredNs) noexcept;
 };
 
 LoopReport reportOf(const LoopCore& core);

@@ -11,7 +11,7 @@ namespace {
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
 std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, const HapticDevice& device) {
-  return std::make_unique<TickEngine>(experiment, engineOptions(device.info()));
+  return std::make_unique<TickEngine>(experiment, engineOptions(device));
 }
 
 }  // namespace
@@ -27,11 +27,17 @@ RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std
 
 RunConductor::RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(device->info())), std::move(device), std::move(trials), options) {
+    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(*device)), std::move(device), std::move(trials), options) {
 }
 
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();
+}
+
+std::vector<DeviceInfo> RunConductor::otherDevices() const {
+  std::vector<DeviceInfo> infos;
+  for (const HapticDevice* other : device_->otherHands()) infos.push_back(other->info());
+  return infos;
 }
 
 void RunConductor::start(RunSink* sink) {

@@ -1,11 +1,14 @@
 #include "sim/haptics/tick_engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/shared_plant.h"
 #include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::haptics {
@@ -19,6 +22,15 @@ struct Blend {
 };
 Blend fadeOut(double x) noexcept { return {1 - minimumJerk(x), -minimumJerkRate(x)}; }
 
+// What stands of the device must fit the experiment's hands.
+void requireHands(const experiment::Experiment& experiment, const EngineOptions& options) {
+  const std::size_t hands = std::max<std::size_t>(experiment.hands.size(), 1), devices = options.others.size() + 1;
+  if (hands != devices)
+    throw FaultError(Fault{"device", fmt::format("is {} device{} where the experiment has {} hand{}", devices, devices == 1 ? "" : "s", hands,
+                                                 hands == 1 ? "" : "s"),
+                           "a device for each of the experiment's hands"});
+}
+
 ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOptions& options) {
   double most = experiment.forceLimit.value_or(options.deviceMaxForce);
   if (options.rendersForce) most = std::min(most, options.deviceMaxForce);
@@ -28,7 +40,14 @@ ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOpti
 }  // namespace
 
 EngineOptions engineOptions(const DeviceInfo& device) {
-  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds, device.guards};
+  return {device.maxForce,       device.virtualHand, device.rendersForce, device.maxContinuousForce,
+          device.thermalSeconds, device.guards,      {}};
+}
+
+EngineOptions engineOptions(const HapticDevice& device) {
+  EngineOptions options = engineOptions(device.info());
+  for (const HapticDevice* other : device.otherHands()) options.others.push_back(engineOptions(other->info()));
+  return options;
 }
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, const EngineOptions& options)
@@ -38,16 +57,35 @@ TickEngine::TickEngine(const experiment::CompiledExperiment& experiment, const E
     : TickEngine(experiment.experiment(), (experiment::requiredTask(experiment.experiment()), dynamics::compileScene(experiment)),
                  options) {}
 
+TickEngine::Port::Port(const experiment::Experiment& experiment, const EngineOptions& options)
+    : virtualHand(options.virtualHand), estimator(experiment.velocityEstimator), path(4, kJump), safety(limitsFor(experiment, options)),
+      guards(options.guards), fpInBody(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {}
+
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),
-      start_(experiment::requiredTask(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)),
-      virtualHand_(options.virtualHand), estimator_(experiment.velocityEstimator), path_(4, kJump), safety_(limitsFor(experiment, options)),
-      guards_(options.guards), fpInBody_(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
+      start_(experiment::requiredTask(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)), port_(experiment, options) {
+  if (scene_.shared != nullptr || !options.others.empty()) requireHands(experiment, options);
+  for (const EngineOptions& other : options.others) others_.emplace_back(experiment, other);
   state_.massCount = scene_.plant->massCount();
+  state_.handCount = static_cast<std::int32_t>(others_.size()) + 1;
   state_.rendersForce = options.rendersForce;
-  if (virtualHand_) settings_.startTimeoutTicks = settings_.timeoutTicks + settings_.restTicks;
-  lastSeen_ = settings_.start;
+  bool allVirtual = options.virtualHand;
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    state_.others[i].rendersForce = options.others[i].rendersForce;
+    allVirtual = allVirtual && options.others[i].virtualHand;
+  }
+  if (allVirtual) settings_.startTimeoutTicks = settings_.timeoutTicks + settings_.restTicks;
+  port_.lastSeen = settings_.start;
+  for (Port& port : others_) port.lastSeen = settings_.start;
   putUp();
+}
+
+void TickEngine::putUp(Port& port) noexcept {
+  port.fpOffset = port.anchor = {};
+  port.anchorTicks = 0;
+  port.broken = port.clamped = false;
+  port.safety.rearm();
+  port.observer.reset();
 }
 
 void TickEngine::putUp() noexcept {
@@ -56,46 +94,65 @@ void TickEngine::putUp() noexcept {
   plant.observe({settings_.start, {}, true}, state_.masses);
   for (int i = 0; i < state_.massCount; ++i) state_.masses[i].a = {};
   state_.body = plant.body();
-  fpOffset_ = anchor_ = {};
-  anchorTicks_ = 0;
-  handBroken_ = clamped_ = false;
   forceStatus_ = dynamics::StepStatus::Ok;
-  safety_.rearm();
-  port_.reset();
+  putUp(port_);
+  for (Port& port : others_) putUp(port);
 }
 
-dynamics::HandSample TickEngine::takeHand(const TickInput& input) noexcept {
-  const DeviceSample& device = input.device;
+dynamics::HandSample TickEngine::takeHand(Port& port, const DeviceSample& device, std::uint32_t missedTicks) noexcept {
   const bool finite = isFinite(device.position) && (!device.hasVelocity || isFinite(device.velocity));
-  if (!finite) handBroken_ = true;
-  if (!device.valid || handBroken_) {
-    handLost_ = true;
-    return {lastSeen_, {}, false};
+  if (!finite) port.broken = true;
+  if (!device.valid || port.broken) {
+    port.lost = true;
+    return {port.lastSeen, {}, false};
   }
-  const bool anew = handLost_ || (input.missedTicks > kGapTicks && !virtualHand_);
-  if (anew || norm(device.position - lastRaw_) > kJump) estimator_.reset();
-  lastRaw_ = device.position;
-  dynamics::HandSample hand{device.position - fpOffset_, estimator_.estimate(device), true};
+  const bool anew = port.lost || (missedTicks > kGapTicks && !port.virtualHand);
+  if (anew || norm(device.position - port.lastRaw) > kJump) port.estimator.reset();
+  port.lastRaw = device.position;
+  dynamics::HandSample hand{device.position - port.fpOffset, port.estimator.estimate(device), true};
   if (anew && trial::isEngaged(protocol_.phase)) {
-    anchor_ = lastSeen_ - hand.position;
-    anchorTicks_ = kReanchorTicks;
+    port.anchor = port.lastSeen - hand.position;
+    port.anchorTicks = kReanchorTicks;
   }
-  handLost_ = false;
-  if (anchorTicks_ > 0) {
-    const Blend blend = fadeOut(1 - static_cast<double>(anchorTicks_) / kReanchorTicks);
-    hand.position += blend.value * anchor_;
-    hand.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * anchor_;
-    --anchorTicks_;
+  port.lost = false;
+  if (port.anchorTicks > 0) {
+    const Blend blend = fadeOut(1 - static_cast<double>(port.anchorTicks) / kReanchorTicks);
+    hand.position += blend.value * port.anchor;
+    hand.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * port.anchor;
+    --port.anchorTicks;
   }
-  lastSeen_ = hand.position;
+  port.lastSeen = hand.position;
   return hand;
 }
 
+// A device that is not there is a lost hand.
+void TickEngine::takeOthers(const TickInput& input) noexcept {
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    HandState& hand = state_.others[i];
+    if (i < input.others.size()) hand.device = input.others[i];
+    else hand.device.valid = false;
+    hand.hand = takeHand(others_[i], hand.device, input.missedTicks);
+  }
+}
+
+void TickEngine::tellOthers() noexcept {
+  for (std::size_t i = 0; i < others_.size(); ++i)
+    scene_.shared->setHand(static_cast<int>(i) + 1, others_[i].path.segment(), state_.others[i].hand);
+}
+
+bool TickEngine::allValid(const dynamics::HandSample& hand) const noexcept {
+  bool valid = hand.valid;
+  for (std::size_t i = 0; i < others_.size(); ++i) valid = valid && state_.others[i].hand.valid;
+  return valid;
+}
+
 dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) noexcept {
-  const bool continuous = path_.push(hand);
-  if (!hand.valid) return dynamics::StepStatus::HandLost;
+  bool continuous = port_.path.push(hand);
+  for (std::size_t i = 0; i < others_.size(); ++i) continuous = others_[i].path.push(state_.others[i].hand) && continuous;
+  if (!others_.empty()) tellOthers();
+  if (!allValid(hand)) return dynamics::StepStatus::HandLost;
   if (!continuous) scene_.plant->restart();
-  return scene_.plant->step(path_.segment(), kTickSeconds);
+  return scene_.plant->step(port_.path.segment(), kTickSeconds);
 }
 
 void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {
@@ -107,13 +164,44 @@ void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {
 }
 
 // At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.
-void TickEngine::placeFixedPoint(dynamics::HandSample& hand) noexcept {
-  const Vec3 fixedPoint = state_.masses[0].r + fpInBody_;
-  fpOffset_ = hand.position - fixedPoint;
-  hand.position = lastSeen_ = fixedPoint;
-  path_.reset();
-  path_.push(hand);
+void TickEngine::placeFixedPoint(Port& port, dynamics::HandSample& hand, const Vec3& fixedPoint) noexcept {
+  port.fpOffset = hand.position - fixedPoint;
+  hand.position = port.lastSeen = fixedPoint;
+  port.path.reset();
+  port.path.push(hand);
+}
+
+void TickEngine::placeFixedPoints(dynamics::HandSample& hand) noexcept {
+  placeFixedPoint(port_, hand, scene_.shared != nullptr ? scene_.shared->fixedPoint(0) : state_.masses[0].r + port_.fpInBody);
+  for (std::size_t i = 0; i < others_.size(); ++i)
+    placeFixedPoint(others_[i], state_.others[i].hand, scene_.shared->fixedPoint(static_cast<int>(i) + 1));
+  if (!others_.empty()) tellOthers();
   scene_.plant->restart();
+}
+
+trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, const dynamics::HandSample& hand,
+                                               dynamics::StepStatus status) noexcept {
+  trial::ProtocolInput seen{state_.tick,
+                            input.command,
+                            input.planned,
+                            input.device.position,
+                            norm(hand.velocity),
+                            hand.valid,
+                            port_.broken,
+                            port_.clamped,
+                            status,
+                            {state_.masses.data(), static_cast<std::size_t>(state_.massCount)},
+                            input.missedTicks};
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    const HandState& other = state_.others[i];
+    seen.hipSpeed = std::max(seen.hipSpeed, norm(other.hand.velocity));
+    seen.handValid = seen.handValid && other.hand.valid;
+    seen.handBroken = seen.handBroken || others_[i].broken;
+    seen.clamped = seen.clamped || others_[i].clamped;
+    otherHips_[i] = other.device.position;
+  }
+  seen.otherHips = {otherHips_.data(), others_.size()};
+  return seen;
 }
 
 void TickEngine::tick(const TickInput& input) noexcept {
@@ -130,7 +218,8 @@ void TickEngine::tick(const TickInput& input) noexcept {
     putUp();
     cue_ = Cue::Place;
   }
-  dynamics::HandSample hand = takeHand(input);
+  dynamics::HandSample hand = takeHand(port_, input.device, input.missedTicks);
+  if (!others_.empty()) takeOthers(input);
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   if (trial::isEngaged(before)) {
     status = stepObject(hand);
@@ -139,31 +228,21 @@ void TickEngine::tick(const TickInput& input) noexcept {
   }
 
   const bool wasGone = protocol_.gone;
-  trial::advance(settings_,
-                 {state_.tick,
-                  input.command,
-                  input.planned,
-                  input.device.position,
-                  norm(hand.velocity),
-                  hand.valid,
-                  handBroken_,
-                  clamped_,
-                  status,
-                  {state_.masses.data(), static_cast<std::size_t>(state_.massCount)},
-                  input.missedTicks},
-                 protocol_);
+  trial::advance(settings_, protocolInput(input, hand, status), protocol_);
   if (!sawAll_ && !trial::isEngaged(protocol_.phase)) {  // as it ended, so it is shown and recorded from now on
     plant.observe(hand, state_.masses);
     sawAll_ = true;
   }
   if (before == trial::Phase::Waiting && protocol_.phase == trial::Phase::Armed) {
-    placeFixedPoint(hand);
+    placeFixedPoints(hand);
     plant.observe(hand, state_.masses);
   }
   if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
 
-  exertForce(hand, status, input.missedTicks);
-  state_.deviceState = deviceState(input);
+  exertForces(hand, status, input.missedTicks);
+  state_.deviceState = deviceState(port_, input.device, input.deviceFault);
+  for (std::size_t i = 0; i < others_.size(); ++i)
+    state_.others[i].deviceState = deviceState(others_[i], state_.others[i].device, input.deviceFault);
   state_.hand = hand;
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
@@ -175,45 +254,66 @@ void TickEngine::tick(const TickInput& input) noexcept {
 }
 
 // What acts beside the object: the workspace's wall, and the passivity controller where it is wanted.
-Vec3 TickEngine::guardForce(const dynamics::HandSample& hand, bool engaged) noexcept {
-  state_.interventions = 0;
-  if (hand.valid) port_.observe(state_.device.position);
-  state_.portEnergy = port_.energy();
+Vec3 TickEngine::guardForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool engaged) noexcept {
+  out.interventions = 0;
+  if (hand.valid) port.observer.observe(out.device.position);
+  out.portEnergy = port.observer.energy();
   if (!engaged) return {};
-  const Vec3 wall = wallForce(guards_, state_.device.position, hand.velocity);
-  if (!(wall == Vec3{})) state_.interventions |= intervention::kWall;
-  const Vec3 dissipation = guards_.passivityControl ? port_.control(hand.velocity) : Vec3{};
-  if (!(dissipation == Vec3{})) state_.interventions |= intervention::kPassivity;
+  const Vec3 wall = wallForce(port.guards, out.device.position, hand.velocity);
+  if (!(wall == Vec3{})) out.interventions |= intervention::kWall;
+  const Vec3 dissipation = port.guards.passivityControl ? port.observer.control(hand.velocity) : Vec3{};
+  if (!(dissipation == Vec3{})) out.interventions |= intervention::kPassivity;
   return wall + dissipation;
 }
 
-DeviceState TickEngine::deviceState(const TickInput& input) const noexcept {
-  if (input.deviceFault || safety_.latched()) return DeviceState::Fault;
-  if (!input.device.valid && !input.device.released) return DeviceState::Off;
+DeviceState TickEngine::deviceState(const Port& port, const DeviceSample& device, bool fault) const noexcept {
+  if (fault || port.safety.latched()) return DeviceState::Fault;
+  if (!device.valid && !device.released) return DeviceState::Off;
   if (trial::isEngaged(protocol_.phase)) return DeviceState::Engaged;
   return protocol_.phase == trial::Phase::Waiting ? DeviceState::Armed : DeviceState::Homed;
 }
 
-void TickEngine::exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept {
+// `out.feedbackForce` becomes what the device is given.
+void TickEngine::exertForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool held, std::uint32_t missedTicks) noexcept {
+  const bool engaged = trial::isEngaged(protocol_.phase);
+  out.feedbackForce = -out.couplingForce;
+  const Vec3 added = guardForce(port, out, hand, engaged && held);
+  const bool weighs = !(port.guards.compensation == Vec3{});
+  Vec3 asked = out.feedbackForce;
+  if (!(added == Vec3{})) asked += added;
+  if (weighs) asked += port.guards.compensation;
+  out.deviceForce = port.safety.limit(asked, engaged || weighs, held && missedTicks <= kGapTicks);
+  port.observer.render(weighs && !(out.deviceForce == Vec3{}) ? out.deviceForce - port.guards.compensation : out.deviceForce);
+  out.clamped = !(out.deviceForce == asked);
+  out.interventions |= port.safety.interventions();
+  port.clamped = norm(out.feedbackForce) > port.safety.limit();
+}
+
+void TickEngine::exertForces(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept {
   const dynamics::Plant& plant = *scene_.plant;
   const bool engaged = trial::isEngaged(protocol_.phase);
-  const bool held = hand.valid && status == dynamics::StepStatus::Ok;
-  state_.couplingForce = engaged && held ? plant.couplingForce(hand) : Vec3{};
-  if (!engaged || !held) state_.energy = 0;
+  const bool held = (others_.empty() ? hand.valid : allValid(hand)) && status == dynamics::StepStatus::Ok;
+  const bool acts = engaged && held;
+  state_.couplingForce = acts ? plant.couplingForce(hand) : Vec3{};
+  if (!acts) state_.energy = 0;
   else if (sawAll_) state_.energy = plant.energy(hand);
-  if (!isFinite(state_.couplingForce)) forceStatus_ = status = dynamics::StepStatus::NotFinite;
-  state_.feedbackForce = -state_.couplingForce;
-  const Vec3 added = guardForce(hand, engaged && held);
-  const bool weighs = !(guards_.compensation == Vec3{});
-  Vec3 asked = state_.feedbackForce;
-  if (!(added == Vec3{})) asked += added;
-  if (weighs) asked += guards_.compensation;
-  state_.deviceForce = safety_.limit(asked, engaged || weighs, held && missedTicks <= kGapTicks);
-  port_.render(weighs && !(state_.deviceForce == Vec3{}) ? state_.deviceForce - guards_.compensation : state_.deviceForce);
-  state_.clamped = !(state_.deviceForce == asked);
-  state_.interventions |= safety_.interventions();
-  clamped_ = norm(state_.feedbackForce) > safety_.limit();
-  if (engaged && state_.clamped) ++state_.faults.clampedTicks;
+  bool finite = isFinite(state_.couplingForce);
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    HandState& other = state_.others[i];
+    const int number = static_cast<int>(i) + 1;
+    other.couplingForce = acts ? scene_.shared->couplingForceOf(number) : Vec3{};
+    other.work = scene_.shared->work(number);
+    finite = finite && isFinite(other.couplingForce);
+  }
+  if (scene_.shared != nullptr) state_.work = scene_.shared->work(0);
+  if (!finite) forceStatus_ = status = dynamics::StepStatus::NotFinite;
+  exertForce(port_, state_, hand, held, missedTicks);
+  bool clamped = state_.clamped;
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    exertForce(others_[i], state_.others[i], state_.others[i].hand, held, missedTicks);
+    clamped = clamped || state_.others[i].clamped;
+  }
+  if (engaged && clamped) ++state_.faults.clampedTicks;
   if (engaged) {
     ++state_.faults.steps[static_cast<std::size_t>(status)];
     state_.body = plant.body();

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct TickInput {
   trial::PlannedTrial planned;    // of the trial that NextTrial puts up
   std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
   std::int64_t measuredNs = 0;    // for the record only
-  bool deviceFault = false;       // latched on the device; its samples are then not valid
+  bool deviceFault = false;       // latched on a device; its samples are then not valid
+  std::span<const DeviceSample> others = {};  // of the second hand on; as many as the experiment has
 };
 
 struct EngineOptions {
@@ -34,20 +36,24 @@ struct EngineOptions {
   double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
   double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
   GuardSettings guards = {};   // DeviceInfo::guards
+  std::vector<EngineOptions> others = {};  // of the second hand on
 };
 EngineOptions engineOptions(const DeviceInfo& device);
+/// With those of all its hands.
+EngineOptions engineOptions(const HapticDevice& device);
 
 /// Everything deterministic of one tick, from device sample to device force: estimate the hand, step the object, judge the trial, limit
 /// the force. Physics and protocol advance by one tick a tick, whatever the clock did; after a gap of more than kGapTicks the device's
 /// force is zero and rises again by a ramp, and a real hand, which has moved meanwhile, is seen to go on from where it was: the
 /// difference is blended out over kReanchorTicks, so the object feels neither a jump nor a burst.
 /// `tick` is a pure function of construction and inputs so far. One thread at a time.
+/// Where several hands hold the object (experiment::Hand), each has all of this for itself, and one that is lost takes the force from all.
 class TickEngine {
  public:
   static constexpr std::uint32_t kGapTicks = 5;
   static constexpr int kReanchorTicks = 250;
 
-  /// Throws FaultError without a task, RefusedError from compileScene.
+  /// Throws FaultError without a task, or with other than a device for each hand; RefusedError from compileScene.
   TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
   /// The same, with the constraint that is compiled already.
   TickEngine(const experiment::CompiledExperiment& experiment, const EngineOptions& options);
@@ -74,14 +80,41 @@ class TickEngine {
   std::string stopReason() const { return scene_.plant->stopReason(); }
 
  private:
-  dynamics::HandSample takeHand(const TickInput& input) noexcept;
+  /// What is one hand's own: how it is estimated, where it holds, and what its device may get.
+  struct Port {
+    Port(const experiment::Experiment& experiment, const EngineOptions& options);
+
+    bool virtualHand;
+    VelocityEstimator estimator;
+    dynamics::HandPath path;
+    ForceSafety safety;
+    GuardSettings guards;
+    PassivityObserver observer;
+    Vec3 fpInBody;  // [m] the FP from what `fixedPoint` says, as the object is put up
+    Vec3 fpOffset;            // [m] HIP minus FP at arming, fixed in world axes
+    Vec3 anchor;              // [m] the hand after a gap: seen minus true, at the gap
+    int anchorTicks = 0;      // left of the blend
+    Vec3 lastSeen, lastRaw;   // [m] where the hand was last seen by the coupling, and by the device
+    bool broken = false;      // the device gave something that is not finite; until the next trial
+    bool lost = true;         // at the tick before
+    bool clamped = false;     // at the tick before, by the force limit
+  };
+
+  dynamics::HandSample takeHand(Port& port, const DeviceSample& device, std::uint32_t missedTicks) noexcept;
+  void takeOthers(const TickInput& input) noexcept;
+  void tellOthers() noexcept;
   void putUp() noexcept;
+  void putUp(Port& port) noexcept;
   dynamics::StepStatus stepObject(const dynamics::HandSample& hand) noexcept;
   void observeMasses(const dynamics::HandSample& hand) noexcept;
-  void placeFixedPoint(dynamics::HandSample& hand) noexcept;
-  void exertForce(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept;
-  Vec3 guardForce(const dynamics::HandSample& hand, bool engaged) noexcept;
-  DeviceState deviceState(const TickInput& input) const noexcept;
+  void placeFixedPoint(Port& port, dynamics::HandSample& hand, const Vec3& fixedPoint) noexcept;
+  void placeFixedPoints(dynamics::HandSample& hand) noexcept;
+  bool allValid(const dynamics::HandSample& hand) const noexcept;
+  trial::ProtocolInput protocolInput(const TickInput& input, const dynamics::HandSample& hand, dynamics::StepStatus status) noexcept;
+  void exertForces(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept;
+  void exertForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool held, std::uint32_t missedTicks) noexcept;
+  Vec3 guardForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool engaged) noexcept;
+  DeviceState deviceState(const Port& port, const DeviceSample& device, bool fault) const noexcept;
 
   dynamics::Scene scene_;
   const dynamics::EndMasses* ends_;  // the plant, if it offers them
@@ -89,21 +122,10 @@ class TickEngine {
   bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters
   trial::ProtocolSettings settings_;
-  bool virtualHand_;
-  VelocityEstimator estimator_;
-  dynamics::HandPath path_;
-  ForceSafety safety_;
-  GuardSettings guards_;
-  PassivityObserver port_;
-  Vec3 fpInBody_;  // [m] the FP from mass 1 as the object is put up
+  Port port_;                  // of the first hand
+  std::vector<Port> others_;   // of the second hand on
+  std::array<Vec3, experiment::kMaxHands - 1> otherHips_{};  // [m] raw
   trial::ProtocolState protocol_;
-  Vec3 fpOffset_;            // [m] HIP minus FP at arming, fixed in world axes
-  Vec3 anchor_;              // [m] the hand after a gap: seen minus true, at the gap
-  int anchorTicks_ = 0;      // left of the blend
-  Vec3 lastSeen_, lastRaw_;  // [m] where the hand was last seen by the coupling, and by the device
-  bool handBroken_ = false;  // the device gave something that is not finite; until the next trial
-  bool handLost_ = true;     // at the tick before
-  bool clamped_ = false;     // at the tick before, by the force limit
   dynamics::StepStatus forceStatus_ = dynamics::StepStatus::Ok;
   std::optional<Cue> cue_;
   TickState state_;

@@ -21,40 +21,53 @@ struct LoopFaults {
   std::array<std::uint64_t, dynamics::kStepStatusCount> steps{};
 };
 
-/// Everything that is known after one tick; published to the window and turned into a row of the recording. Plain; copies are cheap
-/// because only `massCount` masses are copied (copyTo).
-struct TickState {
-  std::uint64_t tick = 0;       // since the run's start; simulated time is tick * 1 ms
-  std::int64_t measuredNs = 0;  // monotonic clock at the tick, for the record only
+/// What is known of one hand after one tick.
+struct HandState {
   DeviceSample device;          // raw
   dynamics::HandSample hand;    // what the coupling saw
+  Vec3 couplingForce;           // [N] on the object, unclamped
+  Vec3 feedbackForce;           // [N] to the device, unclamped (the negative)
+  Vec3 deviceForce;             // [N] to the device, after the safety layer
+  bool clamped = false;         // the safety layer gave less than it was asked for
+  bool rendersForce = false;    // the device: what follows is of interest
+  DeviceState deviceState = DeviceState::Off;
+  std::uint8_t interventions = 0;  // bits of `intervention`
+  double portEnergy = 0;  // [J] given by the hand to the program in this trial, as the passivity observer counts
+  double work = 0;        // [J] done by the hand on the object in this trial; counted where several hold it
+};
+
+/// Everything that is known after one tick; published to the window and turned into a row of the recording. Plain; copies are cheap
+/// because only `massCount` masses are copied (copyTo).
+struct TickState : HandState {  // of the first hand
+  std::uint64_t tick = 0;       // since the run's start; simulated time is tick * 1 ms
+  std::int64_t measuredNs = 0;  // monotonic clock at the tick, for the record only
   trial::Phase phase = trial::Phase::Idle;
   trial::Semaphore semaphore = trial::Semaphore::Neutral;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::int32_t trial = 0;     // from 1
   bool gone = false;          // the go signal was given
   double trialTime = 0;       // [s] since onset; 0 before
-  Vec3 couplingForce;         // [N] on the object, unclamped
-  Vec3 feedbackForce;         // [N] to the device, unclamped (the negative)
-  Vec3 deviceForce;           // [N] to the device, after the safety layer
-  bool clamped = false;       // the safety layer gave less than it was asked for
   double energy = 0;          // [J]
-  double portEnergy = 0;      // [J] given by the hand to the program in this trial, as the passivity observer counts
-  bool rendersForce = false;  // the device: what follows is of interest
-  DeviceState deviceState = DeviceState::Off;
-  std::uint8_t interventions = 0;  // bits of `intervention`
-  trial::TrialResult result;       // valid in phase Done
+  trial::TrialResult result;  // valid in phase Done
   LoopFaults faults;
   std::int32_t massCount = 0;
+  std::int32_t handCount = 1;
   dynamics::BodyState body;
   std::array<dynamics::MassState, experiment::kMaxMasses> masses{};
+  std::array<HandState, experiment::kMaxHands - 1> others{};  // the second hand on
 };
 static_assert(std::is_trivially_copyable_v<TickState>);
 
-/// Copies a state with only the masses that are there, so that the cost follows the scene.
+/// A hand's part, from 0.
+inline const HandState& handOf(const TickState& state, int hand) noexcept {
+  return hand == 0 ? state : state.others[static_cast<std::size_t>(hand - 1)];
+}
+
+/// Copies a state with only the masses and hands that are there, so that the cost follows the scene.
 inline void copyState(const TickState& from, TickState& to) noexcept {
-  const std::size_t used = offsetof(TickState, masses) + static_cast<std::size_t>(from.massCount) * sizeof(dynamics::MassState);
-  std::memcpy(static_cast<void*>(&to), &from, used);
+  const auto* used = reinterpret_cast<const char*>(from.masses.data() + from.massCount);
+  std::memcpy(static_cast<void*>(&to), &from, static_cast<std::size_t>(used - reinterpret_cast<const char*>(&from)));
+  if (from.handCount > 1) std::memcpy(to.others.data(), from.others.data(), static_cast<std::size_t>(from.handCount - 1) * sizeof(HandState));
 }
 
 }  // namespace reachlab::haptics

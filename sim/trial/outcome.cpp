@@ -30,6 +30,7 @@ std::string_view nameOf(Reason reason) {
     case Reason::Early: return "early";
     case Reason::Timing: return "timing";
     case Reason::NoStart: return "no_start";
+    case Reason::PeerLost: return "peer_lost";
   }
   return "none";
 }

@@ -55,13 +55,24 @@ void putUp(const ProtocolInput& in, ProtocolState& state) noexcept {
 }
 
 bool restsAtStart(const ProtocolSettings& s, const ProtocolInput& in) noexcept {
-  return in.handValid && norm(in.hip - s.start) <= s.armRadius && in.hipSpeed <= s.restSpeed;
+  const auto atStart = [&](const Vec3& hip) { return norm(hip - s.start) <= s.armRadius; };
+  return in.handValid && atStart(in.hip) && in.hipSpeed <= s.restSpeed && std::all_of(in.otherHips.begin(), in.otherHips.end(), atStart);
+}
+
+// Movement begins with the hand that moves first.
+bool hasLeft(const ProtocolSettings& s, const ProtocolInput& in, const ProtocolState& state) noexcept {
+  if (!in.handValid) return false;
+  if (norm(in.hip - state.armedAt) > s.onset) return true;
+  for (std::size_t i = 0; i < in.otherHips.size(); ++i)
+    if (norm(in.otherHips[i] - state.othersArmedAt[i]) > s.onset) return true;
+  return false;
 }
 
 void arm(const ProtocolInput& in, ProtocolState& state) noexcept {
   state.phase = Phase::Armed;
   state.armedTick = in.tick;
   state.armedAt = in.hip;
+  std::copy(in.otherHips.begin(), in.otherHips.end(), state.othersArmedAt.begin());
   state.gone = !state.planned.catchTrial && state.planned.foreperiodTicks <= 0;
 }
 
@@ -75,7 +86,7 @@ bool endByMissedTime(const ProtocolSettings& s, const ProtocolInput& in, Protoco
 void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
   const auto waited = static_cast<std::int64_t>(in.tick - state.armedTick);
   const std::int64_t foreperiod = std::max(0, state.planned.foreperiodTicks);
-  if (in.handValid && norm(in.hip - state.armedAt) > s.onset) {
+  if (hasLeft(s, in, state)) {
     state.onsetTick = in.tick;
     state.phase = Phase::Moving;
     if (!endByMissedTime(s, in, state) && !state.gone) end(state, in.tick, Outcome::Failure, Reason::Early);
@@ -117,6 +128,7 @@ bool endByForce(const ProtocolSettings& s, const ProtocolInput& in, ProtocolStat
     case dynamics::StepStatus::Ok:
     case dynamics::StepStatus::HandLost: break;
     case dynamics::StepStatus::AtEnd: return end(state, in.tick, Outcome::Failure, Reason::EndOfConstraint), true;
+    case dynamics::StepStatus::PeerLost: return end(state, in.tick, Outcome::Interrupted, Reason::PeerLost), true;
     case dynamics::StepStatus::NotFinite:
     case dynamics::StepStatus::Capped:
     case dynamics::StepStatus::NoContinuation: return end(state, in.tick, Outcome::Aborted, Reason::Computation), true;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -28,11 +29,13 @@
 ///   Armed, Moving    more ticks missed in the movement, or in one gap of    Done      interrupted, timing
 ///                    it, than the experiment allows (the gap that onset
 ///                    lies in is the movement's)
+///   Armed, Moving    another station fell silent                            Done      interrupted, peer_lost
 ///   W., A., M.       the device lost for kLostTicks, or a number of its     Done      interrupted, device_lost
 ///                    is not finite
 ///   Waiting          `startTimeout` is over (hands without a person only)   Done      aborted, no_start
 ///   W., A., M.       Abort / Interrupt                                      Done      aborted / interrupted, experimenter
 ///
+/// Where several hands hold the object, each must be at the start, the one that moves first makes the onset, and losing one loses all.
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
 /// At T + dT the reason is `position` while any mass is farther than dx from the target, else `velocity`; the mass to blame is the one
 /// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
@@ -76,6 +79,8 @@ struct ProtocolInput {
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::span<const dynamics::MassState> masses;
   std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
+  std::span<const Vec3> otherHips = {};  // [m] raw, of the second hand on; what stands above of one hand is then of all of them: the
+                                         // fastest, all valid, any broken or clamped
 };
 
 struct ProtocolState {
@@ -85,6 +90,7 @@ struct ProtocolState {
   PlannedTrial planned;
   bool gone = false;  // the go signal was given
   Vec3 armedAt;       // [m] the HIP at arming
+  std::array<Vec3, experiment::kMaxHands - 1> othersArmedAt{};
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
   std::int64_t restTicks = 0;    // at the start and at rest, in a row
   int lostTicks = 0;             // in a row
