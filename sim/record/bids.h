@@ -31,9 +31,12 @@ std::string describeTask(const RunConfiguration& configuration);
 std::string experimentNameIn(const std::string& description);
 
 // The texts of the files, for who wants to look at them before they are written; what grows with the run is given piece by piece.
-void motionTsv(const RunLog& run, const TakePiece& take);
-std::string motionJson(const RunLog& run);
-std::string channelsTsv(const RunConfiguration& configuration);
+// Each hand is a tracking system of its own, from 1; the object and what is no hand's belong to the first.
+void motionTsv(const RunLog& run, const TakePiece& take, int hand = 1);
+std::string motionJson(const RunLog& run, int hand = 1);
+std::string channelsTsv(const RunConfiguration& configuration, int hand = 1);
+/// The columns of a hand's tracking system in the run's table.
+std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand);
 std::string channelsJson();
 void eventsTsv(const RunLog& run, const TakePiece& take);
 std::string eventsJson(const RunConfiguration& configuration);

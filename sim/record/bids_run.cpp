@@ -40,6 +40,14 @@ RowSpan spanOf(const RunLog& run) {
 
 bool isSpatial(const Channel& channel) { return channel.component != "n/a"; }
 
+std::string systemName(int hand) { return hand == 1 ? "haptic" : fmt::format("haptic{}", hand); }
+
+std::vector<Channel> channelsOf(const ChannelTable& table, int hand) {
+  std::vector<Channel> channels;
+  for (const std::size_t column : columnsOf(table, hand)) channels.push_back(table.channels[column]);
+  return channels;
+}
+
 Json described(const std::string& description, const std::string& units = "") {
   Json entry{{"Description", description}};
   if (!units.empty()) entry["Units"] = units;
@@ -49,16 +57,32 @@ Json described(const std::string& description, const std::string& units = "") {
 }  // namespace
 
 // No header: the columns are those of channels.tsv.
-void motionTsv(const RunLog& run, const TakePiece& take) { writeRows(run, TableText('\t', "n/a"), take); }
+void motionTsv(const RunLog& run, const TakePiece& take, int hand) {
+  writeRows(run, columnsOf(run.configuration().table, hand), TableText('\t', "n/a"), take);
+}
 
-std::string motionJson(const RunLog& run) {
+// Every system has its time; a further hand's columns begin with its name.
+std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand) {
+  const auto whose = [&](const Channel& channel) {
+    for (int other = 2; other <= table.hands; ++other)
+      if (channel.name.starts_with(fmt::format("hand{}_", other)) || channel.name.starts_with(fmt::format("device{}_", other))) return other;
+    return 1;
+  };
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (table.channels[i].type == "LATENCY" || whose(table.channels[i]) == hand) columns.push_back(i);
+  return columns;
+}
+
+std::string motionJson(const RunLog& run, int hand) {
   const RunConfiguration& c = run.configuration();
   const RowSpan span = spanOf(run);
+  const std::vector<Channel> channels = channelsOf(c.table, hand);
   const auto count = [&](const std::string& type) {
-    return std::count_if(c.table.channels.begin(), c.table.channels.end(), [&](const Channel& channel) { return channel.type == type; });
+    return std::count_if(channels.begin(), channels.end(), [&](const Channel& channel) { return channel.type == type; });
   };
   std::set<std::string> points;
-  for (const Channel& channel : c.table.channels)
+  for (const Channel& channel : channels)
     if (channel.trackedPoint != "n/a") points.insert(channel.trackedPoint);
   Json j;
   j["TaskName"] = c.task;
@@ -67,15 +91,15 @@ std::string motionJson(const RunLog& run) {
   j["SamplingFrequency"] = c.samplingHz;
   j["SamplingFrequencyEffective"] = span.frequency(c.samplingHz);
   j["RecordingDuration"] = span.seconds();
-  j["TrackingSystemName"] = "haptic";
+  j["TrackingSystemName"] = systemName(hand);
   j["Manufacturer"] = "n/a";
-  j["ManufacturersModelName"] = orUnknown(c.deviceName);
+  j["ManufacturersModelName"] = orUnknown(hand == 1 ? c.deviceName : c.otherHands.at(static_cast<std::size_t>(hand - 2)).name);
   j["DeviceSerialNumber"] = "n/a";
   j["SoftwareVersions"] = orUnknown(c.softwareVersion);
   j["InstitutionName"] = "n/a";
   j["InstitutionAddress"] = "n/a";
   j["InstitutionalDepartmentName"] = "n/a";
-  j["MotionChannelCount"] = c.table.size();
+  j["MotionChannelCount"] = channels.size();
   for (const char* type : {"POS", "VEL", "ACCEL", "ANGACCEL", "GYRO", "JNTANG", "MAGN", "ORNT", "LATENCY", "MISC"})
     j[std::string(type) + "ChannelCount"] = count(type);
   j["TrackedPointsCount"] = points.size();
@@ -84,10 +108,10 @@ std::string motionJson(const RunLog& run) {
   return j.dump(2) + "\n";
 }
 
-std::string channelsTsv(const RunConfiguration& c) {
+std::string channelsTsv(const RunConfiguration& c, int hand) {
   TableText table('\t', "n/a");
   table.row({"name", "component", "type", "tracked_point", "units", "placement", "reference_frame", "description"});
-  for (const Channel& channel : c.table.channels) {
+  for (const Channel& channel : channelsOf(c.table, hand)) {
     const std::string frame = isSpatial(channel) ? "world" : "n/a";
     table.row({channel.name, channel.component, channel.type, channel.trackedPoint, channel.units, "n/a", frame, channel.description});
   }
@@ -175,7 +199,6 @@ std::string eventsJson(const RunConfiguration& c) {
 std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder) {
   const RunConfiguration& c = run.configuration();
   const std::string session = fmt::format("{}/sub-{}/ses-{}", folder, c.subject, c.session);
-  const std::string tracked = runName(c, "tracksys-haptic_");
   std::vector<std::string> written;
   const auto writePieces = [&](const std::string& path, const auto& writer) {
     AtomicFile file(path);
@@ -186,11 +209,15 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
   const auto write = [&](const std::string& path, const std::string& text) {
     writePieces(path, [&](const TakePiece& take) { take(text); });
   };
-  const std::string base = session + "/motion/" + tracked;
-  writePieces(base + "_motion.tsv", [&](const TakePiece& take) { motionTsv(run, take); });
-  write(base + "_motion.json", motionJson(run));
-  write(base + "_channels.tsv", channelsTsv(c));
-  write(base + "_channels.json", channelsJson());
+  const auto baseOf = [&](int hand) { return session + "/motion/" + runName(c, fmt::format("tracksys-{}_", systemName(hand))); };
+  for (int hand = 1; hand <= c.table.hands; ++hand) {
+    const std::string system = baseOf(hand);
+    writePieces(system + "_motion.tsv", [&](const TakePiece& take) { motionTsv(run, take, hand); });
+    write(system + "_motion.json", motionJson(run, hand));
+    write(system + "_channels.tsv", channelsTsv(c, hand));
+    write(system + "_channels.json", channelsJson());
+  }
+  const std::string base = baseOf(1);
   writePieces(base + "_events.tsv", [&](const TakePiece& take) { eventsTsv(run, take); });
   write(base + "_events.json", eventsJson(c));
   write(folder + "/" + experimentPath(c), experimentJson(c));

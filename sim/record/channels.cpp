@@ -48,6 +48,24 @@ void addBody(std::vector<Channel>& out) {
   addVector(out, {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
 }
 
+// A further hand's own columns, in the order of `putHand`.
+constexpr std::size_t kHandColumns = 20;
+void addHand(std::vector<Channel>& out, int number) {
+  const std::string hand = fmt::format("hand{}", number), device = fmt::format("device{}", number);
+  const std::string whose = fmt::format("hand {}: ", number);
+  addVector(out, {hand + "_pos", hand + "_{}_m", "POS", hand, "m", whose + "haptic interface point as the coupling sees it"});
+  addVector(out, {hand + "_vel", hand + "_v{}_m_per_s", "VEL", hand, "m/s", whose + "haptic interface point, estimated velocity"});
+  addVector(out, {device + "_pos", device + "_{}_m", "POS", device, "m", whose + "haptic interface point, raw device position"});
+  const auto force = [&](const char* name, const char* column, const char* description) {
+    addVector(out, {fmt::format("{}_{}_force", hand, name), hand + "_" + column + "_{}_n", "MISC", hand, "N", whose + description});
+  };
+  force("coupling", "coupling", "coupling force on the object, unclamped");
+  force("feedback", "feedback", "force meant for the hand, before the safety limits");
+  force("device", "device_force", "force commanded to the device");
+  addScalar(out, {hand + "_valid", hand + "_valid", "MISC", "n/a", "n/a", whose + "1 while the device delivers samples"});
+  addScalar(out, {hand + "_work", hand + "_work_j", "MISC", hand, "J", whose + "work done on the object in this trial"});
+}
+
 constexpr std::size_t kTrialColumn = 21;  // latency, measured time, six vectors, energy
 
 double* putVector(double* at, const Vec3& v) noexcept {
@@ -55,6 +73,14 @@ double* putVector(double* at, const Vec3& v) noexcept {
   at[1] = v.y;
   at[2] = v.z;
   return at + 3;
+}
+
+double* putHand(double* at, const haptics::HandState& hand) noexcept {
+  for (const Vec3& v : {hand.hand.position, hand.hand.velocity, hand.device.position, hand.couplingForce, hand.feedbackForce, hand.deviceForce})
+    at = putVector(at, v);
+  *at++ = hand.device.valid ? 1 : 0;
+  *at++ = hand.work;
+  return at;
 }
 
 }  // namespace
@@ -87,15 +113,19 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   addScalar(out, {"valid", "valid", "MISC", "n/a", "n/a", "1 while the device delivers samples"});
   for (int mass = 1; mass <= table.massCount; ++mass) addMass(out, mass, parameterCount);
   if (table.body) addBody(out);
+  table.hands = std::max(1, static_cast<int>(experiment.hands.size()));
   if (portEnergy)
     addScalar(out, {"port_energy", "port_energy_j", "MISC", "hand", "J",
                     "energy that the hand has given to the program in this trial (passivity observer); below 0 it was given some"});
+  if (table.hands > 1) addScalar(out, {"hand_work", "hand_work_j", "MISC", "hand", "J", "work done by the hand on the object in this trial"});
+  for (int hand = 2; hand <= table.hands; ++hand) addHand(out, hand);
   return table;
 }
 
-std::size_t rowWidth(int massCount, int parameterCount, bool body, bool portEnergy) {
-  return kTrialColumn + 3 + static_cast<std::size_t>(massCount) * static_cast<std::size_t>(9 + 2 * parameterCount) + (body ? 7 : 0) +
-         (portEnergy ? 1 : 0);
+std::size_t rowWidth(const ChannelTable& t) {
+  const std::size_t hands = t.hands > 1 ? 1 + static_cast<std::size_t>(t.hands - 1) * kHandColumns : 0;
+  return kTrialColumn + 3 + static_cast<std::size_t>(t.massCount) * static_cast<std::size_t>(9 + 2 * t.parameterCount) + (t.body ? 7 : 0) +
+         (t.portEnergy ? 1 : 0) + hands;
 }
 
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept {
@@ -124,7 +154,9 @@ void fillRow(const ChannelTable& table, const haptics::TickState& state, double*
     for (const double part : state.body.orientation) *at++ = part;
     at = putVector(at, state.body.angularVelocity);
   }
-  if (table.portEnergy) *at = state.portEnergy;
+  if (table.portEnergy) *at++ = state.portEnergy;
+  if (table.hands > 1) *at++ = state.work;
+  for (int hand = 1; hand < table.hands; ++hand) at = putHand(at, handOf(state, hand));
 }
 
 void numberTrial(const ChannelTable&, int firstTrial, double* row) noexcept {

@@ -19,13 +19,15 @@ struct Channel {
 };
 
 /// What is sampled in this scene, in the order of fillRow: time; hand (estimated); device (raw); coupling, feedback and device
-/// force; energy; phase, trial and validity; then position, velocity, acceleration and constraint parameters of each mass.
+/// force; energy; phase, trial and validity; then position, velocity, acceleration and constraint parameters of each mass; then what
+/// further hands have.
 struct ChannelTable {
   std::vector<Channel> channels;
   int massCount = 0;
   int parameterCount = 0;   // constraint parameters of a mass: 0, 1 or 2
   bool body = false;        // orientation and angular velocity follow
-  bool portEnergy = false;  // of a device that renders force: the passivity observer's energy is the last column
+  bool portEnergy = false;  // of a device that renders force: the passivity observer's energy is the next column
+  int hands = 1;            // with more than one, the first hand's work and then each other hand's own columns follow
 
   std::size_t size() const { return channels.size(); }
   /// Index of a channel; throws FaultError when there is none of that name.
@@ -36,7 +38,7 @@ struct ChannelTable {
 ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount, bool portEnergy = false);
 
 /// Numbers in a row of such a table.
-std::size_t rowWidth(int massCount, int parameterCount, bool body, bool portEnergy = false);
+std::size_t rowWidth(const ChannelTable& table);
 
 /// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic
 /// thread; never allocates.

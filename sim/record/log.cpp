@@ -45,7 +45,7 @@ std::vector<std::uint8_t> makeHeader() {
 }
 
 bool isKnown(std::uint16_t type) {
-  return type >= static_cast<std::uint16_t>(RecordType::Configuration) && type <= static_cast<std::uint16_t>(RecordType::TrialSetup);
+  return type >= static_cast<std::uint16_t>(RecordType::Configuration) && type <= static_cast<std::uint16_t>(RecordType::PeerTicks);
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ enum class RecordType : std::uint16_t {
   Trial = 5,          // a trial's result
   End = 6,            // the run was closed in order; where the last trial record lies
   TrialSetup = 7,     // a trial is about to be put up
+  HandTicks = 8,      // a further hand's raw device input for the ticks of the Ticks record before
+  PeerTicks = 9,      // what other stations' samples were in force at those ticks
 };
 
 /// Bytes of a payload being put together, and read back; both little-endian. Reading past the end gives zeros and clears `ok`.

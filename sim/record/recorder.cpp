@@ -24,7 +24,8 @@ struct Recorder::Impl {
       : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)),
         firstTrial(configuration.firstTrial),
         writer(path, configuration, options.diskReserve, options.threaded ? RunWriter::CutBy::Clock : RunWriter::CutBy::Ticks),
-        ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size()) {}
+        ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size(),
+             static_cast<std::size_t>(table.hands - 1)) {}
 
   RecorderOptions options;
   ChannelTable table;
@@ -48,14 +49,14 @@ struct Recorder::Impl {
   void drain() {
     const double* row = nullptr;
     while (const QueuedTick* tick = ring.front(row)) {
-      if (fault.empty()) write(*tick, row);
+      if (fault.empty()) write(*tick, ring.othersOf(tick), row);
       ring.pop(tick->hasRow);
     }
     if (fault.empty()) guarded([this] { writer.flushIfDue(); });
   }
-  void write(const QueuedTick& tick, const double* row) {
+  void write(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row) {
     guarded([&] {
-      if (writer.add(tick, row)) finishedTrial = writer.lastTrial().trial;
+      if (writer.add(tick, others, row)) finishedTrial = writer.lastTrial().trial;
     });
   }
   template <typename Work>
@@ -105,6 +106,8 @@ bool Recorder::onTick(const haptics::TickState& state, trial::Command command, s
   const bool due = state.tick % impl.every == 0;
   slot->raw = {state.tick, state.measuredNs, state.device, command, missedTicks};
   slot->facts = factsOf(state);
+  if (const auto others = impl.ring.otherSpace(slot); !others.empty())
+    for (std::size_t i = 0; i < others.size(); ++i) others[i] = state.others[i].device;
   slot->hasRow = due && rowSpace != nullptr;
   if (slot->hasRow) {
     fillRow(impl.table, state, rowSpace);

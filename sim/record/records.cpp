@@ -100,6 +100,54 @@ void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick
   requireWhole(in, "tick");
 }
 
+void HandBlock::add(const haptics::DeviceSample& sample) {
+  std::uint8_t flags = 0;
+  if (sample.valid) flags |= kValid;
+  if (sample.hasVelocity) flags |= kHasVelocity;
+  if (sample.buttons != 0) flags |= kButtons;
+  if (count_ > 0 && sameBits(sample.position, last_)) flags |= kSamePosition;
+  if (count_ == 0) {
+    bytes_.put(std::uint32_t{0});
+    bytes_.put(static_cast<std::uint8_t>(hand_));
+  }
+  bytes_.put(flags);
+  if (!(flags & kSamePosition)) put(bytes_, sample.position);
+  if (flags & kHasVelocity) put(bytes_, sample.velocity);
+  if (flags & kButtons) bytes_.put(sample.buttons);
+  last_ = sample.position;
+  ++count_;
+}
+
+std::span<const std::uint8_t> HandBlock::payload() {
+  bytes_.overwrite(0, count_);
+  return bytes_.bytes();
+}
+
+void HandBlock::clear() {
+  bytes_.clear();
+  count_ = 0;
+}
+
+HandTicks decodeHandTicks(std::span<const std::uint8_t> payload) {
+  ByteReader in(payload);
+  const auto count = in.get<std::uint32_t>();
+  HandTicks ticks;
+  ticks.hand = in.get<std::uint8_t>();
+  if (ticks.hand < 2 || ticks.hand > experiment::kMaxHands) throw UsageError("hand record of an unknown form");
+  haptics::DeviceSample sample;
+  for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
+    const auto flags = in.get<std::uint8_t>();
+    if (!(flags & kSamePosition)) sample.position = getVec3(in);
+    sample.hasVelocity = flags & kHasVelocity;
+    sample.velocity = flags & kHasVelocity ? getVec3(in) : Vec3{};
+    sample.buttons = flags & kButtons ? in.get<std::uint32_t>() : 0;
+    sample.valid = flags & kValid;
+    if (in.ok()) ticks.samples.push_back(sample);
+  }
+  requireWhole(in, "hand");
+  return ticks;
+}
+
 void SampleBlock::add(std::uint64_t tick, const double* row) {
   if (count_ == 0) {
     bytes_.put(std::uint32_t{0});

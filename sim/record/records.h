@@ -27,6 +27,29 @@ class TickBlock {
 };
 void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick>& out);
 
+/// Collects a further hand's raw samples, one for each tick of the block of ticks that goes before it.
+class HandBlock {
+ public:
+  /// `hand` from 2.
+  explicit HandBlock(int hand) : hand_(hand) {}
+  void add(const haptics::DeviceSample& sample);
+  bool empty() const { return count_ == 0; }
+  std::span<const std::uint8_t> payload();
+  void clear();
+
+ private:
+  int hand_;
+  ByteWriter bytes_;
+  Vec3 last_;  // [m]
+  std::uint32_t count_ = 0;
+};
+/// The samples and whose they are, from 2.
+struct HandTicks {
+  int hand = 0;
+  std::vector<haptics::DeviceSample> samples;
+};
+HandTicks decodeHandTicks(std::span<const std::uint8_t> payload);
+
 /// Collects rows of the derived channels.
 class SampleBlock {
  public:

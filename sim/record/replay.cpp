@@ -73,21 +73,38 @@ Replay replayRun(const RunLog& log) {
   const RunConfiguration& c = log.configuration();
   const experiment::CompiledExperiment compiled = recordedExperiment(c);
   const experiment::Experiment& experiment = compiled.experiment();
-  haptics::TickEngine engine(compiled, haptics::EngineOptions{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce,
-                                                              c.deviceThermalSeconds, c.guards});
+  haptics::EngineOptions options{
+      c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds, c.guards, {}};
+  for (const HandDevice& hand : c.otherHands)
+    options.others.push_back(
+        {hand.maxForce, hand.virtualHand, hand.rendersForce, hand.continuousForce, hand.thermalSeconds, hand.guards, {}});
+  haptics::TickEngine engine(compiled, options);
   const ChannelTable scene = makeChannelTable(experiment, engine.constraint().parameterCount());
-  if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body)
-    throw FaultError(
-        Fault{"table", "has not the masses of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
+  if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body ||
+      c.table.hands != scene.hands)
+    throw FaultError(Fault{
+        "table", "has not the masses and hands of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);
   TrialTracker tracker(c.firstTrial);
   std::vector<RecordedEvent> events;
   Replay replay;
-  std::size_t setup = 0;
+  const std::vector<std::vector<haptics::DeviceSample>> otherTicks = log.otherTicks();
+  std::vector<haptics::DeviceSample> others(otherTicks.size());
+  std::size_t setup = 0, number = 0;
   std::uint64_t expected = 0;
+  const auto finished = [&] {
+    compareTrials(log, replay);
+    return replay;
+  };
   for (const RecordedTick& tick : log.ticks()) {
     haptics::TickInput input{tick.device, tick.command, {}, tick.missedTicks, tick.measuredNs};
+    for (std::size_t hand = 0; hand < others.size(); ++hand) {
+      if (number >= otherTicks[hand].size()) return finished();
+      others[hand] = otherTicks[hand][number];
+    }
+    input.others = others;
+    ++number;
     if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
       tracker.announce(setups[setup]);
       input.planned = setups[setup++].planned;
@@ -105,8 +122,7 @@ Replay replayRun(const RunLog& log) {
     rows.look(state, replay);
     if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
   }
-  compareTrials(log, replay);
-  return replay;
+  return finished();
 }
 
 }  // namespace reachlab::record

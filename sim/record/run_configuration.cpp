@@ -50,9 +50,11 @@ void checkConfiguration(const RunConfiguration& c) {
   std::vector<Fault> faults;
   for (const auto& [key, label] : {std::pair{"subject", c.subject}, std::pair{"session", c.session}, std::pair{"task", c.task}})
     if (const auto fault = labelFault(label, key)) faults.push_back(*fault);
-  const std::size_t columns = rowWidth(c.table.massCount, c.table.parameterCount, c.table.body, c.table.portEnergy);
+  const std::size_t columns = rowWidth(c.table);
   if (c.table.size() != columns)
-    faults.push_back({"table", fmt::format("has {} channels", c.table.size()), fmt::format("{}, as its masses have", columns)});
+    faults.push_back({"table", fmt::format("has {} channels", c.table.size()), fmt::format("{}, as its masses and hands have", columns)});
+  if (static_cast<int>(c.otherHands.size()) + 1 != c.table.hands)
+    faults.push_back({"other_hands", fmt::format("has {} hands", c.otherHands.size()), fmt::format("{}, as the table has", c.table.hands - 1)});
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
 

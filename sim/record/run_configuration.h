@@ -19,6 +19,18 @@ struct Participant {
   std::string handedness;     // R | L | A
 };
 
+/// What is known of a further hand's device; the first hand's stands in the configuration itself.
+struct HandDevice {
+  std::string name, version;
+  double maxForce = 0;         // [N]
+  bool virtualHand = false;    // DeviceInfo::virtualHand
+  bool rendersForce = false;   // DeviceInfo::rendersForce
+  double continuousForce = 0;  // [N] 0: no budget was kept
+  double thermalSeconds = 10;  // [s]
+  haptics::GuardSettings guards;
+  std::string mapping;  // DeviceInfo::mapping
+};
+
 /// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value. Its fields are read, written
 /// and compared by one list, in run_fields.h.
 struct RunConfiguration {
@@ -39,7 +51,7 @@ struct RunConfiguration {
   std::uint64_t sessionSeed = 0;               // that the blocks' seeds come from
   std::uint64_t orderSeed = 0;                 // of the plan
   std::vector<trial::PlannedTrial> trials;
-  std::string device;  // as asked for: "simulated:noise=0"
+  std::string device;  // as asked for: "simulated:noise=0"; several hands' as "A + B"
   std::string deviceName, deviceVersion;
   double deviceMaxForce = 0;         // [N]
   bool virtualHand = false;          // DeviceInfo::virtualHand
@@ -59,6 +71,7 @@ struct RunConfiguration {
   std::uint32_t sampleEveryTicks = 10;
   Participant participant;
   std::string notes;  // by the experimenter
+  std::vector<HandDevice> otherHands;  // of the second hand on
   ChannelTable table;
 };
 

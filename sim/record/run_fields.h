@@ -31,6 +31,7 @@ void visitFields(T& t, const Visit& visit) {
   visit(Field{"parameter_count", 0, 3}, t.parameterCount);
   visit(Field{"body"}, t.body);
   visit(Field{"port_energy", 0, 0, kMayMiss}, t.portEnergy);
+  visit(Field{"hands", 1, experiment::kMaxHands, kMayMiss}, t.hands);
   visit(Field{"channels", 0, kMaxChannels}, t.channels);
 }
 
@@ -68,6 +69,19 @@ void visitFields(T& g, const Visit& visit) {
   visit(Field{"wall_damping_n_s_per_m", 0, 1e6}, g.wallDamping);
   visit(Field{"compensation_n"}, g.compensation);
   visit(Field{"passivity_control"}, g.passivityControl);
+}
+
+template <MaybeConst<HandDevice> T, class Visit>
+void visitFields(T& h, const Visit& visit) {
+  visit(Field{"name"}, h.name);
+  visit(Field{"version"}, h.version);
+  visit(Field{"max_force_n", 0, kMaxNewtons}, h.maxForce);
+  visit(Field{"virtual_hand"}, h.virtualHand);
+  visit(Field{"renders_force"}, h.rendersForce);
+  visit(Field{"continuous_force_n", 0, kMaxNewtons}, h.continuousForce);
+  visit(Field{"thermal_s", 1e-3, 1e6}, h.thermalSeconds);
+  visit(Field{"guards"}, h.guards);
+  visit(Field{"mapping"}, h.mapping);
 }
 
 template <MaybeConst<RunConfiguration> T, class Visit>
@@ -117,6 +131,7 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"device_mapping", 0, 0, kMayMiss}, c.deviceMapping);
   visit(Field{"participant"}, c.participant);
   visit(Field{"notes"}, c.notes);
+  visit(Field{"other_hands", 0, experiment::kMaxHands, kMayMiss}, c.otherHands);
   visit(Field{"table"}, c.table);
 }
 

@@ -223,6 +223,20 @@ std::vector<RecordedTick> RunLog::ticks() const {
   return ticks;
 }
 
+std::vector<std::vector<haptics::DeviceSample>> RunLog::otherTicks() const {
+  std::vector<std::vector<haptics::DeviceSample>> hands(configuration_.otherHands.size());
+  if (hands.empty()) return hands;
+  visit(0, [&](const RecordView& record) {
+    if (record.type != RecordType::HandTicks) return true;
+    const HandTicks hand = decodeHandTicks(record.payload);
+    const auto index = static_cast<std::size_t>(hand.hand - 2);
+    if (index >= hands.size()) throw UsageError(fmt::format("hand {} in a log of {} hands", hand.hand, hands.size() + 1));
+    hands[index].insert(hands[index].end(), hand.samples.begin(), hand.samples.end());
+    return true;
+  });
+  return hands;
+}
+
 std::vector<RecordedEvent> RunLog::events() const {
   std::vector<RecordedEvent> events;
   visit(0, [&](const RecordView& record) {

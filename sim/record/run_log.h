@@ -110,6 +110,9 @@ class RunLog {
   /// The rows block by block as they were written, for runs longer than memory; a block is gone when `take` returns.
   void eachBlock(const std::function<void(const SampleRows& block)>& take) const;
   std::vector<RecordedTick> ticks() const;
+  /// The further hands' raw samples, the second's first, each as long as `ticks()` unless the log broke off between the two; empty where
+  /// there is one hand.
+  std::vector<std::vector<haptics::DeviceSample>> otherTicks() const;
   std::vector<RecordedEvent> events() const;
   std::vector<TrialSetup> setups() const;
 

@@ -22,6 +22,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinter
 RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve, CutBy cutBy)
     : cutBy_(cutBy), diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()),
       tracker_(configuration.firstTrial) {
+  for (int hand = 2; hand <= configuration.table.hands; ++hand) otherTicks_.emplace_back(hand);
   log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
   log_.sync();
   lookedAt_ = log_.size();
@@ -47,7 +48,7 @@ void RunWriter::announce(const TrialSetup& setup) {
   log_.append(RecordType::TrialSetup, payload.bytes());
 }
 
-bool RunWriter::add(const QueuedTick& tick, const double* row) {
+bool RunWriter::add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row) {
   lastTick_ = tick.raw.tick;
   // A trial begins a block of its own, so that it can be read without the one before.
   const auto step = tracker_.add(tick.raw, tick.facts, events_);
@@ -60,6 +61,7 @@ bool RunWriter::add(const QueuedTick& tick, const double* row) {
     tracker_.trial().sequence = log_.nextSequence();
   }
   ticks_.add(tick.raw);
+  for (std::size_t i = 0; i < otherTicks_.size() && i < others.size(); ++i) otherTicks_[i].add(others[i]);
   if (row != nullptr) samples_.add(tick.raw.tick, row);
   if (step.finished) {
     flush();
@@ -83,6 +85,11 @@ void RunWriter::flush() {
   if (!ticks_.empty()) {
     log_.append(RecordType::Ticks, ticks_.payload());
     ticks_.clear();
+  }
+  for (HandBlock& block : otherTicks_) {
+    if (block.empty()) continue;
+    log_.append(RecordType::HandTicks, block.payload());
+    block.clear();
   }
   if (!samples_.empty()) {
     log_.append(RecordType::Samples, samples_.payload());

@@ -19,7 +19,7 @@ class RunWriter {
 
   void announce(const TrialSetup& setup);
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
-  bool add(const QueuedTick& tick, const double* row);
+  bool add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row);
   void note(const std::string& text);
   void add(const std::vector<RecordedEvent>& events);
   /// Hands what has gathered to the kernel; done by `add` when 1000 ticks or, by the clock, 100 ms have gathered.
@@ -39,6 +39,7 @@ class RunWriter {
   std::uint64_t lookedAt_ = 0;  // size of the log when the disk was last looked at
   LogWriter log_;
   TickBlock ticks_;
+  std::vector<HandBlock> otherTicks_;  // of the second hand on, tick by tick with `ticks_`
   SampleBlock samples_;
   std::vector<RecordedEvent> events_;
   TrialTracker tracker_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "sim/record/trial_tracker.h"
@@ -19,8 +20,9 @@ struct QueuedTick {
 /// waits. A row is `columns` numbers, and only every so manieth tick has one, so rows have a store of their own.
 class TickRing {
  public:
-  TickRing(std::size_t ticks, std::size_t rows, std::size_t columns)
-      : columns_(columns), slots_(ticks), rows_(rows * columns), rowCount_(rows) {}
+  /// `others`: raw samples of further hands with each tick.
+  TickRing(std::size_t ticks, std::size_t rows, std::size_t columns, std::size_t others = 0)
+      : columns_(columns), slots_(ticks), rows_(rows * columns), rowCount_(rows), otherCount_(others), others_(ticks * others) {}
 
   /// Writer: a slot to fill, or nullptr when full; `rowSpace` is set when a row fits too. `publish` makes it visible.
   QueuedTick* beginPush(double*& rowSpace) noexcept {
@@ -29,6 +31,10 @@ class TickRing {
     const bool rowFits = rowHead_ - rowTail_.load(std::memory_order_acquire) < rowCount_;
     rowSpace = rowFits ? rows_.data() + rowHead_ % rowCount_ * columns_ : nullptr;
     return &slots_[head % slots_.size()];
+  }
+  /// Writer: room for the further hands' samples of the slot that `beginPush` gave.
+  std::span<haptics::DeviceSample> otherSpace(const QueuedTick* slot) noexcept {
+    return {others_.data() + static_cast<std::size_t>(slot - slots_.data()) * otherCount_, otherCount_};
   }
   void publish(bool withRow) noexcept {
     if (withRow) ++rowHead_;
@@ -43,6 +49,10 @@ class TickRing {
     row = tick.hasRow ? rows_.data() + rowTail_.load(std::memory_order_relaxed) % rowCount_ * columns_ : nullptr;
     return &tick;
   }
+  /// Reader: the further hands' samples of that tick.
+  std::span<const haptics::DeviceSample> othersOf(const QueuedTick* tick) const noexcept {
+    return {others_.data() + static_cast<std::size_t>(tick - slots_.data()) * otherCount_, otherCount_};
+  }
   void pop(bool withRow) noexcept {
     if (withRow) rowTail_.store(rowTail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
@@ -54,6 +64,8 @@ class TickRing {
   std::vector<QueuedTick> slots_;
   std::vector<double> rows_;
   std::size_t rowCount_;
+  std::size_t otherCount_;
+  std::vector<haptics::DeviceSample> others_;
   std::size_t rowHead_ = 0;  // writer only
   alignas(kCacheLine) std::atomic<std::size_t> head_{0};
   alignas(kCacheLine) std::atomic<std::size_t> tail_{0};

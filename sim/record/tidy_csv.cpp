@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "base/table_text.h"
 #include "sim/record/append_file.h"
 #include "sim/record/column_dictionary.h"
@@ -36,9 +38,15 @@ std::string runName(const RunConfiguration& c, const std::string& between) {
 }
 
 void writeRows(const RunLog& run, TableText table, const TakePiece& take) {
+  std::vector<std::size_t> all(run.configuration().table.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  writeRows(run, all, std::move(table), take);
+}
+
+void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take) {
   run.eachBlock([&](const SampleRows& block) {
     for (std::size_t row = 0; row < block.size(); ++row) {
-      for (std::size_t column = 0; column < block.columns; ++column) table.number(block.at(row, column));
+      for (const std::size_t column : columns) table.number(block.at(row, column));
       table.endRow();
     }
     take(table.takeText());

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,9 @@ std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std
 // The texts of the files, given piece by piece: they grow with the run, memory does not.
 void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take);
 void samplesCsv(const RunLog& run, const TakePiece& take);
-/// Every row of the run as a line of `table`, which may have a header already.
+/// Every row of the run as a line of `table`, which may have a header already. With `columns`, only those.
 void writeRows(const RunLog& run, TableText table, const TakePiece& take);
+void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take);
 /// What each column of these files is, in words, with its unit.
 std::string trialsDictionary(std::string_view csv);
 std::string samplesDictionary(const RunConfiguration& configuration, std::string_view csv);

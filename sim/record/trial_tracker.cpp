@@ -6,7 +6,9 @@
 
 namespace reachlab::record {
 
-TickFacts factsOf(const haptics::TickState& state) noexcept {
+namespace {
+
+TickFacts factsOfFirst(const haptics::TickState& state) noexcept {
   return {state.phase,
           state.status,
           state.trial,
@@ -17,6 +19,22 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
           state.couplingForce,
           state.result};
 }
+
+}  // namespace
+
+// Of several hands: what acts on any of them.
+TickFacts factsOf(const haptics::TickState& state) noexcept {
+  TickFacts facts = factsOfFirst(state);
+  for (int i = 1; i < state.handCount; ++i) {
+    const haptics::HandState& hand = haptics::handOf(state, i);
+    facts.clamped = facts.clamped || (hand.clamped && hand.device.valid);
+    if (!hand.rendersForce) continue;
+    facts.deviceState = std::max(facts.deviceState, hand.deviceState);
+    facts.interventions |= hand.interventions;
+  }
+  return facts;
+}
+
 
 void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {
   trial_ = {};

@@ -107,6 +107,9 @@ void RecordedRun::completeConfiguration() {
   c.timing = block_.experiment.experiment().timing;
   c.guards = device.guards;
   c.deviceMapping = device.mapping;
+  for (const haptics::DeviceInfo& hand : conductor_->otherDevices())
+    c.otherHands.push_back({hand.name, hand.version, hand.maxForce, hand.virtualHand, hand.rendersForce, hand.maxContinuousForce,
+                            hand.thermalSeconds, hand.guards, hand.mapping});
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
   if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;
