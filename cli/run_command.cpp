@@ -6,18 +6,19 @@
 #include "cli/commands.h"
 #include "cli/seed_option.h"
 #include "cli/session_runner.h"
+#include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
 #include "sim/record/run_configuration.h"
 
 namespace reachlab::cli {
 namespace {
 
-// The device as it was asked for, with the mapping that is kept for this subject where none was asked for.
-std::string withKeptMapping(const session::SessionRequest& request, bool save) {
-  const devices::HandOptions hand = devices::handOptionsOf(request.device);
-  const std::string kind = request.device.substr(0, request.device.find_first_of(":,"));
+// A device as it was asked for, with the mapping that is kept for this subject where none was asked for.
+std::string withKeptMapping(const std::string& device, const session::SessionRequest& request, bool save) {
+  const devices::HandOptions hand = devices::handOptionsOf(device);
+  const std::string kind = device.substr(0, device.find_first_of(":,"));
   const std::string& subject = request.place.subject;
-  if (record::labelFault(subject, "subject")) return request.device;  // refused by the run, in its own words
+  if (record::labelFault(subject, "subject")) return device;  // refused by the run, in its own words
   const std::string file = devices::mappingFile(request.place.data, subject, kind);
   if (save) {
     if (!hand.mapped)
@@ -27,9 +28,9 @@ std::string withKeptMapping(const session::SessionRequest& request, bool save) {
     fmt::print(stderr, "mapping kept in {}\n", file);
   }
   std::error_code error;
-  if (hand.mapped || kind == "replay" || !std::filesystem::exists(file, error)) return request.device;
+  if (hand.mapped || kind == "replay" || !std::filesystem::exists(file, error)) return device;
   fmt::print(stderr, "mapping of {}\n", file);
-  return request.device + (request.device.size() == kind.size() ? "," : request.device.back() == ':' ? "" : ",") + "mapping=" + file;
+  return device + (device.size() == kind.size() ? "," : device.back() == ':' ? "" : ",") + "mapping=" + file;
 }
 
 }  // namespace
@@ -38,8 +39,12 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Records a run of an experiment, or a session of a plan");
   const auto r = std::make_shared<session::SessionRequest>();
   command->add_option("experiment", r->what, "Experiment or session plan: a file, or the name of a shipped one")->required();
-  command->add_option("--device", r->device, "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all")
-      ->required();
+  const auto hands = std::make_shared<std::vector<std::string>>();
+  command
+      ->add_option("--device", *hands,
+                   "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all. Once for each of the experiment's hands")
+      ->required()
+      ->allow_extra_args(false);
   command->add_option("--instrument", r->instruments,
                       "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
       ->expected(1)->take_all();
@@ -80,10 +85,12 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       "Examples:\n"
       "  reach run chain-moderate --device simulated --trials 20 --seed 1 --fast\n"
       "  reach run chain-moderate --device replay:resources/reaches --fast\n"
+      "  reach run chain-two-hands --device simulated --device partner:follower --trials 5 --seed 1 --fast\n"
       "  reach run paper --device simulated --subject 03 --session 01 --age 24 --sex F --handedness R --fast");
-  command->callback([r, saveMapping, &exitCode] {
-    r->trialsOnOffer = devices::trialsOnOffer(r->device);
-    r->device = withKeptMapping(*r, *saveMapping);
+  command->callback([r, hands, saveMapping, &exitCode] {
+    r->trialsOnOffer = devices::trialsOnOffer(devices::joinHands(*hands));
+    for (std::string& hand : *hands) hand = withKeptMapping(hand, *r, *saveMapping);
+    r->device = devices::joinHands(*hands);
     exitCode = runSession(*r);
   });
 }

@@ -5,6 +5,7 @@
 namespace reachlab::devices {
 
 DeviceDriver simulatedDriver();
+DeviceDriver partnerDriver();
 DeviceDriver replayDriver();
 DeviceDriver mouseDriver();
 DeviceDriver virtualDriver();

@@ -1,6 +1,10 @@
 #include "devices/make_device.h"
 
+#include <algorithm>
+
 #include "base/fault.h"
+#include "base/seeded.h"
+#include "devices/hands/several_hands.h"
 #include "devices/registry.h"
 #include "devices/replay/reach_source.h"
 
@@ -17,6 +21,8 @@ Spec parse(const std::string& spec) {
   const std::size_t comma = std::min(spec.find(','), spec.size());
   return {spec.substr(0, comma), spec.substr(comma)};
 }
+
+constexpr std::uint64_t kOfAHand = 0x68616e64;
 
 // What a replayed file is called is its own business.
 bool takesHandOptions(const Spec& asked) { return asked.name != "replay"; }
@@ -35,6 +41,12 @@ std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const 
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed) {
+  if (const std::vector<std::string> hands = splitHands(spec); hands.size() > 1) {
+    std::vector<std::unique_ptr<haptics::HapticDevice>> all;
+    // Two subjects of one seed would move alike.
+    for (std::size_t i = 0; i < hands.size(); ++i) all.push_back(makeDevice(hands[i], experiment, i == 0 ? seed : seededBits(seed, kOfAHand + i)));
+    return joinDevices(std::move(all));
+  }
   const Spec asked = parse(spec);
   if (const DeviceDriver* driver = findDriver(asked.name)) return makeBy(*driver, asked, experiment, seed);
   std::string known;
@@ -54,6 +66,11 @@ HandOptions handOptionsOf(const std::string& spec) {
 }
 
 int trialsOnOffer(const std::string& spec) {
+  if (const std::vector<std::string> hands = splitHands(spec); hands.size() > 1) {
+    int most = 1;
+    for (const std::string& hand : hands) most = std::max(most, trialsOnOffer(hand));
+    return most;
+  }
   const Spec asked = parse(spec);
   return asked.name == "replay" && !asked.argument.empty() ? static_cast<int>(readReaches(reachSourceOf(asked.argument)).size()) : 1;
 }

@@ -9,7 +9,7 @@
 
 namespace reachlab::devices {
 
-/// Makes the device that `NAME[:ARGUMENT]` names, for this experiment; `deviceDrivers` (registry.h) has all that there are. Of a virtual
+/// Makes the device that `NAME[:ARGUMENT]` names, for this experiment, or of `A + B` one for each hand (hands/several_hands.h); `deviceDrivers` (registry.h) has all that there are. Of a virtual
 /// hand, trial i depends on (seed, i) alone. Throws FaultError (unknown name, key or value, a file that cannot be understood),
 /// ResourceError (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
