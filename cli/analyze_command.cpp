@@ -11,6 +11,7 @@
 #include "cli/criterion_option.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "sim/analyze/hands.h"
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "sim/analyze/write_analysis.h"
@@ -286,7 +287,8 @@ void run(const AnalyzeOptions& o) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const analyze::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o)};
   const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
-  const analyze::AnalysisFiles files = atOption("--out", [&] { return analyze::writeAnalysis(study, dataset, header, out, recovery); });
+  analyze::AnalysisFiles files = atOption("--out", [&] { return analyze::writeAnalysis(study, dataset, header, out, recovery); });
+  for (std::string& table : atOption("--out", [&] { return analyze::writeHandsTable(o.dataset, out); })) files.tables.push_back(std::move(table));
   if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
   if (o.json) fmt::print("{}", summaryJson(study, dataset, files, recovery));
   else printSummary(study, dataset, files, recovery);

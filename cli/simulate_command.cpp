@@ -132,6 +132,9 @@ dynamics::StepStatus stepInHalves(dynamics::Plant& plant, const HandLaw& law, do
 
 void simulate(const Request& request) {
   const experiment::CompiledExperiment compiled = experiment::openExperiment(request.experiment);
+  if (compiled.experiment().hands.size() > 1)
+    throw FaultError(Fault{"hands", fmt::format("are {}, and simulate moves one", compiled.experiment().hands.size()),
+                           fmt::format("one hand; or record it: reach run {} --device A --device B", request.experiment)});
   experiment::Experiment experiment = compiled.experiment();
   const auto positive = [](double value, const char* option) {
     if (!(value > 0) || !std::isfinite(value))

@@ -89,6 +89,23 @@ std::unique_ptr<Prediction> makeLinearPrediction(const LineObject& object, Crite
   return prediction;
 }
 
+// Several hands on one object: each criterion but jerk weighs one hand's force or place against the object's, and says nothing of how
+// several share it. Jerk is taken as that of hands and object alike, moved as one.
+std::unique_ptr<Prediction> makeTogetherPrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                                   const std::optional<StraightTask>& straight, Criterion criterion, double duration,
+                                                   int unknowns) {
+  if (criterion != Criterion::MinHandJerk)
+    throw RefusedError(fmt::format("{}: defined for one hand, and {} hold the object; min-hand-jerk is computed for them moving as one",
+                                   nameOf(criterion), experiment.hands.size()));
+  const experiment::Task& task = *experiment.task;
+  if (!straight) return makeCurveJerkPrediction(constraint, task.start.at(0), task.target.at(0), duration, unknowns);
+  double mass = 0;
+  for (const double m : experiment.object.masses) mass += m;
+  auto prediction = makeRigidPrediction(mass, criterion, straight->distance, duration);
+  prediction->distance = straight->distance;
+  return prediction;
+}
+
 void judge(Prediction& prediction, const LineObject* object) {
   if (object != nullptr && !object->parallel) prediction.travelTime = computeTravelTime(*object);
   if (!std::isfinite(prediction.cost) || prediction.condition > kRefuseCondition || std::isnan(prediction.condition))
@@ -172,9 +189,13 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
     return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
                                  warnings);
   };
-  if (const std::optional<StraightTask> straight = findStraightTask(constraint, task)) {
+  const std::optional<StraightTask> straight = findStraightTask(constraint, task);
+  if (straight && !(straight->distance > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+  if (experiment.hands.size() > 1) {
+    if (isPoint) point = PointIs::Hand;
+    prediction = makeTogetherPrediction(experiment, constraint, straight, criterion, duration, options.unknowns);
+  } else if (straight) {
     const StraightTask& way = *straight;
-    if (!(way.distance > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
     object = makeObject();
     if (std::abs(dot(experiment.object.gravity, way.target - way.start)) > 0)
       warnings.push_back(

@@ -133,7 +133,7 @@ HandTicks decodeHandTicks(std::span<const std::uint8_t> payload) {
   const auto count = in.get<std::uint32_t>();
   HandTicks ticks;
   ticks.hand = in.get<std::uint8_t>();
-  if (ticks.hand < 2 || ticks.hand > experiment::kMaxHands) throw UsageError("hand record of an unknown form");
+  if (ticks.hand < 2 || ticks.hand > experiment::kMaxHands) refuse("hand");
   haptics::DeviceSample sample;
   for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
     const auto flags = in.get<std::uint8_t>();

@@ -230,7 +230,7 @@ std::vector<std::vector<haptics::DeviceSample>> RunLog::otherTicks() const {
     if (record.type != RecordType::HandTicks) return true;
     const HandTicks hand = decodeHandTicks(record.payload);
     const auto index = static_cast<std::size_t>(hand.hand - 2);
-    if (index >= hands.size()) throw UsageError(fmt::format("hand {} in a log of {} hands", hand.hand, hands.size() + 1));
+    if (index >= hands.size()) throw FaultError(Fault{.what = fmt::format("hand {} in a log of {} hands", hand.hand, hands.size() + 1)});
     hands[index].insert(hands[index].end(), hand.samples.begin(), hand.samples.end());
     return true;
   });

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+
+#include "base/fault.h"
+#include "sim/analyze/hands.h"
+#include "sim/record/bids.h"
+#include "sim/record/replay.h"
+#include "sim/session/recorded_session.h"
+#include "tests/haptics/scripted_device.h"
+#include "tests/record/made_run.h"
+
+// Two hands on one object, recorded: from two devices to the tables.
+namespace reachlab::session {
+namespace {
+
+using haptics::test::ScriptedDevice;
+
+constexpr const char* kChain = R"({ "schema_version": 1, "name": "both", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  "object": { "kind": "chain", "masses_kg": [0.2, 0.2, 0.2], "stiffness_n_per_m": [600, 600], "damping_n_s_per_m": [5, 5] },
+  "coupling": { "stiffness_n_per_m": 600, "damping_n_s_per_m": 10 }, "hands": [{ "mass": 1 }, { "mass": 3 }],
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 0.6, "timeout_s": 0.3, "rest_s": 0,
+            "tolerance": { "position_m": 0.02, "velocity_m_per_s": 0.5, "time_s": 0.4 } } })";
+
+/// Two scripted devices as one.
+class Pair final : public haptics::HapticDevice {
+ public:
+  explicit Pair(double otherTo = 0.1, int otherTicks = 400) : first(-0.1, 0.1, 400), second(-0.1, otherTo, otherTicks), others_{&second} {}
+  haptics::DeviceInfo info() const override { return first.info(); }
+  void cue(haptics::Cue cue) noexcept override { first.cue(cue), second.cue(cue); }
+  haptics::DeviceSample read() noexcept override { return first.read(); }
+  void write(const Vec3& force) noexcept override { first.write(force); }
+  std::span<haptics::HapticDevice* const> otherHands() const noexcept override { return others_; }
+  ScriptedDevice first, second;
+
+ private:
+  std::array<haptics::HapticDevice*, 1> others_;
+};
+
+class TwoHands : public testing::Test {
+ protected:
+  TwoHands() {
+    request_.place.data = folder_ / "data";
+    request_.device = "scripted + scripted";
+    request_.trials = 2;
+    request_.seed = 1;
+    request_.fast = true;
+    request_.everyTick = true;
+    record::writeFileAtomically(folder_ / "both.json", kChain);
+  }
+  record::RunLog record(std::unique_ptr<haptics::HapticDevice> device) {
+    const Programme programme = readProgramme(folder_ / "both.json");
+    RecordedRunOptions options;
+    options.place = request_.place;
+    options.virtualClock = true;
+    RecordedRun run(planSession(request_, programme).blocks.at(0), std::move(device), options);
+    const std::atomic<bool> stop{false};
+    while (const auto trial = run.runTrial(stop)) results_.push_back(trial->result);
+    run.finish();
+    return record::RunLog::open(run.logPath());
+  }
+  const record::TemporaryFolder folder_{"twohands"};
+  SessionRequest request_;
+  std::vector<trial::TrialResult> results_;
+};
+
+TEST_F(TwoHands, AreRecordedAndReplayedToTheBit) {
+  auto device = std::make_unique<Pair>(0.1, 300);
+  const record::RunLog log = record(std::move(device));
+  ASSERT_EQ(results_.size(), 2u);
+  EXPECT_EQ(results_[0].outcome, trial::Outcome::Success) << trial::nameOf(results_[0].reason) << " " << results_[0].by;
+  EXPECT_EQ(log.configuration().table.hands, 2);
+  ASSERT_EQ(log.otherTicks().size(), 1u);
+  EXPECT_EQ(log.otherTicks()[0].size(), log.ticks().size());
+  const record::Replay replay = record::replayRun(log);
+  EXPECT_TRUE(replay.identical()) << replay.firstDifference;
+  EXPECT_EQ(replay.trials.size(), 2u);
+  // The second hand is the second device's, and its force its own.
+  const record::ChannelTable& table = log.configuration().table;
+  const record::SampleRows rows = log.allRows();
+  double apart = 0, work = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    apart = std::max(apart, std::abs(rows.at(i, table.indexOf("hand_pos_x")) - rows.at(i, table.indexOf("hand2_pos_x"))));
+    work = std::max(work, rows.at(i, table.indexOf("hand2_work")));
+    EXPECT_EQ(rows.at(i, table.indexOf("hand2_feedback_force_x")), -rows.at(i, table.indexOf("hand2_coupling_force_x")));
+  }
+  EXPECT_GT(apart, 0.01);
+  EXPECT_GT(work, 0.001);
+}
+
+TEST_F(TwoHands, NeedADeviceEach) {
+  try {
+    record(std::make_unique<ScriptedDevice>(-0.1, 0.1, 400));
+    FAIL() << "one device for two hands";
+  } catch (const FaultError& fault) {
+    EXPECT_NE(std::string(fault.what()).find("2 hands"), std::string::npos) << fault.what();
+  }
+}
+
+TEST_F(TwoHands, TheTrialWaitsForBothAtTheStart) {
+  auto device = std::make_unique<Pair>();
+  device->second.others = {0, 0.05, 0};  // 5 cm beside the start
+  record(std::move(device));
+  EXPECT_EQ(results_.at(0).reason, trial::Reason::NoStart);
+}
+
+TEST_F(TwoHands, TheSecondHandMakesTheOnsetToo) {
+  record(std::make_unique<Pair>(0.1, 200));
+  const std::uint64_t early = results_.at(0).onsetTick;
+  results_.clear();
+  request_.place.data = folder_ / "late";
+  record(std::make_unique<Pair>(0.1, 4000));
+  EXPECT_LT(early, results_.at(0).onsetTick);
+}
+
+TEST_F(TwoHands, EachIsATrackingSystemOfTheDataset) {
+  const record::RunLog log = record(std::make_unique<Pair>());
+  const std::string motion = folder_ / "data" + "/sub-01/ses-01/motion/sub-01_ses-01_task-both_tracksys-";
+  for (const char* system : {"haptic_run-01", "haptic2_run-01"})
+    for (const char* ending : {"_motion.tsv", "_motion.json", "_channels.tsv", "_channels.json"})
+      EXPECT_TRUE(std::filesystem::exists(motion + system + ending)) << system << ending;
+  const record::ChannelTable& table = log.configuration().table;
+  const auto first = record::columnsOf(table, 1), second = record::columnsOf(table, 2);
+  EXPECT_EQ(first.size() + second.size(), table.size() + 1) << "all but the time belong to one system";
+  for (const std::size_t column : second)
+    EXPECT_TRUE(table.channels[column].type == "LATENCY" || table.channels[column].name.find('2') != std::string::npos);
+}
+
+TEST(Together, WhatCancelsIsInternal) {
+  analyze::HandSignals left, right;
+  for (int i = 0; i < 100; ++i) {
+    const double v = std::exp(-0.01 * (i - 50) * (i - 50) / 4);
+    const double late = std::exp(-0.01 * (i - 57) * (i - 57) / 4);
+    left.place.push_back({0.001 * i, 0, 0}), right.place.push_back({0.001 * i, 0, 0});
+    left.velocity.push_back({v, 0, 0}), right.velocity.push_back({late, 0, 0});
+    left.force.push_back({5, 0, 0}), right.force.push_back({-3, 0, 0});
+    left.work.push_back(0.03 * i), right.work.push_back(0.01 * i);
+  }
+  const analyze::TogetherMeasures opposed = analyze::measureTogether({left, right}, 100);
+  EXPECT_NEAR(opposed.internalForce, 3, 1e-12) << "the smaller of two opposed forces";
+  EXPECT_NEAR(opposed.hands[0].share, 0.75, 1e-12);
+  EXPECT_NEAR(opposed.hands[1].lag, 0.07, 1e-3);
+  EXPECT_NEAR(opposed.hands[0].lag, 0, 1e-12);
+  for (Vec3& force : right.force) force.x = 3;
+  EXPECT_NEAR(analyze::measureTogether({left, right}, 100).internalForce, 0, 1e-12) << "what pulls alike";
+}
+
+}  // namespace
+}  // namespace reachlab::session
