@@ -1,5 +1,4 @@
 // A recording looked at: by the mouse and the keys, as somebody does who has never seen it.
-#define QT_NO_KEYWORDS  // the analysis has signals of its own
 #include "gui/inspector/inspector.h"
 
 #include <gtest/gtest.h>
