@@ -146,7 +146,7 @@ speed_t speedOf(int baud) {
     case 115200: return B115200;
     case 230400: return B230400;
     case 1000000: return B1000000;
-    default: throw FaultError(Fault{.what = fmt::format("baud={}; allowed: 9600, 19200, 38400, 57600, 115200, 230400, 1000000", baud)});
+    default: throw FaultError(Fault{"instrument", fmt::format("baud={}", baud), "9600, 19200, 38400, 57600, 115200, 230400, 1000000"});
   }
 }
 

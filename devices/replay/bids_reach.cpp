@@ -27,10 +27,12 @@ class TsvColumns {
   const std::string& cell(std::size_t row, const std::string& column) const {
     const auto at = std::find(table_.columns.begin(), table_.columns.end(), column);
     if (at == table_.columns.end())
-      throw FaultError(Fault{.what = fmt::format("{}:1: {}: column is missing; allowed: {}", file_, column, fmt::join(table_.columns, ", "))});
+      throw FaultError(Fault{column, "column is missing", fmt::format("{}", fmt::join(table_.columns, ", ")), FilePlace{file_, 1}});
     return table_.rows[row][static_cast<std::size_t>(at - table_.columns.begin())];
   }
-  bool has(const std::string& column) const { return std::find(table_.columns.begin(), table_.columns.end(), column) != table_.columns.end(); }
+  bool has(const std::string& column) const {
+    return std::find(table_.columns.begin(), table_.columns.end(), column) != table_.columns.end();
+  }
   std::size_t rows() const { return table_.rows.size(); }
 
  private:
@@ -66,10 +68,13 @@ Layout layoutOf(const std::string& file, const ReachColumns& asked) {
     if (const std::string& point = channels.cell(row, "tracked_point");
         channels.cell(row, "type") == "POS" && std::find(points.begin(), points.end(), point) == points.end())
       points.push_back(point);
-  if (points.empty()) throw FaultError(Fault{.what = file + ": has no channel of type POS; allowed: x, y and z of at least one tracked point"});
+  if (points.empty())
+    throw FaultError(Fault{{}, "has no channel of type POS", "x, y and z of at least one tracked point", FilePlace{file}});
   if (asked.point.empty() && points.size() > 1)
-    throw FaultError(Fault{.what = fmt::format("{}: has {} tracked points, and none is named; allowed: point= with one of {}", file, points.size(),
-                                 fmt::join(points, ", "))});
+    throw FaultError(Fault{{},
+                           fmt::format("has {} tracked points, and none is named", points.size()),
+                           fmt::format("point= with one of {}", fmt::join(points, ", ")),
+                           FilePlace{file}});
   const std::string point = asked.point.empty() ? points.front() : asked.point;
   Layout layout;
   std::array<bool, 3> found{};
@@ -81,24 +86,27 @@ Layout layoutOf(const std::string& file, const ReachColumns& asked) {
     if (component != "x" && component != "y" && component != "z") continue;
     const auto k = static_cast<std::size_t>(component[0] - 'x');
     layout.axis[k] = row;
-    layout.unit[k] = metresOf(asked.unit.empty() ? channels.cell(row, "units") : asked.unit, fmt::format("{}:{}", file, row + 2));
+    layout.unit[k] = metresOf(asked.unit.empty() ? channels.cell(row, "units") : asked.unit, FilePlace{file, static_cast<int>(row) + 2});
     found[k] = true;
   }
   if (std::find(found.begin(), found.end(), false) != found.end())
-    throw FaultError(Fault{.what = fmt::format("{}: has no x, y and z of type POS for the point {}; allowed: point= with one of {}", file, point,
-                                 fmt::join(points, ", "))});
+    throw FaultError(Fault{{},
+                           "has no x, y and z of type POS for the point " + point,
+                           fmt::format("point= with one of {}", fmt::join(points, ", ")),
+                           FilePlace{file}});
   return layout;
 }
 
 double rateOf(const std::string& file, const std::optional<double>& asked) {
   if (asked) return *asked;
   std::error_code error;
-  if (!fs::exists(file, error)) throw FaultError(Fault{.what = file + ": is missing, and there is no LATENCY channel; allowed: one of them, or rate="});
+  if (!fs::exists(file, error))
+    throw FaultError(Fault{{}, "is missing, and there is no LATENCY channel", "one of them, or rate=", FilePlace{file}});
   const auto json = nlohmann::json::parse(readTextFile(file), nullptr, false);
   if (json.is_object())
     for (const char* key : {"SamplingFrequencyEffective", "SamplingFrequency"})
       if (json.contains(key) && json[key].is_number() && json[key].get<double>() > 0) return json[key].get<double>();
-  throw FaultError(Fault{.what = file + ": SamplingFrequency: is missing or no number above 0; allowed: samples a second"});
+  throw FaultError(Fault{"SamplingFrequency", "is missing or no number above 0", "samples a second", FilePlace{file}});
 }
 
 struct Sample {
@@ -121,15 +129,16 @@ std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, c
     std::istringstream parts(line + '\t');
     for (std::string cell; std::getline(parts, cell, '\t');) cells.push_back(cell);
     if (cells.size() != layout.columns)
-      throw FaultError(Fault{.what = fmt::format("{}:{}: has {} cells; allowed: {}, as its channels", motion, number, cells.size(), layout.columns)});
+      throw FaultError(Fault{
+          {}, fmt::format("has {} cells", cells.size()), fmt::format("{}, as its channels", layout.columns), FilePlace{motion, number}});
     const auto valueOf = [&](std::size_t column) -> std::optional<double> {
       const std::string& cell = cells[column];
       if (cell == "n/a") return std::nullopt;
       double value = 0;
       const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        throw FaultError(Fault{.what = fmt::format("{}:{}: column {}: '{}' is not a number; allowed: a number or n/a (motion.tsv has no header)", motion,
-                                     number, column + 1, cell.substr(0, 40))});
+        throw FaultError(Fault{fmt::format("column {}", column + 1), fmt::format("'{}' is not a number", cell.substr(0, 40)),
+                               "a number or n/a (motion.tsv has no header)", FilePlace{motion, number}});
       return value;
     };
     Sample sample;
@@ -149,7 +158,7 @@ std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, c
     sample.position = {at[0], at[1], at[2]};
     samples.push_back(sample);
   }
-  if (samples.empty()) throw FaultError(Fault{.what = motion + ": has no samples; allowed: at least one row"});
+  if (samples.empty()) throw FaultError(Fault{{}, "has no samples", "at least one row", FilePlace{motion}});
   return samples;
 }
 
@@ -168,15 +177,18 @@ std::vector<Span> reachesIn(const std::string& file, const std::string& trialTyp
       double value = 0;
       const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        throw FaultError(Fault{.what = fmt::format("{}:{}: {}: '{}' is not a number; allowed: a number or n/a", file, row + 2, column, cell.substr(0, 40))});
+        throw FaultError(Fault{column, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a number or n/a",
+                               FilePlace{file, static_cast<int>(row) + 2}});
       return value;
     };
     const auto onset = valueOf("onset"), lasts = valueOf("duration");
     if (onset && lasts && *lasts > 0) spans.push_back({*onset, *onset + *lasts});
   }
   if (spans.empty())
-    throw FaultError(Fault{.what = fmt::format("{}: has no event{} that lasts; allowed: at least one with onset and duration", file,
-                                 trialType.empty() ? "" : " of trial_type " + trialType)});
+    throw FaultError(Fault{{},
+                           fmt::format("has no event{} that lasts", trialType.empty() ? "" : " of trial_type " + trialType),
+                           "at least one with onset and duration",
+                           FilePlace{file}});
   return spans;
 }
 
@@ -186,7 +198,7 @@ std::vector<RecordedReach> readBidsReaches(const std::string& motion, const Reac
   std::error_code error;
   const std::string channels = beside(motion, "_channels.tsv"), events = beside(motion, "_events.tsv");
   if (!fs::exists(motion, error)) throw ResourceError(motion + ": cannot be opened");
-  if (!fs::exists(channels, error)) throw FaultError(Fault{.what = channels + ": is missing; allowed: the channels of motion.tsv beside it"});
+  if (!fs::exists(channels, error)) throw FaultError(Fault{{}, "is missing", "the channels of motion.tsv beside it", FilePlace{channels}});
   const std::vector<Sample> samples = samplesOf(motion, layoutOf(channels, columns), columns);
   std::vector<Span> spans{{samples.front().time, samples.back().time}};
   if (fs::exists(events, error)) spans = reachesIn(events, columns.trialType);

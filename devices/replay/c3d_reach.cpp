@@ -19,9 +19,10 @@ std::size_t pointAsked(const C3dFile& c3d, const std::string& file, const std::s
   for (const C3dLabel& label : c3d.points) names.push_back(label.name);
   const auto at = std::find(names.begin(), names.end(), point);
   if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
-  throw FaultError(Fault{.what = fmt::format("{}: {}; allowed: point= with one of {}", file,
-                               point.empty() ? fmt::format("has {} points, and none is named", names.size()) : "has no point " + point,
-                               fmt::join(names, ", "))});
+  throw FaultError(Fault{{},
+                         point.empty() ? fmt::format("has {} points, and none is named", names.size()) : "has no point " + point,
+                         fmt::format("point= with one of {}", fmt::join(names, ", ")),
+                         FilePlace{file}});
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns)
   if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
   const C3dFile c3d = readC3d(readTextFile(file), file);
   const std::size_t point = pointAsked(c3d, file, columns.point);
-  const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, file);
+  const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, FilePlace{file});
   SeenSamples samples(file);
   for (std::size_t frame = 0; frame < c3d.frames; ++frame) {
     const std::size_t at = frame * c3d.points.size() + point;

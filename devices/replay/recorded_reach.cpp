@@ -58,11 +58,11 @@ class Header {
   // A column that was named, its unit from what was said or from its name's ending.
   Place named(const std::string& name, const std::string& unit, bool time) const {
     const auto at = find(name);
-    if (!at) throw FaultError(Fault{.what = fmt::format("{}:1: {}: column is missing; allowed: {}", file_, name, fmt::join(names_, ", "))});
+    if (!at) throw FaultError(Fault{name, "column is missing", fmt::format("{}", fmt::join(names_, ", ")), FilePlace{file_, 1}});
     const std::size_t end = name.rfind('_');
     const std::string told = !unit.empty() ? unit : end == std::string::npos ? "" : name.substr(end + 1);
-    const std::string origin = file_ + ":1: " + name;
-    return {*at, name, time ? secondsOfUnit(told, origin) : metresOf(told, origin)};
+    const FilePlace header{file_, 1};
+    return {*at, name, time ? secondsOfUnit(told, header, name) : metresOf(told, header, name)};
   }
 
   // One that is called by the quantity and its unit.
@@ -70,9 +70,9 @@ class Header {
   Place called(const std::string& quantity, const std::array<const char*, Count>& units, bool time) const {
     for (const char* unit : units)
       if (find(quantity + "_" + unit)) return named(quantity + "_" + unit, unit, time);
-    throw FaultError(Fault{.what = fmt::format("{}:1: {}_{}: column is missing; allowed: a header with time_s,x_m,y_m,z_m (or time_ms, x_cm, x_mm …), or "
-                                 "columns that are named (time=…, x=…, unit=…)",
-                                 file_, quantity, units[0])});
+    throw FaultError(Fault{quantity + "_" + units[0], "column is missing",
+                           "a header with time_s,x_m,y_m,z_m (or time_ms, x_cm, x_mm …), or columns that are named (time=…, x=…, unit=…)",
+                           FilePlace{file_, 1}});
   }
   std::size_t size() const { return names_.size(); }
 
@@ -118,27 +118,27 @@ RecordedReach readReach(const std::string& file, const ReachColumns& columns) {
     if (line.find_first_not_of(" \r") == std::string::npos) continue;
     const std::vector<std::string> cells = cellsOf(line, separator);
     if (cells.size() != header.size())
-      throw FaultError(Fault{.what = fmt::format("{}:{}: has {} cells; allowed: {}, as the header", file, number, cells.size(), header.size())});
+      throw FaultError(
+          Fault{{}, fmt::format("has {} cells", cells.size()), fmt::format("{}, as the header", header.size()), FilePlace{file, number}});
     const auto valueOf = [&](const Place& place) {
       const std::string& cell = cells[place.column];
       double value = 0;
       const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        throw FaultError(Fault{.what = 
-            fmt::format("{}:{}: {}: '{}' is not a number; allowed: a finite number", file, number, place.name, cell.substr(0, 40))});
+        throw FaultError(
+            Fault{place.name, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a finite number", FilePlace{file, number}});
       return place.unit == 1 ? value : value * place.unit;
     };
     const double time = places.time ? valueOf(*places.time) : static_cast<double>(reach.time.size()) / *columns.rate;
     if (!reach.time.empty() && !(time > reach.time.back()))
-      throw FaultError(Fault{.what = fmt::format("{}:{}: {}: does not increase; allowed: increasing times", file, number,
-                                   places.time ? places.time->name : "time")});
+      throw FaultError(Fault{places.time ? places.time->name : "time", "does not increase", "increasing times", FilePlace{file, number}});
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k)
       if (places.axes[k]) at[k] = valueOf(*places.axes[k]);
     reach.time.push_back(time);
     reach.position.push_back({at[0], at[1], at[2]});
   }
-  if (reach.time.empty()) throw FaultError(Fault{.what = file + ": has no samples; allowed: at least one row"});
+  if (reach.time.empty()) throw FaultError(Fault{{}, "has no samples", "at least one row", FilePlace{file}});
   return reach;
 }
 

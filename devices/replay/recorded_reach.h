@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fault.h"
 #include "base/vec3.h"
 
 namespace reachlab::devices {
@@ -35,8 +36,8 @@ std::vector<RecordedReach> readBidsReaches(const std::string& motionTsv, const R
 RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns);
 
 /// The length of `unit` in metres, of a time in seconds. Throws FaultError `ORIGIN: what; allowed: …`.
-double metresOf(const std::string& unit, const std::string& origin);
-double secondsOfUnit(const std::string& unit, const std::string& origin);
+double metresOf(const std::string& unit, const FilePlace& place, const std::string& key = {});
+double secondsOfUnit(const std::string& unit, const FilePlace& place, const std::string& key = {});
 
 /// A tracking system's samples, of which some were not seen: what is missing at the ends is left off, a gap of up to 0.1 s is left to the spline.
 /// Throws FaultError for a longer one, or when nothing was seen.

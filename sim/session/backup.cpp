@@ -150,7 +150,8 @@ std::string copyVerified(const std::string& from, const std::string& to, std::ui
   if (hashOf(to, true) == wanted) return wanted;
   std::error_code error;
   fs::remove(to, error);
-  throw ResourceError(fmt::format("{}: reads back with other bytes than were written; the copy was removed: that disk cannot be trusted", to));
+  throw ResourceError(
+      fmt::format("{}: reads back with other bytes than were written; the copy was removed: that disk cannot be trusted", to));
 }
 
 class Backup {
@@ -164,7 +165,7 @@ class Backup {
   BackupReport run() {
     const auto [end, rest] = std::mismatch(dataset_.begin(), dataset_.end(), backup_.begin(), backup_.end());
     if (end == dataset_.end())
-      throw FaultError(Fault{.what = fmt::format("{}: lies in the dataset itself; allowed: a folder elsewhere, best on another disk", backup_.string())});
+      throw FaultError(Fault{{}, "lies in the dataset itself", "a folder elsewhere, best on another disk", FilePlace{backup_.string()}});
     const std::vector<fs::path> files = filesOf(dataset_, backup_);
     std::vector<RunName> open;
     for (const fs::path& file : files) {
@@ -175,7 +176,8 @@ class Backup {
     }
     report_.pending = open.size();
     for (const fs::path& file : files)
-      if (std::find(open.begin(), open.end(), runNameOf(file.filename().string())) == open.end() || runNameOf(file.filename().string()).run.empty())
+      if (std::find(open.begin(), open.end(), runNameOf(file.filename().string())) == open.end() ||
+          runNameOf(file.filename().string()).run.empty())
         keep(file);
     if (report_.copiedFiles > 0) writeList(backup_.string(), list_);
     return report_;
@@ -194,7 +196,8 @@ class Backup {
     if (listed != list_.end() && sameSize && (isLog || hashOf(file.string(), false) == listed->second)) return;
     if (isLog && fs::exists(copy, error)) {
       if (hashOf(file.string(), false) != hashOf(copy.string(), true))
-        throw ResourceError(fmt::format("{}: is there already with other bytes; nothing is overwritten: choose another folder", copy.string()));
+        throw ResourceError(
+            fmt::format("{}: is there already with other bytes; nothing is overwritten: choose another folder", copy.string()));
       list_[name] = hashOf(copy.string(), true);
       ++report_.copiedFiles;
       return;
@@ -215,7 +218,8 @@ BackupReport backUp(const std::string& dataset, const std::string& backup) { ret
 
 std::vector<std::string> faultsOfBackup(const std::string& backup) {
   std::error_code error;
-  if (!fs::exists(backup + "/" + kBackupList, error)) throw ResourceError(fmt::format("{}/{}: is missing: no backup was made there", backup, kBackupList));
+  if (!fs::exists(backup + "/" + kBackupList, error))
+    throw ResourceError(fmt::format("{}/{}: is missing: no backup was made there", backup, kBackupList));
   std::vector<std::string> faults;
   for (const auto& [file, hash] : readList(backup)) {
     const std::string path = backup + "/" + file;
