@@ -44,6 +44,8 @@ std::string textOf(Write&& write, const Of& of) {
   return text;
 }
 
+const auto firstHandMotion = [](const RunLog& log, const TakePiece& take) { motionTsv(log, take); };
+
 class Exported : public testing::Test {
  protected:
   void SetUp() override {
@@ -60,7 +62,7 @@ class Exported : public testing::Test {
 
 // No validator looks at these: a header row in motion.tsv, decimal commas, units, doubled channels, counts, the task's name.
 TEST_F(Exported, MotionHasNoHeaderAndANumberInEveryCell) {
-  const auto rows = cellsOf(textOf(motionTsv, RunLog::open(path_)), '\t');
+  const auto rows = cellsOf(textOf(firstHandMotion, RunLog::open(path_)), '\t');
   ASSERT_EQ(rows.size(), 3 * MadeRun::kTicksPerTrial / 10 + 1);
   for (const auto& row : rows) {
     ASSERT_EQ(row.size(), configuration_.table.size());
@@ -70,7 +72,7 @@ TEST_F(Exported, MotionHasNoHeaderAndANumberInEveryCell) {
 
 TEST_F(Exported, MotionCellsReadBackAsTheRecordedNumbers) {
   const RunLog log = RunLog::open(path_);
-  const auto rows = cellsOf(textOf(motionTsv, log), '\t');
+  const auto rows = cellsOf(textOf(firstHandMotion, log), '\t');
   const std::size_t x = configuration_.table.indexOf("hand_pos_x");
   for (std::size_t row = 0; row < rows.size(); ++row) {
     double value = 0;

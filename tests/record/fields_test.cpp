@@ -78,6 +78,7 @@ void change(haptics::GuardSettings& x) { x.wallCentre.y += 0.5; }
 void change(experiment::StartRest& x) { x.seconds += 0.5; }
 void change(ChannelTable& x) { x.channels.front().description += "x"; }
 void change(std::vector<trial::PlannedTrial>& x) { x.push_back({5, 100, true}); }
+void change(std::vector<HandDevice>& x) { x.push_back({.name = "simulated", .version = "2"}); }
 
 // Each field in turn is changed, goes through the text, and is the only one that differs.
 TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
