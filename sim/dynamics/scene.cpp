@@ -147,7 +147,7 @@ std::string methodFor(const experiment::Experiment& experiment, const SceneOptio
 }
 
 void compileShared(Scene& scene, const experiment::Experiment& experiment, bool smooth) {
-  if (!smooth) throw RefusedError("several hands need a curve that is smooth throughout; on this one use one hand");
+  if (!smooth) throw RefusedError("several hands need a curve that is smooth throughout and whose |r_phi| stays of one size; on this one use one hand");
   auto plant = makeSharedPlant(experiment, scene.constraint);
   scene.shared = plant.get();
   scene.plant = std::move(plant);
@@ -196,7 +196,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
   const MethodRequest request{choice.method, options.tolerance};
 
   if (!experiment.hands.empty()) {
-    compileShared(scene, experiment, !regularity || regularity->whole);
+    compileShared(scene, experiment, (!regularity || regularity->whole) && !facts.hardCurve);
   } else if (linear) {
     const LinearSpace space = linearSpace(constraint);
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());

@@ -26,6 +26,9 @@ POINT = {"schema_version": 1, "constraint": {"name": "ellipse"}, "object": {"kin
 CHAIN = {**POINT, "object": {"kind": "chain", "masses_kg": [1, 1, 1], "stiffness_n_per_m": [1, 1], "damping_n_s_per_m": [0, 0]}}
 BODY = {**POINT, "constraint": {"name": "free"}, "object": {"kind": "body", "masses_kg": [1], "inertia_kg_m2": [1, 1, 1]},
         "task": {**POINT["task"], "start": [0, 0, 0], "target": [0.1, 0, 0]}}
+LONG = {**POINT, "object": {"kind": "chain", "masses_kg": [1] * 5, "stiffness_n_per_m": [1] * 4}, "hands": [{}, {}]}
+PAIR = {**POINT, "object": {"kind": "chain", "masses_kg": [1, 1], "stiffness_n_per_m": [1]}, "hands": [{}, {}]}
+HELD = {**BODY, "hands": [{}, {}]}
 PLAN = {"schema_version": 1, "trials": 2, "blocks": [{"experiment": "chain-moderate"}]}
 CURVE = {"schema_version": 1, "name": "x", "kind": "curve", "curve": ["a_m*cos(phi)", "a_m*sin(phi)*cos(phi)", "0"],
          "shape": {"a_m": {"default": 0.1, "min": 0.01, "max": 1}}, "domain": [0, "2*pi"], "start": [0], "target": ["pi"]}
@@ -41,6 +44,8 @@ NEIGHBOURS = {
     ("constraint.curve", None): {**POINT, "constraint": {"shape": {"a": 0.1, "b": 0.06}}},
     ("constraint.surface", None): {**POINT, "constraint": {}, "task": {**POINT["task"], "start": [-1, 0], "target": [1, 0]}},
     ("constraint.shape", None): {**POINT, "constraint": {"name": "torus"}, "task": {**POINT["task"], "start": [0, 0.5], "target": [1, 2]}},
+    ("hands[].mass", None): LONG, ("hands[].stiffness_n_per_m", None): PAIR, ("hands[].damping_n_s_per_m", None): LONG,
+    ("hands[].fp_offset_m", None): HELD,
     ("surface", None): SURFACE, ("domain", "[[0, \"2*pi\"], [-1, 1]]"): SURFACE, ("periodic", "[true, false]"): SURFACE,
 }
 
@@ -109,7 +114,7 @@ class SchemaTest(unittest.TestCase):
         for name, schema in self.schemas.items():
             for group in groups(schema):
                 place = (group.path + "." if group.path else "") + "zz"
-                base = BODY if group.path == "object" else BASES[name]
+                base = {"object": BODY, "hands[]": HELD}.get(group.path, BASES[name]) if name == "experiment" else BASES[name]
                 said = self.validate([put(base, place, 1)])[0]
                 named = re.search(r"zz: is not known here(?:; did you mean [^?]*\?)?; allowed: (.*)", said)
                 self.assertTrue(named, f"{name} {place}: {said}")
