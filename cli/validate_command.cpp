@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/option_words.h"
@@ -44,11 +45,13 @@ void checkIsJsonObject(const std::string& text, const std::string& file) {
                            FilePlace{file, 1, 1}});
 }
 
-// What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing.
-void validateFile(const std::string& fileOrName) {
+// What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing. Returns the
+// experiment, if it is one.
+std::optional<experiment::CompiledExperiment> validateFile(const std::string& fileOrName) {
   const std::string file = fileOf(fileOrName);
   std::error_code error;
-  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr) return;
+  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr)
+    return std::nullopt;
   if (!std::filesystem::exists(file, error)) experiment::readExperiment(file);  // says which names there are
   const std::string text = readTextFile(file);
   checkIsJsonObject(text, file);
@@ -62,7 +65,9 @@ void validateFile(const std::string& fileOrName) {
     if (experiment.experiment().task) trial::checkTask(experiment, file);
     for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)})
       for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "warning: {}\n", toText(warning));
+    return experiment;
   }
+  return std::nullopt;
 }
 
 struct Request {
@@ -72,8 +77,7 @@ struct Request {
 };
 
 // Every experiment of the file against the device, before anybody holds it.
-void checkOnDevice(const Request& r, const std::string& file) {
-  const session::Programme programme = session::readProgramme(file);
+void checkOnDevice(const Request& r, const session::Programme& programme) {
   for (const experiment::CompiledExperiment& block : programme.experiments) {
     const auto device = devices::makeDevice(r.device, block, 0);
     const auto lines = devices::checkBeforeBlock(block, device->info());
@@ -97,9 +101,9 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
   command->callback([r, &exitCode] {
     for (const std::string& file : r->files) {
       try {
-        validateFile(file);
+        const auto experiment = validateFile(file);
         if (!r->json) fmt::print("{}: fine\n", file);
-        if (!r->device.empty()) checkOnDevice(*r, file);
+        if (!r->device.empty()) checkOnDevice(*r, experiment ? session::programmeOf(*experiment) : session::readProgramme(file));
       } catch (const FaultError& e) {
         fmt::print(stderr, "{}\n", toText(inOptionWords(e.faults)));
         exitCode = 2;

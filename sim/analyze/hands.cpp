@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/fault.h"
 #include "base/table_text.h"
 #include "base/ticks.h"
 #include "sim/record/append_file.h"
@@ -159,20 +158,15 @@ std::string handsTable(const std::vector<record::RunLog>& runs) {
   return any ? table.text() : std::string();
 }
 
-std::vector<std::string> writeHandsTable(const std::string& folder, const std::string& out) {
+std::vector<std::string> writeHandsTable(const DatasetIndex& dataset, const std::string& out) {
+  const bool several = std::any_of(dataset.conditions.begin(), dataset.conditions.end(),
+                                   [](const StudyCondition& condition) { return condition.experiment().hands.size() > 1; });
+  if (!several) return {};
   std::vector<record::RunLog> runs;
-  std::vector<std::string> logs;
-  try {
-    logs = record::findLogs(folder);
-  } catch (const FaultError&) {  // a dataset without logs has its tables from elsewhere
-    return {};
-  }
-  for (const std::string& log : logs) {
-    try {
-      record::RunLog run = record::RunLog::open(log);
-      if (run.configuration().table.hands > 1) runs.push_back(std::move(run));
-    } catch (const FaultError&) {  // said by who reads the dataset
-    }
+  for (const RunProvenance& run : dataset.runs) {
+    if (!run.file.ends_with("_log.reach")) continue;  // read from the tables of a dataset without logs
+    record::RunLog log = record::RunLog::open(run.file);
+    if (log.configuration().table.hands > 1) runs.push_back(std::move(log));
   }
   const std::string text = handsTable(runs);
   if (text.empty()) return {};

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "sim/analyze/dataset.h"
 #include "sim/record/run_log.h"
 
 /// Objects that several hands move together: what each did, and how they shared it.
@@ -34,7 +35,8 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
 
 /// A row for each hand of each trial with a movement, of those runs in which several hold the object; empty where there is none.
 std::string handsTable(const std::vector<record::RunLog>& runs);
-/// The same of the dataset at `folder`, into `out`/hands.csv; what was written, or nothing. Throws ResourceError.
-std::vector<std::string> writeHandsTable(const std::string& folder, const std::string& out);
+/// The same of the runs that were analysed, into `out`/hands.csv; what was written, or nothing. Logs are opened again only where several
+/// hands were recorded. Throws ResourceError.
+std::vector<std::string> writeHandsTable(const DatasetIndex& dataset, const std::string& out);
 
 }  // namespace reachlab::analyze

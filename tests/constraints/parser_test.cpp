@@ -79,8 +79,8 @@ TEST(Formula, FaultsPointAtTheCharacterAndSayWhatWasExpected) {
 }
 
 TEST(Formula, TenThousandCharactersAndParenthesesAreRefused) {
-  EXPECT_NE(fault(std::string(10000, '1')).what.find("10000 characters; allowed: 2000"), std::string::npos);
-  EXPECT_NE(fault(std::string(10000, '(')).what.find("allowed: 2000"), std::string::npos);
+  EXPECT_NE(fault(std::string(10000, '1')).what.find("10000 characters"), std::string::npos);
+  EXPECT_EQ(fault(std::string(10000, '(')).allowed, "2000");
   EXPECT_NE(fault(std::string(1500, '(')).what.find("nested too deeply"), std::string::npos);
   EXPECT_NE(fault(std::string(1500, '-') + "1").what.find("nested too deeply"), std::string::npos);
   std::string tower = "phi";
