@@ -159,7 +159,6 @@ class Backup {
   Backup(const std::string& dataset, const std::string& backup)
       : dataset_(fs::absolute(dataset).lexically_normal()), backup_(fs::absolute(backup).lexically_normal()), list_(readList(backup)) {
     if (!dataset_.has_filename()) dataset_ = dataset_.parent_path();
-    if (!backup_.has_filename()) backup_ = backup_.parent_path();
   }
 
   BackupReport run() {

@@ -15,7 +15,6 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
       auto block =
           std::find_if(blocks.begin(), blocks.end(), [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
       if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{.configuration = configuration});
-      block->lastRun = configuration.run;
       for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
         const int index = trial.planned.index;

@@ -13,7 +13,6 @@ struct BlockProgress {
   std::set<int> done;                      // planned indices that were finished, and are not to be repeated
   std::set<int> putUpAgain;                // or to be repeated, once
   bool complete() const { return done.size() >= configuration.trials.size(); }
-  int lastRun = 0;
   int lastTrial = 0;  // largest trial number used so far
 };
 

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 
 #include "base/error.h"
 #include "sim/record/append_file.h"
@@ -50,13 +51,16 @@ TEST_F(Backups, HoldEveryFileOfFinishedRunsByteByByte) {
   const BackupReport report = backUp(dataset_, backup_);
   EXPECT_EQ(report.runs, 1u);
   std::size_t files = 0;
+  std::uint64_t bytes = 0;
   for (const auto& entry : fs::recursive_directory_iterator(dataset_)) {
     const std::string path = entry.path().string();
     if (!entry.is_regular_file() || path.find("derivatives") != std::string::npos || path.ends_with("-tmp")) continue;
     ++files;
+    bytes += entry.file_size();
     EXPECT_EQ(contentOf(inBackup(path)), contentOf(path)) << path;
   }
   EXPECT_EQ(report.copiedFiles, files);
+  EXPECT_EQ(report.copiedBytes, bytes);
   EXPECT_FALSE(fs::exists(backup_ + "/derivatives"));
   EXPECT_TRUE(faultsOfBackup(backup_).empty());
 }
@@ -90,6 +94,21 @@ TEST_F(Backups, LeaveARunThatIsBeingRecorded) {
   EXPECT_EQ(report.pending, 1u);
   EXPECT_FALSE(fs::exists(inBackup(logOf(2))));
   recorder.close();
+}
+
+TEST_F(Backups, LeaveTheTablesOfARunUntilItsLogIsClosed) {
+  record::RunConfiguration configuration = record::madeConfiguration();
+  configuration.run = configuration.firstRun = 2;
+  auto recorder = std::make_unique<record::Recorder>(logOf(2), configuration, record::RecorderOptions{.threaded = false});
+  const std::string table = dataset_ + "/sub-01/ses-01/motion/sub-01_ses-01_task-made_tracksys-haptic_run-02_motion.tsv";
+  record::makeFolders(fs::path(table).parent_path().string());
+  std::ofstream(table) << "half";
+  (void)backUp(dataset_, backup_);
+  EXPECT_FALSE(fs::exists(inBackup(table)));
+  recorder->close();
+  recorder.reset();
+  (void)backUp(dataset_, backup_);
+  EXPECT_TRUE(fs::exists(inBackup(table)));
 }
 
 TEST_F(Backups, SayWhichFileHasOtherBytes) {

@@ -140,6 +140,11 @@ TEST(BlockOrder, OfMoreThanFourConditionsIsALatinSquare) {
   std::set<std::vector<int>> named;
   for (const char* subject : {"anna", "bert", "cora", "dora", "emil", "fred", "gina", "hugo"}) named.insert(blockOrder(plan, subject, 0));
   EXPECT_GT(named.size(), 2u) << "names are spread over the rows";
+  std::set<std::vector<int>> mixed, zeros;
+  for (const char* subject : {"1a", "1b", "1c", "1d", "1e", "1f", "1g", "1h"}) mixed.insert(blockOrder(plan, subject, 0));
+  EXPECT_GT(mixed.size(), 2u) << "what only begins with a number is a name";
+  for (const char* subject : {"0", "00", "000", "0000", "00000", "000000"}) zeros.insert(blockOrder(plan, subject, 0));
+  EXPECT_GT(zeros.size(), 1u) << "subjects are counted from 1";
 }
 
 TEST(BlockOrder, OfADayHasTheBlocksOfEveryDayToo) {
@@ -188,10 +193,38 @@ TEST(PlanTrials, PutsTheAskedShareOfCatchTrialsAtSeededPlacesAndNeverFirst) {
   EXPECT_EQ(placings.size(), 20u);
 }
 
+TEST(PlanTrials, MayPutACatchTrialAtEveryPlaceButTheFirst) {
+  PlanBlock block;
+  block.trials = 4;
+  block.catchShare = 0.25;
+  std::set<int> places;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    for (const trial::PlannedTrial& trial : planTrials(block, seed))
+      if (trial.catchTrial) places.insert(trial.index);
+  EXPECT_EQ(places, (std::set<int>{1, 2, 3}));
+}
+
 TEST(BlockSeed, OfTheFirstBlockIsTheRunsOwn) {
   EXPECT_EQ(blockSeed(42, 1), 42u);
   EXPECT_NE(blockSeed(42, 2), 42u);
   EXPECT_NE(blockSeed(42, 2), blockSeed(42, 3));
+}
+
+TEST(Plan, IsWrittenAsAPersonWouldWriteIt) {
+  const Plan plan = parsePlan(R"({ "schema_version": 1, "blocks": [ { "experiment": "chain-slow", "trials": 3 } ] })", "p.json");
+  EXPECT_EQ(toJson(plan), R"({
+  "schema_version": 1,
+  "name": "p",
+  "order_seed": 0,
+  "counterbalance": "none",
+  "blocks": [
+    {
+      "experiment": "chain-slow",
+      "trials": 3
+    }
+  ]
+}
+)");
 }
 
 // Values that no file gave, as a program or an editor makes them.

@@ -112,6 +112,36 @@ TEST_F(Recorded, EveryTrialIsInTheLogAndTheRunInTheDataset) {
   EXPECT_EQ(c.table.massCount, 1);
 }
 
+// It renders force, so that its own facts are in the record, and it is never moved here.
+class FeltHand final : public haptics::HapticDevice {
+ public:
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info;
+    info.name = "felt";
+    info.maxContinuousForce = 3;
+    info.thermalSeconds = 20;
+    info.virtualHand = info.rendersForce = true;
+    info.mapping = R"({"scale":2})";
+    return info;
+  }
+  haptics::DeviceSample read() noexcept override { return {}; }
+  void write(const Vec3&) noexcept override {}
+};
+
+TEST_F(Recorded, WhatTheDeviceSaysOfItselfIsInTheLog) {
+  RecordedRun(block(), std::make_unique<FeltHand>(), options()).finish();
+  RecordedRun(block(), goodHand(), options()).finish();
+  const record::RunConfiguration felt = logs().at(0).configuration(), shown = logs().at(1).configuration();
+  EXPECT_TRUE(felt.rendersForce);
+  EXPECT_FALSE(shown.rendersForce);
+  EXPECT_EQ(felt.deviceContinuousForce, 3);
+  EXPECT_EQ(felt.deviceThermalSeconds, 20);
+  EXPECT_EQ(felt.deviceMapping, R"({"scale":2})");
+  EXPECT_TRUE(felt.computer.starts_with("Linux ")) << felt.computer;
+  EXPECT_TRUE(felt.softwareVersion.starts_with("reachlab "));
+  EXPECT_FALSE(felt.method.empty());
+}
+
 TEST_F(Recorded, ADestroyedRunIsFinishedAndItsTrialUnderWayIsInterrupted) {
   {
     RecordedRun run(block(), goodHand(), options());
@@ -499,6 +529,34 @@ TEST_F(Conducted, TheSessionSaysWhatIsWorthAWord) {
   const RecordedSession resumed(easy_, request_, maker());
   EXPECT_FALSE(resumed.notice().unfinished);
   EXPECT_FALSE(resumed.notice().seedDrawn);
+}
+
+TEST_F(Conducted, ARestIsSaidWhereThePlanHasOneAndSomebodyWaits) {
+  request_.trials.reset();
+  const Programme rested = plan(R"({ "schema_version": 1, "trials": 1, "blocks": [ { "experiment": "easy.json", "rest_s": 3600 },
+      { "experiment": "easy.json", "condition": "b", "rest_s": 0.05 }, { "experiment": "easy.json", "condition": "c" } ] })");
+  SessionWords said = words();
+  said.resting = [this](const BlockToRun& next) { told_.push_back("rest before " + next.configuration.condition); };
+  said.checked = [this](const RecordedRun&) { told_.emplace_back("checked"); };
+  const auto tellsOf = [&](const std::string& subject, bool fast, double checkSeconds) {
+    told_.clear();
+    request_.place.subject = subject;
+    request_.fast = fast;
+    request_.timingCheckSeconds = checkSeconds;
+    RecordedSession session(rested, request_, maker(fast));
+    EXPECT_TRUE(conduct(session, kNeverStop, said));
+    return told_;
+  };
+  const std::vector<std::string> fast{"opened 1", "1",      "in order", "closed", "opened 2", "1",
+                                      "in order", "closed", "opened 3", "1",      "in order", "closed"};
+  EXPECT_EQ(tellsOf("01", true, 0.05), fast) << "on the virtual clock nobody rests, and there is no timing to check";
+  EXPECT_EQ(tellsOf("02", false, 0.05),
+            (std::vector<std::string>{"opened 1", "checked", "1", "in order", "closed", "rest before b", "opened 2", "checked", "1",
+                                      "in order", "closed", "opened 3", "checked", "1", "in order", "closed"}))
+      << "none before the first block, which begins when it is begun";
+  std::erase_if(told_, [](const std::string& word) { return word == "checked"; });
+  const std::vector<std::string> unchecked = told_;
+  EXPECT_EQ(tellsOf("03", false, 0), unchecked);
 }
 
 // Lower bounds alone: however slow the machine is, the pause is not shorter.

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
+#include <csignal>
 #include <limits>
+#include <memory>
+#include <thread>
 
 #include "base/fault.h"
 #include "base/json_tree.h"
@@ -433,11 +437,50 @@ TEST_F(PlannedSession, RefusesATaskThatCannotBeCarriedOut) {
   EXPECT_THROW(planSession(request(write("still.json", text))), FaultError);
 }
 
+TEST_F(PlannedSession, TellsTheFaultsOfAPlansExperimentOnce) {
+  write("bad.json", R"({ "schema_version": 1, "masses": 3 })");
+  const auto faultsOf = [&](const std::string& blocks) {
+    return planProblems(write("p.json", R"({ "schema_version": 1, "trials": 1, "blocks": [ )" + blocks + " ] }"));
+  };
+  const std::vector<Fault> once = faultsOf(R"({ "experiment": "bad.json" })");
+  EXPECT_FALSE(once.empty());
+  EXPECT_EQ(faultsOf(R"({ "experiment": "bad.json" }, { "experiment": "chain-slow" }, { "experiment": "bad.json" })"), once);
+}
+
 TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
   const std::string all = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   EXPECT_EQ(labelOf(all), all);
   EXPECT_EQ(labelOf("chain-moderate_2 (ü)/[`@{:"), "chainmoderate2");
   EXPECT_EQ(labelOf("--"), "reach");
+}
+
+// A window resized, a child ended: signals come at any time, and the lock is still waited for.
+TEST(SessionFolder, IsWaitedForThroughSignals) {
+  const record::TemporaryFolder folder("hold");
+  struct sigaction heard {
+  }, before{};
+  heard.sa_handler = [](int) {};  // without SA_RESTART: what waits is interrupted
+  sigaction(SIGUSR1, &heard, &before);
+  auto hold = std::make_unique<FolderHold>(folder / "data");
+  std::atomic<bool> held{false};
+  std::string refused;
+  std::thread other([&] {
+    try {
+      const FolderHold second(folder / "data");
+      held = true;
+    } catch (const Error& error) {
+      refused = error.what();
+    }
+  });
+  for (int i = 0; i < 100; ++i) {
+    pthread_kill(other.native_handle(), SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_FALSE(held) << "one at a time";
+  hold.reset();
+  other.join();
+  sigaction(SIGUSR1, &before, nullptr);
+  EXPECT_TRUE(held) << refused;
 }
 
 TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
