@@ -7,12 +7,16 @@
 
 A fault is a comparison, a sign (or * against /), a constant, or a statement left out. The same seed, folders and sources give the same
 faults. It works on a copy of the sources in build/faults (made anew from the working tree at each start, its objects kept), builds the test
-programs that the changed file goes into, the nearest first, and runs them until one fails. A fault that does not compile is drawn again;
-one whose object file is bit for bit the old one changes nothing and is not counted; nor is one listed in equivalent_faults.txt with the
-reason why it changes nothing that anybody could see. Exit 1 when less than --least of the rest was noticed.
+programs that the changed file goes into, the nearest first, and runs those whose bytes the fault has changed until one fails: the tests of
+the file's own test file first, then all of the program. Which tests fail without a fault is found out when a program is first needed. A
+fault that does not compile is drawn again; one whose object file is bit for bit the old one changes nothing and is not counted; nor is
+one listed in equivalent_faults.txt with the reason why it changes nothing that anybody could see. What was noticed is noted in
+build/faults/build/judged.jsonl and not tried again by a later start, as long as the file with the fault is the same. Exit 1 when less than
+--least of the rest was noticed.
 """
 import argparse
 import hashlib
+import json
 import os
 import pathlib
 import random
@@ -143,9 +147,8 @@ def refresh():
             file.unlink()
 
 
-def programs(gui):
-    listed = run(["ninja", "-C", str(BUILD), "-t", "targets", "all"]).stdout
-    names = sorted(set(re.findall(r"^(tests/(?:\w+/)?test_\w+): ", listed, re.M)))
+def programs(goals, gui):
+    names = sorted(goal for goal in goals if re.fullmatch(r"tests/(?:\w+/)?test_\w+", goal))
     return [n for n in names if gui or "gui" not in n]
 
 
@@ -154,11 +157,16 @@ def nearest_first(path, names):
     return sorted(names, key=lambda n: -max([i + 1 for i, p in enumerate(parts) if n.endswith("test_" + p)], default=0))
 
 
-def object_of(path):
-    """Bytes of the object file of a .cpp; None for a header."""
-    for file in BUILD.rglob(pathlib.Path(path).name + ".o"):
-        if str(file).endswith(f"{pathlib.Path(path).parent.name}.dir/{pathlib.Path(path).name}.o") or pathlib.Path(path).parent.name in str(file):
-            return file
+def targets():
+    """Every goal of the build, by its path in the build folder."""
+    return [line.split(": ")[0] for line in run(["ninja", "-C", str(BUILD), "-t", "targets", "all"]).stdout.splitlines()]
+
+
+def object_of(path, goals):
+    """The object file of a .cpp; None for a header."""
+    for goal in goals:
+        if re.sub(r"CMakeFiles/[^/]+\.dir/", "", goal) == path + ".o":
+            return BUILD / goal
     return None
 
 
@@ -166,10 +174,32 @@ def hash_of(file):
     return hashlib.sha256(file.read_bytes()).hexdigest() if file and file.exists() else None
 
 
-def first_failure(program, known_bad, seconds):
+def suites_near(path):
+    """Suites of the test file that is named after the changed one: those look at it most closely."""
+    stem = pathlib.Path(path).stem
+    suites = set()
+    for file in (COPY / "tests").rglob("*.cpp"):
+        if file.stem in (stem + "_test", stem.rstrip("s") + "_test", stem + "s_test"):
+            suites |= set(re.findall(r"^TEST(?:_F|_P)?\((\w+),", file.read_text(encoding="utf-8"), re.M))
+    return sorted(suites)
+
+
+def programs_behind(program):
+    """What a test program starts as well."""
+    return ["cli/reach", "tests/reach_counting"] if program.endswith("test_cli") else []
+
+
+def bytes_of(program):
+    """A hash of the program with all that it starts."""
+    return hashlib.sha256("".join(str(hash_of(BUILD / p)) for p in [program, *programs_behind(program)]).encode()).hexdigest()
+
+
+def first_failure(program, known_bad, seconds, near=(), only=None):
     """Name of a test that fails, or None. The tests of a program are shared out over the processors."""
     shards = max(1, int(JOBS[0][2:]))
-    skip = "-" + ":".join(known_bad) if known_bad else "*"
+    skip = only or ":".join(f"{suite}.*:*/{suite}.*" for suite in near) or "*"
+    if known_bad:
+        skip += "-" + ":".join(known_bad)
     running = []
     for shard in range(shards):
         environment = dict(os.environ, GTEST_TOTAL_SHARDS=str(shards), GTEST_SHARD_INDEX=str(shard), QT_QPA_PLATFORM="offscreen")
@@ -191,6 +221,102 @@ def first_failure(program, known_bad, seconds):
             os.killpg(process.pid, 9)
             process.wait()
     return failure
+
+
+class Campaign:
+    """Puts faults in, one at a time, and remembers what came of each."""
+
+    def __init__(self, gui):
+        self.goals = targets()
+        self.tests = programs(self.goals, gui)
+        self.sound = {}  # program: (bytes, tests that fail without a fault, seconds)
+        self.log = COPY / "build" / "judged.jsonl"
+        lines = self.log.read_text(encoding="utf-8").splitlines() if self.log.exists() else []
+        self.judged = {(entry["fault"], entry["file"]): entry for entry in map(json.loads, lines)}
+
+    def judge(self, fault, words):
+        path, _, begin, end, new = fault
+        known = self.judged.get((words, hash_of(ROOT / path)))
+        if known and known["verdict"] != "alive":  # a test may have been added since
+            return known["verdict"], known["by"]
+        file = COPY / path
+        text = file.read_text(encoding="utf-8")
+        faulty = text[:begin] + new + text[end:]
+        try:
+            verdict, by = self.put_in(path, file, text, faulty)
+        finally:
+            file.write_text(text, encoding="utf-8")
+        with self.log.open("a", encoding="utf-8") as log:
+            log.write(json.dumps({"fault": words, "file": hash_of(ROOT / path), "verdict": verdict, "by": by}) + "\n")
+        return verdict, by
+
+    def put_in(self, path, file, text, faulty):
+        object_file = object_of(path, self.goals) if path.endswith(".cpp") else None
+        if object_file:
+            goal = str(object_file.relative_to(BUILD))
+            if ninja(goal).returncode != 0:
+                sys.exit(f"{path} does not compile without a fault")
+            before = hash_of(object_file)
+            file.write_text(faulty, encoding="utf-8")
+            if ninja(goal).returncode != 0:
+                return "does not compile", None
+            if hash_of(object_file) == before:
+                return "same", None
+        near = suites_near(path)
+        for program in self.candidates(path, object_file):
+            if program not in self.sound:
+                file.write_text(text, encoding="utf-8")
+                self.build(program)
+                self.sound[program] = (bytes_of(program), *self.baseline(program))
+            file.write_text(faulty, encoding="utf-8")
+            if self.build(program, may_fail=True) != 0:
+                return "does not compile", None
+            sound, bad, seconds = self.sound[program]
+            if bytes_of(program) == sound:
+                continue
+            told = (near and self.fails_twice(program, bad, seconds, near)) or self.fails_twice(program, bad, seconds)
+            if told:
+                return "noticed", told
+        return "alive", None
+
+    def fails_twice(self, program, bad, seconds, near=()):
+        """Name of a test that fails each time: on a busy machine one may fail for another reason than the fault."""
+        bad = list(bad)
+        while told := first_failure(program, bad, 30 + 5 * seconds, near):
+            name = told.split(" ")[0]
+            if "." not in name or first_failure(program, [], 30 + 5 * seconds, only=name):
+                return told
+            bad.append(name)
+        return None
+
+    def candidates(self, path, object_file):
+        """Programs that the file goes into, the nearest first; a header may go into any."""
+        ordered = nearest_first(path, self.tests)
+        if not object_file:
+            return ordered
+        goal = str(object_file.relative_to(BUILD))
+        return [p for p in ordered if goal in run(["ninja", "-C", str(BUILD), "-t", "inputs", p]).stdout]
+
+    def build(self, program, may_fail=False):
+        made = ninja(program, *programs_behind(program))
+        if made.returncode != 0 and not may_fail:
+            sys.exit(made.stdout[-4000:])
+        return made.returncode
+
+    def baseline(self, program):
+        """Tests that fail without a fault say nothing, and how long all of them take. Kept for as long as the program is the same."""
+        kept = COPY / "build" / "sound.json"
+        known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
+        key = bytes_of(program)
+        if key not in known:
+            begin = time.monotonic()
+            out = run([str(BUILD / program), "--gtest_brief=1"], 3600, cwd=BUILD / "tests", env=dict(os.environ, QT_QPA_PLATFORM="offscreen"))
+            bad = sorted(set(re.findall(r"^\[  FAILED  \] (\w+\.[/\w]+)", out.stdout, re.M)))
+            known[key] = [bad, time.monotonic() - begin]
+            kept.write_text(json.dumps(known), encoding="utf-8")
+            if bad:
+                print(f"left out, fails without a fault: {' '.join(bad)}", flush=True)
+        return known[key]
 
 
 def main():
@@ -217,19 +343,7 @@ def main():
     configured = run(["cmake", "--preset", "dev", f"-DREACHLAB_GUI={'ON' if wishes.gui else 'OFF'}"], cwd=COPY)
     if configured.returncode != 0:
         sys.exit(configured.stdout)
-    tests = programs(wishes.gui)
-    built = ninja("cli/reach", *tests)
-    if built.returncode != 0:
-        sys.exit(built.stdout[-4000:])
-    baseline, bad = {}, {}
-    for program in tests:  # what fails without a fault says nothing
-        begin = time.monotonic()
-        out = run([str(BUILD / program), "--gtest_brief=1"], 3600, cwd=BUILD / "tests")
-        baseline[program] = time.monotonic() - begin
-        bad[program] = sorted(set(re.findall(r"^\[  FAILED  \] (\w+\.[/\w]+)", out.stdout, re.M)))
-        if bad[program]:
-            print(f"left out, fails without a fault: {' '.join(bad[program])}", flush=True)
-
+    campaign = Campaign(wishes.gui)
     equivalents = known_equivalents()
     noticed, alive, nothing, number, drawn = 0, [], 0, 0, 0
     for fault in faults:
@@ -238,50 +352,25 @@ def main():
         drawn += 1
         if wishes.only and drawn != wishes.only:
             continue
-        path, kind, begin, end, new = fault
         words = describe(fault)
         if re.sub(r":\d+: ", ": ", words, count=1) in equivalents:
             nothing += 1
             print(f"{drawn} changes nothing (listed) {words}", flush=True)
             continue
-        file = COPY / path
-        text = file.read_text(encoding="utf-8")
-        object_file = object_of(path) if path.endswith(".cpp") else None
-        before = hash_of(object_file)
-        try:
-            file.write_text(text[:begin] + new + text[end:], encoding="utf-8")
-            told = None
-            if object_file:
-                if ninja(str(object_file.relative_to(BUILD))).returncode != 0:
-                    continue
-                if hash_of(object_file) == before:
-                    nothing += 1
-                    print(f"{drawn} changes nothing (same object) {words}", flush=True)
-                    continue
-            compiles = True
-            for program in nearest_first(path, tests):
-                goals = [program] + (["cli/reach"] if program.endswith("test_cli") else [])
-                made = ninja(*goals)
-                if made.returncode != 0:
-                    compiles = False
-                    break
-                if "no work to do" in made.stdout:
-                    continue
-                told = first_failure(program, bad[program], 30 + 5 * baseline[program])
-                if told:
-                    break
-            if not compiles:
-                continue
-            number += 1
-            if told:
-                noticed += 1
-                print(f"{drawn} noticed by {told}: {words}", flush=True)
-            else:
-                alive.append(words)
-                print(f"{drawn} ALIVE {words}", flush=True)
-        finally:
-            file.write_text(text, encoding="utf-8")
-    ninja("cli/reach", *tests)
+        verdict, by = campaign.judge(fault, words)
+        if verdict == "does not compile":
+            continue
+        if verdict == "same":
+            nothing += 1
+            print(f"{drawn} changes nothing (same object) {words}", flush=True)
+            continue
+        number += 1
+        if verdict == "noticed":
+            noticed += 1
+            print(f"{drawn} noticed by {by}: {words}", flush=True)
+        else:
+            alive.append(words)
+            print(f"{drawn} ALIVE {words}", flush=True)
     share = noticed / number if number else 1.0
     print(f"seed {wishes.seed}: {noticed} of {number} noticed ({100 * share:.1f} %), {nothing} change nothing")
     for words in alive:
