@@ -98,8 +98,8 @@ set(CPACK_DEBIAN_CLI_DESCRIPTION "laboratory for reaching movements: command lin
  is refused in words.")
 set(CPACK_DEBIAN_GUI_PACKAGE_NAME reachlab)
 set(CPACK_DEBIAN_GUI_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), libqt5svg5, libgl1-mesa-dri")
-set(CPACK_DEBIAN_GUI_PACKAGE_RECOMMENDS "libqt5multimedia5-plugins, reachlab-doc")
+set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), libqt5svg5, libgl1-mesa-dri, fonts-dejavu-core")
+set(CPACK_DEBIAN_GUI_PACKAGE_RECOMMENDS "libqt5multimedia5-plugins, fonts-ipafont-gothic, reachlab-doc")
 set(CPACK_DEBIAN_GUI_PACKAGE_SUGGESTS "xwayland")
 set(CPACK_DEBIAN_GUI_DESCRIPTION "laboratory for reaching movements: window
  A person holds a force device or a mouse and moves masses and springs that

@@ -1,6 +1,7 @@
 #include "gui/app/plan_pages.h"
 
 #include <QEvent>
+#include <QTimer>
 #include <algorithm>
 
 #include "base/ending.h"
@@ -68,7 +69,7 @@ void PlanPages::place() {
 }
 
 bool PlanPages::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && page_->isVisible()) place();
+  if (event->type() == QEvent::Resize && page_->isVisible()) QTimer::singleShot(0, this, &PlanPages::place);  // above what the view raises
   return QObject::eventFilter(watched, event);
 }
 
