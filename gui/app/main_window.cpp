@@ -17,6 +17,7 @@
 #include <QUrl>
 #include <QVBoxLayout>
 #include <cmath>
+#include <utility>
 
 #include "base/ending.h"
 #include "base/error.h"
@@ -31,11 +32,13 @@
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
+#include "gui/docks/signal_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
 #include "gui/plot/criterion_style.h"
+#include "gui/plot/signal_point.h"
 #include "gui/scene/scene_view.h"
 #include "sim/dynamics/compiled_scene.h"
 
@@ -121,6 +124,7 @@ void MainWindow::wireDocks() {
   connect(plans_, &PlanPages::resumeRequested, this, &MainWindow::resumeSession);
   connect(plans_, &PlanPages::composeRequested, this, &MainWindow::composePlan);
   connect(plans_, &PlanPages::composed, this, &MainWindow::openExperiment);
+  connect(&docks_.signal->plot(), &plot::SignalPlot::watchedChanged, this, [this](int mass) { session_.watch(mass); });
   connect(docks_.predictions, &docks::PredictionDock::chosenChanged, this, &MainWindow::drawPredictions);
 }
 
@@ -206,6 +210,8 @@ void MainWindow::drawPredictions() {
 void MainWindow::runOpened() {
   const session::RecordedRun& run = *session_.run();
   docks_.session->clearTally();
+  docks_.signal->plot().clear();
+  lastNs_ = 0;
   score_ = 0;
   succeeded_.clear();
   runFits_.cancel();
@@ -228,7 +234,10 @@ void MainWindow::runClosed() {
 }
 
 void MainWindow::drainTrace() {
-  for (plot::TracePoint point; session_.tryTake(point);) trace_.add(point, plot());
+  for (plot::TracePoint point; session_.tryTake(point);) {
+    trace_.add(point, plot());
+    docks_.signal->plot().add(plot::signalPointOf(point, std::exchange(lastNs_, point.measuredNs)));
+  }
 }
 
 void MainWindow::trialEnded() {
@@ -267,6 +276,7 @@ void MainWindow::oneFrame() {
   playGo(session_.run()->latest());
   showOverlay();
   plot().refresh();
+  docks_.signal->plot().refresh();
 }
 
 // With the picture that shows the signal.

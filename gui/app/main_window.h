@@ -130,6 +130,7 @@ class MainWindow : public QMainWindow {
   TrialPacing pacing_;
   SoundCues sounds_;
   subject::SubjectWords words_;  // of the subject's screen
+  std::int64_t lastNs_ = 0;      // of the trace: when its last point was made
   int score_ = 0;                // successes of the run
   bool gone_ = false;            // the go signal of the trial has been given, and heard
   docks::Docks docks_;

@@ -63,6 +63,8 @@ class SessionController : public QObject {
   void poll();
   /// The oldest point of the trace not yet taken.
   bool tryTake(plot::TracePoint& point) { return trace_.tryTake(point); }
+  /// Which mass the trace tells of besides the hand and the last; -1: the hand.
+  void watch(int mass) { trace_.watch(mass); }
 
   session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
   /// Blocks of the plan after the one that is open.

@@ -7,6 +7,7 @@
 #include "gui/docks/object_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
+#include "gui/docks/signal_dock.h"
 #include "gui/docks/task_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
@@ -23,6 +24,9 @@ Docks makeDocks(QMainWindow& window) {
   window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   docks.velocity = add(new VelocityDock(&window), Qt::BottomDockWidgetArea);
+  docks.signal = add(new SignalDock(&window), Qt::BottomDockWidgetArea);
+  window.tabifyDockWidget(docks.velocity, docks.signal);
+  docks.velocity->raise();
   docks.session = add(new SessionDock(&window), Qt::LeftDockWidgetArea);
   docks.constraint = add(new ConstraintDock(&window), Qt::LeftDockWidgetArea);
   docks.predictions = add(new PredictionDock(&window), Qt::LeftDockWidgetArea);

@@ -9,6 +9,7 @@ class ConstraintDock;
 class Dock;
 class PredictionDock;
 class SessionDock;
+class SignalDock;
 class TrialsDock;
 class VelocityDock;
 
@@ -19,6 +20,7 @@ struct Docks {
   PredictionDock* predictions = nullptr;
   VelocityDock* velocity = nullptr;
   TrialsDock* trials = nullptr;
+  SignalDock* signal = nullptr;
   std::vector<Dock*> all;  // these and those that need nothing but the experiment
 };
 

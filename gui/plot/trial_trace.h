@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 
 #include "base/ticks.h"
@@ -18,6 +19,9 @@ struct TracePoint {
   Vec3 last, lastVelocity;       // of the last mass
   double firstQ = 0, lastQ = 0;  // curve parameter of the first and last mass
   double force = 0;              // [N]
+  Vec3 watched = {}, watchedVelocity = {};  // [m], [m/s] of the hand or mass that is watched
+  std::int64_t measuredNs = 0;   // by the computer's clock
+  std::uint32_t missed = 0;      // ticks since the point before
 };
 
 /// Watches the runs of a session for the window's plot: every fifth tick, without waiting.
@@ -32,11 +36,15 @@ class TraceSink final : public haptics::RunSink {
   void awaitTrial(std::int32_t) override {}
   void close() override {}
 
+  /// Any thread: which mass is watched, from 0; -1: the hand.
+  void watch(int mass) noexcept { watched_.store(mass, std::memory_order_relaxed); }
   /// Window's thread: the oldest point not yet taken. Points that the window was too slow for are lost to the plot, not to the record.
   bool tryTake(TracePoint& point) noexcept { return points_.tryPop(point); }
 
  private:
   SpscQueue<TracePoint, 4096> points_;
+  std::atomic<int> watched_{-1};
+  std::uint32_t missed_ = 0;  // haptic thread's own
 };
 
 }  // namespace reachlab::gui::plot

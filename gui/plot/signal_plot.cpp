@@ -1,0 +1,248 @@
+#include "gui/plot/signal_plot.h"
+
+#include <qwt_global.h>
+#include <qwt_legend.h>
+#include <qwt_plot.h>
+#include <qwt_plot_canvas.h>
+#include <qwt_plot_curve.h>
+#include <qwt_plot_grid.h>
+#include <qwt_plot_layout.h>
+#include <qwt_plot_renderer.h>
+#include <qwt_plot_zoomer.h>
+#include <qwt_text.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QSaveFile>
+#include <QTextStream>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <QVector>
+#include <algorithm>
+#include <vector>
+
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui::plot {
+namespace {
+
+constexpr double kSpan = 10;  // [s] that are shown
+constexpr int kLines = 3;
+
+QColor inkOf(int line) {
+  const widgets::Colour inks[kLines] = {widgets::colours::kDriven, widgets::colours::kLast, widgets::colours::kSurfaceLine};
+  return widgets::toQColor(inks[line]).lighter(115);
+}
+
+QwtText axisTitle(const QString& text) {
+  QwtText title(text);
+  QFont font;
+  font.setPointSizeF(10);
+  title.setFont(font);
+  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
+  return title;
+}
+
+// The pointer's place in the axes' units.
+class Zoomer : public QwtPlotZoomer {
+ public:
+  explicit Zoomer(QWidget* canvas) : QwtPlotZoomer(canvas) {
+    setTrackerMode(QwtPicker::AlwaysOn);
+    setRubberBandPen(QPen(Qt::white, 1, Qt::DashLine));
+    setTrackerPen(QPen(Qt::white));
+  }
+  QwtText trackerTextF(const QPointF& at) const override {
+    return QwtText(QStringLiteral("%1, %2").arg(at.x(), 0, 'f', 3).arg(at.y(), 0, 'g', 4));
+  }
+};
+
+}  // namespace
+
+struct SignalPlot::Impl {
+  std::vector<Point> ring = std::vector<Point>(kCapacity);
+  int head = 0, count = 0;  // where the next point goes, how many there are
+  bool changed = false;
+  QwtPlot* plot = nullptr;
+  std::unique_ptr<QwtPlotGrid> grid;
+  std::array<std::unique_ptr<QwtPlotCurve>, kLines> curves;
+  Zoomer* zoomer = nullptr;
+  QComboBox *quantity = nullptr, *watched = nullptr;
+  QCheckBox* freeze = nullptr;
+
+  const Point& at(int i) const { return ring[static_cast<std::size_t>((head - count + i + kCapacity) % kCapacity)]; }
+};
+
+SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
+  Impl& d = *impl_;
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 2, 6, 2);
+  layout->setSpacing(2);
+  auto* row = new QHBoxLayout;
+  d.quantity = new QComboBox;
+  d.quantity->setObjectName(QStringLiteral("signalQuantity"));
+  d.quantity->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
+  d.watched = new QComboBox;
+  d.watched->setObjectName(QStringLiteral("signalWatched"));
+  d.freeze = new QCheckBox(tr("freeze"));
+  d.freeze->setObjectName(QStringLiteral("signalFreeze"));
+  auto* save = new QToolButton;
+  save->setText(tr("Export…"));
+  row->addWidget(d.quantity);
+  row->addWidget(d.watched);
+  row->addWidget(d.freeze);
+  row->addStretch(1);
+  row->addWidget(save);
+  layout->addLayout(row);
+  auto* plot = d.plot = new QwtPlot;
+  layout->addWidget(plot, 1);
+  auto* canvas = new QwtPlotCanvas(plot);
+  canvas->setFrameStyle(QFrame::NoFrame);
+  canvas->setAutoFillBackground(true);
+  QPalette palette = canvas->palette();
+  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
+  canvas->setPalette(palette);
+  plot->setCanvas(canvas);
+  plot->plotLayout()->setAlignCanvasToScales(true);
+  d.grid = std::make_unique<QwtPlotGrid>();
+  d.grid->setPen(QPen(QColor(255, 255, 255, 26), 0));
+  d.grid->attach(plot);
+  for (int i = 0; i < kLines; ++i) {
+    auto& curve = d.curves[static_cast<std::size_t>(i)];
+    curve = std::make_unique<QwtPlotCurve>();
+    curve->setPen(QPen(inkOf(i), 1.6));
+    curve->setRenderHint(QwtPlotItem::RenderAntialiased);
+    curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
+    curve->attach(plot);
+  }
+  auto* legend = new QwtLegend;
+  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
+  plot->insertLegend(legend, QwtPlot::RightLegend);
+  d.zoomer = new Zoomer(canvas);
+  setMasses(0);
+  const auto anew = [this] {
+    fill();
+    impl_->zoomer->setZoomBase(true);
+  };
+  connect(d.quantity, qOverload<int>(&QComboBox::currentIndexChanged), this, anew);
+  connect(d.watched, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    clear();  // points of another body are none of this one
+    Q_EMIT watchedChanged(watched());
+  });
+  connect(save, &QToolButton::clicked, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Export signal"), QStringLiteral("signal.svg"),
+                                                      tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));
+    if (!file.isEmpty()) exportTo(file);
+  });
+  fill();
+}
+
+SignalPlot::~SignalPlot() = default;
+
+void SignalPlot::setMasses(int count) {
+  if (impl_->watched->count() == count + 1) return;
+  const QSignalBlocker quiet(impl_->watched);
+  const int before = std::min(impl_->watched->currentIndex(), count);
+  impl_->watched->clear();
+  impl_->watched->addItem(tr("hand"));
+  for (int i = 1; i <= count; ++i) impl_->watched->addItem(tr("mass %1").arg(i));
+  impl_->watched->setCurrentIndex(std::max(0, before));
+  clear();
+}
+
+int SignalPlot::watched() const { return impl_->watched->currentIndex() - 1; }
+SignalPlot::Quantity SignalPlot::quantity() const { return static_cast<Quantity>(impl_->quantity->currentIndex()); }
+void SignalPlot::setQuantity(Quantity quantity) { impl_->quantity->setCurrentIndex(static_cast<int>(quantity)); }
+int SignalPlot::pointCount() const { return impl_->count; }
+bool SignalPlot::frozen() const { return impl_->freeze->isChecked(); }
+
+void SignalPlot::add(const Point& point) {
+  Impl& d = *impl_;
+  if (frozen()) return;  // what is looked at is what is exported
+  d.ring[static_cast<std::size_t>(d.head)] = point;
+  d.head = (d.head + 1) % kCapacity;
+  d.count = std::min(d.count + 1, kCapacity);
+  d.changed = true;
+}
+
+void SignalPlot::clear() {
+  impl_->count = 0;
+  impl_->changed = true;
+  if (impl_->plot != nullptr && impl_->curves.front()) fill();
+}
+
+void SignalPlot::refresh() {
+  if (!impl_->changed || !isVisible() || frozen()) return;
+  fill();
+}
+
+void SignalPlot::fill() {
+  Impl& d = *impl_;
+  d.changed = false;
+  const Quantity what = quantity();
+  const bool three = what == Quantity::Velocity || what == Quantity::Position;
+  const QString names[kLines] = {three ? QStringLiteral("x") : what == Quantity::Timing ? tr("period") : d.watched->currentText(),
+                                 what == Quantity::Timing ? tr("missed") : QStringLiteral("y"), QStringLiteral("z")};
+  const int lines = three ? 3 : what == Quantity::Timing ? 2 : 1;
+  const double latest = d.count > 0 ? d.at(d.count - 1).time : 0;
+  for (int line = 0; line < kLines; ++line) {
+    QVector<double> x, y;
+    for (int i = 0; i < d.count && line < lines; ++i) {
+      const Point& p = d.at(i);
+      if (latest - p.time > kSpan) continue;
+      const auto k = static_cast<std::size_t>(line);
+      x.push_back(what == Quantity::PhasePlane ? p.position[0] : p.time);
+      switch (what) {
+        case Quantity::Velocity: y.push_back(p.velocity[k]); break;
+        case Quantity::Position: y.push_back(p.position[k]); break;
+        case Quantity::Force: y.push_back(p.force); break;
+        case Quantity::PhasePlane: y.push_back(p.velocity[0]); break;
+        case Quantity::Timing: y.push_back(line == 0 ? p.period : p.missed); break;
+      }
+    }
+    auto& curve = d.curves[static_cast<std::size_t>(line)];
+    curve->setSamples(x, y);
+    curve->setTitle(names[line]);
+    curve->setItemAttribute(QwtPlotItem::Legend, line < lines);
+    curve->setVisible(line < lines);
+  }
+  const QString units[] = {tr("velocity [m/s]"), tr("position [m]"), tr("force of the coupling [N]"), tr("velocity along x [m/s]"),
+                           tr("a tick [ms], missed ticks")};
+  d.plot->setAxisTitle(QwtPlot::yLeft, axisTitle(units[static_cast<int>(what)]));
+  d.plot->setAxisTitle(QwtPlot::xBottom, axisTitle(what == Quantity::PhasePlane ? tr("position along x [m]") : tr("time of the run [s]")));
+  if (d.zoomer->zoomRectIndex() == 0) {
+    d.plot->setAxisAutoScale(QwtPlot::xBottom, true);
+    d.plot->setAxisAutoScale(QwtPlot::yLeft, true);
+    d.plot->updateAxes();
+    d.zoomer->setZoomBase(false);
+  }
+  d.plot->replot();
+}
+
+bool SignalPlot::exportTo(const QString& file) {
+  const QString ending = QFileInfo(file).suffix().toLower();
+  if (ending == QLatin1String("csv")) {
+    QSaveFile out(file);
+    if (!out.open(QIODevice::WriteOnly)) return false;
+    QTextStream text(&out);
+    text.setRealNumberPrecision(17);
+    text << "time_s,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,coupling_force_n,tick_period_ms,missed_ticks\n";
+    for (int i = 0; i < impl_->count; ++i) {
+      const Point& p = impl_->at(i);
+      text << p.time;
+      for (const auto* three : {&p.position, &p.velocity})
+        for (const double value : *three) text << ',' << value;
+      text << ',' << p.force << ',' << p.period << ',' << p.missed << '\n';
+    }
+    text.flush();
+    return out.commit();
+  }
+  if (ending != QLatin1String("svg") && ending != QLatin1String("pdf")) return false;
+  QwtPlotRenderer renderer;
+  renderer.renderDocument(impl_->plot, file, ending, QSizeF(180, 80), 150);
+  return QFileInfo::exists(file);
+}
+
+}  // namespace reachlab::gui::plot

@@ -1,0 +1,51 @@
+#pragma once
+#include <QString>
+#include <QWidget>
+#include <array>
+#include <memory>
+
+namespace reachlab::gui::plot {
+
+/// The last seconds of one signal of the run: velocity, position or force of the hand or a mass, its phase plane, or how the loop keeps time.
+/// A drag zooms in, a right click back; the pointer tells values; *freeze* holds the picture; what is shown is exported. Memory does not grow:
+/// a ring of kCapacity points. SI.
+class SignalPlot : public QWidget {
+  Q_OBJECT
+ public:
+  static constexpr int kCapacity = 4096;
+  enum class Quantity { Velocity, Position, Force, PhasePlane, Timing };
+  struct Point {
+    double time = 0;                                // [s] of the run
+    std::array<double, 3> position{}, velocity{};   // of what is watched
+    double force = 0;                               // [N] of the coupling
+    double period = 0;                              // [ms] a tick, by the computer's clock
+    double missed = 0;                              // ticks, since the point before
+  };
+  explicit SignalPlot(QWidget* parent = nullptr);
+  ~SignalPlot() override;
+
+  /// The hand and so many masses may be watched.
+  void setMasses(int count);
+  /// -1: the hand, else a mass from 0.
+  int watched() const;
+  Quantity quantity() const;
+  void setQuantity(Quantity quantity);
+  void add(const Point& point);
+  /// Draws what was added; nothing while it is frozen or not seen.
+  void refresh();
+  void clear();
+  int pointCount() const;
+  bool frozen() const;
+  /// By the file's ending: pdf, svg, csv. False when it cannot be written.
+  bool exportTo(const QString& file);
+
+ Q_SIGNALS:
+  void watchedChanged(int mass);
+
+ private:
+  void fill();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reachlab::gui::plot

@@ -1,0 +1,77 @@
+#include "gui/plot/signal_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFile>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cmath>
+
+namespace reachlab::gui::plot {
+namespace {
+
+SignalPlot::Point pointAt(double t) {
+  SignalPlot::Point p;
+  p.time = t;
+  p.position = {std::sin(t), 0, 0};
+  p.velocity = {std::cos(t), 0, 0};
+  p.force = 2 * t;
+  return p;
+}
+
+TEST(SignalPlot, KeepsTheLastPointsInConstantMemory) {
+  SignalPlot plot;
+  for (int i = 0; i < 3 * SignalPlot::kCapacity; ++i) plot.add(pointAt(0.005 * i));
+  EXPECT_EQ(plot.pointCount(), SignalPlot::kCapacity);
+  const QTemporaryDir folder;
+  const QString file = folder.filePath(QStringLiteral("signal.csv"));
+  ASSERT_TRUE(plot.exportTo(file));
+  QFile csv(file);
+  ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
+  const QList<QByteArray> lines = csv.readAll().trimmed().split('\n');
+  ASSERT_EQ(lines.size(), SignalPlot::kCapacity + 1);
+  const QList<QByteArray> last = lines.back().split(',');
+  EXPECT_DOUBLE_EQ(last[0].toDouble(), 0.005 * (3 * SignalPlot::kCapacity - 1));
+  EXPECT_DOUBLE_EQ(last[1].toDouble(), std::sin(last[0].toDouble()));
+  EXPECT_DOUBLE_EQ(last[7].toDouble(), 2 * last[0].toDouble());
+  EXPECT_DOUBLE_EQ(lines[1].split(',')[0].toDouble(), 0.005 * 2 * SignalPlot::kCapacity) << "the oldest that is kept";
+}
+
+TEST(SignalPlot, FreezeHoldsWhatIsShown) {
+  SignalPlot plot;
+  plot.add(pointAt(1));
+  plot.findChild<QCheckBox*>(QStringLiteral("signalFreeze"))->setChecked(true);
+  plot.add(pointAt(2));
+  EXPECT_EQ(plot.pointCount(), 1);
+}
+
+TEST(SignalPlot, AnotherBodyIsAnotherSignal) {
+  SignalPlot plot;
+  plot.setMasses(5);
+  int told = -2;
+  QObject::connect(&plot, &SignalPlot::watchedChanged, [&](int mass) { told = mass; });
+  plot.add(pointAt(1));
+  plot.findChild<QComboBox*>(QStringLiteral("signalWatched"))->setCurrentIndex(3);
+  EXPECT_EQ(told, 2);
+  EXPECT_EQ(plot.watched(), 2);
+  EXPECT_EQ(plot.pointCount(), 0);
+}
+
+TEST(SignalPlot, IsExportedAsItIsDrawn) {
+  SignalPlot plot;
+  plot.resize(600, 300);
+  for (int i = 0; i < 400; ++i) plot.add(pointAt(0.005 * i));
+  plot.setQuantity(SignalPlot::Quantity::PhasePlane);
+  const QTemporaryDir folder;
+  for (const char* ending : {"svg", "pdf"}) {
+    const QString file = folder.filePath(QStringLiteral("signal.") + QLatin1String(ending));
+    ASSERT_TRUE(plot.exportTo(file)) << ending;
+    EXPECT_GT(QFile(file).size(), 2000) << ending;
+  }
+  EXPECT_FALSE(plot.exportTo(folder.filePath(QStringLiteral("signal.doc"))));
+}
+
+}  // namespace
+}  // namespace reachlab::gui::plot
