@@ -31,7 +31,8 @@ class TraceSink final : public haptics::RunSink {
   static constexpr double kRate = kTicksPerSecond / double{kEvery};  // [Hz]
 
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
-  std::uint32_t massesEvery() const noexcept override { return 0; }
+  /// A mass between the ends is looked at while it is watched, if it was when the run began; else with the rows of the recording.
+  std::uint32_t massesEvery() const noexcept override { return watched_.load(std::memory_order_relaxed) > 0 ? kEvery : 0; }
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}
