@@ -32,7 +32,7 @@ class TraceSink final : public haptics::RunSink {
 
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   /// A mass between the ends is looked at while it is watched, if it was when the run began; else with the rows of the recording.
-  std::uint32_t massesEvery() const noexcept override { return watched_.load(std::memory_order_relaxed) > 0 ? kEvery : 0; }
+  std::uint32_t massesEvery() const noexcept override { return watched_.load(std::memory_order_relaxed) > 0 ? std::uint32_t{kEvery} : 0; }
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}
