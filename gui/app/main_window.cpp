@@ -450,6 +450,14 @@ void MainWindow::openManual() {
                                  : QStringLiteral("No program opens the manual; it is %1").arg(page));
 }
 
+void MainWindow::savePicture() {
+  const QImage picture = view_->grabScene();
+  QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), QStringLiteral("scene.png"), tr("PNG (*.png)"));
+  if (file.isEmpty()) return;
+  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
+  message_->say(picture.save(file) ? tr("Written: %1").arg(file) : tr("%1 cannot be written.").arg(file));
+}
+
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
   if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();
 }

@@ -91,6 +91,8 @@ class MainWindow : public QMainWindow {
   void resetLayout();
   void switchLayout(WindowLayout layout);
   void openManual();
+  /// The scene as it is drawn now, as PNG.
+  void savePicture();
 
  protected:
   void closeEvent(QCloseEvent* event) override;

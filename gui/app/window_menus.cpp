@@ -120,6 +120,8 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
             [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
   menu->addSeparator();
   actions.subjectsScreen = add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
+  add(window, menu, QStringLiteral("Save pi&cture…"), QKeySequence(QStringLiteral("Ctrl+Shift+P")), &MainWindow::savePicture);
+  menu->addSeparator();
   addSubjectMenu(window, *menu);
   addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
   menu->addSeparator();

@@ -2,6 +2,7 @@
 
 #include <QMouseEvent>
 #include <QSurfaceFormat>
+#include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 #include <QVBoxLayout>
 #include <QWheelEvent>
@@ -21,6 +22,8 @@
 
 namespace reachlab::gui::scene {
 namespace {
+
+constexpr int kRestMs = 250;  // a picture that has not moved for so long rests
 
 // Key light from the upper left, a weak fill from the right, both fixed to the viewer.
 void addLights(vtkRenderer& renderer) {
@@ -54,6 +57,7 @@ struct SceneView::Impl {
   Camera camera;
   SurfaceStyle style = SurfaceStyle::Glass;
   QString rendererName;
+  QTimer* resting = nullptr;
   bool placed = false;  // the camera has been put in place for a real size
   bool drawn = false;   // what is on the screen is `frame`
   std::int64_t pictures = 0;
@@ -116,9 +120,15 @@ struct SceneView::Impl {
     }
   }
 
-  void render() {
+  bool inSoftware() const { return rendererName.contains(QLatin1String("llvmpipe")) || rendererName.contains(QLatin1String("softpipe")); }
+
+  // Where the processor draws, edges are smoothed once the picture rests: the eye does not see them while it moves.
+  void render(bool moving = false) {
     drawn = false;
     if (!widget->isVisible()) return;
+    const bool rough = moving && inSoftware();
+    if (renderer->GetUseFXAA() == rough) renderer->SetUseFXAA(!rough);
+    if (rough) resting->start();
     window->Render();
     drawn = true;
     ++pictures;
@@ -142,6 +152,10 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
   impl_->renderer->SetBackground2(widgets::colours::kSkyTop.red, widgets::colours::kSkyTop.green, widgets::colours::kSkyTop.blue);
   impl_->renderer->GetActiveCamera();
   addLights(*impl_->renderer);
+  impl_->resting = new QTimer(this);
+  impl_->resting->setSingleShot(true);
+  impl_->resting->setInterval(kRestMs);
+  connect(impl_->resting, &QTimer::timeout, this, &SceneView::renderNow);
   impl_->widget->installEventFilter(this);
   impl_->widget->setFocusPolicy(Qt::ClickFocus);  // a field beside the scene is left by a click into it
   setFocusPolicy(Qt::ClickFocus);
@@ -172,7 +186,7 @@ void SceneView::showFrame(const SceneFrame& frame) {
   impl_->frame = frame;
   impl_->actors->show(frame);
   impl_->label();
-  impl_->render();
+  impl_->render(true);
 }
 
 void SceneView::setGhosts(const std::vector<SceneFrame>& ghosts) {
@@ -238,7 +252,7 @@ SceneFrame SceneView::frame() const { return impl_->frame; }
 QString SceneView::rendererName() const { return impl_->rendererName; }
 
 bool SceneView::drawsInSoftware() const {
-  return impl_->rendererName.contains(QLatin1String("llvmpipe")) || impl_->rendererName.contains(QLatin1String("softpipe"));
+  return impl_->inSoftware();
 }
 
 QPointF SceneView::pixelOf(const Vec3& world) const {
