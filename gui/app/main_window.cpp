@@ -440,6 +440,8 @@ void MainWindow::showPage() {
     if (const QString folder = QString::fromStdString(docks_.session->request().place.data); QFileInfo(folder).isDir())
       inspector().open(folder);
   if (!inspecting()) view_->setFocus();
+  const QString name = inspecting() ? QFileInfo(inspector().path()).fileName() : QString::fromStdString(session_.experiment().name);
+  setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(name.isEmpty() ? tr("recordings") : name));
   showStage();
 }
 

@@ -36,7 +36,8 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
                                                 : QStringLiteral("the run is complete");
     }
   }
-  if (run == nullptr || isBeforeTheFirstReach(run->latest())) overlay.task = scene::taskText(experiment, massesHide);
+  const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there
+  if (!startPage && (run == nullptr || isBeforeTheFirstReach(run->latest()))) overlay.task = scene::taskText(experiment, massesHide);
   if (run != nullptr && (isOver(*run) || isBeforeTheFirstReach(run->latest())))
     if (const QString words = session.instructions(); !words.isEmpty())
       overlay.task = overlay.task.isEmpty() ? words : words + QLatin1Char('\n') + overlay.task;

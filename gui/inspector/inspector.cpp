@@ -78,7 +78,7 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
   both->addWidget(makeRight());
   both->setStretchFactor(0, 4);
   both->setStretchFactor(1, 6);
-  both->setSizes({600, 940});
+  both->setSizes({700, 860});
   both->setChildrenCollapsible(false);
   layout->addWidget(both, 1);
   soon_ = new QTimer(this);
@@ -182,12 +182,14 @@ QWidget* InspectorPage::makeRight() {
   below->addWidget(epsilons_);
   below->setStretchFactor(0, 3);
   below->setStretchFactor(1, 2);
+  below->setSizes({520, 340});
   below->setChildrenCollapsible(false);
   auto* halves = new QSplitter(Qt::Vertical);
   halves->addWidget(plot_);
   halves->addWidget(below);
   halves->setStretchFactor(0, 1);
   halves->setStretchFactor(1, 1);
+  halves->setSizes({420, 400});
   halves->setChildrenCollapsible(false);
   column->addWidget(halves, 1);
   return right;
@@ -325,7 +327,7 @@ void InspectorPage::opened(record::TrialIndex index) {
   title_->setText(QFileInfo(path_).fileName().isEmpty() ? path_ : QFileInfo(path_).fileName());
   title_->setToolTip(path_);
   count_->setText(tr("%1 trials, %2 runs").arg(table_->rowCount()).arg(table_->recordings().runs.size()));
-  const int widths[] = {62, 62, 150, 42, 46, 130, 62, 84, 74, 74, 80};
+  const int widths[] = {58, 58, 124, 36, 42, 126, 54, 78, 66, 66, 80};
   for (int column = 0; column < TrialTable::kColumns; ++column) view_->setColumnWidth(column, widths[column]);
   report_->setEnabled(table_->rowCount() > 0);
   marks_->clear();
@@ -425,7 +427,7 @@ void InspectorPage::draw() {
   const bool hand = signal_->currentIndex() == 0;
   const Signal signal = hand ? Signal::Hand : Signal::Object;
   const TimeAxis axis = axis_->currentIndex() == 0 ? TimeAxis::AsMoved : TimeAxis::Scaled;
-  plot_->setTitles(tr("time since onset [s]"), hand ? tr("velocity of the hand [m/s]") : tr("velocity of the last mass [m/s]"));
+  plot_->setTitles(tr("time since onset [s]"), tr("velocity [m/s]"));
   if (!inspection_) {
     plot_->setLines({});
     plot_->setMean({}, {}, {});

@@ -4,9 +4,10 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QIcon>
+#include <QPainter>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QStyle>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -14,6 +15,7 @@
 #include <cmath>
 
 #include "gui/scene/scene_view.h"
+#include "gui/widgets/theme.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -21,10 +23,32 @@ namespace {
 constexpr int kFrameMs = 33;
 constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
 
-QToolButton* makeButton(const QString& name, QStyle::StandardPixmap icon, const QString& tip, QWidget& owner) {
+enum class Sign { Back, Play, Pause, On };
+
+// The style's own signs are black, as is what they stand on.
+QIcon iconOf(Sign sign) {
+  QPixmap picture(48, 48);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(widgets::toQColor(widgets::colours::kText));
+  const auto triangle = [&](double tip, double base) {
+    painter.drawPolygon(QPolygonF(QVector<QPointF>{{tip, 24}, {base, 8}, {base, 40}}));
+  };
+  switch (sign) {
+    case Sign::Back: triangle(10, 34), painter.drawRect(QRectF(36, 8, 5, 32)); break;
+    case Sign::Play: triangle(40, 12); break;
+    case Sign::Pause: painter.drawRect(QRectF(12, 9, 9, 30)), painter.drawRect(QRectF(27, 9, 9, 30)); break;
+    case Sign::On: triangle(38, 14), painter.drawRect(QRectF(7, 8, 5, 32)); break;
+  }
+  return QIcon(picture);
+}
+
+QToolButton* makeButton(const QString& name, Sign sign, const QString& tip) {
   auto* button = new QToolButton;
   button->setObjectName(name);
-  button->setIcon(owner.style()->standardIcon(icon));
+  button->setIcon(iconOf(sign));
   button->setToolTip(tip);
   button->setAutoRaise(true);
   return button;
@@ -45,9 +69,9 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   layout->addWidget(slider_);
   auto* row = new QHBoxLayout;
   row->setSpacing(3);
-  back_ = makeButton(QStringLiteral("replayBack"), QStyle::SP_MediaSeekBackward, tr("one row back (,)"), *this);
-  play_ = makeButton(QStringLiteral("replayPlay"), QStyle::SP_MediaPlay, tr("play, pause (P)"), *this);
-  on_ = makeButton(QStringLiteral("replayOn"), QStyle::SP_MediaSeekForward, tr("one row on (.)"), *this);
+  back_ = makeButton(QStringLiteral("replayBack"), Sign::Back, tr("one row back (,)"));
+  play_ = makeButton(QStringLiteral("replayPlay"), Sign::Play, tr("play, pause (P)"));
+  on_ = makeButton(QStringLiteral("replayOn"), Sign::On, tr("one row on (.)"));
   play_->setCheckable(true);
   speed_ = new QComboBox;
   speed_->setObjectName(QStringLiteral("replaySpeed"));
@@ -133,7 +157,7 @@ void ReplayView::setPlaying(bool playing) {
   else timer_->stop();
   const QSignalBlocker quiet(play_);
   play_->setChecked(can);
-  play_->setIcon(style()->standardIcon(can ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
+  play_->setIcon(iconOf(can ? Sign::Pause : Sign::Play));
 }
 
 void ReplayView::tick() {
