@@ -12,6 +12,7 @@
 #include <QSignalBlocker>
 #include <QStatusBar>
 #include <QTabBar>
+#include <QTableView>
 #include <QTabWidget>
 #include <QTimer>
 #include <QUrl>
@@ -344,6 +345,7 @@ inspector::InspectorPage& MainWindow::inspector() {
   if (inspector_ == nullptr) {
     inspector_ = new inspector::InspectorPage;
     pages_->widget(1)->layout()->addWidget(inspector_);
+    connect(inspector_, &inspector::InspectorPage::reported, this, [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
     connect(inspector_, &inspector::InspectorPage::said, this, [this](const QString& words) { message_->say(words); });
   }
   return *inspector_;
@@ -439,7 +441,8 @@ void MainWindow::showPage() {
   if (inspecting() && inspector().path().isEmpty())  // what this session records
     if (const QString folder = QString::fromStdString(docks_.session->request().place.data); QFileInfo(folder).isDir())
       inspector().open(folder);
-  if (!inspecting()) view_->setFocus();
+  if (inspecting()) inspector().view().setFocus();  // for the keys of the replay
+  else view_->setFocus();
   const QString name = inspecting() ? QFileInfo(inspector().path()).fileName() : QString::fromStdString(session_.experiment().name);
   setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(name.isEmpty() ? tr("recordings") : name));
   showStage();

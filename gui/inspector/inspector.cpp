@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDesktopServices>
 #include <QFileDialog>
 #include <QHeaderView>
 #include <QLabel>
@@ -18,7 +17,6 @@
 #include <QTableView>
 #include <QTimer>
 #include <QToolButton>
-#include <QUrl>
 #include <QVBoxLayout>
 #include <cmath>
 
@@ -258,7 +256,7 @@ void InspectorPage::wire() {
   connect(&inspector_, &Inspector::failed, this, &InspectorPage::said);
   connect(&inspector_, &Inspector::reported, this, [this](const QString& file) {
     Q_EMIT said(tr("The report is %1").arg(file));
-    QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+    Q_EMIT reported(file);
   });
 }
 

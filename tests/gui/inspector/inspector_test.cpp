@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QElapsedTimer>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QSlider>
 #include <QTableView>
@@ -35,11 +36,16 @@ class Inspecting : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new analyze::TemporaryFolder;
+    cache_ = qgetenv("XDG_CACHE_HOME");
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(folder_->path() + "/cache"));
-    analyze::recordRun(data(), {.experiment = "chain-moderate", .trials = 14});
+    analyze::recordRun(data(), {.experiment = "chain-moderate", .trials = 24});
     analyze::recordRun(data(), {.experiment = "torus", .device = "simulated:noise=0", .subject = "02", .trials = 2});
   }
-  static void TearDownTestSuite() { delete folder_; }
+  static void TearDownTestSuite() {
+    if (cache_.isNull()) qunsetenv("XDG_CACHE_HOME");
+    else qputenv("XDG_CACHE_HOME", cache_);
+    delete folder_;
+  }
   static std::string data() { return folder_->path() + "/data"; }
   static std::string log() { return data() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"; }
 
@@ -47,9 +53,11 @@ class Inspecting : public ::testing::Test {
     page_.resize(1500, 900);
     page_.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&page_));
+    QApplication::setActiveWindow(&page_);  // there may be no window manager to do it
+    page_.view().setFocus();
     QObject::connect(&page_, &InspectorPage::said, [this](const QString& words) { said_ = words; });
     page_.open(QString::fromStdString(data()));
-    EXPECT_TRUE(QTest::qWaitFor([this] { return page_.table().rowCount() == 16; }, 10000));
+    EXPECT_TRUE(QTest::qWaitFor([this] { return page_.table().rowCount() == 26; }, 10000));
     settle();
   }
   ~Inspecting() override { std::filesystem::remove(record::marksPathOf(log())); }
@@ -75,10 +83,11 @@ class Inspecting : public ::testing::Test {
   mutable InspectorPage page_;
   QString said_;
   static inline analyze::TemporaryFolder* folder_ = nullptr;
+  static inline QByteArray cache_;
 };
 
 TEST_F(Inspecting, TheNumbersAreThoseOfTheAnalysis) {
-  choose(0, 13);
+  choose(0, 23);
   const analyze::StudyResult study = analyze::analyzeStudy(analyze::openDataset(log()).input, {});
   const auto* table = find<QTableWidget>("inspectedCriteria");
   const auto rows = analyze::fitRows(study);
@@ -144,10 +153,10 @@ TEST_F(Inspecting, TimeIsPlayedSteppedAndLooped) {
   page_.replay().goTo(0);
   const double before = page_.replay().time();
   QTest::keyClick(&page_, Qt::Key_Period);
-  EXPECT_NEAR(page_.replay().time() - before, 0.01, 0.0101) << "a row of 100 a second";
+  EXPECT_NEAR(page_.replay().time() - before, 0.01, 0.0099) << "a row of 100 a second";
   QTest::keyClick(&page_, Qt::Key_Period);
   QTest::keyClick(&page_, Qt::Key_Comma);
-  EXPECT_NEAR(page_.replay().time(), before + 0.01, 0.0101);
+  EXPECT_NEAR(page_.replay().time(), before + 0.01, 0.0099);
   slider->setValue(300);
   EXPECT_DOUBLE_EQ(page_.replay().time(), 0.3);
   find<QComboBox>("replaySpeed")->setCurrentIndex(5);
@@ -180,17 +189,20 @@ TEST_F(Inspecting, MarksAreMovedByTheMouseAndStandBesideTheRecording) {
   from = canvas->mapFrom(&page_.plot(), from);
   to = canvas->mapFrom(&page_.plot(), to);
   QTest::mousePress(canvas, Qt::LeftButton, {}, from);
-  QTest::mouseMove(canvas, (from + to) / 2);
-  QTest::mouseMove(canvas, to);
+  for (const QPoint& at : {(from + to) / 2, to}) {  // QTest's own move lets go of the button
+    QMouseEvent drag(QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, {});
+    QApplication::sendEvent(canvas, &drag);
+  }
   QTest::mouseRelease(canvas, Qt::LeftButton, {}, to);
   settle();
   const record::RunMarks marks = record::readMarks(log());
   const record::TrialMark* mark = marks.find(2);
   ASSERT_NE(mark, nullptr);
   ASSERT_TRUE(mark->onset.has_value());
-  EXPECT_NEAR(*mark->onset, first + move.onset + 0.12, 0.01);
+  EXPECT_GT(*mark->onset, first + move.onset + 0.08) << "later, as it was dragged";
+  EXPECT_LT(*mark->onset, first + move.offset);
   EXPECT_FALSE(mark->offset.has_value());
-  EXPECT_NEAR(page_.inspection()->signals[0].movement.onset, move.onset + 0.12, 0.01) << "the numbers follow";
+  EXPECT_NEAR(page_.inspection()->signals[0].movement.onset, *mark->onset - first, 1e-12) << "the numbers follow";
   EXPECT_EQ(record::readWholeFile(log()), before) << "the recording is as it was";
   QTest::mouseClick(find<QPushButton>("marksByRule"), Qt::LeftButton);
   settle();
@@ -199,7 +211,7 @@ TEST_F(Inspecting, MarksAreMovedByTheMouseAndStandBesideTheRecording) {
 }
 
 TEST_F(Inspecting, ATrialIsExcludedOnlyWithAReason) {
-  choose(0, 13);
+  choose(0, 23);
   QTest::mouseClick(find<QCheckBox>("exclude"), Qt::LeftButton, {}, QPoint(8, 8));
   EXPECT_TRUE(record::readMarks(log()).trials.empty());
   auto* reason = find<QLineEdit>("excludeReason");
@@ -220,11 +232,11 @@ TEST_F(Inspecting, ATrialIsExcludedOnlyWithAReason) {
 TEST_F(Inspecting, TheTableSortsByNumber) {
   page_.view().sortByColumn(TrialTable::kTrial, Qt::DescendingOrder);
   const auto number = [&](int row) { return page_.view().model()->index(row, TrialTable::kTrial).data().toInt(); };
-  EXPECT_EQ(number(0), 14);
-  EXPECT_EQ(number(1), 13) << "not 9, as words would";
+  EXPECT_EQ(number(0), 24);
+  EXPECT_EQ(number(1), 23) << "not 9, as words would";
   page_.view().sortByColumn(TrialTable::kTime, Qt::AscendingOrder);
   double last = 0;
-  for (int row = 0; row < 16; ++row) {
+  for (int row = 0; row < 26; ++row) {
     const double t = page_.view().model()->index(row, TrialTable::kTime).data(Qt::UserRole).toDouble();
     EXPECT_GE(t, last);
     last = t;
@@ -246,7 +258,7 @@ TEST_F(Inspecting, FiguresAndTablesAreWritten) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), samples + 1);
   page_.exportTable(base + QStringLiteral("-table.csv"));
   const std::string table = record::readWholeFile((base + QStringLiteral("-table.csv")).toStdString());
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 17);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 27);
   EXPECT_THROW(page_.exportTo(base + QStringLiteral(".doc")), Error);
 }
 
@@ -278,6 +290,7 @@ TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
   app::MainWindow window(request);
   window.show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+  QApplication::setActiveWindow(&window);
   QTest::keyClick(&window, Qt::Key_3, Qt::AltModifier);
   EXPECT_TRUE(window.inspecting());
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.inspector().table().rowCount() == 2; }, 10000)) << "what this session records";

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QApplication>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -94,6 +95,7 @@ class PlannedSession : public ::testing::Test {
     window_ = std::make_unique<app::MainWindow>(request_);
     window_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());
     EXPECT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
     return *window_;
   }
