@@ -4,6 +4,7 @@
 
 #include "base/fault.h"
 #include "base/json_reader.h"
+#include "constraints/definition.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/compiled_experiment.h"
 
@@ -146,13 +147,30 @@ void readHands(ObjectReader& root, Experiment& experiment) {
   }
 }
 
+/// Numbers, of which some may be told as constants ("2*pi"): a place on a circle is then what is meant, and not sixteen digits of it.
+JsonNode withConstants(ObjectReader& reader, JsonNode numbers, const std::string& key) {
+  for (std::size_t i = 0; i < numbers.items.size(); ++i) {
+    JsonNode& item = numbers.items[i];
+    if (item.kind != JsonNode::Kind::String) continue;
+    const std::string name = fmt::format("{}[{}]", reader.keyPath(key), i);
+    item.number = 0;  // where it is no constant: that is told once
+    try {
+      item.number = constraints::constantOf(item.string, {}, {}, name);
+    } catch (const FaultError& error) {
+      reader.faults().add(item, name, error.faults.front().what, "a number, or a constant such as \"2*pi\"");
+    }
+    item.kind = JsonNode::Kind::Number;
+  }
+  return numbers;
+}
+
 void readTask(ObjectReader& root, Experiment& experiment) {
   const JsonNode* node = root.optional("task");
   if (node == nullptr) return;
   ObjectReader reader(root.faults(), *node, "task");
   Task task;
   for (auto [key, values] : {std::pair{"start", &task.start}, std::pair{"target", &task.target}})
-    if (const JsonNode* place = reader.optional(key)) reader.numbers(*place, key, -1, anyNumber(), *values);
+    if (const JsonNode* place = reader.optional(key)) reader.numbers(withConstants(reader, *place, key), key, -1, anyNumber(), *values);
   reader.requiredNumber("duration_s", anyNumber(), task.duration);
   if (const JsonNode* tolerance = reader.required("tolerance", "{ position_m, velocity_m_per_s, time_s }")) {
     ObjectReader inner(root.faults(), *tolerance, "task.tolerance");
