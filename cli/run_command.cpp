@@ -78,8 +78,8 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--notes", r->notes, "Notes by the experimenter; kept in the recording");
   command->footer(
       "Prints one line a trial once it is safe on the disk, `trial=3 outcome=failure reason=velocity mass=5 by=0.004 "
-      "time_s=1.31` (by in m,\n"
-      "m/s or s), and the success table at the end. The data folder is a BIDS dataset, its logs lie in sourcedata. Ctrl-C keeps "
+      "by_unit=m/s\n"
+      "time_s=1.310`, and the success table at the end. The data folder is a BIDS dataset, its logs lie in sourcedata. Ctrl-C keeps "
       "the trial\n"
       "as interrupted and exits 130.\n\n"
       "Examples:\n"

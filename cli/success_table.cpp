@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/record/tidy_csv.h"
+
 namespace reachlab::cli {
 
 void SuccessTable::add(const std::string& condition, const trial::TrialResult& result) {
@@ -37,8 +39,10 @@ std::string trialLine(int trial, const trial::TrialResult& result) {
   std::string line = fmt::format("trial={} outcome={}", trial, trial::nameOf(result.outcome));
   if (result.outcome != trial::Outcome::Success) line += fmt::format(" reason={}", trial::nameOf(result.reason));
   if (result.mass > 0) line += fmt::format(" mass={}", result.mass);
-  if (result.by != 0) line += fmt::format(" by={:.17g}", result.by);
-  return line + fmt::format(" time_s={:.17g}", result.movementTime);
+  // For a person; the log and the exports have every digit.
+  if (result.by != 0) line += fmt::format(" by={:.3g}", result.by);
+  if (const std::string unit = record::unitOf(result.reason); result.by != 0 && !unit.empty()) line += " by_unit=" + unit;
+  return line + fmt::format(" time_s={:.3f}", result.movementTime);
 }
 
 }  // namespace reachlab::cli
