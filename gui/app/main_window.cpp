@@ -159,6 +159,8 @@ void MainWindow::wireSession() {
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
   connect(timer_, &QTimer::timeout, this, &MainWindow::oneFrame);
+  connect(&analysis_, &DatasetAnalysis::said, this, [this](const QString& words) { message_->say(words); });
+  connect(&analysis_, &DatasetAnalysis::reported, this, [](const QString& page) { QDesktopServices::openUrl(QUrl::fromLocalFile(page)); });
   timer_->start(kFrameMs);
   auto* slowTimer = new QTimer(this);
   connect(slowTimer, &QTimer::timeout, this, [this] {
@@ -462,6 +464,8 @@ void MainWindow::savePicture() {
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
   message_->say(picture.save(file) ? tr("Written: %1").arg(file) : tr("%1 cannot be written.").arg(file));
 }
+
+void MainWindow::analyse(const QString& dataset) { analysis_.begin(dataset); }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
   if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();

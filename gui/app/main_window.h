@@ -2,6 +2,7 @@
 #include <QMainWindow>
 #include <memory>
 
+#include "gui/app/dataset_analysis.h"
 #include "gui/app/edit_history.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/session_controller.h"
@@ -93,6 +94,8 @@ class MainWindow : public QMainWindow {
   void openManual();
   /// The scene as it is drawn now, as PNG.
   void savePicture();
+  /// The report opens in the desktop's browser when it is written.
+  void analyse(const QString& dataset);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -140,6 +143,7 @@ class MainWindow : public QMainWindow {
   QByteArray firstLayout_;  // of the docks
   WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
   QString file_;  // what was opened or saved; empty: shipped or new
+  DatasetAnalysis analysis_;
   std::unique_ptr<StatusLine> status_;
   MessageBar* message_ = nullptr;
   scene::SceneView* view_ = nullptr;

@@ -70,6 +70,10 @@ void addExperimentMenu(MainWindow& window) {
     const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Inspect a dataset or a session"));
     if (!folder.isEmpty()) window.inspect(folder);
   });
+  add(window, menu, QStringLiteral("&Analyse a dataset…"), {}, [&window] {
+    const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Analyse a dataset"));
+    if (!folder.isEmpty()) window.analyse(folder);
+  })->setObjectName(QStringLiteral("analyse"));
   QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
   recent->setObjectName(QStringLiteral("recent"));
   QObject::connect(menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });

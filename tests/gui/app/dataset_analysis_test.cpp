@@ -1,0 +1,51 @@
+#include "gui/app/dataset_analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <QFileInfo>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+
+#include "test_paths.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+const QString kReach = QStringLiteral(REACH_PROGRAM);
+constexpr int kPatienceMs = 120'000;
+
+QString lastOf(const QSignalSpy& spy) { return spy.isEmpty() ? QString() : spy.last().front().toString(); }
+
+TEST(DatasetAnalysis, WritesTheReportAndSaysWhereItIs) {
+  const QTemporaryDir folder;
+  const QString data = folder.filePath(QStringLiteral("data"));
+  ASSERT_EQ(QProcess::execute(kReach, {QStringLiteral("run"), QStringLiteral("dingwell"), QStringLiteral("--device"), QStringLiteral("simulated"), QStringLiteral("--trials"),
+                                       QStringLiteral("2"), QStringLiteral("--seed"), QStringLiteral("1"), QStringLiteral("--fast"), QStringLiteral("--data"), data}),
+            0);
+  DatasetAnalysis analysis(kReach);
+  QSignalSpy reported(&analysis, &DatasetAnalysis::reported), said(&analysis, &DatasetAnalysis::said);
+  analysis.begin(data);
+  ASSERT_TRUE(reported.wait(kPatienceMs)) << lastOf(said).toStdString();
+  EXPECT_TRUE(QFileInfo::exists(lastOf(reported)));
+  EXPECT_NE(lastOf(said).indexOf(lastOf(reported)), -1);
+}
+
+TEST(DatasetAnalysis, SaysWhyThereIsNone) {
+  const QTemporaryDir empty;
+  DatasetAnalysis analysis(kReach);
+  QSignalSpy said(&analysis, &DatasetAnalysis::said), reported(&analysis, &DatasetAnalysis::reported);
+  analysis.begin(empty.path());
+  ASSERT_EQ(said.count(), 1) << "that it has begun";
+  ASSERT_TRUE(said.wait(kPatienceMs));
+  EXPECT_TRUE(lastOf(said).contains(QStringLiteral("failed: "))) << lastOf(said).toStdString();
+  EXPECT_EQ(reported.count(), 0);
+
+  DatasetAnalysis none(QStringLiteral("/no/such/reach"));
+  QSignalSpy noneSaid(&none, &DatasetAnalysis::said);
+  none.begin(empty.path());
+  if (noneSaid.count() < 2) noneSaid.wait(kPatienceMs);
+  EXPECT_TRUE(lastOf(noneSaid).contains(QStringLiteral("/no/such/reach"))) << lastOf(noneSaid).toStdString();
+}
+
+}  // namespace
+}  // namespace reachlab::gui::app
