@@ -118,14 +118,18 @@ class Link final : public record::InstrumentLink {
     }
   }
 
-  void takeSetups() {
+  // Of the trial that begins, not of one that was announced since: the tracker forgets the others.
+  void takeSetups(int trial) {
     const std::scoped_lock lock(mutex_);
-    for (const record::TrialSetup& setup : setups_) tracker_->announce(setup);
-    setups_.clear();
+    std::erase_if(setups_, [&](const record::TrialSetup& setup) {
+      if (setup.trial > trial) return false;
+      tracker_->announce(setup);
+      return true;
+    });
   }
 
   void handle(const record::QueuedTick& tick) {
-    if (tick.facts.phase == trial::Phase::Waiting) takeSetups();  // the trial's own came before its first tick
+    if (tick.facts.phase == trial::Phase::Waiting) takeSetups(tick.facts.trial + firstTrial_ - 1);  // its own came before its first tick
     tick_ = tick.raw.tick;
     tickNs_ = tick.raw.measuredNs;
     const HandAtTick hand{tick.raw.measuredNs, tick.facts.hand.position, tick.facts.hand.velocity};
