@@ -95,7 +95,7 @@ void addRun(const record::RunLog& run, TableText& table) {
       const HandMeasures& m = together.hands[hand];
       table.cell(c.subject).cell(c.session).whole(c.run).whole(trial.trial).cell(c.condition).cell(trial::nameOf(trial.result.outcome));
       table.whole(static_cast<long long>(hand + 1)).cell(hand == 0 ? c.deviceName : c.otherHands[hand - 1].name);
-      for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.share, m.lag, m.lagCorrelation, together.internalForce,
+      for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag, m.lagCorrelation, together.internalForce,
                                  together.peakInternalForce})
         table.number(value);
       table.endRow();
@@ -105,7 +105,7 @@ void addRun(const record::RunLog& run, TableText& table) {
 
 const std::vector<std::string> kColumns{"subject",       "session",       "run",        "trial",     "condition",          "outcome",
                                         "hand",          "device",        "peak_speed_m_per_s", "path_m",  "peak_force_n", "mean_force_n",
-                                        "work_j",        "share_of_work", "lag_s",      "lag_correlation", "internal_force_rms_n",
+                                        "work_j",        "positive_work_j", "share_of_positive_work", "lag_s",      "lag_correlation", "internal_force_rms_n",
                                         "internal_force_peak_n"};
 
 }  // namespace
@@ -125,13 +125,14 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
       m.meanForce += norm(hand.force[i]) / static_cast<double>(hand.place.size());
     }
     m.work = hand.work.empty() ? 0 : hand.work.back();
-    allWork += m.work;
+    for (std::size_t i = 1; i < hand.work.size(); ++i) m.positiveWork += std::max(0.0, hand.work[i] - hand.work[i - 1]);
+    allWork += m.positiveWork;
     const Lag lag = lagBehind(firstSpeeds, speeds, rate);
     m.lag = lag.seconds;
     m.lagCorrelation = lag.correlation;
     together.hands.push_back(m);
   }
-  for (HandMeasures& m : together.hands) m.share = allWork > 0 ? m.work / allWork : kUnknown;
+  for (HandMeasures& m : together.hands) m.share = allWork > 0 ? m.positiveWork / allWork : kUnknown;
   const std::size_t count = hands.empty() ? 0 : hands.front().force.size();
   double squares = 0;
   for (std::size_t i = 0; i < count; ++i) {

@@ -14,8 +14,9 @@ struct HandMeasures {
   double peakSpeed = 0;              // [m/s]
   double path = 0;                   // [m]
   double peakForce = 0, meanForce = 0;  // [N] coupling force on the object
-  double work = 0;                   // [J] done on the object from arming to the trial's end
-  double share = 0;                  // of the work of all; NaN where that is not positive
+  double work = 0;                   // [J] done on the object from arming to the trial's end: about 0 from rest to rest
+  double positiveWork = 0;           // [J] the sum of what it has put in, without what it has taken out, over the movement
+  double share = 0;                  // of the positive work of all; NaN where there is none
   double lag = 0;                    // [s] behind the first hand, by the largest correlation of their speeds within half a second; NaN: none
   double lagCorrelation = 0;         // there
 };

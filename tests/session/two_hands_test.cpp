@@ -90,6 +90,25 @@ TEST_F(TwoHands, AreRecordedAndReplayedToTheBit) {
   EXPECT_GT(work, 0.001);
 }
 
+TEST_F(TwoHands, AResumedBlockHasTheSameHands) {
+  const Programme programme = readProgramme(folder_ / "both.json");
+  request_.trials = 2;
+  RecordedRunOptions options;
+  options.place = request_.place;
+  options.virtualClock = true;
+  {
+    RecordedRun run(planSession(request_, programme).blocks.at(0), std::make_unique<Pair>(), options);
+    const std::atomic<bool> stop{false};
+    (void)run.runTrial(stop);
+    run.finish();
+  }
+  request_.resume = true;
+  RecordedRun run(planSession(request_, programme).blocks.at(0), std::make_unique<Pair>(), options);
+  EXPECT_EQ(run.configuration().otherHands.size(), 1u);
+  run.finish();
+  EXPECT_EQ(record::RunLog::open(run.logPath()).configuration().otherHands.size(), 1u);
+}
+
 TEST_F(TwoHands, NeedADeviceEach) {
   try {
     record(std::make_unique<ScriptedDevice>(-0.1, 0.1, 400));
@@ -136,11 +155,14 @@ TEST(Together, WhatCancelsIsInternal) {
     left.place.push_back({0.001 * i, 0, 0}), right.place.push_back({0.001 * i, 0, 0});
     left.velocity.push_back({v, 0, 0}), right.velocity.push_back({late, 0, 0});
     left.force.push_back({5, 0, 0}), right.force.push_back({-3, 0, 0});
-    left.work.push_back(0.03 * i), right.work.push_back(0.01 * i);
+    // The left one takes out again what it has put in: its net work is none, what it has put in is 3 J to the other's 1.
+    left.work.push_back(i < 50 ? 0.06122448979591837 * i : 3 - 0.06 * (i - 49)), right.work.push_back(1.0 / 99 * i);
   }
   const analyze::TogetherMeasures opposed = analyze::measureTogether({left, right}, 100);
   EXPECT_NEAR(opposed.internalForce, 3, 1e-12) << "the smaller of two opposed forces";
-  EXPECT_NEAR(opposed.hands[0].share, 0.75, 1e-12);
+  EXPECT_NEAR(opposed.hands[0].share, 0.75, 1e-9);
+  EXPECT_NEAR(opposed.hands[0].positiveWork, 3, 1e-9);
+  EXPECT_NEAR(opposed.hands[0].work, 0, 1e-9);
   EXPECT_NEAR(opposed.hands[1].lag, 0.07, 1e-3);
   EXPECT_NEAR(opposed.hands[0].lag, 0, 1e-12);
   for (Vec3& force : right.force) force.x = 3;
