@@ -31,6 +31,9 @@ class RunConductor {
   /// The same, of a value that nobody has validated.
   RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<trial::PlannedTrial> trials,
                const LoopOptions& options = {});
+  /// The same of an engine that was made elsewhere, for this device.
+  RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device, std::vector<trial::PlannedTrial> trials,
+               const LoopOptions& options);
   ~RunConductor();
   RunConductor(const RunConductor&) = delete;
   RunConductor& operator=(const RunConductor&) = delete;
@@ -77,8 +80,6 @@ class RunConductor {
   }
 
  private:
-  RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device, std::vector<trial::PlannedTrial> trials,
-               const LoopOptions& options);
   void advanceUntilDone(const std::atomic<bool>* stop);
 
   std::shared_ptr<HapticDevice> device_;  // shared with the loop, which may have to leave a hanging call behind

@@ -164,6 +164,13 @@ void Recorder::add(const std::vector<RecordedEvent>& events) {
   impl_->throwIfFaulty();
 }
 
+void Recorder::append(RecordType type, std::span<const std::uint8_t> payload) {
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->throwIfFaulty();
+  impl_->guarded([&] { impl_->writer.append(type, payload); });
+  impl_->throwIfFaulty();
+}
+
 void Recorder::close() {
   if (impl_->thread.joinable()) {
     impl_->thread.request_stop();

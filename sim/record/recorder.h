@@ -41,6 +41,8 @@ class Recorder : public haptics::RunSink {
   RecordedTrial lastTrial() const;
   /// A note by the experimenter. Controlling thread.
   void note(const std::string& text);
+  /// A record of somebody else's, as it is. Controlling thread; throws ResourceError.
+  void append(RecordType type, std::span<const std::uint8_t> payload);
   /// What others saw, with ticks of their own. Controlling thread.
   void add(const std::vector<RecordedEvent>& events);
   /// Ends the log in order. Throws like awaitTrial.

@@ -70,6 +70,10 @@ void compareTrials(const RunLog& log, Replay& replay) {
 }  // namespace
 
 Replay replayRun(const RunLog& log) {
+  return replayRun(log, {});
+}
+
+Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const RunConfiguration& c = log.configuration();
   const experiment::CompiledExperiment compiled = recordedExperiment(c);
   const experiment::Experiment& experiment = compiled.experiment();
@@ -78,8 +82,11 @@ Replay replayRun(const RunLog& log) {
   for (const HandDevice& hand : c.otherHands)
     options.others.push_back(
         {hand.maxForce, hand.virtualHand, hand.rendersForce, hand.continuousForce, hand.thermalSeconds, hand.guards, {}});
-  haptics::TickEngine engine(compiled, options);
-  const ChannelTable scene = makeChannelTable(experiment, engine.constraint().parameterCount());
+  const auto made = hooks.makeEngine ? hooks.makeEngine(compiled, options) : std::make_unique<haptics::TickEngine>(compiled, options);
+  haptics::TickEngine& engine = *made;
+  experiment::Experiment recorded = experiment;
+  if (hooks.makeEngine) recorded.hands.clear();  // a station's own hand alone
+  const ChannelTable scene = makeChannelTable(recorded, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body ||
       c.table.hands != scene.hands)
     throw FaultError(Fault{
@@ -120,6 +127,7 @@ Replay replayRun(const RunLog& log) {
     ++expected;
     ++replay.ticks;
     rows.look(state, replay);
+    if (hooks.afterTick) hooks.afterTick(state);
     if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
   }
   return finished();

@@ -1,8 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "sim/haptics/tick_engine.h"
 #include "sim/record/run_log.h"
 
 namespace reachlab::record {
@@ -21,5 +24,12 @@ struct Replay {
 /// processor or compiler may round differently. Throws FaultError when ticks are missing in the log (dropped while recording),
 /// and what the engine's construction throws.
 Replay replayRun(const RunLog& log);
+
+/// What a run needs that was moved at several stations: an engine on a copy, and what the others sent, between two ticks.
+struct ReplayHooks {
+  std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
+  std::function<void(const haptics::TickState& state)> afterTick;
+};
+Replay replayRun(const RunLog& log, const ReplayHooks& hooks);
 
 }  // namespace reachlab::record

@@ -21,6 +21,8 @@ class RunWriter {
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
   bool add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row);
   void note(const std::string& text);
+  /// A record of somebody else's, as it is.
+  void append(RecordType type, std::span<const std::uint8_t> payload) { log_.append(type, payload); }
   void add(const std::vector<RecordedEvent>& events);
   /// Hands what has gathered to the kernel; done by `add` when 1000 ticks or, by the clock, 100 ms have gathered.
   void flush();

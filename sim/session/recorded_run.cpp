@@ -81,8 +81,13 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
     throw FaultError(Fault{"fast", fmt::format("device {} moves in real time", block_.configuration.device), "simulated, replay"});
   if (options.virtualClock && options.instruments != nullptr)
     throw FaultError(Fault{"fast", "there are instruments, which are on the real clock", "either of them"});
-  conductor_ = std::make_unique<haptics::RunConductor>(block_.experiment, std::move(device), block_.trials,
-                                                       haptics::LoopOptions{.virtualClock = options.virtualClock, .clock = options.clock});
+  const haptics::LoopOptions loop{.virtualClock = options.virtualClock, .clock = options.clock};
+  if (options.makeEngine) {
+    auto engine = options.makeEngine(block_.experiment, haptics::engineOptions(*device));
+    conductor_ = std::make_unique<haptics::RunConductor>(std::move(engine), std::move(device), block_.trials, loop);
+  } else {
+    conductor_ = std::make_unique<haptics::RunConductor>(block_.experiment, std::move(device), block_.trials, loop);
+  }
   choice_ = conductor_->engine().choice();
   inDataset([this] { openLog(); });
 }
@@ -107,6 +112,7 @@ void RecordedRun::completeConfiguration() {
   c.timing = block_.experiment.experiment().timing;
   c.guards = device.guards;
   c.deviceMapping = device.mapping;
+  c.otherHands.clear();  // of the run that is resumed
   for (const haptics::DeviceInfo& hand : conductor_->otherDevices())
     c.otherHands.push_back({hand.name, hand.version, hand.maxForce, hand.virtualHand, hand.rendersForce, hand.maxContinuousForce,
                             hand.thermalSeconds, hand.guards, hand.mapping});
@@ -119,7 +125,9 @@ void RecordedRun::completeConfiguration() {
   c.computer = computerName();
   c.startedUtc = utcText(std::chrono::system_clock::now());
   c.clock = options_.virtualClock ? "virtual" : "monotonic";
-  c.table = record::makeChannelTable(block_.experiment.experiment(), block_.experiment.constraint().parameterCount(), device.rendersForce);
+  experiment::Experiment recorded = block_.experiment.experiment();
+  if (c.otherHands.empty()) recorded.hands.clear();  // a station records its own hand alone
+  c.table = record::makeChannelTable(recorded, block_.experiment.constraint().parameterCount(), device.rendersForce);
 }
 
 // The number is free when the log is created: nobody else takes one meanwhile.

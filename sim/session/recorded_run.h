@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct RecordedRunOptions {
   std::uint64_t diskReserve = 1'000'000'000;  // [bytes] that the recording leaves free on the disk
   double timingCheckSeconds = 0;              // in real time: how long the loop is watched before the first trial; 0: not at all
   std::shared_ptr<haptics::LoopClock> clock;  // LoopOptions::clock
+  /// Makes the engine where it is none of one experiment on its own (a station's copy); empty: the experiment's.
+  std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
   haptics::RunSink* watcher = nullptr;        // sees every tick as well (a plot), may lose them, outlives the run
   record::InstrumentLink* instruments = nullptr;  // beside the haptic device; outlive the run
 };
@@ -64,6 +67,8 @@ class RecordedRun {
   void abort();
   /// A note by the experimenter, kept with the tick it was made at.
   void note(const std::string& text) { recorder_->note(text); }
+  /// What other stations sent, as their own kind of record.
+  void recordPeers(std::span<const std::uint8_t> payload) { recorder_->append(record::RecordType::PeerTicks, payload); }
 
   /// Interrupts the trial under way, stops the loop with zero force, notes how well it kept time and closes the log: all that was recorded is
   /// then in order. Idempotent.
