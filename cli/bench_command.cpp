@@ -3,32 +3,17 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/bench/bench_options.h"
 #include "cli/commands.h"
+#include "cli/helper_program.h"
 #include "base/error.h"
 
 namespace reachlab::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Beside `reach` in a build folder, in libexec where it is installed. Throws ResourceError when it is in neither.
-std::string findBenchProgram() {
-  std::error_code error;
-  const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
-  const std::vector<fs::path> places{own / kBenchProgram, own / REACHLAB_LIBEXEC_FROM_BIN / kBenchProgram};
-  for (const fs::path& place : places)
-    if (access(place.c_str(), X_OK) == 0) return place.string();
-  throw ResourceError(
-      fmt::format("reach bench: {}, the program that measures, is neither {} nor {}; install Reachlab whole, or build it: "
-                  "cmake --build BUILD --target {}",
-                  kBenchProgram, places[0].lexically_normal().string(), places[1].lexically_normal().string(), kBenchProgram));
-}
 
 /// The options as they were given: parsed here, so that a fault is said before anything starts, and read again by the program.
 std::vector<std::string> wordsOf(const CLI::App& command) {
@@ -48,7 +33,7 @@ void addBenchCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("bench", kBenchSummary);
   addBenchOptions(*command, *options);
   command->callback([options, command] {
-    const std::string program = findBenchProgram();
+    const std::string program = findHelperProgram(kBenchProgram, "bench", "the program that measures");
     std::vector<std::string> words = wordsOf(*command);
     std::vector<char*> arguments{const_cast<char*>(program.c_str())};
     for (std::string& word : words) arguments.push_back(word.data());

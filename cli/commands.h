@@ -18,6 +18,8 @@ void addBackupCommand(CLI::App& app, int& exitCode);
 void addRecoverCommand(CLI::App& app, int& exitCode);
 void addConstraintCommand(CLI::App& app, int& exitCode);
 void addBenchCommand(CLI::App& app, int& exitCode);
+void addStationCommand(CLI::App& app, int& exitCode);
+void addPeersCommand(CLI::App& app, int& exitCode);
 void addStabilityCommand(CLI::App& app, int& exitCode);
 void addVelocityCommand(CLI::App& app, int& exitCode);
 

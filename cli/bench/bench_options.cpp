@@ -17,6 +17,12 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
   command.add_option("--ticks", options.ticks, "Ticks of each scene for --tick")
       ->check(CLI::Range(1000, 100'000'000))
       ->capture_default_str();
+  command.add_flag("--network", options.network,
+                   "Instead: two simulated people who move one object over a simulated line, by every way of coupling their stations");
+  command.add_option("--setups", options.setups, "Random set-ups of an object for --network; 0: none")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command.add_option("--csv", options.csv, "Write the rows of --network to this file");
   command.add_option("--json", options.json, "Write the rows to this file");
   command.add_option("--svg", options.svg, "Draw price against error into this file");
   command.footer(
@@ -25,6 +31,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
       "Examples: reach bench --scene S1 --scene S2a --quick\n"
       "          reach bench --json rows.json --svg work-precision.svg\n"
       "          reach bench --tick --scene S1 --ticks 100000\n"
+      "          reach bench --network --quick --csv network.csv --svg network.svg\n"
       "          reach bench --scene constraint-eval");
 }
 

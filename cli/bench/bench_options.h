@@ -10,9 +10,10 @@ namespace reachlab::cli {
 struct BenchOptions {
   std::vector<std::string> scenes, methods;  // empty: all
   int rounds = 7;
-  bool quick = false, sampled = false, tick = false;
+  bool quick = false, sampled = false, tick = false, network = false;
   std::uint64_t ticks = 1'000'000;
-  std::string json, svg;  // files; empty: none
+  int setups = 40;             // random ones of the network study
+  std::string json, svg, csv;  // files; empty: none
 };
 
 inline constexpr const char* kBenchProgram = "reachlab-bench";

@@ -12,6 +12,7 @@
 #include "cli/bench/constraint_bench.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "network/study/network_study.h"
 #include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
 #include "sim/haptics/tick_timing.h"
@@ -90,6 +91,21 @@ void benchTicks(const BenchOptions& options) {
   showRefusals(refusals);
 }
 
+void benchNetwork(const BenchOptions& options) {
+  network::StudyPlan plan;
+  plan.setups = options.setups;
+  if (options.quick) {
+    plan.roundTrips = {0, 0.05, 0.1};
+    plan.couplings = {network::Coupling::ServerForce, network::Coupling::Design};
+    plan.seeds = 2;
+    plan.setups = 0;
+  }
+  const network::StudyTables tables = network::runNetworkStudy(plan, showProgress);
+  std::fputs(network::formatStudy(tables).c_str(), stdout);
+  if (!options.csv.empty()) writeFile(options.csv, network::studyCsv(tables));
+  if (!options.svg.empty()) writeFile(options.svg, network::drawStudy(tables));
+}
+
 }  // namespace
 
 void runBench(const BenchOptions& options) {
@@ -97,6 +113,10 @@ void runBench(const BenchOptions& options) {
   if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
     if (scenes.size() > 1) throw FaultError(Fault{"--scene", "constraint-eval stands alone; run the other scenes by themselves"});
     benchConstraints(options);
+    return;
+  }
+  if (options.network) {
+    benchNetwork(options);
     return;
   }
   if (options.tick) {

@@ -1,0 +1,348 @@
+#include <dds/dds.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Reachlab.h"
+#include "base/error.h"
+#include "base/os.h"
+#include "network/line/line_memory.h"
+
+/// A station's endpoint: sends what the station puts into the rings, and puts into them what comes. A process of its own, because it
+/// allocates, encrypts and listens to the network; if it dies, the station loses its peers and nothing else.
+namespace reachlab::network {
+namespace {
+
+static_assert(reach_stations == kMaxStations && reach_coordinates == kMaxCoordinates);
+constexpr std::int64_t kNapNs = 200'000;
+
+struct DdsError : Error {
+  using Error::Error;
+};
+dds_entity_t made(dds_entity_t entity, const char* what) {
+  if (entity < 0) throw DdsError(fmt::format("{} cannot be made: {}", what, dds_strretcode(-entity)));
+  return entity;
+}
+
+// Unicast beyond one network; multicast is left to the default where no peers are named.
+std::string configurationOf(const EndpointSettings& settings) {
+  std::string general, discovery, peers;
+  for (const auto& peer : settings.peers) {
+    if (peer[0] == 0) break;
+    peers += fmt::format("<Peer address=\"{}\"/>", peer.data());
+  }
+  if (settings.interface[0] != 0)
+    general += fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", settings.interface.data(),
+                           peers.empty() ? "" : " multicast=\"false\"");
+  if (!peers.empty()) {
+    general += "<AllowMulticast>false</AllowMulticast>";
+    discovery = fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex><Peers>{}</Peers>",
+                            2 * kMaxStations, peers);
+  }
+  return fmt::format("<CycloneDDS><Domain id=\"any\"><General>{}</General><Discovery>{}</Discovery></Domain></CycloneDDS>", general, discovery);
+}
+
+void addSecurity(dds_qos_t* qos, const std::string& folder) {
+  const auto set = [&](const std::string& name, const std::string& value) { dds_qset_prop(qos, name.c_str(), value.c_str()); };
+  const std::string libraries = REACHLAB_DDS_SECURITY;
+  if (libraries.empty()) throw DdsError("Cyclone DDS has no security plugins here");
+  struct Plugin {
+    const char *key, *file, *function;
+  };
+  for (const Plugin& plugin : {Plugin{"auth", "auth", "authentication"}, Plugin{"crypto", "crypto", "crypto"}, Plugin{"access", "ac", "access_control"}}) {
+    const std::string key = fmt::format("dds.sec.{}.library.", plugin.key);
+    set(key + "path", fmt::format("{}/libdds_security_{}.so", libraries, plugin.file));
+    set(key + "init", fmt::format("init_{}", plugin.function));
+    set(key + "finalize", fmt::format("finalize_{}", plugin.function));
+  }
+  const auto file = [&](const char* name) {
+    const std::string path = std::filesystem::absolute(folder).string() + "/" + name;
+    if (!std::filesystem::exists(path)) throw DdsError(path + " is not there; reach peers makes it");
+    return "file:" + path;
+  };
+  set("dds.sec.auth.identity_ca", file("identity_ca.pem"));
+  set("dds.sec.auth.identity_certificate", file("identity.pem"));
+  set("dds.sec.auth.private_key", file("key.pem"));
+  set("dds.sec.access.permissions_ca", file("permissions_ca.pem"));
+  set("dds.sec.access.governance", file("governance.p7s"));
+  set("dds.sec.access.permissions", file("permissions.p7s"));
+}
+
+LineMemory& mapMemory(const std::string& name) {
+  const int descriptor = ::shm_open(name.c_str(), O_RDWR, 0);
+  if (descriptor < 0) throw DdsError(fmt::format("the station's memory {} cannot be opened: {}", name, std::strerror(errno)));
+  void* at = ::mmap(nullptr, sizeof(LineMemory), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  ::close(descriptor);
+  if (at == MAP_FAILED) throw DdsError(fmt::format("the station's memory cannot be mapped: {}", std::strerror(errno)));
+  auto& memory = *static_cast<LineMemory*>(at);
+  if (memory.version != LineMemory::kVersion) throw DdsError("the station is of another version than its endpoint");
+  return memory;
+}
+
+/// Topic, writer and reader of one kind of message.
+template <class Message>
+struct Channel {
+  dds_entity_t writer = 0, reader = 0;
+  Channel(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* topic, const dds_qos_t* qos) {
+    const dds_entity_t made = network::made(dds_create_topic(participant, &type, topic, nullptr, nullptr), topic);
+    writer = network::made(dds_create_writer(participant, made, qos, nullptr), "a writer");
+    reader = network::made(dds_create_reader(participant, made, qos, nullptr), "a reader");
+  }
+  template <class Take>
+  void takeAll(Take&& take) {
+    constexpr int kMost = 32;
+    void* samples[kMost] = {};
+    dds_sample_info_t infos[kMost];
+    const dds_return_t count = dds_take(reader, samples, infos, kMost, kMost);
+    for (int i = 0; i < count; ++i)
+      if (infos[i].valid_data) take(*static_cast<const Message*>(samples[i]));
+    if (count > 0) dds_return_loan(reader, samples, count);
+  }
+};
+
+dds_qos_t* stateQos() {
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+  // A reader holds one instance for all: what several stations send between two rounds must fit.
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 32);
+  return qos;
+}
+dds_qos_t* reliableQos() {
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+  return qos;
+}
+dds_qos_t* cardQos() {
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 16);
+  return qos;
+}
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+/// One peer's line: round trip, clock and loss from the echoes in its samples.
+class PeerClock {
+ public:
+  void add(const reach_State& s, std::uint32_t own, std::int64_t nowNs) {
+    echoSent = s.sent_ns;
+    echoHeard = nowNs;
+    const std::int64_t sent = s.echo_sent_ns[own - 1], heard = s.echo_heard_ns[own - 1];
+    if (sent != 0) {
+      Exchange& e = exchanges_[at_++ % kExchanges];
+      e.roundTrip = seconds((nowNs - sent) - (s.sent_ns - heard));
+      e.offset = 0.5 * (seconds(heard - sent) + seconds(s.sent_ns - nowNs));
+      judge();
+    }
+    if (firstSeq_ == 0 || s.seq < lastSeq_) firstSeq_ = lastSeq_ = s.seq, came_ = 0, sinceNs_ = nowNs;
+    lastSeq_ = s.seq;
+    ++came_;
+    if (nowNs - sinceNs_ < 1'000'000'000) return;
+    loss = std::max(0.0, 1 - static_cast<double>(came_) / static_cast<double>(lastSeq_ - firstSeq_ + 1));
+    firstSeq_ = lastSeq_ + 1, came_ = 0, sinceNs_ = nowNs;
+  }
+  double roundTrip = -1, jitter = 0, offset = 0, loss = 0;  // [s], [s], [s], share
+  std::int64_t echoSent = 0, echoHeard = 0;                 // [ns]
+
+ private:
+  static constexpr std::size_t kExchanges = 128;
+  struct Exchange {
+    double roundTrip = 0, offset = 0;
+  };
+  // The fastest exchange has the least unequal ways.
+  void judge() {
+    const std::size_t known = std::min(at_, kExchanges);
+    const Exchange* fastest = &exchanges_[0];
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < known; ++i) {
+      const Exchange& e = exchanges_[i];
+      sum += e.roundTrip, squares += e.roundTrip * e.roundTrip;
+      if (e.roundTrip < fastest->roundTrip) fastest = &e;
+    }
+    const double mean = sum / static_cast<double>(known);
+    roundTrip = exchanges_[(at_ - 1) % kExchanges].roundTrip;
+    jitter = std::sqrt(std::max(0.0, squares / static_cast<double>(known) - mean * mean));
+    offset = fastest->offset;
+  }
+  std::array<Exchange, kExchanges> exchanges_{};
+  std::size_t at_ = 0;
+  std::uint32_t firstSeq_ = 0, lastSeq_ = 0;
+  std::uint64_t came_ = 0;
+  std::int64_t sinceNs_ = 0;
+};
+
+template <std::size_t N>
+void copyText(const char* from, std::array<char, N>& to) {
+  to.fill(0);
+  if (from != nullptr) std::strncpy(to.data(), from, N - 1);
+}
+
+class Endpoint {
+ public:
+  Endpoint(LineMemory& memory, dds_entity_t participant)
+      : own_(memory.settings.card), memory_(memory), states_(participant, reach_State_desc, "reach_state", qos(stateQos())),
+        events_(participant, reach_Event_desc, "reach_event", qos(reliableQos())),
+        cards_(participant, reach_Card_desc, "reach_station", qos(cardQos())) {}
+  ~Endpoint() {
+    for (dds_qos_t* qos : kept_) dds_delete_qos(qos);
+  }
+  Endpoint(const Endpoint&) = delete;
+  Endpoint& operator=(const Endpoint&) = delete;
+
+  void run() {
+    std::int64_t cardNs = 0;
+    os::requestExactSleep();
+    while (!memory_.stop.load(std::memory_order_acquire)) {
+      const std::int64_t now = os::now();
+      memory_.aliveNs.store(now, std::memory_order_release);
+      receive();
+      send();
+      if (now - cardNs > 1'000'000'000) sendCard(), cardNs = now;
+      os::sleepUntil(now + kNapNs);
+    }
+    send();  // the last event
+    constexpr std::int64_t kLastWords = 200'000'000;
+    os::sleepUntil(os::now() + kLastWords);
+  }
+
+ private:
+  const dds_qos_t* qos(dds_qos_t* made) {
+    kept_.push_back(made);
+    return made;
+  }
+  bool isPeer(std::uint32_t station) const { return station >= 1 && station <= kMaxStations && station != own_.station; }
+
+  void receive() {
+    states_.takeAll([&](const reach_State& s) {
+      if (!isPeer(s.station)) return;
+      const std::int64_t now = os::now();
+      PeerClock& clock = clocks_[s.station - 1];
+      clock.add(s, own_.station, now);
+      LineStatus& status = memory_.status[s.station - 1];
+      status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
+      status.loss.store(clock.loss), status.heardNs.store(now);
+      if (clock.roundTrip < 0) return;  // its time means nothing here yet
+      HeardState heard;
+      heard.trial = s.trial;
+      heard.phase = s.phase;
+      heard.roundTrip = clock.roundTrip;
+      CopySample& sample = heard.sample;
+      sample.sequence = s.seq;
+      sample.time = seconds(s.time_ns) - clock.offset;
+      sample.hand = {s.hand[0], s.hand[1], s.hand[2]};
+      sample.handVelocity = {s.hand_velocity[0], s.hand_velocity[1], s.hand_velocity[2]};
+      sample.work = s.work;
+      std::copy(std::begin(s.places), std::end(s.places), sample.places.begin());
+      std::copy(std::begin(s.rates), std::end(s.rates), sample.rates.begin());
+      if (!memory_.in[s.station - 1].tryPush(heard)) memory_.ringsFull.fetch_add(1);
+    });
+    events_.takeAll([&](const reach_Event& e) {
+      if (!isPeer(e.station) || e.kind > static_cast<std::uint8_t>(EventKind::Finish)) return;
+      LineEvent event{e.station, static_cast<EventKind>(e.kind), e.trial, {e.index, e.foreperiod_ticks, e.catch_trial != 0},
+                      static_cast<trial::Outcome>(std::min<int>(e.outcome, static_cast<int>(trial::Outcome::Interrupted))),
+                      static_cast<trial::Reason>(std::min<int>(e.reason, static_cast<int>(trial::kLastReason))), e.apart};
+      if (!memory_.eventsIn.tryPush(event)) memory_.ringsFull.fetch_add(1);
+    });
+    cards_.takeAll([&](const reach_Card& c) {
+      if (!isPeer(c.station)) return;
+      StationCard card;
+      card.station = c.station, card.version = c.version, card.experiment = c.experiment, card.conductor = c.conductor != 0;
+      copyText(c.name, card.name), copyText(c.software, card.software), copyText(c.device, card.device);
+      (void)memory_.cardsIn.tryPush(card);
+    });
+  }
+
+  void send() {
+    OwnState own;
+    while (memory_.out.tryPop(own)) {
+      reach_State& s = outgoing_;
+      s.station = own_.station;
+      s.seq = own.sample.sequence;
+      s.time_ns = own.timeNs;
+      s.trial = own.trial;
+      s.phase = own.phase;
+      const CopySample& sample = own.sample;
+      s.hand[0] = sample.hand.x, s.hand[1] = sample.hand.y, s.hand[2] = sample.hand.z;
+      s.hand_velocity[0] = sample.handVelocity.x, s.hand_velocity[1] = sample.handVelocity.y, s.hand_velocity[2] = sample.handVelocity.z;
+      s.work = sample.work;
+      std::copy(sample.places.begin(), sample.places.end(), std::begin(s.places));
+      std::copy(sample.rates.begin(), sample.rates.end(), std::begin(s.rates));
+      for (std::size_t i = 0; i < kMaxStations; ++i) s.echo_sent_ns[i] = clocks_[i].echoSent, s.echo_heard_ns[i] = clocks_[i].echoHeard;
+      s.sent_ns = os::now();
+      dds_write(states_.writer, &s);
+    }
+    LineEvent event;
+    while (memory_.eventsOut.tryPop(event)) {
+      reach_Event e{};
+      e.station = own_.station, e.kind = static_cast<std::uint8_t>(event.kind), e.trial = event.trial;
+      e.index = event.planned.index, e.foreperiod_ticks = event.planned.foreperiodTicks, e.catch_trial = event.planned.catchTrial;
+      e.outcome = static_cast<std::uint8_t>(event.outcome), e.reason = static_cast<std::uint8_t>(event.reason), e.apart = event.apart;
+      dds_write(events_.writer, &e);
+    }
+  }
+
+  void sendCard() {
+    reach_Card card{};
+    card.station = own_.station, card.version = LineMemory::kVersion, card.experiment = own_.experiment, card.conductor = own_.conductor;
+    std::copy(own_.name.begin(), own_.name.end(), std::begin(card.name));
+    std::copy(own_.software.begin(), own_.software.end(), std::begin(card.software));
+    std::copy(own_.device.begin(), own_.device.end(), std::begin(card.device));
+    dds_write(cards_.writer, &card);
+  }
+
+  StationCard own_;
+  LineMemory& memory_;
+  std::vector<dds_qos_t*> kept_;
+  Channel<reach_State> states_;
+  Channel<reach_Event> events_;
+  Channel<reach_Card> cards_;
+  std::array<PeerClock, kMaxStations> clocks_;
+  reach_State outgoing_{};
+};
+
+void run(const std::string& memoryName) {
+  LineMemory& memory = mapMemory(memoryName);
+  const EndpointSettings settings = memory.settings;
+  const auto domain = static_cast<dds_domainid_t>(settings.domain);
+  made(dds_create_domain(domain, configurationOf(settings).c_str()), "the domain");
+  dds_qos_t* qos = dds_create_qos();
+  if (settings.secure[0] != 0) addSecurity(qos, settings.secure.data());
+  const dds_entity_t participant = made(dds_create_participant(domain, qos, nullptr), "the participant");
+  dds_delete_qos(qos);
+  {
+    Endpoint endpoint(memory, participant);
+    endpoint.run();
+  }
+  dds_delete(DDS_CYCLONEDDS_HANDLE);
+}
+
+}  // namespace
+}  // namespace reachlab::network
+
+/// The one argument is the name of the memory that the station has made.
+int main(int argc, char** argv) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no endpoint without its station
+  if (argc != 2) {
+    fmt::print(stderr, "endpoint: this program is started by a station\n");
+    return 2;
+  }
+  try {
+    reachlab::network::run(argv[1]);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "endpoint: {}\n", error.what());
+    return 3;
+  }
+  return 0;
+}

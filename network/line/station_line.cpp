@@ -1,0 +1,298 @@
+#include "network/line/station_line.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <cstring>
+#include <new>
+
+#include "base/fault.h"
+#include "base/os.h"
+#include "base/seeded.h"
+#include "base/ticks.h"
+
+extern char** environ;
+
+namespace reachlab::network {
+namespace {
+
+constexpr double kMostRoundTrip = 0.12, kMostLoss = 0.2;  // [s], share: beyond them the coupling is not known to be stable
+constexpr std::int64_t kPresentNs = 3'000'000'000;        // a card comes every second
+constexpr std::int64_t kHeardNs = 500'000'000;
+
+std::string textOf(const char* text) { return text; }
+
+template <std::size_t N>
+void put(const std::string& from, std::array<char, N>& to, const char* key) {
+  if (from.size() >= N) throw FaultError(Fault{key, fmt::format("is {} characters long", from.size()), fmt::format("up to {}", N - 1)});
+  to.fill(0);
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+void fillSettings(const StationOptions& options, std::uint64_t experiment, EndpointSettings& settings) {
+  StationCard& card = settings.card;
+  card.station = static_cast<std::uint32_t>(options.station);
+  card.version = LineMemory::kVersion;
+  card.experiment = experiment;
+  card.conductor = options.conductor;
+  put(options.name.substr(0, card.name.size() - 1), card.name, "name");
+  put(options.software.substr(0, card.software.size() - 1), card.software, "software");
+  put(options.device.substr(0, card.device.size() - 1), card.device, "device");
+  settings.domain = options.domain;
+  put(options.secure.empty() ? std::string() : std::filesystem::absolute(options.secure).string(), settings.secure, "peers");
+  put(options.interface, settings.interface, "interface");
+  if (options.peers.size() > settings.peers.size())
+    throw FaultError(Fault{"peer", fmt::format("is given {} times", options.peers.size()), fmt::format("up to {} times", settings.peers.size())});
+  for (std::size_t i = 0; i < options.peers.size(); ++i) put(options.peers[i], settings.peers[i], "peer");
+}
+
+// What holds at the end of the tick to come.
+double nextTime(const haptics::TickState& state) noexcept { return static_cast<double>(state.measuredNs + kTickNs) * 1e-9; }
+
+std::vector<GivenSample> decodeGiven(std::span<const std::uint8_t> payload, int& own) {
+  record::ByteReader in(payload);
+  std::vector<GivenSample> all(std::min<std::size_t>(in.get<std::uint32_t>(), payload.size()));
+  own = static_cast<int>(std::min<std::uint32_t>(in.get<std::uint32_t>(), kMaxStations));
+  const auto vector = [&](Vec3& v) { v.x = in.get<double>(), v.y = in.get<double>(), v.z = in.get<double>(); };
+  const std::size_t places = in.get<std::uint32_t>(), rates = in.get<std::uint32_t>();
+  if (places > kMaxCoordinates || rates > kMaxCoordinates) throw FaultError(Fault{.what = "peer record of an unknown form"});
+  for (GivenSample& given : all) {
+    given.tick = in.get<std::uint64_t>();
+    given.peer = in.get<std::int32_t>();
+    given.roundTrip = in.get<double>();
+    CopySample& s = given.sample;
+    s.sequence = in.get<std::uint32_t>();
+    s.time = in.get<double>();
+    vector(s.hand), vector(s.handVelocity);
+    s.work = in.get<double>();
+    for (std::size_t i = 0; i < places; ++i) s.places[i] = in.get<double>();
+    for (std::size_t i = 0; i < rates; ++i) s.rates[i] = in.get<double>();
+  }
+  if (!in.ok() || in.left() != 0) throw FaultError(Fault{.what = "peer record of an unknown form"});
+  return all;
+}
+
+}  // namespace
+
+std::uint64_t sharedHash(const experiment::Experiment& experiment) { return hashOf(experiment::toJson(experiment)); }
+
+StationLine::StationLine(const StationOptions& options, std::uint64_t experiment)
+    : options_(options), experiment_(experiment), memoryName_(fmt::format("/reachlab-{}-{}", ::getpid(), options.station)) {
+  EndpointSettings settings;
+  fillSettings(options, experiment, settings);
+  const int descriptor = ::shm_open(memoryName_.c_str(), O_RDWR | O_CREAT | O_EXCL, 0600);
+  if (descriptor < 0) throw ResourceError(fmt::format("memory to share with the endpoint cannot be had: {}", std::strerror(errno)));
+  void* at = ::ftruncate(descriptor, sizeof(LineMemory)) == 0
+                 ? ::mmap(nullptr, sizeof(LineMemory), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0)
+                 : MAP_FAILED;
+  ::close(descriptor);
+  if (at == MAP_FAILED) {
+    ::shm_unlink(memoryName_.c_str());
+    throw ResourceError(fmt::format("memory to share with the endpoint cannot be had: {}", std::strerror(errno)));
+  }
+  memory_ = new (at) LineMemory;
+  memory_->settings = settings;
+  std::string program = options.endpoint, name = memoryName_;
+  std::array<char*, 3> arguments{program.data(), name.data(), nullptr};
+  pid_t process = -1;
+  const int failed = ::posix_spawn(&process, options.endpoint.c_str(), nullptr, nullptr, arguments.data(), environ);
+  if (failed != 0) {
+    ::shm_unlink(memoryName_.c_str());
+    throw ResourceError(fmt::format("the endpoint {} cannot be started: {}", options.endpoint, std::strerror(failed)));
+  }
+  process_ = process;
+}
+
+StationLine::~StationLine() {
+  memory_->stop.store(true, std::memory_order_release);
+  constexpr int kLooks = 200;
+  constexpr std::int64_t kLookNs = 10'000'000;
+  int status = 0;
+  for (int look = 0; look < kLooks && process_ > 0; ++look) {
+    if (::waitpid(process_, &status, WNOHANG) != 0) process_ = -1;
+    else os::sleepUntil(os::now() + kLookNs);
+  }
+  if (process_ > 0) {
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, &status, 0);
+  }
+  ::munmap(memory_, sizeof(LineMemory));
+  ::shm_unlink(memoryName_.c_str());
+}
+
+void StationLine::send(const LineEvent& event) {
+  LineEvent own = event;
+  own.station = static_cast<std::uint32_t>(options_.station);
+  if (!memory_->eventsOut.tryPush(own)) throw ResourceError("the endpoint takes no messages any more");
+}
+
+void StationLine::look() {
+  StationCard card;
+  while (memory_->cardsIn.tryPop(card)) {
+    if (card.station < 1 || card.station > kMaxStations) continue;
+    cards_[card.station - 1] = card;
+    cardNs_[card.station - 1] = os::now();
+  }
+}
+
+bool StationLine::endpointAlive() const {
+  constexpr std::int64_t kSilentNs = 1'000'000'000;
+  if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG | WNOWAIT) < 0 && errno == ECHILD) return false;
+  const std::int64_t alive = memory_->aliveNs.load(std::memory_order_acquire);
+  return alive == 0 || os::now() - alive < kSilentNs;
+}
+
+std::vector<std::string> StationLine::obstacles() const {
+  std::vector<std::string> found;
+  if (!endpointAlive()) found.push_back("this station's endpoint has ended");
+  const std::int64_t now = os::now();
+  for (int i = 0; i < options_.stations; ++i) {
+    if (i + 1 == options_.station) continue;
+    const auto index = static_cast<std::size_t>(i);
+    const StationCard& card = cards_[index];
+    const LineStatus& line = memory_->status[index];
+    const auto say = [&](const std::string& what) { found.push_back(fmt::format("station {}: {}", i + 1, what)); };
+    if (cardNs_[index] == 0 || now - cardNs_[index] > kPresentNs) {
+      say("is not there");
+      continue;
+    }
+    if (card.version != LineMemory::kVersion) say(fmt::format("speaks version {} of the messages, and this one {}", card.version, LineMemory::kVersion));
+    if (options_.software != card.software.data()) say(fmt::format("runs {}, and this one {}", textOf(card.software.data()), options_.software));
+    if (card.experiment != experiment_) say(fmt::format("has another experiment ({:016x}, here {:016x})", card.experiment, experiment_));
+    if (card.conductor && options_.conductor) say("is a conductor too");
+    if (now - line.heardNs.load() > kHeardNs || line.roundTrip.load() < 0) {
+      say("sends nothing");
+      continue;
+    }
+    if (line.roundTrip.load() > kMostRoundTrip)
+      say(fmt::format("a round trip takes {:.0f} ms; allowed: up to {:.0f}", 1e3 * line.roundTrip.load(), 1e3 * kMostRoundTrip));
+    if (line.loss.load() > kMostLoss)
+      say(fmt::format("{:.0f} % of its samples do not come; allowed: up to {:.0f}", 100 * line.loss.load(), 100 * kMostLoss));
+  }
+  return found;
+}
+
+std::string StationLine::describe() const {
+  std::string text;
+  for (int i = 0; i < options_.stations; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    if (i + 1 == options_.station || cardNs_[index] == 0) continue;
+    const StationCard& card = cards_[index];
+    const LineStatus& line = memory_->status[index];
+    text += fmt::format("station {} ({}, {}{}): round trip {:.2f} ms, jitter {:.2f} ms, loss {:.1f} %, clock {:+.6f} s\n", i + 1, card.name.data(),
+                        card.device.data(), card.conductor ? ", conductor" : "", 1e3 * line.roundTrip.load(), 1e3 * line.jitter.load(),
+                        100 * line.loss.load(), line.offset.load());
+  }
+  return text;
+}
+
+bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept {
+  if (state.trial != trial_) {
+    trial_ = state.trial;
+    squares_ = 0, count_ = 0;
+    mostApart_.store(0, std::memory_order_relaxed), rmsApart_.store(0, std::memory_order_relaxed);
+  }
+  const double next = nextTime(state);
+  copy_.beginTick(next);
+  HeardState heard;
+  int peer = 0;
+  for (int station = 0; station < kMaxStations && peer < copy_.peerCount(); ++station) {
+    if (station == own_) continue;
+    while (memory_.in[static_cast<std::size_t>(station)].tryPop(heard)) {
+      if (heard.trial != state.trial || heard.trial < 1) continue;
+      copy_.take(peer, heard.sample, heard.roundTrip);
+      if (!given_->tryPush({state.tick, peer, heard.roundTrip, heard.sample})) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
+    }
+    ++peer;
+  }
+  if (trial::isEngaged(state.phase)) {
+    double apart = 0;
+    for (int i = 0; i < copy_.peerCount(); ++i) apart = std::max(apart, copy_.line(i).apart);
+    squares_ += apart * apart, ++count_;
+    mostApart_.store(std::max(apart, mostApart_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+    rmsApart_.store(std::sqrt(squares_ / static_cast<double>(count_)), std::memory_order_relaxed);
+  }
+  OwnState own;
+  own.timeNs = state.measuredNs;
+  own.trial = state.trial;
+  own.phase = static_cast<std::uint8_t>(state.phase);
+  own.sample.sequence = ++sequence_;
+  // Before it is armed a hand holds nothing: for the others it is where it will hold.
+  const bool armed = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving || state.phase == trial::Phase::Done;
+  copy_.fill(own.sample, armed ? state.hand : dynamics::HandSample{copy_.ownFixedPoint(), {}, true});
+  if (!memory_.out.tryPush(own)) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
+  return true;
+}
+
+std::vector<std::uint8_t> StationSink::takeGiven() {
+  record::ByteWriter out;
+  std::uint32_t count = 0;
+  const auto places = static_cast<std::uint32_t>(copy_.placeCount()), rates = static_cast<std::uint32_t>(copy_.rateCount());
+  GivenSample given;
+  while (given_->tryPop(given)) {
+    if (count++ == 0) out.put(std::uint32_t{0}), out.put(static_cast<std::uint32_t>(own_)), out.put(places), out.put(rates);
+    const CopySample& s = given.sample;
+    out.put(given.tick), out.put(given.peer), out.put(given.roundTrip), out.put(s.sequence), out.put(s.time);
+    for (const Vec3& v : {s.hand, s.handVelocity}) out.put(v.x), out.put(v.y), out.put(v.z);
+    out.put(s.work);
+    for (std::uint32_t i = 0; i < places; ++i) out.put(s.places[i]);
+    for (std::uint32_t i = 0; i < rates; ++i) out.put(s.rates[i]);
+  }
+  if (count == 0) return {};
+  out.overwrite(0, count);
+  return {out.bytes().begin(), out.bytes().end()};
+}
+
+bool isOfStation(const record::RunLog& log) {
+  return recordedValues(log.configuration()).hands.size() > static_cast<std::size_t>(log.configuration().table.hands);
+}
+
+record::Replay replayStation(const record::RunLog& log) {
+  std::vector<GivenSample> given;
+  int own = -1;
+  record::LogReader reader(log.path());
+  record::RecordView record;
+  while (reader.goodEnd() < log.goodBytes() && reader.next(record)) {
+    if (record.type != record::RecordType::PeerTicks) continue;
+    for (const GivenSample& one : decodeGiven(record.payload, own)) given.push_back(one);
+  }
+  if (own < 0)
+    throw FaultError(Fault{{}, "holds nothing of the other stations, so the run cannot be simulated again", {}, FilePlace{log.path()}});
+  CoupledCopy* copy = nullptr;
+  std::size_t next = 0;
+  record::ReplayHooks hooks;
+  hooks.makeEngine = [&](const experiment::CompiledExperiment& experiment, const haptics::EngineOptions& options) {
+    return makeStationEngine(experiment, own, options, copy);
+  };
+  hooks.afterTick = [&](const haptics::TickState& state) {
+    copy->beginTick(nextTime(state));
+    for (; next < given.size() && given[next].tick <= state.tick; ++next)
+      if (given[next].peer >= 0 && given[next].peer < copy->peerCount()) copy->take(given[next].peer, given[next].sample, given[next].roundTrip);
+  };
+  return record::replayRun(log, hooks);
+}
+
+std::unique_ptr<haptics::TickEngine> makeStationEngine(const experiment::CompiledExperiment& experiment, int own,
+                                                       const haptics::EngineOptions& options, CoupledCopy*& copy) {
+  experiment::Experiment e = experiment.experiment();
+  auto plant = std::make_unique<CoupledCopy>(e, experiment.constraint(), own, copySettingsFor(e));
+  copy = plant.get();
+  e.object.fpOffset = e.hands.at(static_cast<std::size_t>(own)).fpOffset;
+  dynamics::Scene scene;
+  scene.choice.method = "rk4";
+  scene.choice.form = fmt::format("copy of station {} of {}", own + 1, e.hands.size());
+  scene.choice.reason = "stations move the object together: a full copy at each, rk4, one step a tick";
+  scene.constraint = experiment.constraint();
+  scene.plant = std::move(plant);
+  return std::make_unique<haptics::TickEngine>(e, std::move(scene), options);
+}
+
+}  // namespace reachlab::network

@@ -1,0 +1,109 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "network/line/line_memory.h"
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/haptics/run_sink.h"
+#include "sim/haptics/tick_engine.h"
+#include "sim/record/replay.h"
+
+namespace reachlab::network {
+
+/// How a station stands in its laboratory.
+struct StationOptions {
+  int station = 1;   // from 1: which of the experiment's hands is here
+  int stations = 2;
+  bool conductor = false;
+  std::string name, device, software;
+  std::string endpoint;               // the endpoint's program
+  std::string secure;                 // folder of this station's certificates; empty: nothing is encrypted
+  std::string interface;              // of the network; empty: the system's choice
+  std::vector<std::string> peers;     // addresses beyond one network; then no multicast
+  int domain = 0;                     // stations of one domain hear each other
+};
+
+/// What must be equal at all stations, as a number: the experiment without its file's text.
+std::uint64_t sharedHash(const experiment::Experiment& experiment);
+
+/// A station's end of the line: the rings in memory, and the endpoint's process, which ends with this. Controlling thread, but for the
+/// memory's rings.
+class StationLine {
+ public:
+  /// Makes the memory and starts the endpoint. Throws ResourceError.
+  StationLine(const StationOptions& options, std::uint64_t experiment);
+  ~StationLine();
+  StationLine(const StationLine&) = delete;
+  StationLine& operator=(const StationLine&) = delete;
+
+  LineMemory& memory() { return *memory_; }
+  void send(const LineEvent& event);
+  /// Reads cards that have come; call it now and then.
+  void look();
+  /// False once the endpoint has ended, or has not done a round for a second.
+  bool endpointAlive() const;
+  /// Why a trial may not be armed: who is missing, differs, or has too poor a line; one sentence each, with the numbers. Empty: it may.
+  std::vector<std::string> obstacles() const;
+  /// One line a station: name, device, round trip, jitter, loss, offset.
+  std::string describe() const;
+
+ private:
+  StationOptions options_;
+  std::uint64_t experiment_;
+  std::string memoryName_;
+  LineMemory* memory_ = nullptr;
+  int process_ = -1;
+  std::array<StationCard, kMaxStations> cards_{};
+  std::array<std::int64_t, kMaxStations> cardNs_{};
+};
+
+/// A peer's sample as it was given to the copy after a tick: what the log keeps of it.
+struct GivenSample {
+  std::uint64_t tick = 0;
+  std::int32_t peer = 0;  // of the copy
+  double roundTrip = -1;  // [s]
+  CopySample sample;
+};
+
+/// Between the haptic thread and the rings: sends this station's state every tick, and hands what came to the copy before the next. It allocates
+/// nothing and waits for nothing.
+class StationSink final : public haptics::RunSink {
+ public:
+  /// All outlive the sink's use. `own`: from 0.
+  StationSink(LineMemory& memory, CoupledCopy& copy, int own)
+      : memory_(memory), copy_(copy), own_(own), given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
+  bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
+  void announce(std::int32_t, const trial::PlannedTrial&) override {}
+  void awaitTrial(std::int32_t) override {}
+  void close() override {}
+
+  /// Controlling thread, now and then: what was given since, as the payload of a record; empty: nothing. Only `places` coordinates are kept.
+  std::vector<std::uint8_t> takeGiven();
+
+  /// The largest distance between this copy and another in the latest trial, and samples of it that were lost for want of room. Any thread.
+  double mostApart() const noexcept { return mostApart_.load(std::memory_order_relaxed); }
+  double rmsApart() const noexcept { return rmsApart_.load(std::memory_order_relaxed); }
+
+ private:
+  LineMemory& memory_;
+  CoupledCopy& copy_;
+  int own_;
+  std::unique_ptr<SpscQueue<GivenSample, 4096>> given_;
+  std::uint32_t sequence_ = 0;
+  std::int32_t trial_ = 0;
+  double squares_ = 0;
+  std::uint64_t count_ = 0;
+  std::atomic<double> mostApart_{0}, rmsApart_{0};  // [m]
+};
+
+/// True for the log of a station: it has fewer hands than its experiment.
+bool isOfStation(const record::RunLog& log);
+/// A station's run again, from its own log: its hand's samples and what the others sent. Throws as record::replayRun.
+record::Replay replayStation(const record::RunLog& log);
+
+/// The engine of one station: its own hand on its copy of the object. `copy` becomes the engine's. Throws what CoupledCopy throws.
+std::unique_ptr<haptics::TickEngine> makeStationEngine(const experiment::CompiledExperiment& experiment, int own,
+                                                       const haptics::EngineOptions& options, CoupledCopy*& copy);
+
+}  // namespace reachlab::network

@@ -1,0 +1,71 @@
+#include "network/study/network_study.h"
+
+#include <gtest/gtest.h>
+
+namespace reachlab::network {
+namespace {
+
+StudyCell cell(const StudyTables& tables, StudyObject object, Coupling coupling, double roundTrip) {
+  for (const StudyCell& c : tables.cells)
+    if (c.object == object && c.coupling == coupling && c.roundTrip == roundTrip) return c;
+  ADD_FAILURE() << "no such cell";
+  return {};
+}
+
+class Study : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    StudyPlan plan;
+    plan.roundTrips = {0, 0.05, 0.1};
+    plan.couplings = {Coupling::ServerForce, Coupling::CopiesGuessed, Coupling::Design};
+    plan.seeds = 2;
+    plan.setups = 0;
+    tables_ = std::make_unique<StudyTables>(runNetworkStudy(plan));
+  }
+  static void TearDownTestSuite() { tables_.reset(); }
+  static std::unique_ptr<StudyTables> tables_;
+};
+std::unique_ptr<StudyTables> Study::tables_;
+
+// The bounds that the design asks of a line: half a millimetre at 50 ms, one and a half at 100.
+TEST_F(Study, TheDesignIsStableAndItsCopiesKeepTogether) {
+  for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel}) {
+    for (const double roundTrip : {0.0, 0.05, 0.1}) {
+      const StudyCell c = cell(*tables_, object, Coupling::Design, roundTrip);
+      EXPECT_EQ(c.stable, c.runs) << nameOf(object) << roundTrip;
+      EXPECT_LT(c.apart, roundTrip == 0 ? 1e-5 : roundTrip == 0.05 ? 5e-4 : 1.5e-3) << nameOf(object) << roundTrip;
+      EXPECT_LT(c.forceError, 0.3 * c.force) << nameOf(object) << roundTrip;
+    }
+  }
+}
+
+TEST_F(Study, ClosingTheSpringOverTheLineIsNotStable) {
+  EXPECT_EQ(cell(*tables_, StudyObject::Chain, Coupling::ServerForce, 0).stable, 2);
+  EXPECT_EQ(cell(*tables_, StudyObject::Chain, Coupling::ServerForce, 0.1).stable, 0);
+  EXPECT_EQ(cell(*tables_, StudyObject::Parallel, Coupling::ServerForce, 0.1).stable, 0);
+}
+
+TEST_F(Study, DeadReckoningAloneIsNot) { EXPECT_EQ(cell(*tables_, StudyObject::Chain, Coupling::CopiesGuessed, 0.1).stable, 0); }
+
+TEST_F(Study, TheSameSeedsGiveTheSameTable) {
+  StudyPlan plan;
+  plan.roundTrips = {0.05};
+  plan.couplings = {Coupling::Design};
+  plan.seeds = 1;
+  plan.setups = 2;
+  EXPECT_EQ(studyCsv(runNetworkStudy(plan)), studyCsv(runNetworkStudy(plan)));
+}
+
+// A part of the study's random set-ups; `reach bench --network` has them all.
+TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
+  StudyPlan plan;
+  plan.setups = 6;
+  for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel}) {
+    const StudyShare share = runRandomSetups(plan, object, Coupling::Design, 0.1);
+    EXPECT_GE(share.stable, 5) << nameOf(object);
+    EXPECT_LT(share.ledgerDuration, 0.5) << nameOf(object) << " above " << kLedgerAmount << " J";
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::network
