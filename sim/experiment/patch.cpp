@@ -1,0 +1,79 @@
+#include "sim/experiment/patch.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/fault.h"
+#include "base/json_tree.h"
+
+namespace reachlab::experiment {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Step {
+  std::string key;                // of an object; empty: an element
+  std::optional<std::size_t> at;  // of an array; none: every one
+};
+
+std::vector<Step> stepsOf(const std::string& path) {
+  const auto refuse = [&](const std::string& what) { throw FaultError(Fault{path, what, "as in object.masses_kg[0] or task.duration_s"}); };
+  std::vector<Step> steps;
+  std::size_t at = 0;
+  while (at < path.size()) {
+    if (path[at] == '[') {
+      const std::size_t close = path.find(']', at);
+      if (close == std::string::npos) refuse("has a [ without ]");
+      const std::string inside = path.substr(at + 1, close - at - 1);
+      Step step;
+      if (inside != "*") {
+        std::size_t index = 0;
+        const auto [end, error] = std::from_chars(inside.data(), inside.data() + inside.size(), index);
+        if (error != std::errc() || end != inside.data() + inside.size()) refuse(fmt::format("has no number in [{}]", inside));
+        step.at = index;
+      }
+      steps.push_back(step);
+      at = close + 1;
+      if (at < path.size() && path[at] == '.') ++at;
+      continue;
+    }
+    const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
+    if (end == at) refuse("has an empty key");
+    steps.push_back({path.substr(at, end - at), std::nullopt});
+    at = end + (end < path.size() && path[end] == '.');
+  }
+  if (steps.empty() || path.back() == '.') refuse("has an empty key");
+  return steps;
+}
+
+void put(Json& node, std::span<const Step> steps, const Json& value, const std::string& path) {
+  if (steps.empty()) {
+    node = value;
+    return;
+  }
+  const Step& step = steps.front();
+  if (!step.key.empty()) {
+    if (node.is_null()) node = Json::object();
+    if (!node.is_object()) throw FaultError(Fault{path, fmt::format("looks for {} in what is no object", step.key), "keys of the file"});
+    return put(node[step.key], steps.subspan(1), value, path);
+  }
+  if (!node.is_array()) throw FaultError(Fault{path, "looks for an element of what is no array", "keys of the file"});
+  if (step.at && *step.at >= node.size())
+    throw FaultError(Fault{path, fmt::format("is beyond the {} elements that are there", node.size()), "an element that is there, from 0"});
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (!step.at || *step.at == i) put(node[i], steps.subspan(1), value, path);
+}
+
+}  // namespace
+
+std::string patchedText(const std::string& text, const std::string& file, std::span<const Patch> patches) {
+  static_cast<void>(parseJson(text, file));  // faults with their places
+  Json tree = Json::parse(text, nullptr, true, true);
+  for (const Patch& patch : patches) put(tree, stepsOf(patch.path), Json::parse(patch.value, nullptr, true, true), patch.path);
+  return tree.dump(2) + "\n";
+}
+
+}  // namespace reachlab::experiment
