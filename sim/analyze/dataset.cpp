@@ -12,55 +12,15 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/ticks.h"
-#include "constraints/geometry/task_path.h"
 #include "sim/analyze/equal_runs.h"
 #include "sim/analyze/experiment_difference.h"
+#include "sim/analyze/run_trials.h"
 #include "sim/analyze/tables.h"
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 
 namespace reachlab::analyze {
 namespace {
-
-/// Where the columns that are needed stand in this run's table.
-struct Columns {
-  std::size_t hand, force, object, velocity;
-  std::size_t parameter = 0;  // of mass 1, on curves
-  explicit Columns(const record::ChannelTable& table) {
-    const std::string last = fmt::format("mass{}", table.massCount);
-    hand = table.indexOf("hand_pos_x");
-    force = table.indexOf("coupling_force_x");
-    object = table.indexOf(last + "_pos_x");
-    velocity = table.indexOf(last + "_vel_x");
-    if (table.parameterCount == 1) parameter = table.indexOf("mass1_q1");
-  }
-};
-
-Vec3 vectorAt(const record::SampleRows& rows, std::size_t row, std::size_t column) {
-  return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
-}
-
-/// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
-void appendEvenly(TrialData& trial, const record::SampleRows& rows, const Columns& columns, const constraints::TaskPath& path,
-                  std::uint64_t every) {
-  const auto put = [&](std::size_t a, std::size_t b, double part) {
-    const auto mix = [&](std::size_t column) { return (1 - part) * vectorAt(rows, a, column) + part * vectorAt(rows, b, column); };
-    trial.hand.push_back(mix(columns.hand));
-    trial.object.push_back(mix(columns.object));
-    trial.objectVelocity.push_back(mix(columns.velocity));
-    trial.force.push_back(norm(mix(columns.force)));
-    if (path.bent())
-      trial.along.push_back(path.directionAt((1 - part) * rows.at(a, columns.parameter) + part * rows.at(b, columns.parameter)));
-  };
-  std::size_t a = 0;
-  for (std::uint64_t tick = rows.ticks.front(); tick <= rows.ticks.back(); tick += every) {
-    while (a + 1 < rows.size() && rows.ticks[a + 1] <= tick) ++a;
-    const std::size_t b = std::min(a + 1, rows.size() - 1);
-    const double gap = static_cast<double>(rows.ticks[b] - rows.ticks[a]);
-    put(a, b, gap > 0 ? static_cast<double>(tick - rows.ticks[a]) / gap : 0);
-  }
-}
 
 // "chain-moderate (duration 1.5 s)": what sets an experiment apart from the first of its name.
 std::string nameApart(const std::string& name, const std::vector<std::string>& different) {
@@ -142,41 +102,15 @@ void addRun(const RunSource& run, const experiment::CompiledExperiment& compiled
     return;
   }
   const std::size_t condition = conditionIndex(index, index.runs.back().condition, compiled);
-  const Columns columns(c.table);
-  const constraints::TaskPath path(compiled.constraint(), experiment.task->start, experiment.task->target);
-  const std::uint64_t every = std::max<std::uint64_t>(1, c.sampleEveryTicks);
+  const RunTrials trials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target});
   for (const record::RecordedTrial& recorded : run.trials) {
-    TrialData trial;
+    TrialData trial = trials.read(recorded, run.rowsOf);
     trial.key = {c.subject, c.session, index.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
     trial.practice = c.practice;
-    trial.catchTrial = recorded.planned.catchTrial;
-    trial.result = recorded.result;
     if (const record::TrialMark* mark = run.marks.find(recorded.trial)) {
       trial.excluded = mark->excluded;
       trial.markedOnset = mark->onset.value_or(kNotMeasured);
       trial.markedOffset = mark->offset.value_or(kNotMeasured);
-    }
-    trial.rate = kTicksPerSecond / static_cast<double>(every);
-    trial.start = path.start();
-    trial.target = path.target();
-    trial.closed = path.bent() && path.constraint().domain[0].periodic;
-    if (path.straight() && !(path.directionAt(0) == Vec3{})) trial.along = {path.directionAt(0)};
-    if (recorded.armedTick > 0) {
-      // What the hand does after the trial, or where it is put for the next one, is no part of the movement.
-      const std::uint64_t end = recorded.result.endTick > 0 ? recorded.result.endTick : recorded.lastTick;
-      const record::SampleRows rows = run.rowsOf(recorded.armedTick, std::max(end, recorded.armedTick));
-      const auto seconds = [&](std::uint64_t tick) { return tick == 0 ? kNotMeasured : secondsBetween(recorded.armedTick, tick); };
-      if (rows.size() > 0) {
-        appendEvenly(trial, rows, columns, path, every);
-        trial.first = seconds(rows.ticks.front());
-        trial.goTime = seconds(recorded.goTick);
-        trial.taskOnset = seconds(recorded.result.onsetTick);
-        trial.taskEnd = recorded.result.onsetTick == 0 ? kNotMeasured : seconds(std::max(end, recorded.result.onsetTick));
-      }
-      if (recorded.result.onsetTick > 0 && recorded.peakForce > 0) {
-        trial.peakForce = recorded.peakForce;
-        if (recorded.meanForce > 0) trial.meanForce = recorded.meanForce;
-      }
     }
     sink.add(std::move(trial), condition);
   }
