@@ -94,17 +94,73 @@ ReachPlan planAlongChord(const experiment::Experiment& experiment, const Vec3& s
   return planByPrediction(experiment, length, criterion, handMass, [=](double s) { return start + s * direction; });
 }
 
+/// The way of a task along a curve, by arc length.
+class CurveWay {
+ public:
+  CurveWay(const experiment::Task& task, const constraints::Constraint& constraint)
+      : curve_(constraint.curve), way_(constraint, task.start[0], task.target[0]), sense_(task.target[0] < task.start[0] ? -1 : 1) {
+    if (!(way_.length() > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+    // Beyond both ends at their own pace, since a hand that carries springs passes the target.
+    const auto perMetre = [&](double phi) { return sense_ / norm(constraints::evaluate(curve_, phi).rPhi); };
+    before_ = perMetre(task.start[0]);
+    after_ = perMetre(task.target[0]);
+  }
+  double length() const { return way_.length(); }
+  constraints::CurvePoint at(double s) const {
+    const double beyond = s < 0 ? s * before_ : s > way_.length() ? (s - way_.length()) * after_ : 0;
+    return constraints::evaluate(curve_, way_.parameterAt(std::clamp(s, 0.0, way_.length())) + beyond);
+  }
+  double sense() const { return sense_; }
+
+ private:
+  constraints::Curve curve_;
+  constraints::ArcLength way_;
+  double sense_, before_ = 0, after_ = 0;
+};
+
+// The prediction for a line as long as the curve, laid along the arc.
 ReachPlan planAlongCurve(const experiment::Experiment& experiment, const constraints::Constraint& constraint, predict::Criterion criterion,
                          std::optional<double> handMass) {
-  const double from = experiment.task->start[0], to = experiment.task->target[0];
-  const auto way = std::make_shared<const constraints::ArcLength>(constraint, from, to);
-  if (!(way->length() > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
-  // Beyond both ends at their own pace, since a hand that carries springs passes the target.
-  const auto perMetre = [&](double phi) { return (to < from ? -1 : 1) / norm(constraints::evaluate(constraint.curve, phi).rPhi); };
-  const double before = perMetre(from), after = perMetre(to);
-  return planByPrediction(experiment, way->length(), criterion, handMass, [=](double s) {
-    const double beyond = s < 0 ? s * before : s > way->length() ? (s - way->length()) * after : 0;
-    return constraints::evaluate(constraint.curve, way->parameterAt(std::clamp(s, 0.0, way->length())) + beyond).r;
+  const auto way = std::make_shared<const CurveWay>(*experiment.task, constraint);
+  return planByPrediction(experiment, way->length(), criterion, handMass, [=](double s) { return way->at(s).r; });
+}
+
+// What the criterion predicts on the curve itself. Of a point on a curve the prediction is the mass, and the hand leads it by the spring's
+// extension.
+ReachPlan planByCurvePrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                                predict::Criterion criterion, std::optional<double> handMass) {
+  const auto way = std::make_shared<const CurveWay>(*experiment.task, constraint);
+  const experiment::Task& task = *experiment.task;
+  const bool point = experiment.object.kind == experiment::ObjectKind::Point;
+  if (point && (!experiment.coupling || !(experiment.coupling->stiffness > 0)))
+    throw RefusedError("coupling.stiffness_n_per_m: 0; nothing joins the simulated subject to the object");
+  const double mass = experiment.object.masses.at(0), viscosity = experiment.object.viscosity,
+               stiffness = point ? experiment.coupling->stiffness : 0;
+  return timeForTask(task, [&](double duration) {
+    predict::PredictOptions options;
+    options.handMass = handMass;
+    options.duration = duration;
+    const std::shared_ptr<const predict::Prediction> prediction = predict::predict(experiment, constraint, criterion, options);
+    const auto handAt = [=](double t) {
+      const predict::PredictedHand hand = prediction->handAt(t);
+      const constraints::CurvePoint at = way->at(hand.position);
+      if (!point) return at.r;
+      const Vec3 along = way->sense() / norm(at.rPhi) * at.rPhi;
+      const Vec3 bend = (at.rPhiPhi - dot(along, at.rPhiPhi) * along) / dot(at.rPhi, at.rPhi);
+      const Vec3 acceleration = hand.acceleration * along + hand.velocity * hand.velocity * bend;
+      const Vec3 lead = (mass * acceleration + viscosity * hand.velocity * along) / stiffness;
+      return isFinite(lead) ? at.r + lead : at.r;
+    };
+    std::vector<double> x(static_cast<std::size_t>(prediction->massCount())), v(x.size());
+    const Vec3 start = handAt(0);
+    const auto hasLeft = [&](double t) { return norm(handAt(t) - start) > task.onset; };
+    const auto isThere = [&](double t) {
+      prediction->massesAt(t, x, v);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::abs(x[i] - way->length()) > task.tolerance.position || std::abs(v[i]) > task.tolerance.velocity) return false;
+      return true;
+    };
+    return TimedPlan{{duration, handAt}, computeArrival(duration, hasLeft, isThere)};
   });
 }
 
@@ -167,16 +223,25 @@ ReachPlan makeReachPlan(const experiment::CompiledExperiment& compiled, std::opt
   if (flat && place.start == place.target) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
   constexpr auto kUsual = predict::Criterion::MinHandJerk;
   if (flat) return planAlongChord(experiment, place.start, place.target, criterion.value_or(kUsual), handMass);
-  if (criterion || handMass)
-    throw FaultError(
-        Fault{"device",
-              fmt::format("simulated: {}: the simulated subject plans by a criterion on a straight line and free in space, not on {} '{}'",
-                          criterion ? fmt::format("criterion={}", predict::nameOf(*criterion)) : fmt::format("hand-mass={}", *handMass),
-                          constraint.kind == constraints::ConstraintKind::Curve ? "the curve" : "the surface", experiment.constraint.name),
-              "neither criterion nor hand-mass here"});
+  const bool curve = constraint.kind == constraints::ConstraintKind::Curve;
+  if ((criterion || handMass) && !curve)
+    throw FaultError(Fault{
+        "device",
+        fmt::format(
+            "simulated: {}: the simulated subject plans by a criterion on lines, on curves and free in space, not on the surface '{}'",
+            criterion ? fmt::format("criterion={}", predict::nameOf(*criterion)) : fmt::format("hand-mass={}", *handMass),
+            experiment.constraint.name),
+        "neither criterion nor hand-mass here"});
   const bool flexible =
       experiment.object.kind == experiment::ObjectKind::Chain || experiment.object.kind == experiment::ObjectKind::Parallel;
-  if (flexible && constraint.kind == constraints::ConstraintKind::Curve) return planAlongCurve(experiment, constraint, kUsual, handMass);
+  if (criterion) return planByCurvePrediction(experiment, constraint, *criterion, handMass);
+  if (curve) {
+    try {
+      return planByCurvePrediction(experiment, constraint, kUsual, handMass);
+    } catch (const RefusedError&) {  // a cusp, gravity along the way …: what was not asked for gives way
+    }
+  }
+  if (flexible && curve) return planAlongCurve(experiment, constraint, kUsual, handMass);
   if (flexible) throw RefusedError("the simulated subject has no plan for several masses on a surface; use one mass, or a curve");
   if (!experiment.coupling || !(experiment.coupling->stiffness > 0))
     throw RefusedError("coupling.stiffness_n_per_m: 0; nothing joins the simulated subject to the object");

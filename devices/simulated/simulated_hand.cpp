@@ -10,8 +10,10 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
+#include "devices/options.h"
 #include "devices/simulated/played_hand.h"
-#include "devices/simulated/reach_plan.h"
+#include "devices/simulated/sampled_plan.h"
+#include "devices/subject/subject_kinds.h"
 #include "base/seeded.h"
 
 namespace reachlab::devices {
@@ -33,25 +35,33 @@ class TrialRandom {
   std::uint64_t state_, count_ = 0;
 };
 
-/// A smooth random function of time with unit variance: a few sinusoids of voluntary movement's frequencies.
+/// A smooth random function of time with unit variance: a few sinusoids of voluntary movement's frequencies, turned on from tick to tick.
 class SmoothNoise {
  public:
   explicit SmoothNoise(TrialRandom& random) {
     for (Wave& w : waves_) {
-      w.omega = 2 * std::numbers::pi * (kLowest + (kHighest - kLowest) * random.uniform());
-      w.phase = 2 * std::numbers::pi * random.uniform();
+      const double omega = 2 * std::numbers::pi * (kLowest + (kHighest - kLowest) * random.uniform());
+      const double phase = 2 * std::numbers::pi * random.uniform();
+      w = {std::sin(phase), std::cos(phase), std::sin(omega * kTickSeconds), std::cos(omega * kTickSeconds)};
     }
   }
-  double at(double t) const {
+  /// At the next tick; the first is one tick after time 0.
+  double next() {
     double sum = 0;
-    for (const Wave& w : waves_) sum += std::sin(w.omega * t + w.phase);
-    return sum * std::sqrt(2.0 / static_cast<double>(waves_.size()));
+    for (Wave& w : waves_) {
+      const double sine = w.sine * w.turnCosine + w.cosine * w.turnSine;
+      w.cosine = w.cosine * w.turnCosine - w.sine * w.turnSine;
+      w.sine = sine;
+      sum += sine;
+    }
+    return sum * kScale;
   }
 
  private:
-  static constexpr double kLowest = 0.5, kHighest = 4;  // [Hz]
+  static constexpr double kLowest = 0.5, kHighest = 4;       // [Hz]
+  static constexpr double kScale = std::numbers::sqrt2 / 2;  // of four waves
   struct Wave {
-    double omega = 0, phase = 0;
+    double sine = 0, cosine = 0, turnSine = 0, turnCosine = 0;
   };
   std::array<Wave, 4> waves_{};
 };
@@ -66,29 +76,32 @@ Frame frameOf(const Vec3& along) {
   return {e, across, cross(across, e)};
 }
 
-PlayedReach carryOut(const ReachPlan& plan, const SubjectSpec& subject, std::uint64_t seed, int trial) {
+PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::uint64_t seed, int trial) {
   TrialRandom random(seed, trial);
   const double stretch = 1 + subject.noise * subject.timeSd * random.normal();
   constexpr double kReactionSpread = 0.15;
   const double reaction = subject.reaction * (1 + std::min(subject.noise, 1.0) * kReactionSpread * random.normal());
-  const SmoothNoise along(random), across(random), up(random);
+  SmoothNoise along(random), across(random), up(random);
   const double sd = subject.noise * subject.speedSd;
 
-  const double duration = plan.duration * stretch;
+  const double duration = plan.duration() * stretch;
   const auto still = static_cast<std::size_t>(std::max(1.0, reaction / kTickSeconds));
   const auto steps = static_cast<std::size_t>(std::ceil(duration / kTickSeconds));
   PlayedReach reach;
   reach.position.reserve(still + steps + 2);
-  Vec3 planned = plan.handAt(0), hand = planned;
+  Vec3 planned = plan.at(0), hand = planned;
   reach.position.assign(still, planned);
   for (std::size_t i = 1; i <= steps; ++i) {
     const double t = std::min(static_cast<double>(i) * kTickSeconds, duration);
-    const Vec3 next = plan.handAt(std::min(t / stretch, plan.duration)), by = next - planned;
+    const Vec3 next = plan.at(std::min(t / stretch, plan.duration())), by = next - planned;
     planned = next;
     hand += by;
-    if (const double distance = norm(by); sd > 0 && distance > 0) {
-      const Frame frame = frameOf(by);
-      hand += sd * distance * (along.at(t) * frame.along + across.at(t) * frame.across + up.at(t) * frame.up);
+    if (sd > 0) {
+      const double a = along.next(), b = across.next(), c = up.next();
+      if (const double distance = norm(by); distance > 0) {
+        const Frame frame = frameOf(by);
+        hand += sd * distance * (a * frame.along + b * frame.across + c * frame.up);
+      }
     }
     reach.position.push_back(hand);
   }
@@ -123,6 +136,7 @@ SubjectSpec parseSubject(const std::string& text) {
     at = end + 1;
     const std::size_t equals = item.find('=');
     const std::string key = item.substr(0, equals), value = equals == std::string::npos ? "" : item.substr(equals + 1);
+    if (key == "kind" && value == "plan") continue;
     if (key == "noise") subject.noise = readNumber(key, value, 10);
     else if (key == "time-sd") subject.timeSd = readNumber(key, value, 0.3);
     else if (key == "speed-sd") subject.speedSd = readNumber(key, value, 1);
@@ -136,22 +150,42 @@ SubjectSpec parseSubject(const std::string& text) {
   return subject;
 }
 
-std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,
-                                                         std::uint64_t seed) {
-  const ReachPlan plan = makeReachPlan(experiment, subject.criterion, subject.handMass);
+MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject) {
+  const auto plan = std::make_shared<const SampledPlan>(makeReachPlan(experiment, subject.criterion, subject.handMass));
   haptics::DeviceInfo info;
   info.name = "simulated";
   info.version = "1";
-  return std::make_unique<PlayedHand>(info, [=](int trial) { return carryOut(plan, subject, seed, trial); });
+  return [=](std::uint64_t seed, int, std::shared_ptr<void>&) {
+    return std::make_unique<PlayedHand>(info, [=](int trial) { return carryOut(*plan, subject, seed, trial); });
+  };
+}
+
+MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device) {
+  const std::string name = device.substr(0, device.find(':'));
+  if (name != "simulated") throw FaultError(Fault{"subject", "is " + device, "a simulated subject"});
+  const std::string options = name == device ? "" : device.substr(name.size() + 1);
+  const std::string kind = DeviceOptions(options, "device simulated").word("kind", {"plan", "impedance", "ofc"});
+  if (kind == "ofc") return prepareFeedbackSubjects(experiment, options);
+  if (kind == "impedance") return prepareImpedanceSubjects(experiment, options);
+  return prepareSubjects(experiment, parseSubject(options));
+}
+
+std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,
+                                                         std::uint64_t seed) {
+  std::shared_ptr<void> learnt;
+  return prepareSubjects(experiment, subject)(seed, 0, learnt);
 }
 
 DeviceDriver simulatedDriver() {
   return {"simulated",
           "simulated[:KEY=VALUE,…]",
-          "a virtual subject: minimum hand jerk for this very object, with seeded motor noise",
+          "a virtual subject: plans by a criterion for this very object, or feels, errs and learns (docs/virtual-subjects.md)",
           false,
           alwaysThere,
-          [](const DeviceRequest& r) { return makeSimulatedHand(r.experiment, parseSubject(r.argument), r.seed); }};
+          [](const DeviceRequest& r) {
+            std::shared_ptr<void> learnt;
+            return prepareSubjects(r.experiment, r.argument.empty() ? "simulated" : "simulated:" + r.argument)(r.seed, 0, learnt);
+          }};
 }
 
 }  // namespace reachlab::devices

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,15 @@ struct SubjectSpec {
 
 /// Reads `noise=0,criterion=min-hand-force-change,hand-mass=1,time-sd=0.07,speed-sd=0.07,reaction=0.2` (all optional). Throws FaultError.
 SubjectSpec parseSubject(const std::string& text);
+
+/// One subject's hand for one block of a day. `learnt`: what the subject keeps from block to block, null at first.
+using MakeSubject = std::function<std::unique_ptr<haptics::HapticDevice>(std::uint64_t seed, int day, std::shared_ptr<void>& learnt)>;
+
+/// What all subjects of that kind share, the plan first of all, is made here, once; any thread may then make hands, several at a time.
+/// Throws FaultError, RefusedError from the plan.
+MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject);
+/// The same for a device as it is asked for, `simulated:KEY=VALUE,…`.
+MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device);
 
 /// Throws FaultError, RefusedError from the plan. Trial i is a function of (seed, i) alone.
 std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,

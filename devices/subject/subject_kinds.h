@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+#include "devices/simulated/simulated_hand.h"
+
+namespace reachlab::devices {
+
+/// Subjects of `kind=ofc` and of `kind=impedance`, by their options as text (feedback_subject.h, impedance_subject.h). Throw FaultError,
+/// RefusedError.
+MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
+MakeSubject prepareImpedanceSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
+
+}  // namespace reachlab::devices
