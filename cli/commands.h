@@ -22,5 +22,6 @@ void addStationCommand(CLI::App& app, int& exitCode);
 void addPeersCommand(CLI::App& app, int& exitCode);
 void addStabilityCommand(CLI::App& app, int& exitCode);
 void addVelocityCommand(CLI::App& app, int& exitCode);
+void addStudyCommand(CLI::App& app, int& exitCode);
 
 }  // namespace reachlab::cli

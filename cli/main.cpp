@@ -36,7 +36,7 @@ int run(int argc, char** argv) {
   app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
   for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
                     addShowCommand, addReplayCommand, addExportCommand, addBackupCommand, addRecoverCommand, addConstraintCommand,
-                    addBenchCommand, addStationCommand, addPeersCommand, addStabilityCommand, addVelocityCommand})
+                    addBenchCommand, addStationCommand, addPeersCommand, addStabilityCommand, addVelocityCommand, addStudyCommand})
     add(app, exitCode);
   for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   return exitCodeOf(app, [&] {

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/option_words.h"
 #include "cli/preflight_output.h"
+#include "cli/study_words.h"
 #include "constraints/definition.h"
 #include "base/fault.h"
 #include "base/json_reader.h"
@@ -20,7 +21,7 @@ namespace reachlab::cli {
 namespace {
 
 constexpr const char* kExpected =
-    "an experiment file, a constraint definition or a session plan (JSON with comments), or the name of a shipped one";
+    "an experiment file, a constraint definition, a session plan or a study (JSON with comments), or the name of a shipped one";
 
 // The file behind a name, as `reach run` and the constraint commands understand it.
 std::string fileOf(const std::string& fileOrName) {
@@ -58,6 +59,8 @@ std::optional<experiment::CompiledExperiment> validateFile(const std::string& fi
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
     if (std::vector<Fault> faults = session::planProblems(file); !faults.empty()) throw FaultError(std::move(faults));
+  } else if (tree.find("subjects") != nullptr) {
+    study::checkPoints(study::readDesign(file), prepareSimulated());
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     constraints::parseDefinition(text, file);
   } else {
@@ -89,7 +92,7 @@ void checkOnDevice(const Request& r, const session::Programme& programme) {
 }  // namespace
 
 void addValidateCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions and session plans");
+  CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions, session plans and studies");
   const auto r = std::make_shared<Request>();
   command->add_option("files", r->files, "files to check, or names of shipped ones; every fault of every file is named at once")
       ->required();

@@ -15,6 +15,7 @@ PAGES = {  # schema: its whole example
     "experiment": "resources/experiments/chain-moderate.json",
     "plan": "resources/plans/paper.json",
     "definition": "constraints/definitions/torus.json",
+    "study": "resources/studies/stiffness.json",
 }
 
 

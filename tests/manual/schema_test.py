@@ -35,7 +35,10 @@ CURVE = {"schema_version": 1, "name": "x", "kind": "curve", "curve": ["a_m*cos(p
 SURFACE = {**CURVE, "kind": "surface", "surface": ["a_m*u", "a_m*v", "a_m*u*v"], "domain": [[0, 6], [-1, 1]], "start": [0, 0], "target": [1, 1]}
 del SURFACE["curve"]
 
-BASES = {"experiment": POINT, "plan": PLAN, "definition": CURVE}
+STUDY = {"schema_version": 1, "experiment": "chain-moderate", "subjects": 2}
+PLANNED_STUDY = {"schema_version": 1, "subjects": 2}
+
+BASES = {"experiment": POINT, "plan": PLAN, "definition": CURVE, "study": STUDY}
 # Where a key or one of its examples needs another neighbourhood than the base file's: path, example or None for every one.
 NEIGHBOURS = {
     ("object.kind", None): CHAIN, ("object.masses_kg", None): CHAIN, ("object.stiffness_n_per_m", None): CHAIN,
@@ -47,6 +50,7 @@ NEIGHBOURS = {
     ("hands[].mass", None): LONG, ("hands[].stiffness_n_per_m", None): PAIR, ("hands[].damping_n_s_per_m", None): LONG,
     ("hands[].fp_offset_m", None): HELD,
     ("surface", None): SURFACE, ("domain", "[[0, \"2*pi\"], [-1, 1]]"): SURFACE, ("periodic", "[true, false]"): SURFACE,
+    ("plan", None): PLANNED_STUDY,
 }
 
 
@@ -142,7 +146,7 @@ class SchemaTest(unittest.TestCase):
                 self.assertFalse(self.satisfies(name, tree), f"{name} {path}: {tree}")
 
     def test_shipped_files_satisfy_their_schema(self):
-        folders = {"experiment": "resources/experiments", "plan": "resources/plans", "definition": "constraints/definitions"}
+        folders = {"experiment": "resources/experiments", "plan": "resources/plans", "definition": "constraints/definitions", "study": "resources/studies"}
         for name, folder in folders.items():
             files = sorted((ROOT / folder).glob("*.json"))
             self.assertTrue(files)

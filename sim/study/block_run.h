@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/haptics/tick_engine.h"
+#include "sim/record/channels.h"
+#include "sim/record/trial_tracker.h"
+
+namespace reachlab::study {
+
+/// One virtual subject in one block: physics and judgement, tick for tick as a recorded run on the virtual clock has them, and nothing
+/// else. Without samples a trial allocates only what its hand prepares for it. One thread.
+class BlockRun {
+ public:
+  static constexpr std::uint64_t kSampleEvery = 10;  // [ticks] as recordings have it unless they are asked for more
+
+  /// `withSamples`: the rows that a recording would hold are kept of the latest trial. Throws as compileScene does; FaultError for a hand
+  /// that is not virtual or that a watch would look after.
+  BlockRun(const experiment::CompiledExperiment& experiment, std::unique_ptr<haptics::HapticDevice> hand, bool withSamples);
+
+  /// Runs one trial to its end. Valid until the next call.
+  const record::RecordedTrial& runTrial(const trial::PlannedTrial& planned);
+  const record::ChannelTable& table() const { return table_; }
+  /// Of the latest trial, between two ticks.
+  record::SampleRows rowsBetween(std::uint64_t first, std::uint64_t last) const;
+
+ private:
+  void tick(const haptics::TickInput& order);
+  void keepRow(const haptics::TickState& state);
+
+  std::unique_ptr<haptics::HapticDevice> hand_;
+  haptics::TickEngine engine_;
+  record::TrialTracker tracker_;
+  record::RecordedTick seen_;
+  std::vector<record::RecordedEvent> events_;
+  std::int32_t trial_ = 0;
+  bool withSamples_;
+  record::ChannelTable table_;
+  record::SampleRows rows_;
+};
+
+}  // namespace reachlab::study

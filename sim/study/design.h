@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/fault.h"
+#include "sim/session/plan.h"
+
+namespace reachlab::study {
+
+/// What is varied: a key of the experiment, `subject.KEY`, `plan.KEY`, `experiment` (names) or `trials`.
+struct Axis {
+  std::string path;
+  std::vector<std::string> values;                   // as JSON; of a grid
+  std::optional<std::pair<double, double>> uniform;  // drawn between these instead, one value a sample
+};
+
+/// A study file as read: virtual subjects on a grid of settings or a random sample of them. Points are numbered with the last axis of the
+/// grid running fastest, the samples inside.
+struct Design {
+  std::string name;
+  std::string text, file;  // as read
+  std::uint64_t seed = 0;
+  std::string experiment;                                    // a file or a shipped name; empty: a plan
+  std::string plan;                                          // likewise
+  std::vector<std::pair<std::string, std::string>> subject;  // options of the simulated device, in order
+  std::int64_t subjects = 1;                                 // at each point
+  int trials = 1;                                            // of a subject; a plan has its own
+  std::vector<Axis> axes;
+  std::int64_t samples = 1;  // draws of the axes with `uniform`; 1 where there are none
+  std::vector<std::string> measures;
+  std::vector<std::string> criteria;  // compared with where measures ask for it; empty: all
+  bool profiles = false;              // the hand's and the last mass's velocity of each trial, 101 points
+  int chunkTrials = 0;                // trials that are computed and kept together; 0: chosen by the size of the study
+
+  /// Texts of the experiments and of the plan, by the names above: nothing is looked up again once the design is read.
+  std::map<std::string, std::string> experimentTexts;
+  std::string planText;
+};
+
+inline constexpr std::int64_t kMaxPoints = 100'000'000, kMaxSubjects = 100'000'000, kMaxTrialsOfStudy = 1'000'000'000'000;
+
+/// What a design names, given with it instead of being looked up: for one that is kept in a folder.
+struct NamedTexts {
+  std::string planFile, plan;  // its name, its text
+  std::map<std::string, std::string> experiments;
+};
+
+/// Throws FaultError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`. Points are checked when they are made.
+Design parseDesign(const std::string& text, const std::string& file, const std::optional<NamedTexts>& named = {});
+/// Reads a study file.
+Design readDesign(const std::string& file);
+/// The name that a block's experiment has in Design::experimentTexts, whatever folder it lay in; and the block's condition.
+std::string experimentNameOf(const session::PlanBlock& block);
+std::string conditionOf(const session::PlanBlock& block);
+/// True when the text is a study: an object with a member `subjects`.
+bool isStudy(const std::string& text, const std::string& file);
+
+}  // namespace reachlab::study

@@ -1,0 +1,239 @@
+// `reach study`: the same bytes however the work is divided and interrupted, and the same trials as `reach run`.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+namespace reachlab::test {
+namespace {
+
+constexpr const char* kStudy = R"({
+  "schema_version": 1, "name": "small", "seed": 3, "experiment": "chain-moderate", "subjects": 5, "trials": 3, "chunk_trials": 6,
+  "subject": { "kind": "plan" }, "profiles": true,
+  "vary": { "coupling.stiffness_n_per_m": [500, 600], "subject.noise": { "uniform": [0.5, 1.5], "n": 2 }, "subject.criterion": ["min-hand-jerk", "min-crackle"] },
+  "measures": ["movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "reaction_time_s", "duration_s", "epsilon"],
+  "criteria": ["min-hand-jerk", "min-crackle"]
+})";
+
+// The tables that a study wrote, one behind the other.
+std::string tablesOf(const std::string& folder) {
+  std::string all;
+  for (const char* name : {"/trials.csv.gz", "/trials.h5", "/trials.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder + name)) << folder << name;
+    all += contentOf(folder + name);
+  }
+  return all;
+}
+
+Table tableOf(const std::string& folder) { return parseCsv(shell("gzip -dc \"" + folder + "/trials.csv.gz\"").out); }
+
+class Study : public testing::Test {
+ protected:
+  const Folder folder;
+  const std::string file = folder.write("small.json", kStudy);
+  std::string at(const std::string& name) const { return (folder / name).string(); }
+  Ended run(const std::string& out, const std::string& more = "") const {
+    return reach("study " + file + " --out " + at(out) + " " + more);
+  }
+};
+
+TEST_F(Study, WritesARowForEachTrialOfEachSubjectOfEachPoint) {
+  ASSERT_EQ(run("a").exitCode, 0);
+  const Table table = tableOf(at("a"));
+  ASSERT_EQ(table.rows.size(), 2u * 2u * 2u * 5u * 3u);
+  EXPECT_EQ(table.rows[0][table.column("point")], "0");
+  EXPECT_EQ(table.rows.back()[table.column("point")], "7");
+  EXPECT_EQ(table.rows.back()[table.column("subject")], "5");
+  EXPECT_EQ(table.rows.back()[table.column("subject.criterion")], "min-crackle");
+  EXPECT_EQ(table.at(0, "coupling.stiffness_n_per_m"), 500);
+  // The draws of a random axis are the same at every point of the grid.
+  EXPECT_EQ(table.at(0, "subject.noise"), table.at(4 * 5 * 3, "subject.noise"));
+  EXPECT_NE(table.at(0, "subject.noise"), table.at(5 * 3, "subject.noise"));
+  const auto dictionary = nlohmann::json::parse(contentOf(at("a") + "/trials.json"));
+  for (const std::string& column : table.header) EXPECT_FALSE(dictionary.at(column).at("Description").get<std::string>().empty()) << column;
+}
+
+TEST_F(Study, GivesTheSameBytesForAnyNumberOfThreadsAndShares) {
+  ASSERT_EQ(run("one", "--jobs 1").exitCode, 0);
+  const std::string bytes = tablesOf(at("one"));
+  ASSERT_EQ(run("threads", "--jobs 3").exitCode, 0);
+  EXPECT_EQ(tablesOf(at("threads")), bytes);
+  for (const int of : {2, 7}) {
+    const std::string out = "shares" + std::to_string(of);
+    for (int i = of; i >= 1; --i) ASSERT_EQ(run(out, "--jobs 1 --shard " + std::to_string(i) + "/" + std::to_string(of)).exitCode, 0);
+    EXPECT_EQ(tablesOf(at(out)), bytes) << of << " shares";
+  }
+  const std::string slurm = "SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_STEP=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_ID=";
+  for (const char* id : {"4", "6"}) ASSERT_EQ(reach("study " + file + " --out " + at("array"), slurm + id).exitCode, 0);
+  EXPECT_EQ(tablesOf(at("array")), bytes) << "a Slurm array";
+}
+
+TEST_F(Study, GivesTheSameBytesAfterKillsAtAnyMoment) {
+  ASSERT_EQ(run("whole").exitCode, 0);
+  std::mt19937 random(7);
+  int killed = 0;
+  for (int round = 0; round < 200; ++round) {
+    const pid_t child = fork();
+    if (child == 0) {
+      if (freopen("/dev/null", "w", stdout) == nullptr || freopen("/dev/null", "w", stderr) == nullptr) _exit(99);
+      execl(REACH_PROGRAM, "reach", "study", file.c_str(), "--out", at("killed").c_str(), "--jobs", "2", "--resume", nullptr);
+      _exit(99);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution<>(1, 60 + 20 * round)(random)));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (WIFEXITED(status)) {
+      ASSERT_EQ(WEXITSTATUS(status), 0);
+      break;
+    }
+    ++killed;
+  }
+  EXPECT_GT(killed, 2);
+  EXPECT_EQ(tablesOf(at("killed")), tablesOf(at("whole")));
+}
+
+TEST_F(Study, ATrialIsTheSameToTheBitAsThatOfARecordedRun) {
+  ASSERT_EQ(run("a").exitCode, 0);
+  const Table table = tableOf(at("a"));
+  const Ended point = reach("study point " + at("a") + " 5 --subject 3 --out " + folder.string());
+  ASSERT_EQ(point.exitCode, 0) << point.err;
+  ASSERT_EQ(point.out.substr(0, 10), "reach run ");
+  ASSERT_EQ(shell("$REACH " + point.out.substr(6, point.out.size() - 7) + " --data " + at("data")).exitCode, 0);
+  ASSERT_EQ(reach("export " + at("data") + " --format csv --out " + at("csv")).exitCode, 0);
+  ASSERT_EQ(reach("analyze " + at("data") + " --criterion min-hand-jerk --criterion min-crackle --out " + at("analysis")).exitCode, 0);
+  const Table recorded = parseCsv(contentOf(at("csv") + "/trials.csv")), analysed = parseCsv(contentOf(at("analysis") + "/trials.csv"));
+  const std::size_t first = (5 * 5 + 2) * 3;
+  for (std::size_t trial = 0; trial < 3; ++trial) {
+    EXPECT_EQ(table.at(first + trial, "point"), 5);
+    EXPECT_EQ(table.at(first + trial, "subject"), 3);
+    for (const char* column :
+         {"trial", "outcome", "movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "reaction_time_s"})
+      EXPECT_EQ(table.rows[first + trial][table.column(column)], recorded.rows.at(trial)[recorded.column(column)]) << column;
+    for (const char* column : {"duration_s", "epsilon_hand_min_hand_jerk_m_per_s", "epsilon_object_min_crackle_m_per_s"})
+      EXPECT_EQ(table.rows[first + trial][table.column(column)], analysed.rows.at(trial)[analysed.column(column)]) << column;
+  }
+}
+
+TEST_F(Study, GoesThroughAPlanAsASessionDoes) {
+  const std::string plan = folder.write("two.json", R"({"schema_version": 1, "counterbalance": "permute", "foreperiod_s": [0.2, 0.4],
+    "blocks": [{"experiment": "chain-moderate", "trials": 2}, {"experiment": "chain-slow", "trials": 2, "condition": "slow"}]})");
+  const std::string study = folder.write(
+      "planned.json", R"({"schema_version": 1, "plan": "two.json", "subjects": 3, "vary": {"plan.blocks[0].trials": [2, 3]}})");
+  ASSERT_EQ(reach("study " + study + " --out " + at("p")).exitCode, 0);
+  const Table table = tableOf(at("p"));
+  ASSERT_EQ(table.rows.size(), 3u * 4 + 3u * 5);
+  // Subject 2 of point 0, by the session that its seed repeats.
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.at(i, "point") == 0 && table.at(i, "subject") == 2) rows.push_back(i);
+  const std::string seed = table.rows[rows.front()][table.column("seed")];
+  ASSERT_EQ(reach("run " + plan + " --device simulated --subject 02 --fast --seed " + seed + " --data " + at("data")).exitCode, 0);
+  ASSERT_EQ(reach("export " + at("data") + " --format csv --out " + at("csv")).exitCode, 0);
+  const Table recorded = parseCsv(contentOf(at("csv") + "/trials.csv"));
+  ASSERT_EQ(recorded.rows.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const char* column : {"block", "condition", "trial", "outcome", "peak_hand_speed_m_per_s", "reaction_time_s"})
+      EXPECT_EQ(table.rows[rows[i]][table.column(column)], recorded.rows[i][recorded.column(column)]) << column;
+}
+
+TEST_F(Study, SaysHowFarItIs) {
+  ASSERT_EQ(run("a", "--shard 1/4").exitCode, 0);
+  const Ended status = reach("study status " + at("a"));
+  EXPECT_EQ(status.exitCode, 0);
+  EXPECT_EQ(status.out.substr(0, 36), "chunks=5 of=20 trials=30 of=120 rate") << status.out;
+  const Ended again = run("a", "--shard 1/4");
+  EXPECT_EQ(again.exitCode, 2);
+  EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
+  EXPECT_EQ(run("a", "--resume").exitCode, 0);
+  EXPECT_NE(reach("study status " + at("a")).out.find("tables=yes"), std::string::npos);
+}
+
+TEST_F(Study, TellsWhatIsWrongWhereItStands) {
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string text = kStudy;
+    text.replace(text.find(from), from.size(), to);
+    const Ended ended = reach("study " + folder.write("bad.json", text) + " --out " + at("bad"));
+    EXPECT_EQ(ended.exitCode, 2) << to << ended.err;
+    return ended.err;
+  };
+  EXPECT_NE(refusal("\"subjects\": 5", "\"subjects\": 0").find("bad.json:2:"), std::string::npos);
+  EXPECT_NE(refusal("\"by\"", "\"bye\"").find("measures[1]: is \"bye\""), std::string::npos);
+  EXPECT_NE(refusal("[500, 600]", "[500, -1]").find("coupling.stiffness_n_per_m: is -1"), std::string::npos);
+  EXPECT_NE(refusal("\"subject.noise\"", "\"subject.nois\"").find("nois is not known"), std::string::npos);
+  EXPECT_NE(refusal("chain-moderate", "no-such-chain").find("experiment"), std::string::npos);
+  EXPECT_NE(refusal("coupling.stiffness_n_per_m", "object.masses_kg[9]").find("object.masses_kg[9]: is beyond the 5 elements"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(at("bad")));
+}
+
+// Two criteria that hands follow without noise but in time: every study of five people names the truth.
+TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
+  const std::string study =
+      folder.write("truths.json", R"({"schema_version": 1, "experiment": "chain-moderate", "subjects": 10, "trials": 14,
+    "subject": {"noise": 0.3}, "vary": {"subject.criterion": ["min-hand-jerk", "min-crackle"]}, "measures": ["score"],
+    "criteria": ["min-hand-jerk", "min-crackle", "min-hand-crackle"]})");
+  ASSERT_EQ(reach("study " + study + " --out " + at("t")).exitCode, 0);
+  const Ended report = reach("study report " + at("t") + " --studies 20 --subjects 5 --trials 14");
+  ASSERT_EQ(report.exitCode, 0) << report.err;
+  const Table confusion = parseCsv(contentOf(at("t") + "/report/confusion.csv")),
+              power = parseCsv(contentOf(at("t") + "/report/power.csv"));
+  ASSERT_EQ(power.rows.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(power.at(i, "right"), 20) << power.rows[i][0];
+  double studies = 0;
+  for (std::size_t i = 0; i < confusion.rows.size(); ++i) {
+    studies += confusion.at(i, "studies");
+    if (confusion.at(i, "studies") == 0) continue;
+    EXPECT_EQ(confusion.rows[i][confusion.column("truth")], confusion.rows[i][confusion.column("named")]);
+  }
+  EXPECT_EQ(studies, 40);
+  const Table smallest = parseCsv(contentOf(at("t") + "/report/smallest.csv"));
+  EXPECT_EQ(smallest.at(0, "subjects"), 5);
+  EXPECT_EQ(smallest.at(0, "trials"), 14);
+  for (const char* figure : {"success.svg", "confusion.pdf", "power.svg"})
+    EXPECT_TRUE(std::filesystem::exists(at("t") + "/report/" + figure)) << figure;
+  EXPECT_EQ(reach("study report " + at("nothing")).exitCode, 2);
+}
+
+// What a subject learns in one block it has in the next, and slow practice is not lost overnight.
+TEST_F(Study, ALearnerTakesWhatItLearntThroughThePlan) {
+  folder.write(
+      "days.json",
+      R"({"schema_version": 1, "blocks": [{"experiment": "chain-slow", "trials": 6, "day": 1}, {"experiment": "chain-moderate", "trials": 6, "day": 1},
+    {"experiment": "chain-moderate", "trials": 6, "day": 2}]})");
+  const auto rows = [&](const std::string& name, const std::string& subject) {
+    const std::string study = folder.write(
+        name + ".json", R"({"schema_version": 1, "name": "l", "plan": "days.json", "subjects": 2, "subject": )" + subject + "}");
+    EXPECT_EQ(reach("study " + study + " --out " + at(name)).exitCode, 0);
+    return tableOf(at(name)).rows;
+  };
+  const auto learner = rows("learner", R"({"kind": "ofc", "subject": 1})"),
+             none = rows("none", R"({"kind": "ofc", "subject": 1, "learn-slow": 0, "learn-fast": 0})");
+  ASSERT_EQ(learner.size(), 36u);
+  EXPECT_EQ(learner[0], none[0]) << "the first trial has nothing behind it";
+  EXPECT_NE(learner[6], none[6]) << "the second block's first trial has the first block behind it";
+  EXPECT_NE(learner[12], none[12]) << "the second day's has the first day";
+  EXPECT_EQ(rows("again", R"({"kind": "ofc", "subject": 1})"), learner);
+}
+
+TEST_F(Study, WritesTheScriptOfASlurmArray) {
+  const Ended script = reach("study sbatch " + file + " --out there --tasks 7 --cpus 2");
+  EXPECT_EQ(script.exitCode, 0);
+  for (const char* part : {"#SBATCH --array=1-7\n", "--cpus-per-task=2", "--out 'there'", "--resume"})
+    EXPECT_NE(script.out.find(part), std::string::npos) << part;
+}
+
+TEST_F(Study, RefusesAFolderOfAnotherStudy) {
+  ASSERT_EQ(run("a").exitCode, 0);
+  const Ended other = reach("study " + folder.write("small.json", std::string(kStudy) + "\n") + " --out " + at("a") + " --resume");
+  EXPECT_EQ(other.exitCode, 3);
+  EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
+}
+
+}  // namespace
+}  // namespace reachlab::test
