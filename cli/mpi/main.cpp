@@ -1,0 +1,162 @@
+// `reach-mpi STUDY`: a study over the ranks of an MPI job. Rank 0 hands out chunks one by one to whoever is free and computes beside that;
+// everything else is `reach study`, and the bytes are the same.
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "base/ending.h"
+#include "base/fault.h"
+#include "cli/exit_code.h"
+#include "cli/study_words.h"
+#include "sim/study/points.h"
+#include "sim/study/run_study.h"
+
+namespace reachlab::cli {
+namespace {
+
+constexpr int kAsk = 1, kAnswer = 2;
+constexpr std::int64_t kNoMore = -1;
+
+/// A fault on one rank is the end of all: the chunks that are there stay.
+class MpiWorld {
+ public:
+  MpiWorld(int& argc, char**& argv) {
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  ~MpiWorld() { MPI_Finalize(); }
+  MpiWorld(const MpiWorld&) = delete;
+  MpiWorld& operator=(const MpiWorld&) = delete;
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+
+ private:
+  int rank_ = 0, size_ = 1;
+};
+
+/// Rank 0's list of what is to be done; its own thread takes from it too.
+class ChunkQueue {
+ public:
+  explicit ChunkQueue(std::vector<std::int64_t> chunks) : chunks_(std::move(chunks)) {}
+  std::optional<std::int64_t> next() {
+    const std::size_t at = at_++;
+    return at < chunks_.size() ? std::optional(chunks_[at]) : std::nullopt;
+  }
+
+ private:
+  std::vector<std::int64_t> chunks_;
+  std::atomic<std::size_t> at_{0};
+};
+
+// Answers the other ranks until each has been told that nothing is left. Looks every millisecond, so that its own worker has the processor.
+void serve(ChunkQueue& queue, int others, const std::function<void(std::int64_t trials)>& done) {
+  while (others > 0) {
+    int there = 0;
+    MPI_Status status{};
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+    if (there == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      continue;
+    }
+    std::int64_t trials = 0;
+    MPI_Recv(&trials, 1, MPI_INT64_T, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (trials > 0) done(trials);
+    if (status.MPI_TAG != kAsk) continue;
+    const std::int64_t chunk = queue.next().value_or(kNoMore);
+    MPI_Send(&chunk, 1, MPI_INT64_T, status.MPI_SOURCE, kAnswer, MPI_COMM_WORLD);
+    if (chunk == kNoMore) --others;
+  }
+}
+
+void conduct(const study::StudyFolder& folder, int others) {
+  study::ChunksToDo todo = study::chunksToDo(folder);
+  const std::int64_t ofSubject = study::mostTrialsOfSubject(folder.design);
+  study::StudyProgress progress;
+  progress.trials = folder.chunks.pairs * ofSubject;
+  progress.trialsDone = progress.trials;
+  for (const std::int64_t chunk : todo.missing)
+    progress.trialsDone -= (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
+  ChunkQueue queue(std::move(todo.missing));
+  std::mutex mutex;
+  ProgressLine line;
+  const auto began = std::chrono::steady_clock::now();
+  const auto done = [&](std::int64_t trials) {
+    const std::lock_guard lock(mutex);
+    progress.trialsDone += trials;
+    progress.trialsNow += trials;
+    progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    line.tell(progress);
+  };
+  std::exception_ptr fault;
+  std::thread worker([&] {
+    try {
+      study::computeChunks(
+          folder, prepareSimulated(), 1, [&] { return queue.next(); }, done);
+    } catch (...) {
+      fault = std::current_exception();
+    }
+  });
+  serve(queue, others, done);
+  worker.join();
+  line.end();
+  if (fault) std::rethrow_exception(fault);
+}
+
+void work(const study::StudyFolder& folder) {
+  std::int64_t trialsSince = 0;
+  const auto next = [&]() -> std::optional<std::int64_t> {
+    MPI_Send(&trialsSince, 1, MPI_INT64_T, 0, kAsk, MPI_COMM_WORLD);
+    trialsSince = 0;
+    std::int64_t chunk = kNoMore;
+    MPI_Recv(&chunk, 1, MPI_INT64_T, 0, kAnswer, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return chunk == kNoMore ? std::nullopt : std::optional(chunk);
+  };
+  study::computeChunks(folder, prepareSimulated(), 1, next, [&](std::int64_t trials) { trialsSince += trials; });
+}
+
+void runStudy(const std::string& file, const std::string& out, bool resume, const MpiWorld& world) {
+  if (world.rank() == 0) {
+    const study::Design design = study::readDesign(file);
+    study::checkPoints(design, prepareSimulated());
+    const study::StudyFolder folder = study::makeFolder(design, out);
+    if (const std::int64_t there = study::chunksToDo(folder).there; there > 0 && !resume && !study::areTablesThere(folder))
+      throw FaultError(Fault{"--out", fmt::format("{}: {} chunks are there already", out, there),
+                             "another folder, or --resume, which goes on with the others"});
+  }
+  MPI_Barrier(MPI_COMM_WORLD);  // the folder is there
+  const study::StudyFolder folder = study::openFolder(out);
+  if (world.rank() == 0) conduct(folder, world.size() - 1);
+  else work(folder);
+  MPI_Barrier(MPI_COMM_WORLD);  // every chunk is there
+  if (world.rank() == 0 && study::mergeTables(folder)) fmt::print("{0}/trials.csv.gz {0}/trials.h5 {0}/trials.json\n", out);
+}
+
+int run(int argc, char** argv) {
+  MpiWorld world(argc, argv);
+  CLI::App app{"reach-mpi: a study of virtual subjects over the ranks of an MPI job", "reach-mpi"};
+  std::string file, out;
+  bool resume = false;
+  app.add_option("study", file, "Study file, as for reach study")->required();
+  app.add_option("--out", out, "Folder of the study, which every rank reaches")->required();
+  app.add_flag("--resume", resume, "Goes on with the chunks that are not there");
+  app.footer("Example: mpirun -n 64 reach-mpi study.json --out stiffness --resume");
+  const int code = exitCodeOf(app, [&] {
+    app.parse(argc, argv);
+    runStudy(file, out, resume, world);
+    return 0;
+  });
+  if (code != 0) MPI_Abort(MPI_COMM_WORLD, code);
+  return code;
+}
+
+}  // namespace
+}  // namespace reachlab::cli
+
+int main(int argc, char** argv) { return reachlab::cli::run(argc, argv); }
