@@ -26,8 +26,8 @@ namespace {
 static_assert(reach_stations == kMaxStations && reach_coordinates == kMaxCoordinates);
 constexpr std::int64_t kNapNs = 200'000;
 
-struct DdsError : Error {
-  using Error::Error;
+struct DdsError : ResourceError {
+  using ResourceError::ResourceError;
 };
 dds_entity_t made(dds_entity_t entity, const char* what) {
   if (entity < 0) throw DdsError(fmt::format("{} cannot be made: {}", what, dds_strretcode(-entity)));

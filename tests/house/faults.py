@@ -2,7 +2,7 @@
 """Wrong input is a `Fault {key, what, allowed, place}` (base/fault.h) and nothing else: exits 1 with a line for every sentence that was put
 together by hand below `gui/` and `cli/`, where a front end could no longer tell the key from the words.
 
-- What is thrown is a FaultError, a ResourceError or a RefusedError, and a FaultError is made of faults, never of a text.
+- What is thrown is a FaultError, or a ResourceError, a RefusedError or a kind of these, and a FaultError is made of faults, never of a text.
 - What is allowed and where it stands are fields: no `what` has an "allowed:" in it, nor begins with "FILE:" or "KEY:".
 
   tests/house/faults.py              checks
@@ -16,7 +16,9 @@ ROOT = Path(__file__).resolve().parents[2]
 BELOW = ["base", "constraints", "sim", "devices", "network"]
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
-THROWN = re.compile(r"\bthrow\s+(?:\w+::)*(?!FaultError\b|ResourceError\b|RefusedError\b|DatasetError\b)(\w*(?:Error|error|exception|_argument|_range))\b")
+THROWN = re.compile(r"\bthrow\s+(?:\w+::)*(\w*(?:Error|error|exception|_argument|_range))\b")
+KINDS = frozenset({"FaultError", "ResourceError", "RefusedError"})
+KIND = re.compile(r"\b(?:struct|class)\s+(\w+)\s*(?:final\s*)?:\s*(?:public\s+)?(?:\w+::)*(?:ResourceError|RefusedError)\b")  # nothing that was given wrongly
 OF_TEXT = re.compile(r'\bFaultError\(\s*(?:"|fmt::|std::string|\w+(?:\(\))?\s*\+)')
 FAULT = re.compile(r"\b(?:Formula)?Fault\s*(?:\w+\s*)?\{|\bfaults\w*\.push_back\(\s*\{")
 
@@ -36,10 +38,11 @@ def inside_braces(text, opening):
     return text[opening:]
 
 
-def faults_in(text):
+def faults_in(text, kinds=KINDS):
     text = without_comments(text)
+    kinds = kinds | set(KIND.findall(text))
     line = lambda at: text.count("\n", 0, at) + 1
-    found = [(line(m.start()), f"throws {m.group(1)}") for m in THROWN.finditer(text)]
+    found = [(line(m.start()), f"throws {m.group(1)}") for m in THROWN.finditer(text) if m.group(1) not in kinds]
     found += [(line(m.start()), "a FaultError made of a text") for m in OF_TEXT.finditer(text)]
     for m in FAULT.finditer(text):
         fault = inside_braces(text, m.end() - 1)
@@ -58,6 +61,7 @@ def self_test():
             'faults.push_back({"key", fmt::format("is {}; allowed: 2", x)});', 'FaultError(Fault{.what = fmt::format("{}: bad", file)});']
     silent = ['throw FaultError(Fault{"key", "is 3", "2"});', "throw FaultError(std::move(faults));", 'throw ResourceError("no disk");',
               '// throw UsageError("x")', "throw;", "throw std::bad_alloc();", 'throw RefusedError("too stiff; allowed: less");',
+              'struct BusError : ResourceError {}; void f() { throw BusError("gone"); }',
               'explicit FaultError(Fault fault) : FaultError(std::vector<Fault>{std::move(fault)}) {}']
     wrong = [text for text in said if not faults_in(text)] + [text for text in silent if faults_in(text)]
     for text in wrong:
@@ -69,7 +73,9 @@ def main():
     if self_test() or "--self-test" in sys.argv:
         return self_test()
     files = [f for top in BELOW for f in sorted((ROOT / top).rglob("*")) if f.suffix in (".h", ".cpp")]
-    found = [(f.relative_to(ROOT), *fault) for f in files for fault in faults_in(f.read_text())]
+    texts = {f.relative_to(ROOT): f.read_text() for f in files}
+    kinds = KINDS.union(*(KIND.findall(text) for text in texts.values()))
+    found = [(file, *fault) for file, text in texts.items() for fault in faults_in(text, kinds)]
     for file, number, what in found:
         print(f"{file}:{number}: {what}")
     print(f"{len(files)} files below gui and cli: {len(found)} faults that are only words")
