@@ -283,39 +283,6 @@ TEST(Point, ThatIsTheHandMovesByTheLawsOfOneMass) {
   EXPECT_NEAR(cost(Criterion::MinComAcceleration) / (12 * L * L / std::pow(T, 3)), 1, 1e-12);
 }
 
-// What a profile says of its own error, against the same minimum with many more unknowns.
-void expectHonestError(const constraints::Definition& definition, int unknowns) {
-  experiment::Experiment e = makeChain(1, 1, 600, 1);
-  e.constraint = {};
-  e.constraint.name = definition.name;
-  e.task->start = definition.start;
-  e.task->target = definition.target;
-  PredictOptions options = asHand(), fine = options;
-  fine.unknowns = unknowns;
-  const auto p = predict(e, Criterion::MinHandJerk, options);
-  if (!p->profileError) return;
-  const auto truth = predict(e, Criterion::MinHandJerk, fine);
-  double error = 0;
-  for (int i = 0; i <= 200; ++i) error = std::max(error, std::abs(p->handAt(i / 200.0).velocity - truth->handAt(i / 200.0).velocity));
-  error /= std::abs(truth->handPeak);
-  std::printf("[ measured ] %-28s error %.1e, said %.1e\n", definition.name.c_str(), error, *p->profileError);
-  EXPECT_LE(error, 3 * *p->profileError) << definition.name;
-}
-
-// Those whose convergence is least even; tests/long/prediction_errors.sh takes the whole catalogue.
-TEST(PathJerk, ErrorIsAtMostThriceWhatIsSaid) {
-  for (const char* name : {"ellipse", "sine", "conical-helix", "gaussian-hill", "helicoid"})
-    expectHonestError(*constraints::findInCatalogue(name), 140);
-}
-
-TEST(PathJerk, DISABLED_ErrorIsAtMostThriceWhatIsSaidOnTheWholeCatalogue) {
-  for (const constraints::Definition& definition : constraints::catalogue()) {
-    try {
-      expectHonestError(definition, definition.kind == constraints::ConstraintKind::Surface ? 160 : 500);
-    } catch (const RefusedError&) {}
-  }
-}
-
 TEST(CurveJerk, IsRefusedWhereItHasNoMeaning) {
   EXPECT_THROW(predict(makeCurveExperiment({"0.1*phi^3", "0.1*phi^2", "0"}, -1, 1, 1), Criterion::MinHandJerk), RefusedError);
   EXPECT_THROW(predict(makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1, 1), Criterion::MinHandForce), RefusedError);
