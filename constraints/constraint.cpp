@@ -65,6 +65,38 @@ void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, bool
   requireMoving(c, range, key);
 }
 
+/// Over a period the parameter runs on, so r has to repeat itself there; on a surface its line may come back the other way round (Moebius).
+void requirePeriods(const Constraint& c, const std::string& key) {
+  constexpr double kSame = 1e-9;  // of the size
+  constexpr int kPlaces = 16;
+  const std::array<Domain, 2> range = boundedDomain(c);
+  const int parameters = c.parameterCount();
+  for (int k = 0; k < parameters; ++k) {
+    if (!c.domain[static_cast<std::size_t>(k)].periodic) continue;
+    const Domain &own = range[static_cast<std::size_t>(k)], &other = range[static_cast<std::size_t>(1 - k)];
+    const auto at = [&](double q, double across) {
+      if (parameters == 1) return evaluate(c.curve, q).r;
+      return (k == 0 ? evaluate(c.surface, q, across) : evaluate(c.surface, across, q)).r;
+    };
+    for (int i = 0; i < kPlaces; ++i) {
+      const double begin = own.lo + (own.hi - own.lo) * std::fmod((i + 0.5) * 0.6180339887498949, 1.0), end = begin + (own.hi - own.lo);
+      const double across = other.lo + (other.hi - other.lo) * std::fmod(i * 0.7548776662466927 + 0.25, 1.0);
+      const Vec3 r = at(begin, across);
+      if (!isFinite(r)) continue;
+      double apart = norm(at(end, across) - r);
+      if (parameters == 2 && !(apart <= kSame * (1e-3 + norm(r)))) apart = std::fmin(apart, norm(at(end, other.lo + other.hi - across) - r));
+      if (apart <= kSame * (1e-3 + norm(r))) continue;
+      const char* name = parameters == 1 ? "phi" : k == 0 ? "u" : "v";
+      throw FaultError(Fault{
+          parameters == 1 ? keyIn(key, "periodic") : keyIn(key, fmt::format("periodic[{}]", k)),
+          std::isfinite(apart)
+              ? fmt::format("is true, but r does not repeat itself: its places at {} = {:.6g} and {:.6g} are {:.3g} m apart", name, begin, end, apart)
+              : fmt::format("is true, but r has a value at {} = {:.6g} and none at {:.6g}", name, begin, end),
+          "true for a formula of that period; else false, with at_end stop or bounce"});
+    }
+  }
+}
+
 }  // namespace
 
 std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, const std::map<std::string, double>& shape,
@@ -99,6 +131,7 @@ Constraint makeConstraint(const Definition& definition, const std::map<std::stri
   Constraint c = assemble(compileFormula(formulaOf(definition), key), values, generatedFunctions(definition));
   c.name = definition.name;
   c.domain = domainOf(definition, values);
+  requirePeriods(c, key);
   requireUsable(c, boundedDomain(c), false, key);
   return c;
 }

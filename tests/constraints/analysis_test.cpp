@@ -147,6 +147,35 @@ TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
   expect("exp(exp(exp(phi)))", "2.35619449");  // the first of the places looked at beyond 1.88
 }
 
+// The motion over a period's end is that of the formula itself: nothing carries a mass back to the beginning.
+TEST(Usable, APeriodThatTheFormulaHasNotIsRefused) {
+  const auto told = [](const std::string& kind, const std::string& formulas, const std::string& domain, const std::string& periodic) {
+    try {
+      makeConstraint(parseDefinition(R"({"schema_version": 1, "name": "made", "kind": ")" + kind + R"(", ")" + kind + R"(": [)" + formulas +
+                                         R"(], "shape": {}, "domain": )" + domain + R"(, "periodic": )" + periodic +
+                                         R"(, "at_end": "stop", "start": )" + (kind == "curve" ? "[0.1]" : "[0.1, 0.1]") + R"(, "target": )" +
+                                         (kind == "curve" ? "[0.2]" : "[0.2, 0.2]") + R"(, "sentence": "s", "source": "s"})",
+                                     "made"));
+    } catch (const FaultError& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string turn = "[0, \"2*pi\"]";
+  EXPECT_EQ(told("curve", R"f("0.1*cos(phi)", "0.1*sin(phi)", "0")f", turn, "true"), "accepted");
+  const std::string helix = told("curve", R"f("0.1*cos(phi)", "0.1*sin(phi)", "0.01*phi")f", turn, "true");
+  EXPECT_NE(helix.find("periodic: is true, but r does not repeat itself: its places at phi = "), std::string::npos) << helix;
+  EXPECT_NE(helix.find(" are 0.0628 m apart"), std::string::npos) << helix;
+  // Its ends are one place, but the parameter runs on beyond it.
+  EXPECT_NE(told("curve", R"f("0.1*phi*(1 - phi)", "0.1*phi*(1 - phi)*(2 - phi)", "0")f", "[0, 1]", "true").find("does not repeat itself"),
+            std::string::npos);
+  EXPECT_NE(told("curve", R"f("0.1*phi", "0.1*sqrt(7 - phi)", "0")f", turn, "true").find("but r has a value at phi = "), std::string::npos);
+  const std::string band = R"f("(0.1 + 0.05*v*cos(u/2))*cos(u)", "(0.1 + 0.05*v*cos(u/2))*sin(u)", "0.05*v*sin(u/2)")f";
+  EXPECT_EQ(told("surface", band, "[" + turn + ", [-1, 1]]", "[true, false]"), "accepted") << "Moebius' band comes back the other way round";
+  EXPECT_NE(told("surface", R"f("0.1*cos(u)", "0.1*sin(u)", "0.1*v")f", "[" + turn + ", [0, 1]]", "true").find("periodic[1]: is true"),
+            std::string::npos);
+}
+
 TEST(Usable, JumpsBetweenStartAndTargetAreRefused) {
   ConstraintSpec spec{.name = {}, .curve = {"phi/10", "sign(phi - 1)/20", "0"}, .surface = {}, .shape = {}};
   spec.inUse = {Domain{0, 2}, Domain{0, 0}};

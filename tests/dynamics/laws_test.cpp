@@ -215,6 +215,30 @@ TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
   EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10);
 }
 
+// A period joins what is one place; the two sides of a jump are two, and no `at_end` carries a mass across.
+TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
+  for (const bool bounce : {false, true}) {
+    experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+    e.constraint.name = "slotted-ring";
+    e.constraint.definition = std::string(R"j({"schema_version": 1, "name": "slotted-ring", "kind": "curve",
+      "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0.01*atan2(sin(phi), cos(phi))"], "shape": {}, "domain": ["-pi", "pi"], "periodic": true,
+      "at_end": ")j") + (bounce ? "bounce" : "stop") + R"j(", "start": [0.1], "target": [1], "sentence": "s", "source": "s"})j";
+    const Scene scene = freeScene(e, {3}, {1});
+    const double before = scene.plant->energy({});
+    const StepStatus status = run(*scene.plant, noHand, 0.3);
+    const double phi = observed(*scene.plant)[0].q[0];
+    EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-12);
+    if (bounce) {
+      EXPECT_EQ(status, StepStatus::Ok);
+      EXPECT_NEAR(phi, 2 * std::numbers::pi - 3.3, 1e-9) << "thrown back at pi: this helix is run evenly";
+    } else {
+      EXPECT_EQ(status, StepStatus::AtEnd);
+      EXPECT_NEAR(phi, std::numbers::pi, 1e-9);
+      EXPECT_NE(scene.plant->stopReason().find("never crossed: jump at phi = 3.14159265"), std::string::npos) << scene.plant->stopReason();
+    }
+  }
+}
+
 TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
   experiment::Experiment e = makeExperiment(experiment::ObjectKind::Body, {2}, {}, {600, 0});
   e.constraint.name = "free";
