@@ -16,8 +16,10 @@ namespace {
 
 constexpr double kTurns = 64 * 2 * std::numbers::pi;
 constexpr double kReach = 10;         // [m] that are examined at least either way
-constexpr double kContinuous = 1e-9;  // of the size: what counts as no jump
-constexpr double kLost = 1e-10;       // [m] a mass moves this far by a rounding of phi: nearer a pole phi tells places apart no more
+constexpr double kContinuous = 1e-9;  // of a millimetre and of the curve's size: what counts as no jump
+constexpr double kRounding = 1e-12;   // of |r|, for a curve may lie far away, and of phi
+constexpr double kLost = 1e-10;       // [m] a mass moves this far by a rounding of phi: nearer a pole phi tells places apart no more,
+constexpr double kFarLost = 1e-15;    // or this part of |r|, which is rounded itself
 constexpr std::size_t kMaxPlaces = 2000;
 constexpr int kMaxBoxes = 100000;   // stretches looked at: tenths of a second
 constexpr double kTouching = 1e-7;  // a root or an arc that touches the end of its domain has lost half its digits there
@@ -38,6 +40,11 @@ void evaluatePiece(const void* data, const double* shape, double phi, CurvePoint
 }
 void evaluatePieceBatch(const void* data, const double* shape, const double* phi, CurveBatch& out) noexcept {
   evaluateSingly(evaluatePiece, data, shape, phi, out);
+}
+
+/// [m] by how much two limits at phi = b may differ that are one; `move`: how far a unit of phi leads from there.
+double slack(const CurvePoint& p, double b, double move) {
+  return kContinuous * (1e-3 + std::min(move, norm(p.r))) + kRounding * (norm(p.r) + norm(p.rPhi) * std::max(1.0, std::abs(b)));
 }
 
 bool isFinite(const CurvePoint& p) { return reachlab::isFinite(p.r) && reachlab::isFinite(p.rPhi) && reachlab::isFinite(p.rPhiPhi); }
@@ -227,6 +234,7 @@ class Examiner {
     CurvePoint limit;
     double edge = 0;  // the last phi at which the formula is evaluated
     double stop = 0;  // where a mass ends if it may not pass
+    double slack = 0; // [m] limits closer than this are one
   };
   CurvePoint at(const Program& program, double phi) const {
     CurvePoint p;
@@ -239,11 +247,16 @@ class Examiner {
     const double width = std::abs(inwards), direction = inwards > 0 ? 1 : -1, unit = std::max(1.0, std::abs(b));
     side.limit = at(program, b);
     const auto inside = [&](double d) { return at(program, b + direction * d); };
+    const auto slackOf = [&](const CurvePoint& p) {
+      const double move = norm(inside(std::min(0.3 * width, 1.0)).r - p.r);
+      return slack(p, b, std::isfinite(move) ? move : 0);
+    };
     if (branching && isFinite(side.limit)) {
       // A value there need not be a limit: atan2(0, 0) is 0, or pi.
       const double close = std::min(0.1 * width, 1e-7 * unit);
       const CurvePoint p = inside(close);
-      side.exact = isFinite(p) && norm(p.r - (direction * close) * p.rPhi - side.limit.r) <= kContinuous * (1e-3 + norm(p.r));
+      side.slack = slackOf(p);
+      side.exact = isFinite(p) && norm(p.r - (direction * close) * p.rPhi - side.limit.r) <= side.slack;
       if (side.exact) {
         side.valid = true;
         return side;
@@ -258,17 +271,24 @@ class Examiner {
     side.limit.r -= (direction * near) * n.rPhi;
     const Vec3 fromFar = a.r - (direction * far) * a.rPhi;
     const double size = 1e-3 + norm(n.r);
-    side.settled = isFinite(n) && norm(fromFar - side.limit.r) <= kContinuous * size;
+    side.slack = slackOf(n);
+    side.settled = isFinite(n) && norm(fromFar - side.limit.r) <= side.slack;
     const double first = norm(n.r - a.r), then = norm(m.r - n.r);
     // A logarithm gains twice as much over two decades as over one, a power of more than -0.01 less.
     side.bounded = reachlab::isFinite(m.r) && then <= 1.95 * first + 1e-12 * size;
     // As near as phi tells places apart.
     side.stop = side.edge;
     if (side.settled) return side;
-    for (double d = near; d > 1e-15 * unit; d *= 0.5) {
+    const auto lost = [&](const CurvePoint& p, double d) {
+      return !isFinite(p) || norm(p.rPhi) * 2.3e-16 * std::abs(b + direction * d) > std::max(kLost, kFarLost * norm(p.r)) ||
+             norm(p.rPhi) > 1e12;
+    };
+    double d = near;
+    while (d < 0.3 * width && lost(inside(d), d)) d *= 2;
+    side.stop = b + direction * std::min(d, 0.3 * width);
+    for (; d <= near && d > 1e-15 * unit; d *= 0.5) {
       const CurvePoint p = inside(d);
-      if (!isFinite(p) || norm(p.rPhi) * 2.3e-16 * std::abs(b + direction * d) > kLost * std::max(1.0, norm(p.r)) || norm(p.rPhi) > 1e12)
-        break;
+      if (lost(p, d)) break;
       side.stop = b + direction * d;
       if (norm(p.rPhi) * d < 1e-12) break;
     }
@@ -339,11 +359,10 @@ class Examiner {
         place.r = only.limit.r;
       } else {
         place.r = left.limit.r;
-        const double size = 1e-3 + norm(left.limit.r) + norm(right.limit.r);
         const double speed = norm(left.limit.rPhi) + norm(right.limit.rPhi);
         if (!left.bounded || !right.bounded) place.kind = PlaceKind::Pole;
         else if (!left.settled || !right.settled) place.kind = PlaceKind::Spike;
-        else if (norm(left.limit.r - right.limit.r) > kContinuous * size) place.kind = PlaceKind::Jump;
+        else if (norm(left.limit.r - right.limit.r) > left.slack + right.slack) place.kind = PlaceKind::Jump;
         else if (norm(left.limit.rPhi - right.limit.rPhi) > (branching ? 1e-9 : 1e-4) * speed) place.kind = PlaceKind::Kink;
         else if (!branching) place.kind = PlaceKind::Hole;
         else if (norm(left.limit.rPhiPhi - right.limit.rPhiPhi) > 1e-9 * (norm(left.limit.rPhiPhi) + norm(right.limit.rPhiPhi) + speed))

@@ -5,6 +5,7 @@
 
 #include "constraints/places.h"
 #include "sim/dynamics/curve_places.h"
+#include "sim/dynamics/surface_rates.h"
 
 namespace reachlab::dynamics {
 
@@ -21,6 +22,7 @@ struct BrokenCurveSystem {
   static constexpr bool kSecondOrder = false;
   static constexpr bool kEnds = true;
   static constexpr double kSwing = 1.0 / 30;
+  static constexpr double kSteep = 4;  // |r_phi| over the typical one
   static constexpr const char* kNoContinuation =
       "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined";
   using State = Numbers<kStates>;
@@ -38,6 +40,8 @@ struct BrokenCurveSystem {
   std::array<Where, kMassCapacity<N>> where{};
   int stoppedMass = -1;
   bool stoppedLow = false;
+  /// Beside an end where |r_phi| grows without bound an error of phi is one of many metres: phi is needed more exactly.
+  bool careful = false;
 
   BrokenCurveSystem(const ObjectModel& model, const constraints::Constraint& constraint,
                     std::shared_ptr<const constraints::CurveRegularity> pieces, double typicalSpeed)
@@ -103,6 +107,12 @@ struct BrokenCurveSystem {
       y[n() + i] = qRate[0] * speedAt(i, q[0]);
     }
     stoppedMass = -1;
+    careful = false;
+  }
+  Settled settle(const State&, State& y) noexcept {
+    careful = false;
+    for (int i = 0; i < n(); ++i) careful = careful || !(speedAt(i, y[i]) <= kSteep * speedScale);
+    return Settled::Same;
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     for (std::size_t k = 0; k < masses.size(); ++k) {
@@ -149,12 +159,12 @@ struct BrokenCurveSystem {
       const constraints::CurvePiece& piece = pieceOf(i);
       const bool low = beyond[i] < piece.lo;
       if (!low && !(beyond[i] > piece.hi)) continue;
-      y[i] = low ? piece.lo : piece.hi;
       if (!(low ? piece.passedAtLo : piece.passedAtHi)) {
         stoppedMass = i;
         stoppedLow = low;
         return false;
       }
+      y[i] = low ? piece.lo : piece.hi;
       const double behind = slopeOf(i, y, hand);
       where[i].piece += low ? -1 : 1;
       const double ahead = slopeOf(i, y, hand), side = low ? -1 : 1, v = std::abs(y[n() + i]);

@@ -1,15 +1,24 @@
 #include "sim/dynamics/surface_system.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace reachlab::dynamics {
 namespace {
 
+constexpr double kContinuous = 1e-9;          // of a millimetre and of the surface's size: what counts as no jump
+constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
 constexpr double kMargin = 1e-5;              // of the argument's size
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
 constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
 constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
+constexpr double kBeside = 0.05;              // of a unit of the parameters
+
+/// [m] by how much two limits of r may differ that are one.
+double slack(const constraints::SurfacePoint& p) noexcept {
+  return kContinuous * (1e-3 + std::fmin(norm(p.r), norm(p.rU) + norm(p.rV))) + kRounding * norm(p.r);
+}
 
 }  // namespace
 
@@ -90,9 +99,25 @@ void SurfaceSystem::findBranch(std::span<const double> q, std::span<const double
 bool SurfaceSystem::onBranch(const State& y) const noexcept {
   const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
   const auto lines = branches->at(q[0], q[1]);
-  for (std::size_t k = 0; k < branches->lines.size(); ++k)
-    if (!(lines[k].value * where.side[k] >= margin[k])) return false;
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double inwards = lines[k].value * where.side[k];
+    if (!(inwards >= margin[k])) return false;
+    if (inwards == 0 && !hasLimit(q, static_cast<int>(k), lines[k].u, lines[k].v)) return false;
+    besideEnd = besideEnd || (!branches->lines[k].passable && inwards < kBeside * (std::abs(lines[k].u) + std::abs(lines[k].v)));
+  }
   return true;
+}
+
+bool SurfaceSystem::hasLimit(const std::array<double, 2>& q, int k, double alongU, double alongV) const noexcept {
+  constexpr double kStep = 1e-7, kSame = 1e-4;  // of the parameters, and of a derivative's size
+  const constraints::SurfacePoint here = evaluate(surface, q[0], q[1]);
+  if (!isFinite(here.r) || !isFinite(here.rU) || !isFinite(here.rV)) return false;
+  const double steep = std::hypot(alongU, alongV);
+  if (!(steep > 0)) return true;
+  const double step = kStep * where.side[static_cast<std::size_t>(k)] / steep, du = step * alongU, dv = step * alongV;
+  const constraints::SurfacePoint beside = evaluate(surface, q[0] + du, q[1] + dv);
+  return norm(beside.r - du * beside.rU - dv * beside.rV - here.r) <= slack(here) &&
+         norm(here.rU - beside.rU) + norm(here.rV - beside.rV) <= kSame * (norm(beside.rU) + norm(beside.rV));
 }
 
 bool SurfaceSystem::turned(const State& from, const State& to, double dt) const noexcept {
@@ -120,22 +145,14 @@ bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double)
       const std::array<double, 2> q = polar.toBase(y[0], y[1]);
       const std::array<double, 2> rate = solveRates(evaluate(surface, q[0], q[1]), y[2] * local.rU + y[3] * local.rV);
       y.values = {q[0], q[1], rate[0], rate[1]};
+      active = surface;
       inPolar = false;
     }
     const Where other{where.branch ^ (1 << line.bit), where.side};
     const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
     // Just behind the line: before it the other branch may have a value that it has not got there (atan2(u, u)).
     const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], behind[0], behind[1]);
-    if (!(norm(here.r - there.r) <= 1e-9 * (1e-3 + norm(here.r)))) return false;
-    // On the line itself a formula may have a value that is no limit.
-    constexpr double kBefore = 1e-7, kSame = 1e-4;  // [s], and of a derivative's size
-    const std::array<double, 2> back{y[0] - kBefore * y[2], y[1] - kBefore * y[3]};
-    const constraints::SurfacePoint before = evaluate(surface, back[0], back[1]);
-    if (!(norm(here.rU - before.rU) + norm(here.rV - before.rV) <= kSame * (norm(here.rU) + norm(here.rV)))) {
-      y[0] = back[0];
-      y[1] = back[1];
-      return false;
-    }
+    if (!(norm(here.r - there.r) <= slack(here))) return false;
     const auto at = branches->at(behind[0], behind[1])[k];
     // Unit vectors along the crease and across it, the latter in each side's tangent plane.
     const auto across = [&](const constraints::SurfacePoint& p, const Vec3& along) {
@@ -158,6 +175,13 @@ bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double)
   return passed;
 }
 
+bool SurfaceSystem::roundingShows(const State& y) const noexcept {
+  constexpr double kRounded = std::numeric_limits<double>::epsilon();
+  const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
+  const double byU = norm(p.rUu) / norm(p.rU) + norm(p.rUv) / norm(p.rV), byV = norm(p.rUv) / norm(p.rU) + norm(p.rVv) / norm(p.rV);
+  return !(kRounded * (std::abs(y[0]) * byU + std::abs(y[1]) * byV) <= kShows);
+}
+
 int SurfaceSystem::endingLine(const State& y) const noexcept {
   if (branches == nullptr) return -1;
   const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
@@ -171,8 +195,12 @@ int SurfaceSystem::endingLine(const State& y) const noexcept {
 std::string SurfaceSystem::endReason() const {
   if (metLine < 0) return "the mass reached the end of the constraint's domain";
   const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(metLine)];
-  return fmt::format("the mass met a place of the surface that is never crossed: {}: {}",
-                     nameOf(line.passable ? constraints::PlaceKind::Jump : line.kind), line.because);
+  if (line.passable)
+    return fmt::format("the mass met a place of the surface that is never crossed: {}: {}", nameOf(constraints::PlaceKind::Jump), line.because);
+  return fmt::format(
+      "the mass is beside a place of the surface that is never crossed: {}: {} (its argument is {:.2g} from {:g}; nearer, the formula loses "
+      "the digits of the speed)",
+      nameOf(line.kind), line.because, margin[static_cast<std::size_t>(metLine)], line.level);
 }
 
 std::string SurfaceSystem::lostReason(const State& y) const {
@@ -185,6 +213,11 @@ std::string SurfaceSystem::lostReason(const State& y) const {
           "the surface's parameter lines run into each other here: r_u and r_v are {:.2g} degrees apart, too little for a "
           "velocity to be told from its rates; write the surface in other parameters",
           std::sqrt(dot(area, area) / (dot(p.rU, p.rU) * dot(p.rV, p.rV))) * 180 / std::numbers::pi);
+    if (roundingShows(y))
+      return fmt::format(
+          "the surface is so steep in its parameters here (|r_u| {:.2g} m, |r_v| {:.2g} m) that their rounding shows in the speed; write the "
+          "surface in other parameters",
+          norm(p.rU), norm(p.rV));
     return kNoContinuation;
   }
   const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];

@@ -20,6 +20,8 @@ struct SurfaceSystem {
       "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   /// Squared sine of the angle between r_u and r_v below which the rates' tolerance, and their rounding, would show in the speed.
   static constexpr double kOblique = 1e-3, kParallel = 1e-6;
+  static constexpr double kLong = 1;        // [m^2] |r_u|^2, likewise
+  static constexpr double kShows = 5e-11;
   using State = Numbers<4>;
   using Hand = HandSample;
 
@@ -43,7 +45,10 @@ struct SurfaceSystem {
   int metLine = -1;                                          // that stopped the mass
   mutable double leastDeterminant = 1e300;                   // [m^4] of G in this step
   mutable double awayFromOblique = 1, awayFromParallel = 1;  // [m^4] negative: in this step r_u and r_v came that near to each other
-  /// Where the parameter lines are oblique the rates nearly cancel in the velocity, so that they are needed more exactly.
+  mutable double longest = 0;                                // [m^2] the largest |r_u|^2, |r_v|^2 in this step
+  mutable bool besideEnd = false;                            // in this step a line at which the formula ends was near
+  /// Where the parameter lines are oblique the rates nearly cancel in the velocity; where r_u is long a parameter's error is one of many
+  /// metres; beside an end r_u grows without bound: there parameters and rates are needed more exactly.
   bool careful = false;
   /// How near a mass comes to a line at which the formula ends, in its argument: nearer, its rounding shows in the speed.
   std::array<double, constraints::SurfaceBranches::kMaxGuards> margin{};
@@ -69,12 +74,19 @@ struct SurfaceSystem {
     const double determinant = mulAdd(e, g, -(f * f));
     const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
     leastDeterminant = std::fmin(leastDeterminant, determinant);
+    longest = std::fmax(longest, std::fmax(e, g));
     awayFromOblique = std::fmin(awayFromOblique, mulAdd(-kOblique * e, g, determinant));
     awayFromParallel = std::fmin(awayFromParallel, mulAdd(-kParallel * e, g, determinant));
     dy[0] = du;
     dy[1] = dv;
     dy[2] = mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du));
     dy[3] = mulAdd(mulAdd(e, b, -(f * a)), inverse, -(drag * dv));
+    if (!careful) return;
+    // The same by vectors at right angles to r_v and r_u: e g - f^2 would lose twice the digits.
+    const Vec3 area = cross(p.rU, p.rV);
+    const double whole = dot(area, area);
+    dy[2] = dot(drive, cross(p.rV, area)) / whole - drag * du;
+    dy[3] = dot(drive, cross(area, p.rU)) / whole - drag * dv;
   }
   double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
 
@@ -84,7 +96,8 @@ struct SurfaceSystem {
     metLine = -1;
     leastDeterminant = 1e300;
     awayFromOblique = awayFromParallel = 1;
-    careful = false;
+    longest = 0;
+    besideEnd = careful = false;
     if (branches != nullptr) findBranch(q, qRate);
     active = surface;
     ticks = waiting = 0;
@@ -106,14 +119,18 @@ struct SurfaceSystem {
     // Across a place where r_u and r_v span no plane the parameters carry no velocity: what comes out of such a step is nothing.
     constexpr double kDegenerate = 1e-7;
     const bool degenerate = leastDeterminant < kDegenerate * largestArea || awayFromParallel < 0;
-    careful = awayFromOblique < 0;
+    careful = awayFromOblique < 0 || longest > kLong || besideEnd;
     leastDeterminant = 1e300;
     awayFromOblique = awayFromParallel = 1;
-    if (degenerate) return Settled::Lost;
+    longest = 0;
+    besideEnd = false;
+    if (degenerate || (careful && roundingShows(y))) return Settled::Lost;
     constexpr int kLookEvery = 4;
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
   }
   Settled chooseChart(State& y) noexcept;
+  /// A rounding of u or v changes |r_u| or |r_v|, and with them the speed, by more than kShows of it.
+  bool roundingShows(const State& y) const noexcept;
   /// Beside a place where r_u and r_v do not span a plane.
   bool lost(const State& y) const noexcept {
     if (endingLine(y) >= 0) return true;
@@ -154,6 +171,8 @@ struct SurfaceSystem {
     if (!inPolar) active = surface;
   }
   bool onBranch(const State& y) const noexcept;
+  /// Whether the formula has its limit on line k itself, at q: atan2(0, 0) is a number, but none.
+  bool hasLimit(const std::array<double, 2>& q, int k, double alongU, double alongV) const noexcept;
   /// The mass may have crossed a line and come back within a step.
   bool turned(const State& from, const State& to, double dt) const noexcept;
   /// The mass goes on behind the line that it crosses; false where it may not, or where it met an end of the domain.

@@ -141,6 +141,7 @@ class SystemPlant : public PlantBase {
       if constexpr (requires { system_.passEnds(at, at, system_.handAt(rest, 0), dt); }) {
         rest = part(hand, begun, 1);
         if (system_.passEnds(meeting.beyond, now(), system_.handAt(rest, 0), dt)) continue;
+        at = now();  // masses that passed, and a place at which the formula has a limit, stay
       }
       system_.meetEnd(meeting.beyond, now(), system_.bounces());
       // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity: it stops just before, elastic or not.

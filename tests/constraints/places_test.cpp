@@ -40,6 +40,18 @@ TEST(Places, EachKindIsFoundWithItsPlaceAndItsOperation) {
             (Told{"kink at phi = -1: abs(abs(phi) - 1)", "kink at phi = 0: abs(phi)", "kink at phi = 1: abs(abs(phi) - 1)"}));
 }
 
+// What lies far away has the same places: |r| says nothing of how far apart two sides are.
+TEST(Places, AJumpOfCentimetresIsOneAThousandKilometresAway) {
+  for (const char* far : {"0", "1e6", "1e8"}) {
+    const CurveRegularity r = computeRegularity(curve("phi/10", "0.02*abs(atan2(phi, phi))^2", far), 0.5);
+    ASSERT_EQ(r.places.size(), 1u) << far;
+    EXPECT_EQ(r.places[0].kind, PlaceKind::Jump) << far;
+    EXPECT_EQ(computeRegularity(curve("phi/10", "0.1*sqrt(abs(phi))", far), 0.5).places[0].kind, PlaceKind::Spike) << far;
+    EXPECT_EQ(computeRegularity(curve("phi/10", "0.1*abs(phi)", far), 0.5).places[0].kind, PlaceKind::Kink) << far;
+    EXPECT_EQ(computeRegularity(curve("phi/10", "0.1*sin(phi)/phi", far), 0.5).places[0].kind, PlaceKind::Hole) << far;
+  }
+}
+
 TEST(Places, StillPlacesAreToldApart) {
   const auto kindAtZero = [](const std::string& x, const std::string& y) {
     const CurveRegularity r = computeRegularity(curve(x, y), 0.5);

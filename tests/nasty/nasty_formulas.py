@@ -279,7 +279,8 @@ refused('over nothing', [x, '0.1*phi/(phi - phi)', '0'], 0.5, 1, 1, 'no place fo
 refused('start in a gap', [x, '0.1*asin(phi)', '0'], 2, 1, 1, 'no place for a mass at the start')
 refused('start on a jump', [x, '0.1*atan(1/phi)', '0'], 0, 1, 1, 'no place for a mass at the start')
 known('atan2 on a surface', ['u/10', '0.02*atan2(v, 2 + cos(u))', 'v/10'], '0,0', '1,0', 1, ['0.1', '0', '0'])
-stopped('jump of atan2 on a surface', ['u/10', '0.05*atan2(u, u)', 'v/10'], '1,0', '-1,0', 2, 'atan2(u, u)', kind='surface')
+stopped('jump of atan2 on a surface', ['u/10', '0.05*atan2(u, u)', 'v/10'], '1,0', '-1,0', 2, 'atan2(u, u)', ['0', mp.nstr(mp.pi / 80, 20), '0'], kind='surface')
+stopped('a jump a thousand kilometres away', [x, '0.02*abs(atan2(phi, phi))^2', '1e6'], 1, -2, 2, 'jump at phi = 0', ['0', mp.nstr(mp.pi**2 / 800, 20), '1000000'])
 
 print('name\tkind\tx\ty\tz\tat\trate\tgravity_y\tseconds\tverdict\tx_m\ty_m\tz_m\twords')
 for row in rows:
