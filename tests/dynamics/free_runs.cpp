@@ -54,6 +54,8 @@ void printHour() {
   sphere.constraint.name = "sphere";
   const experiment::Experiment chain = makeChain(5, 0.6, 600), bead = onCurve(makeChain(1, 1, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
   const experiment::Experiment bent = onCurve(chain, "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const experiment::Experiment cusps =
+      onCurve(makeChain(1, 1, 600), "0.08*cos(phi) - 0.02*cos(4*phi)", "0.08*sin(phi) - 0.02*sin(4*phi)", "0");
   fmt::print("| undamped scene | exact | abm | adaptive | rk4 |\n|---|---|---|---|---|\n");
   const auto row = [](const char* name, const experiment::Experiment& e, const std::vector<double>& q, const std::vector<double>& rate,
                       bool linear) {
@@ -64,6 +66,9 @@ void printHour() {
   };
   row("chain of 5 on the line", chain, {0}, {10}, true);
   row("bead on an ellipse", bead, {0.5}, {3}, false);
+  row("the same, fast: 60 rad/s", bead, {0.5}, {60}, false);
+  row("the same, 200 rad/s", bead, {0.5}, {200}, false);
+  row("bead through an epicycloid's cusps", cusps, {0.5}, {3}, false);
   row("chain of 5 on an ellipse", bent, {0.5}, {3}, false);
   row("bead on the torus", torus, {0.5, 0.5}, {3, 2}, false);
   row("bead on the sphere", sphere, {0.5, 0.5}, {3, 2}, false);
