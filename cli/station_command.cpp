@@ -289,7 +289,7 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
   command->footer(
       "Prints one line a trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has too\n"
-      "poor a line (more than 120 ms round trip, more than 20 % loss): stderr says which, with the numbers.\n\n"
+      "poor a line (more than 120 ms round trip, nothing for more than 50 ms at a time): stderr says which, with the numbers.\n\n"
       "Examples, on one machine:\n"
       "  reach station chain-two-hands --number 1 --conductor --device simulated --insecure --interface lo --peer 127.0.0.1 --data left\n"
       "  reach station chain-two-hands --number 2 --device partner:follower --insecure --interface lo --peer 127.0.0.1 --data right");

@@ -137,6 +137,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 class PeerClock {
  public:
   void add(const reach_State& s, std::uint32_t own, std::int64_t nowNs) {
+    if (echoHeard != 0) longest_ = std::max(longest_, seconds(nowNs - echoHeard));
     echoSent = s.sent_ns;
     echoHeard = nowNs;
     const std::int64_t sent = s.echo_sent_ns[own - 1], heard = s.echo_heard_ns[own - 1];
@@ -151,9 +152,10 @@ class PeerClock {
     ++came_;
     if (nowNs - sinceNs_ < 1'000'000'000) return;
     loss = std::max(0.0, 1 - static_cast<double>(came_) / static_cast<double>(lastSeq_ - firstSeq_ + 1));
-    firstSeq_ = lastSeq_ + 1, came_ = 0, sinceNs_ = nowNs;
+    gap = longest_;
+    firstSeq_ = lastSeq_ + 1, came_ = 0, sinceNs_ = nowNs, longest_ = 0;
   }
-  double roundTrip = -1, jitter = 0, offset = 0, loss = 0;  // [s], [s], [s], share
+  double roundTrip = -1, jitter = 0, offset = 0, loss = 0, gap = 0;  // [s], [s], [s], share, [s]
   std::int64_t echoSent = 0, echoHeard = 0;                 // [ns]
 
  private:
@@ -181,6 +183,7 @@ class PeerClock {
   std::uint32_t firstSeq_ = 0, lastSeq_ = 0;
   std::uint64_t came_ = 0;
   std::int64_t sinceNs_ = 0;
+  double longest_ = 0;  // [s]
 };
 
 template <std::size_t N>
@@ -232,7 +235,7 @@ class Endpoint {
       clock.add(s, own_.station, now);
       LineStatus& status = memory_.status[s.station - 1];
       status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
-      status.loss.store(clock.loss), status.heardNs.store(now);
+      status.loss.store(clock.loss), status.gap.store(clock.gap), status.heardNs.store(now);
       if (clock.roundTrip < 0) return;  // its time means nothing here yet
       HeardState heard;
       heard.trial = s.trial;

@@ -58,7 +58,8 @@ struct LineStatus {
   std::atomic<double> roundTrip{-1};  // [s] the newest; -1: not known
   std::atomic<double> jitter{0};      // [s] SD of the round trip over the last samples
   std::atomic<double> offset{0};      // [s] the peer's clock less ours, of the fastest exchange lately
-  std::atomic<double> loss{0};        // share of a second's samples that did not come, or came overtaken
+  std::atomic<double> loss{0};        // share of a second's samples that did not come, or came overtaken: only the newest counts
+  std::atomic<double> gap{0};         // [s] the longest that nothing came in the last second
   std::atomic<std::int64_t> heardNs{0};
 };
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<std::size_t>::is_always_lock_free);

@@ -24,7 +24,7 @@ extern char** environ;
 namespace reachlab::network {
 namespace {
 
-constexpr double kMostRoundTrip = 0.12, kMostLoss = 0.2;  // [s], share: beyond them the coupling is not known to be stable
+constexpr double kMostRoundTrip = 0.12, kMostGap = 0.05;  // [s]: beyond them the coupling is not known to be stable
 constexpr std::int64_t kPresentNs = 3'000'000'000;        // a card comes every second
 constexpr std::int64_t kHeardNs = 500'000'000;
 
@@ -174,8 +174,9 @@ std::vector<std::string> StationLine::obstacles() const {
     }
     if (line.roundTrip.load() > kMostRoundTrip)
       say(fmt::format("a round trip takes {:.0f} ms; allowed: up to {:.0f}", 1e3 * line.roundTrip.load(), 1e3 * kMostRoundTrip));
-    if (line.loss.load() > kMostLoss)
-      say(fmt::format("{:.0f} % of its samples do not come; allowed: up to {:.0f}", 100 * line.loss.load(), 100 * kMostLoss));
+    // Overtaken samples are dropped by design, so their share says nothing; how long nothing comes does.
+    if (line.gap.load() > kMostGap)
+      say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * line.gap.load(), 1e3 * kMostGap));
   }
   return found;
 }
