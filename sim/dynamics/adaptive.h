@@ -9,7 +9,6 @@
 namespace reachlab::dynamics {
 
 inline constexpr double kDefaultTolerance = 1e-13;  // per sub-step, relative to each number's scale
-inline constexpr double kCareful = 0.01;            // of it, where a system says `careful`
 
 template <class System>
 class Adaptive {
@@ -160,6 +159,7 @@ class Adaptive {
     return StepStatus::Ok;
   }
 
+  static constexpr double kCareful = 0.01;
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step
 };

@@ -5,7 +5,6 @@
 
 #include "constraints/places.h"
 #include "sim/dynamics/curve_places.h"
-#include "sim/dynamics/surface_rates.h"
 
 namespace reachlab::dynamics {
 
@@ -22,7 +21,6 @@ struct BrokenCurveSystem {
   static constexpr bool kSecondOrder = false;
   static constexpr bool kEnds = true;
   static constexpr double kSwing = 1.0 / 30;
-  static constexpr double kSteep = 4;  // |r_phi| over the typical one
   static constexpr const char* kNoContinuation =
       "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined";
   using State = Numbers<kStates>;
@@ -40,8 +38,6 @@ struct BrokenCurveSystem {
   std::array<Where, kMassCapacity<N>> where{};
   int stoppedMass = -1;
   bool stoppedLow = false;
-  /// Beside an end where |r_phi| grows without bound an error of phi is one of many metres: phi is needed more exactly.
-  bool careful = false;
 
   BrokenCurveSystem(const ObjectModel& model, const constraints::Constraint& constraint,
                     std::shared_ptr<const constraints::CurveRegularity> pieces, double typicalSpeed)
@@ -107,12 +103,6 @@ struct BrokenCurveSystem {
       y[n() + i] = qRate[0] * speedAt(i, q[0]);
     }
     stoppedMass = -1;
-    careful = false;
-  }
-  Settled settle(const State&, State& y) noexcept {
-    careful = false;
-    for (int i = 0; i < n(); ++i) careful = careful || !(speedAt(i, y[i]) <= kSteep * speedScale);
-    return Settled::Same;
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     for (std::size_t k = 0; k < masses.size(); ++k) {

@@ -81,10 +81,7 @@ class CuspAdaptive {
       d[lead.mass] = at[system.rates() + lead.mass] / c;
       d[n] = factor;
     };
-    double tolerance = tolerance_;
-    if constexpr (requires { system.careful; })
-      if (system.careful) tolerance *= kCareful;
-    const auto unit = [&](int i, double value) { return i < n ? tolerance * (system.scale(i) + std::abs(value)) : tolerance; };
+    const auto unit = [&](int i, double value) { return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_; };
     auto k = dop853::makeStages<kSize>(n + 1);
     int rhs = 0;
     StepStatus status = StepStatus::Ok;

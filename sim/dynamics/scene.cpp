@@ -38,13 +38,13 @@ SpeedRange findSpeedRange(const constraints::Constraint& constraint, const const
   for (const double centre : {0.5 * (d.lo + d.hi), start}) {
     double before = 1e300, last = 1e300;
     for (int i = 0; i <= kSamples; ++i) {
-      const auto inDomain = [&](double k) {
-        return std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
+      const auto phiAt = [&](double k) {
+        const double phi =
+            std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
+        return std::fmin(std::fmax(phi, piece.lo), piece.hi);
       };
-      const auto phiAt = [&](double k) { return std::fmin(std::fmax(inDomain(k), piece.lo), piece.hi); };
-      const double phi = inDomain(i), speed = speedAt(phi);
-      // A piece's own end is no place to look at again and again: |r_phi| may have no bound there.
-      if (phi < piece.lo || phi > piece.hi || !std::isfinite(speed)) continue;
+      const double speed = speedAt(phiAt(i));
+      if (!std::isfinite(speed)) continue;
       speeds.push_back(speed);
       range.least = std::min(range.least, speed);
       range.most = std::max(range.most, speed);
@@ -147,7 +147,7 @@ std::string methodFor(const experiment::Experiment& experiment, const SceneOptio
 }
 
 void compileShared(Scene& scene, const experiment::Experiment& experiment, bool smooth) {
-  if (!smooth) throw RefusedError("several hands need a curve that is smooth throughout and whose |r_phi| stays of one size; on this one use one hand");
+  if (!smooth) throw RefusedError("several hands need a curve that is smooth throughout; on this one use one hand");
   auto plant = makeSharedPlant(experiment, scene.constraint);
   scene.shared = plant.get();
   scene.plant = std::move(plant);
@@ -196,7 +196,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
   const MethodRequest request{choice.method, options.tolerance};
 
   if (!experiment.hands.empty()) {
-    compileShared(scene, experiment, (!regularity || regularity->whole) && !facts.hardCurve);
+    compileShared(scene, experiment, !regularity || regularity->whole);
   } else if (linear) {
     const LinearSpace space = linearSpace(constraint);
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());

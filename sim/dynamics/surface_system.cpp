@@ -132,8 +132,17 @@ bool SurfaceSystem::turned(const State& from, const State& to, double dt) const 
 
 bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double) noexcept {
   if (branches == nullptr) return false;
-  const std::array<double, 2> behind = inPolar ? polar.toBase(beyond[0], beyond[1]) : std::array{beyond[0], beyond[1]};
-  const auto lines = branches->at(behind[0], behind[1]);
+  std::array<double, 2> behind = inPolar ? polar.toBase(beyond[0], beyond[1]) : std::array{beyond[0], beyond[1]};
+  // On a line where the formula has no limit nothing can be told: a little behind it.
+  constexpr double kBehind = 1e-12;  // of the parameters
+  auto lines = branches->at(behind[0], behind[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double steep = std::hypot(lines[k].u, lines[k].v);
+    if (lines[k].value != 0 || !(steep > 0) || hasLimit(behind, static_cast<int>(k), lines[k].u, lines[k].v)) continue;
+    const double step = kBehind * std::fmax(1, std::hypot(behind[0], behind[1])) * where.side[k] / steep;
+    behind = {behind[0] - step * lines[k].u, behind[1] - step * lines[k].v};
+  }
+  lines = branches->at(behind[0], behind[1]);
   bool passed = false;
   for (std::size_t k = 0; k < branches->lines.size(); ++k) {
     if (lines[k].value * where.side[k] >= margin[k]) continue;
