@@ -151,7 +151,7 @@ class Grammar:
             return str(error)
         if not words or words[0].startswith("-") or words[0] in ("…", "COMMAND"):
             return ""
-        path = words[:2] if words[0] == "constraint" and len(words) > 1 and words[1] != "--help" else words[:1]
+        path = words[:2] if words[0] in ("constraint", "peers", "study") and len(words) > 1 and words[1] != "--help" else words[:1]
         known = self.options(path)
         if known is None:
             return f"there is no reach {' '.join(path)}"
