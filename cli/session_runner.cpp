@@ -85,6 +85,7 @@ int runSession(const session::SessionRequest& request) {
   fmt::print("{}", table.text());
   std::fflush(stdout);
   if (backup) {
+    backup->request();  // the last log is let go of only now
     const session::BackupState state = backup->finish();
     if (state.kind == session::BackupState::Kind::Failed) throw ResourceError(state.sentence);
     fmt::print(stderr, "{}\n", state.sentence);
