@@ -38,7 +38,7 @@ class Stations : public testing::Test {
   const record::TemporaryFolder folder_{"stations"};
 };
 
-// In real time, by two processes: among the long checks (tests/long/stations.sh), as those below.
+// In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_TwoMoveOneChainTogether) {
   const auto [left, right] = both("station chain-two-hands --number 1 --conductor --device simulated:noise=0 --trials 2 --insecure " + common() +
                                       "--data " + dataOf("left"),
@@ -120,6 +120,7 @@ TEST_F(Stations, DISABLED_AKilledStationIsLostWithin150MillisecondsAndNoLogLoses
   EXPECT_GT(killed.ticks().size(), 1000u);
 }
 
+// In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_WithCertificatesTheyMeetAndAStrangerIsNotHeard) {
   ASSERT_EQ(reach("peers init " + (folder_ / "lab") + " --conductor --name left").exitCode, 0);
   ASSERT_EQ(reach("peers init " + (folder_ / "other") + " --name right").exitCode, 0);
