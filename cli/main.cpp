@@ -6,6 +6,7 @@
 #include "cli/exit_code.h"
 #include "cli/standard_streams.h"
 #include "base/ending.h"
+#include "base/kept_memory.h"
 #include "base/os.h"
 #include "base/processor_level.h"
 #include "base/stop_signals.h"
@@ -50,6 +51,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   reachlab::requireProcessorLevel();
   reachlab::endOnUncaught();
+  reachlab::keepFreedMemory();
   reachlab::os::holdStandardDescriptors();
   reachlab::cli::guardStandardStreams();
   reachlab::endOnSignals();
