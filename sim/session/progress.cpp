@@ -5,6 +5,15 @@
 #include "base/error.h"
 
 namespace reachlab::session {
+namespace {
+
+// The hand, or who else moves the object, was gone: a run that ends with such a trial has not done it.
+bool lostHand(const trial::TrialResult& result) {
+  return result.outcome == trial::Outcome::Interrupted &&
+         (result.reason == trial::Reason::DeviceLost || result.reason == trial::Reason::PeerLost);
+}
+
+}  // namespace
 
 std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead) {
   std::vector<BlockProgress> blocks;
@@ -18,7 +27,8 @@ std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<s
       for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
         const int index = trial.planned.index;
-        if (trial::endsRun(trial.result)) continue;
+        const bool last = &trial == &log.trials().back();
+        if (trial::endsRun(trial.result) || (last && lostHand(trial.result))) continue;
         const bool again = trial::isPutUpAgain(trial.result) && configuration.repeatAborted && !block->putUpAgain.contains(index);
         (again ? block->putUpAgain : block->done).insert(index);
       }

@@ -25,8 +25,9 @@ std::vector<int> indicesOf(const BlockToRun& block) {
   return indices;
 }
 
-// Records the block's trials with these outcomes, and closes the log.
-void recordOutcomes(const BlockToRun& block, const std::vector<trial::Outcome>& outcomes) {
+// Records the block's trials with these outcomes, and closes the log; what did not succeed was for `reason`.
+void recordOutcomes(const BlockToRun& block, const std::vector<trial::Outcome>& outcomes,
+                    trial::Reason reason = trial::Reason::Experimenter) {
   record::RunConfiguration configuration = block.configuration;
   configuration.table = record::makeChannelTable(block.experiment.experiment(), 1);
   record::Recorder recorder(block.logPath, configuration, {.threaded = false});
@@ -39,7 +40,7 @@ void recordOutcomes(const BlockToRun& block, const std::vector<trial::Outcome>& 
     if (state.phase == trial::Phase::Done) {
       state.result = {};
       state.result.outcome = outcomes[trial];
-      state.result.reason = outcomes[trial] == trial::Outcome::Success ? trial::Reason::None : trial::Reason::Experimenter;
+      state.result.reason = outcomes[trial] == trial::Outcome::Success ? trial::Reason::None : reason;
     }
     recorder.onTick(state, trial::Command::None, 0);
   }
@@ -351,6 +352,29 @@ TEST_F(PlannedSession, RepeatsWhatWasInterruptedAndWhatWasAbortedOnlyIfThePlanSa
     EXPECT_EQ(indicesOf(second.blocks[0]), (repeat ? std::vector<int>{1, 3, 4} : std::vector<int>{3, 4}));
     // One stretch goes on with the number it broke off in; single trials get numbers that were not used.
     EXPECT_EQ(second.blocks[0].configuration.firstTrial, repeat ? 5 : 4);
+  }
+}
+
+TEST_F(PlannedSession, DoesTheTrialAgainInWhichTheDeviceWasLostAndTheRunEnded) {
+  using enum trial::Outcome;
+  for (const bool repeat : {false, true}) {
+    SessionRequest r = request(write("lost.json", std::string(R"({ "schema_version": 1, "trials": 4, "repeat_aborted": )") +
+                                                      (repeat ? "true" : "false") + R"(, "blocks": [ { "experiment": "chain-slow" } ] })"));
+    r.place.subject = repeat ? "01" : "02";
+    recordOutcomes(planSession(r).blocks[0], {Success, Interrupted}, trial::Reason::DeviceLost);
+    r.resume = true;
+    for (int loss = 0; loss < 3; ++loss) {  // again and again, as often as it is lost
+      const SessionToRun next = planSession(r);
+      ASSERT_EQ(next.blocks.size(), 1u);
+      EXPECT_EQ(indicesOf(next.blocks[0]), (std::vector<int>{1, 2, 3}));
+      EXPECT_EQ(next.blocks[0].configuration.firstTrial, 2) << "its own number";
+      recordOutcomes(next.blocks[0], {Interrupted}, trial::Reason::DeviceLost);
+    }
+    // A run that went on after a loss has done that trial, unless the plan puts it up again.
+    recordOutcomes(planSession(r).blocks[0], {Interrupted, Success, Success}, trial::Reason::DeviceLost);
+    const SessionToRun rest = planSession(r);
+    EXPECT_EQ(rest.blocks.size(), repeat ? 1u : 0u);
+    if (repeat) EXPECT_EQ(indicesOf(rest.blocks.at(0)), (std::vector<int>{1}));
   }
 }
 
