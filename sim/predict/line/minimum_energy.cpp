@@ -51,18 +51,18 @@ struct Span {
   LaneMatrix<Real> e, w;
 };
 
-// to = factor (A m), row by row.
+// to = factor (A m), row by row; `to` is not m.
 template <class Real>
-LaneMatrix<Real> multiplySparse(const SparseRows& a, const LaneMatrix<Real>& m, const Real& factor) {
-  LaneMatrix<Real> product(m.rows(), m.columns());
-  for (int i = 0; i < m.rows(); ++i)
+void multiplySparse(const SparseRows& a, const LaneMatrix<Real>& m, const Real& factor, LaneMatrix<Real>& to) {
+  for (int i = 0; i < m.rows(); ++i) {
+    BatchOf<Real>* row = to.row(i);
+    std::fill(row, row + m.batches(), BatchOf<Real>{});
     for (int p = a.begin[i]; p < a.begin[i + 1]; ++p) {
       const Real entry = factor * rounded<Real>(a.value[p]);
-      for (int b = 0; b < m.batches(); ++b) addProduct(product.row(i)[b], entry, m.row(a.column[p])[b]);
+      for (int b = 0; b < m.batches(); ++b) addProduct(row[b], entry, m.row(a.column[p])[b]);
     }
-  for (int i = 0; i < m.rows(); ++i)
-    for (int b = 0; b < m.batches(); ++b) settle(product.row(i)[b]);
-  return product;
+    for (int b = 0; b < m.batches(); ++b) settle(row[b]);
+  }
 }
 
 template <class Real>
@@ -70,28 +70,41 @@ Span<Real> makeShortSpan(const ControlProblem& system, const SparseRows& a, cons
   const int n = system.size;
   const auto part = [&](int k) { return time / Real(1.0 * k); };
   Span<Real> span{LaneMatrix<Real>::identity(n), LaneMatrix<Real>(n, n)};
+  LaneMatrix<Real> half(n, n), term(n, n);
   for (int k = Precision<Real>::kShortTerms; k > 0; --k) {  // Horner
-    span.e = multiplySparse(a, span.e, part(k));
+    multiplySparse(a, span.e, part(k), half);
+    std::swap(span.e, half);
     for (int i = 0; i < n; ++i) span.e.set(i, i, span.e.at(i, i) + 1.0);
   }
   // Terms of W: h b b^T, then h / (k+1) times A P + (A P)^T of the one before.
-  LaneMatrix<Real> term(n, n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) term.set(i, j, time * rounded<Real>(system.b[i]) * rounded<Real>(system.b[j]));
   for (int k = 2; k < Precision<Real>::kGramianTerms; ++k) {
     span.w += term;
-    const LaneMatrix<Real> half = multiplySparse(a, term, part(k));
-    term = transpose(half);
+    multiplySparse(a, term, part(k), half);
+    transpose(half, term);
     term += half;
   }
   return span;
 }
 
+// W(2s) = W(s) + e^{A s} W(s) e^{A^T s}. What one doubling needs is kept for the next one.
 template <class Real>
-void doubleTime(Span<Real>& span) {
-  span.w += span.e * span.w * transpose(span.e);
-  span.e = span.e * span.e;
-}
+class Doubling {
+ public:
+  explicit Doubling(int size) : turned_(size, size), product_(turned_), sum_(turned_) {}
+  void apply(Span<Real>& span) {
+    transpose(span.e, turned_);
+    multiply(span.e, span.w, product_);
+    multiply(product_, turned_, sum_);
+    span.w += sum_;
+    multiply(span.e, span.e, product_);
+    std::swap(span.e, product_);
+  }
+
+ private:
+  LaneMatrix<Real> turned_, product_, sum_;
+};
 
 // Right and left singular vectors of the coupling C of velocities and elongations, from those of C^T C; the left ones by themselves
 // where some C v are too small to tell them. Each state is then about one mode of the object.
@@ -199,11 +212,12 @@ class Movement {
     for (const DoubleDouble& value : a.value) entry_.push_back(rounded<Real>(value) * halfWidth);
     for (const DoubleDouble& value : system.b) drive_.push_back(rounded<Real>(value) * halfWidth);
     for (int k = 1; k <= gain_.columns(); ++k) inverse_.push_back(Real(1.0) / Real(1.0 * k));
-    LaneMatrix<Real> term(system.size, 1);  // of the adjoint in the control's terms: (-half A)^k b / k!
+    LaneMatrix<Real> term(system.size, 1), next(term);  // of the adjoint in the control's terms: (-half A)^k b / k!
     for (int i = 0; i < system.size; ++i) term.set(i, 0, rounded<Real>(system.b[i]));
     for (int k = 0; k < gain_.columns(); ++k) {
       for (int i = 0; i < system.size; ++i) gain_.set(i, k, term.at(i, 0));
-      term = multiplySparse(a, term, Real(-halfWidth) * inverse_[k]);
+      multiplySparse(a, term, Real(-halfWidth) * inverse_[k], next);
+      std::swap(term, next);
     }
   }
 
@@ -340,11 +354,12 @@ std::optional<MinimumEnergyMotion> solveIn(const ControlProblem& system, const S
   const int doublings = std::max(1, static_cast<int>(std::ceil(std::log2(motion.fastest * duration / kShort))));
   const int toHalf = std::min(doublings - 1, kHalfDoublings);
   Span<Real> span = makeShortSpan<Real>(system, a, std::ldexp(duration, -doublings));
-  for (int i = 0; i < toHalf; ++i) doubleTime(span);
+  Doubling<Real> doubling(system.size);
+  for (int i = 0; i < toHalf; ++i) doubling.apply(span);
   const LaneMatrix<Real> half = span.e;
-  doubleTime(span);
+  doubling.apply(span);
   const LaneMatrix<Real> whole = span.e;
-  for (int i = toHalf + 1; i < doublings; ++i) doubleTime(span);
+  for (int i = toHalf + 1; i < doublings; ++i) doubling.apply(span);
 
   // W carries the square of the condition into its inverse; what the movement misses the target by corrects that.
   const Gramian<Real> gramian(system, span.w);

@@ -39,31 +39,47 @@ class LaneMatrix {
   std::vector<Batch> value_;
 };
 
-/// to = start + row * m, one row each; `start` may be null.
+/// kCount batches of to = start + row * m, one row each, from the batch `first` on: independent sums do not wait for each other.
+template <int kCount, class Real>
+void multiplyRowPart(const BatchOf<Real>* row, const LaneMatrix<Real>& m, int first, const BatchOf<Real>* start, BatchOf<Real>* to) {
+  std::array<BatchOf<Real>, kCount> sum{};
+  if (start != nullptr)
+    for (int b = 0; b < kCount; ++b) sum[b] = start[first + b];
+  for (int k = 0; k < m.rows(); ++k) {
+    const Real factor = laneOf(row[k / kBatchLanes], k % kBatchLanes);
+    if (leading(factor) == 0) continue;
+    const BatchOf<Real>* other = m.row(k) + first;
+    for (int b = 0; b < kCount; ++b) addProduct(sum[b], factor, other[b]);
+  }
+  for (int b = 0; b < kCount; ++b) {
+    settle(sum[b]);
+    to[first + b] = sum[b];
+  }
+}
+
+/// to = start + row * m, one row each; `start` may be null; `to` is neither of the others.
 template <class Real>
 void multiplyRow(const BatchOf<Real>* row, const LaneMatrix<Real>& m, const BatchOf<Real>* start, BatchOf<Real>* to) {
-  constexpr int kAtOnce = 4;  // independent sums do not wait for each other
-  for (int first = 0; first < m.batches(); first += kAtOnce) {
-    const int count = std::min(kAtOnce, m.batches() - first);
-    std::array<BatchOf<Real>, kAtOnce> sum{};
-    for (int b = 0; b < count && start != nullptr; ++b) sum[b] = start[first + b];
-    for (int k = 0; k < m.rows(); ++k) {
-      const Real factor = laneOf(row[k / kBatchLanes], k % kBatchLanes);
-      if (leading(factor) == 0) continue;
-      const BatchOf<Real>* other = m.row(k) + first;
-      for (int b = 0; b < count; ++b) addProduct(sum[b], factor, other[b]);
-    }
-    for (int b = 0; b < count; ++b) {
-      settle(sum[b]);
-      to[first + b] = sum[b];
-    }
+  int first = 0;
+  for (; first + 4 <= m.batches(); first += 4) multiplyRowPart<4>(row, m, first, start, to);
+  switch (m.batches() - first) {
+    case 3: return multiplyRowPart<3>(row, m, first, start, to);
+    case 2: return multiplyRowPart<2>(row, m, first, start, to);
+    case 1: return multiplyRowPart<1>(row, m, first, start, to);
+    default: return;
   }
+}
+
+/// to = a b; `to` has the product's size and is neither factor.
+template <class Real>
+void multiply(const LaneMatrix<Real>& a, const LaneMatrix<Real>& b, LaneMatrix<Real>& to) {
+  for (int i = 0; i < a.rows(); ++i) multiplyRow(a.row(i), b, nullptr, to.row(i));
 }
 
 template <class Real>
 LaneMatrix<Real> operator*(const LaneMatrix<Real>& a, const LaneMatrix<Real>& b) {
   LaneMatrix<Real> product(a.rows(), b.columns());
-  for (int i = 0; i < a.rows(); ++i) multiplyRow(a.row(i), b, nullptr, product.row(i));
+  multiply(a, b, product);
   return product;
 }
 
@@ -77,11 +93,17 @@ LaneMatrix<Real>& operator+=(LaneMatrix<Real>& to, const LaneMatrix<Real>& more)
   return to;
 }
 
+/// to = a transposed; `to` has its size and is not a.
+template <class Real>
+void transpose(const LaneMatrix<Real>& a, LaneMatrix<Real>& to) {
+  for (int i = 0; i < a.rows(); ++i)
+    for (int j = 0; j < a.columns(); ++j) to.set(j, i, a.at(i, j));
+}
+
 template <class Real>
 LaneMatrix<Real> transpose(const LaneMatrix<Real>& a) {
   LaneMatrix<Real> turned(a.columns(), a.rows());
-  for (int i = 0; i < a.rows(); ++i)
-    for (int j = 0; j < a.columns(); ++j) turned.set(j, i, a.at(i, j));
+  transpose(a, turned);
   return turned;
 }
 
