@@ -146,13 +146,43 @@ std::string methodFor(const experiment::Experiment& experiment, const SceneOptio
   return "rk4";
 }
 
-void compileShared(Scene& scene, const experiment::Experiment& experiment, bool smooth) {
-  if (!smooth) throw RefusedError("several hands need a curve that is smooth throughout; on this one use one hand");
+/// RK4 in phi holds where the curve is smooth and moves on evenly: what one hand has other methods for is refused.
+void requireSharedCurve(const constraints::CurveRegularity& regularity, double speedRatio) {
+  constexpr double kEvenly = 0.01;  // of the smallest to the largest |r_phi|
+  for (const constraints::Place& place : regularity.places)
+    if (isStill(place.kind))
+      throw RefusedError(fmt::format("several hands are computed by rk4 in phi, which fails at a {}; use one hand, or a curve without",
+                                     describe(place, constraints::ConstraintKind::Curve)));
+  if (!regularity.whole) throw RefusedError("several hands need a curve that is smooth throughout; on this one use one hand");
+  if (speedRatio < kEvenly)
+    throw RefusedError(fmt::format("several hands are computed by rk4 in phi, and on this curve |r_phi| falls to {:.2g} of its largest "
+                                   "(a cusp, or nearly one); use one hand, or a curve where it stays above {}",
+                                   speedRatio, kEvenly));
+}
+
+// What one step a tick errs is measured with the first hand alone, along the reach.
+void estimateShared(Scene& scene, experiment::Experiment experiment, double step) {
+  if (!experiment.task) return;
+  experiment.hands.resize(1);
+  const auto alone = makeSharedPlant(experiment, scene.constraint);
+  if (const auto measured = measureRk4Error(*alone, *experiment.task, scene.constraint, step)) scene.choice.predictedError = *measured;
+  constexpr double kAccurate = 1e-6, kUseless = 1e-4;  // [m]
+  if (scene.choice.predictedError > kUseless)
+    throw RefusedError(fmt::format("several hands are computed by rk4, one step a tick, which errs by {:.2g} m here; use one hand, or a "
+                                   "softer object or coupling",
+                                   scene.choice.predictedError));
+  if (scene.choice.predictedError > kAccurate)
+    scene.choice.warnings.push_back(fmt::format("several hands are computed by rk4, one step a tick: predicted error {:.2g} m",
+                                                scene.choice.predictedError));
+}
+
+void compileShared(Scene& scene, const experiment::Experiment& experiment, double step) {
   auto plant = makeSharedPlant(experiment, scene.constraint);
   scene.shared = plant.get();
   scene.plant = std::move(plant);
   scene.choice.form = fmt::format("{} hands, {} states", experiment.hands.size(), scene.shared->placeCount() + scene.shared->rateCount());
   scene.choice.reason = "several hands hold the object: rk4, one step a tick; " + scene.choice.reason;
+  estimateShared(scene, experiment, step);
 }
 
 Scene compile(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
@@ -196,7 +226,8 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
   const MethodRequest request{choice.method, options.tolerance};
 
   if (!experiment.hands.empty()) {
-    compileShared(scene, experiment, !regularity || regularity->whole);
+    if (regularity) requireSharedCurve(*regularity, speedRatio);
+    compileShared(scene, experiment, options.step);
   } else if (linear) {
     const LinearSpace space = linearSpace(constraint);
     choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());

@@ -165,5 +165,29 @@ TEST(SharedPlant, RefusesWhatItCannotDo) {
   EXPECT_FALSE(experiment::problems(withHands("chain-moderate", hands(6))).empty());
 }
 
+// RK4 in phi divides by |r_phi|: where that vanishes it was wrong without a word.
+TEST(SharedPlant, CurvesWithCuspsAreRefusedWithTheirPlace) {
+  const auto sayOf = [](const Experiment& e) -> std::string {
+    try {
+      (void)compileScene(e);
+    } catch (const RefusedError& refused) {
+      return refused.what();
+    }
+    return "";
+  };
+  const std::vector<experiment::Hand> two{{1, {600}, {5}, {}}, {1, {600}, {5}, {}}};
+  Experiment astroid = withHands("cycloid", two);
+  astroid.constraint.name.clear();
+  astroid.constraint.curve = {"0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"};
+  astroid.task->start = {0.3}, astroid.task->target = {2.5};
+  const std::string cusp = sayOf(astroid);
+  EXPECT_NE(cusp.find("cusp at phi = "), std::string::npos) << cusp;
+  EXPECT_NE(cusp.find("use one hand"), std::string::npos) << cusp;
+  const std::string atItsEnds = sayOf(withHands("cycloid", two));
+  EXPECT_NE(atItsEnds.find("|r_phi| falls to"), std::string::npos) << atItsEnds;
+  EXPECT_EQ(sayOf(withHands("ellipse", two)), "");
+  EXPECT_EQ(sayOf(withHands("trefoil", two)), "");
+}
+
 }  // namespace
 }  // namespace reachlab::dynamics
