@@ -3,28 +3,41 @@
 
     tests/long/seeded_faults.py --seed 7 --count 20 sim/trial sim/record
     tests/long/seeded_faults.py --seed 7 --count 300                      # everything but the window
+    tests/long/seeded_faults.py --seed 7 --seed 8 --count 300             # two draws in one build
     tests/long/seeded_faults.py --seed 7 --count 20 --only 13 sim/trial   # the 13th of the same draw again
 
 A fault is a comparison, a sign (or * against /), a constant, or a statement left out. The same seed, folders and sources give the same
-faults. It works on a copy of the sources in build/faults (made anew from the working tree at each start, its objects kept), builds the test
-programs that the changed file goes into, the nearest first, and runs those whose bytes the fault has changed until one fails: the tests of
-the file's own test file first, then all of the program. Which tests fail without a fault is found out when a program is first needed. A
-fault that does not compile is drawn again; one whose object file is bit for bit the old one changes nothing and is not counted; nor is
-one listed in equivalent_faults.txt with the reason why it changes nothing that anybody could see. What was noticed is noted in
-build/faults/build/judged.jsonl and not tried again by a later start, as long as the file with the fault is the same. Exit 1 when less than
---least of the rest was noticed.
+faults. It works on a copy of the sources in build/faults (made anew from the working tree at each start, its objects kept). All faults of a
+draw stand in one build, each behind a switch that is read when a program starts (fault_sites.py, fault_switch.h; --check compares what is
+done behind a switch with the fault written out). Every test is run once without a fault: it tells how long it takes, which faults it comes
+by, and is left out when it fails. Then each fault is put in force, and the tests that come by it are run, the nearest and shortest first,
+until one fails, twice, and passes without the fault; ten times the usual time is a failure. A fault that no test comes by lives. What bears
+no switch (constants that the compiler must know) is built alone. A fault that does not compile is drawn again; one whose object file is bit
+for bit the old one changes nothing and is not counted; nor is one listed in equivalent_faults.txt with the reason why it changes nothing that
+anybody could see. What was noticed is noted in build/faults/build/judged.jsonl and not tried again by a later start, as long as the file with
+the fault is the same. Exit 1 when less than --least of the rest was noticed.
 """
 import argparse
+import concurrent.futures
+import dataclasses
 import hashlib
+import itertools
 import json
+import math
 import os
 import pathlib
 import random
 import re
+import resource
 import shutil
 import subprocess
 import sys
+import tempfile
+import threading
 import time
+
+import fault_check
+import fault_sites
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ["base", "constraints", "sim", "devices", "network", "cli", "gui"]
@@ -125,8 +138,8 @@ def ninja(*targets):
     return run(["ninja", "-C", str(BUILD), *JOBS, *targets])
 
 
-def refresh():
-    """The copy becomes what the working tree is; files that did not change keep their times, so that little is built again."""
+def refresh(changed):
+    """The copy becomes what the working tree is, but for `changed`; files that stay as they are keep their times, so that little is built."""
     COPY.mkdir(parents=True, exist_ok=True)
     listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard"], stdout=subprocess.PIPE, text=True)
     names = set(listed.stdout.splitlines())
@@ -136,38 +149,21 @@ def refresh():
         old, new = ROOT / name, COPY / name
         if not old.is_file():
             continue
-        if new.is_file() and new.read_bytes() == old.read_bytes():
+        content = changed[name].encode() if name in changed else old.read_bytes()
+        if new.is_file() and new.read_bytes() == content:
             continue
         new.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(old, new)
+        new.write_bytes(content)
         shutil.copymode(old, new)
     for file in COPY.rglob("*"):
         name = file.relative_to(COPY)
-        if file.is_file() and name.parts[0] != "build" and str(name) not in names:
+        if file.is_file() and name.parts[0] not in ("build", "tmp") and str(name) not in names:
             file.unlink()
-
-
-def programs(goals, gui):
-    names = sorted(goal for goal in goals if re.fullmatch(r"tests/(?:\w+/)?test_\w+", goal))
-    return [n for n in names if gui or "gui" not in n]
-
-
-def nearest_first(path, names):
-    parts = pathlib.Path(path).parts[:-1]
-    return sorted(names, key=lambda n: -max([i + 1 for i, p in enumerate(parts) if n.endswith("test_" + p)], default=0))
 
 
 def targets():
     """Every goal of the build, by its path in the build folder."""
     return [line.split(": ")[0] for line in run(["ninja", "-C", str(BUILD), "-t", "targets", "all"]).stdout.splitlines()]
-
-
-def object_of(path, goals):
-    """The object file of a .cpp; None for a header."""
-    for goal in goals:
-        if re.sub(r"CMakeFiles/[^/]+\.dir/", "", goal) == path + ".o":
-            return BUILD / goal
-    return None
 
 
 def hash_of(file):
@@ -181,201 +177,364 @@ def suites_near(path):
     for file in (COPY / "tests").rglob("*.cpp"):
         if file.stem in (stem + "_test", stem.rstrip("s") + "_test", stem + "s_test"):
             suites |= set(re.findall(r"^TEST(?:_F|_P)?\((\w+),", file.read_text(encoding="utf-8"), re.M))
-    return sorted(suites)
+    return suites
 
 
-def programs_behind(program):
-    """What a test program starts as well."""
-    return ["cli/reach", "tests/reach_counting"] if program.endswith("test_cli") else []
+@dataclasses.dataclass
+class Test:
+    """One test as ctest starts it."""
+    name: str
+    command: list
+    folder: str
+    environment: dict
+    seconds: float = 0
+    reached: frozenset = frozenset()
+    key: str = ""
+
+    @property
+    def program(self):
+        return self.command[0]
+
+    @property
+    def suite(self):
+        return self.name.split("/")[-2 if "/" in self.name else 0].split(".")[0]
+
+    @property
+    def is_gtest(self):
+        return any(part.startswith("--gtest_filter=") for part in self.command)
 
 
-def bytes_of(program):
-    """A hash of the program with all that it starts."""
-    return hashlib.sha256("".join(str(hash_of(BUILD / p)) for p in [program, *programs_behind(program)]).encode()).hexdigest()
+def limits():
+    """No fault may fill the disk or the memory."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 30, 4 << 30))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_AS, (16 << 30, 16 << 30))
 
 
-def first_failure(program, known_bad, seconds, near=(), only=None):
-    """Name of a test that fails, or None. The tests of a program are shared out over the processors."""
-    shards = max(1, int(JOBS[0][2:]))
-    skip = only or ":".join(f"{suite}.*:*/{suite}.*" for suite in near) or "*"
-    if known_bad:
-        skip += "-" + ":".join(known_bad)
-    running = []
-    for shard in range(shards):
-        environment = dict(os.environ, GTEST_TOTAL_SHARDS=str(shards), GTEST_SHARD_INDEX=str(shard), QT_QPA_PLATFORM="offscreen")
-        running.append(subprocess.Popen([str(BUILD / program), "--gtest_fail_fast", "--gtest_filter=" + skip], cwd=BUILD / "tests",
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", env=environment,
-                                        start_new_session=True))
-    failure, end = None, time.monotonic() + seconds
-    for process in running:
-        try:
-            out, _ = process.communicate(timeout=max(1, end - time.monotonic()))
-            if process.returncode != 0 and failure is None:
-                names = re.findall(r"^\[  FAILED  \] (\w+[./\w]*)", out, re.M)
-                last = re.findall(r"^\[ RUN      \] (\S+)", out, re.M)
-                failure = names[0] if names else (last[-1] if last else "?") + " (died)"
-        except subprocess.TimeoutExpired:
-            failure = failure or "does not end"
-    for process in running:
-        if process.poll() is None:
-            os.killpg(process.pid, 9)
+def start(test, seconds, number=0, command=None, seen=None):
+    """(exit code or None when it did not end, output, seconds)."""
+    with tempfile.TemporaryDirectory(prefix="fault-", dir=COPY / "tmp") as scratch:
+        environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", TMPDIR=scratch, REACHLAB_FAULT=str(number), **test.environment)
+        if seen:
+            environment["REACHLAB_FAULTS_SEEN"] = str(seen)
+        begin = time.monotonic()
+        with open(pathlib.Path(scratch) / "out", "w+", encoding="utf-8", errors="replace") as out:
+            process = subprocess.Popen(command or test.command, cwd=test.folder, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
+                                       env=environment, start_new_session=True, preexec_fn=limits)
+            try:
+                code = process.wait(timeout=seconds)
+            except subprocess.TimeoutExpired:
+                code = None
+            try:
+                os.killpg(process.pid, 9)  # what it has left behind too
+            except ProcessLookupError:
+                pass
             process.wait()
-    return failure
+            out.seek(0)
+            return code, out.read(), time.monotonic() - begin
+
+
+def known_tests():
+    """What ctest would run, without what is disabled or looks at the sources only."""
+    shown = subprocess.run(["ctest", "--test-dir", str(BUILD), "--show-only=json-v1"], stdout=subprocess.PIPE, text=True)
+    tests = []
+    for entry in json.loads(shown.stdout)["tests"]:
+        properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
+        if "command" not in entry or properties.get("DISABLED") or entry["name"].startswith(("house", "manual_reference", "manual_site", "manual_schemas")):
+            continue
+        environment = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
+        tests.append(Test(entry["name"], entry["command"], properties.get("WORKING_DIRECTORY", str(BUILD)), environment))
+    return tests
+
+
+def places_of(program):
+    """The source file of each test of a program."""
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        run([program, "--gtest_list_tests", "--gtest_output=json:" + out.name], 60)
+        listed = json.loads(pathlib.Path(out.name).read_text(encoding="utf-8") or "{}")
+    return {f"{suite['name']}.{test['name']}": test.get("file", "") for suite in listed.get("testsuites", []) for test in suite["testsuite"]}
 
 
 class Campaign:
-    """Puts faults in, one at a time, and remembers what came of each."""
+    """All faults of the draw in one build; which tests come by each; and what each test says to each."""
 
-    def __init__(self, gui):
-        self.goals = targets()
-        self.tests = programs(self.goals, gui)
-        self.sound = {}  # program: (bytes, tests that fail without a fault, seconds)
+    def __init__(self, faults, gui):
+        self.faults = faults  # number: fault
+        self.single = set()   # numbers that cannot stand behind a switch
+        self.gui = gui
         self.log = COPY / "build" / "judged.jsonl"
         lines = self.log.read_text(encoding="utf-8").splitlines() if self.log.exists() else []
         self.judged = {(entry["fault"], entry["file"]): entry for entry in map(json.loads, lines)}
+        self.lock = threading.Lock()
+        (COPY / "tmp").mkdir(parents=True, exist_ok=True)
 
-    def judge(self, fault, words):
-        path, _, begin, end, new = fault
-        known = self.judged.get((words, hash_of(ROOT / path)))
-        if known and known["verdict"] != "alive":  # a test may have been added since
-            return known["verdict"], known["by"]
-        file = COPY / path
-        text = file.read_text(encoding="utf-8")
-        faulty = text[:begin] + new + text[end:]
-        try:
-            verdict, by = self.put_in(path, file, text, faulty)
-        finally:
-            file.write_text(text, encoding="utf-8")
-        with self.log.open("a", encoding="utf-8") as log:
-            log.write(json.dumps({"fault": words, "file": hash_of(ROOT / path), "verdict": verdict, "by": by}) + "\n")
-        return verdict, by
+    # --- the build
 
-    def put_in(self, path, file, text, faulty):
-        object_file = object_of(path, self.goals) if path.endswith(".cpp") else None
-        if object_file:
-            goal = str(object_file.relative_to(BUILD))
-            if ninja(goal).returncode != 0:
-                sys.exit(f"{path} does not compile without a fault")
-            before = hash_of(object_file)
-            file.write_text(faulty, encoding="utf-8")
-            if ninja(goal).returncode != 0:
-                return "does not compile", None
-            if hash_of(object_file) == before:
-                return "same", None
-        near = suites_near(path)
-        for program in self.candidates(path, object_file):
-            if program not in self.sound:
-                file.write_text(text, encoding="utf-8")
-                self.build(program)
-                self.sound[program] = (bytes_of(program), *self.baseline(program))
-            file.write_text(faulty, encoding="utf-8")
-            if self.build(program, may_fail=True) != 0:
-                return "does not compile", None
-            sound, bad, seconds = self.sound[program]
-            if bytes_of(program) == sound:
+    def written(self, alone=None):
+        """The changed files: all faults behind switches, or for one fault its own file with nothing but it."""
+        files = {}
+        by_file = {}
+        for number, fault in self.faults.items():
+            by_file.setdefault(fault[0], []).append((number, *fault[1:]))
+        for path, faults in by_file.items():
+            text = (ROOT / path).read_text(encoding="utf-8")
+            if alone and self.faults[alone][0] == path:
+                _, _, begin, end, new = self.faults[alone]
+                files[path] = text[:begin] + new + text[end:]
                 continue
-            told = (near and self.fails_twice(program, bad, seconds, near)) or self.fails_twice(program, bad, seconds)
-            if told:
-                return "noticed", told
-        return "alive", None
+            chosen = [f for f in faults if f[0] not in self.single]
+            if chosen:
+                files[path], left_out = fault_sites.switched(text, blanked(text), chosen)
+                self.single |= set(left_out)
+        return files
 
-    def fails_twice(self, program, bad, seconds, near=()):
-        """Name of a test that fails each time: on a busy machine one may fail for another reason than the fault."""
-        bad = list(bad)
-        while told := first_failure(program, bad, 30 + 5 * seconds, near):
-            name = told.split(" ")[0]
-            if "." not in name or first_failure(program, [], 30 + 5 * seconds, only=name):
+    def build(self):
+        """Compiles with every fault that bears a switch; what the compiler refuses is taken out and tried alone later."""
+        kept = COPY / "build" / "single.json"
+        known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
+        words = {number: describe(fault) for number, fault in self.faults.items()}
+        self.single |= {n for n, w in words.items() if w in known}
+        while True:
+            files = self.written()
+            refresh(files)
+            if not (BUILD / "build.ninja").exists():
+                configured = run(["cmake", "--preset", "dev", f"-DREACHLAB_GUI={'ON' if self.gui else 'OFF'}"], cwd=COPY)
+                if configured.returncode != 0:
+                    sys.exit(configured.stdout)
+            made = ninja("-k0")
+            if made.returncode == 0:
+                break
+            blocks = made.stdout.split("FAILED: ")[1:]
+            refused = set().union(*(fault_sites.refused(block, files) for block in blocks)) - self.single
+            if not refused:
+                sys.exit(made.stdout[-6000:])
+            print(f"{len(refused)} faults do not bear a switch: {' '.join(map(str, sorted(refused)))}", flush=True)
+            self.single |= refused
+        kept.write_text(json.dumps(sorted({words[n] for n in self.single} | set(known))), encoding="utf-8")
+        self.state = hashlib.sha256(json.dumps(sorted((p, hashlib.sha256(t.encode()).hexdigest()) for p, t in files.items())).encode())
+        for folder in SOURCES:
+            if folder not in ("tests", "docs", "packaging"):
+                for file in sorted((COPY / folder).rglob("*")):
+                    if file.suffix in (".h", ".cpp", ".json") and str(file.relative_to(COPY)) not in files:
+                        self.state.update(file.read_bytes())
+        self.state = self.state.hexdigest()
+
+    # --- the tests
+
+    def baseline(self, jobs):
+        """Each test once without a fault: how long it takes, what it comes by, and whether it passes at all."""
+        kept = COPY / "build" / "reached.json"
+        known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
+        places = {}
+        tests = known_tests()
+        for program in {t.program for t in tests if t.is_gtest}:
+            places |= {(program, name): file for name, file in places_of(program).items()}
+        for test in tests:
+            filter_ = next((part.split("=", 1)[1] for part in test.command if part.startswith("--gtest_filter=")), None)
+            file = places.get((test.program, filter_), "")
+            if test.is_gtest and file:
+                test.key = f"{test.name} {self.state} {hash_of(BUILD / file)}"
+            else:
+                test.key = f"{test.name} {self.state}"
+        before = {name.split(" ")[0]: entry["seconds"] for name, entry in known.items()}
+        waiting = sorted((t for t in tests if t.key not in known), key=lambda t: before.get(t.name, 1e9))
+
+        def one(test):
+            with tempfile.NamedTemporaryFile(dir=COPY / "tmp") as seen:
+                seen.write(bytes(16384))
+                seen.flush()
+                code, _, seconds = start(test, 900, seen=seen.name)
+                marks = pathlib.Path(seen.name).read_bytes()
+            with self.lock:
+                known[test.key] = {"passes": code == 0, "seconds": seconds, "reached": [n for n, mark in enumerate(marks) if mark]}
+                if len(known) % 20 == 0:
+                    kept.write_text(json.dumps(known), encoding="utf-8")
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            list(pool.map(one, waiting))
+        kept.write_text(json.dumps(known), encoding="utf-8")
+        self.tests = []
+        for test in tests:
+            entry = known[test.key]
+            if entry["passes"]:
+                test.seconds, test.reached = entry["seconds"], frozenset(entry["reached"])
+                self.tests.append(test)
+        bad = sorted(t.name for t in tests if not known[t.key]["passes"])
+        print(f"{len(tests)} tests, {sum(t.seconds for t in self.tests):.0f} s; left out, fail without a fault: {' '.join(bad) or 'none'}", flush=True)
+
+    def batches(self, tests, near):
+        """Tests shortest first, the nearest before others as long; short ones of a program in one start."""
+        ordered = sorted(tests, key=lambda t: (round(math.log2(max(t.seconds, 0.5))) - (4 if t.suite in near else 0), t.program, t.seconds))
+        batch = []
+        for test in ordered:
+            if batch and (test.program != batch[0].program or not test.is_gtest or not batch[0].is_gtest or test.folder != batch[0].folder
+                          or sum(t.seconds for t in batch) + test.seconds > 5 or len(batch) == 60):
+                yield batch
+                batch = []
+            batch.append(test)
+        if batch:
+            yield batch
+
+    def first_failure(self, number, tests, near):
+        """Name of a test that fails with the fault, twice, and not without it; None when all pass."""
+        for batch in self.batches(tests, near):
+            for told in self.failures(number, batch):
                 return told
-            bad.append(name)
         return None
 
-    def candidates(self, path, object_file):
-        """Programs that the file goes into, the nearest first; a header may go into any."""
-        ordered = nearest_first(path, self.tests)
-        if not object_file:
-            return ordered
-        goal = str(object_file.relative_to(BUILD))
-        return [p for p in ordered if goal in run(["ninja", "-C", str(BUILD), "-t", "inputs", p]).stdout]
+    def failures(self, number, batch):
+        usual = sum(t.seconds for t in batch)
+        command = None
+        if len(batch) > 1:
+            filters = ":".join(part.split("=", 1)[1] for t in batch for part in t.command if part.startswith("--gtest_filter="))
+            command = [batch[0].program, "--gtest_filter=" + filters, "--gtest_fail_fast"]
+        code, out, _ = start(batch[0], max(10, 10 * usual), number, command)
+        if code == 0:
+            return
+        if len(batch) > 1:  # which one, alone
+            names = re.findall(r"^\[  FAILED  \] (\w+[./\w]*)", out, re.M) or re.findall(r"^\[ RUN      \] (\S+)", out, re.M)[-1:]
+            suspects = [t for t in batch if any("--gtest_filter=" + n in t.command for n in names)] or batch
+            for test in suspects + [t for t in batch if t not in suspects]:
+                yield from self.failures(number, [test])
+            return
+        test = batch[0]
+        if code is None:
+            again, _, _ = start(test, max(10, 10 * test.seconds))
+            if again == 0:
+                yield f"{test.name} (does not end)"
+            return
+        again, _, _ = start(test, max(10, 10 * test.seconds), number)
+        if again != 0 and start(test, max(10, 10 * test.seconds))[0] == 0:
+            yield test.name
 
-    def build(self, program, may_fail=False):
-        made = ninja(program, *programs_behind(program))
-        if made.returncode != 0 and not may_fail:
-            sys.exit(made.stdout[-4000:])
-        return made.returncode
+    # --- the verdicts
 
-    def baseline(self, program):
-        """Tests that fail without a fault say nothing, and how long all of them take. Kept for as long as the program is the same."""
-        kept = COPY / "build" / "sound.json"
-        known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
-        key = bytes_of(program)
-        if key not in known:
-            begin = time.monotonic()
-            out = run([str(BUILD / program), "--gtest_brief=1"], 3600, cwd=BUILD / "tests", env=dict(os.environ, QT_QPA_PLATFORM="offscreen"))
-            bad = sorted(set(re.findall(r"^\[  FAILED  \] (\w+\.[/\w]+)", out.stdout, re.M)))
-            known[key] = [bad, time.monotonic() - begin]
-            kept.write_text(json.dumps(known), encoding="utf-8")
-            if bad:
-                print(f"left out, fails without a fault: {' '.join(bad)}", flush=True)
-        return known[key]
+    def known_verdict(self, number):
+        fault = self.faults[number]
+        known = self.judged.get((describe(fault), hash_of(ROOT / fault[0])))
+        return (known["verdict"], known["by"]) if known and known["verdict"] != "alive" else None  # a test may have been added since
+
+    def note(self, number, verdict, by):
+        fault = self.faults[number]
+        with self.lock, self.log.open("a", encoding="utf-8") as log:
+            log.write(json.dumps({"fault": describe(fault), "file": hash_of(ROOT / fault[0]), "verdict": verdict, "by": by}) + "\n")
+
+    def judge(self, number):
+        """A fault behind its switch."""
+        if known := self.known_verdict(number):
+            return known
+        tests = [t for t in self.tests if number in t.reached]
+        by = self.first_failure(number, tests, suites_near(self.faults[number][0]))
+        verdict, by = ("noticed", by) if by else ("alive", f"{len(tests)} tests come by it" if tests else "no test comes by it")
+        self.note(number, verdict, by)
+        return verdict, by
+
+    def judge_alone(self, number):
+        """A fault that the compiler must see: built by itself, tried by the tests of the programs that it changes."""
+        if known := self.known_verdict(number):
+            return known
+        path = self.faults[number][0]
+        goals = targets()
+        objects = [g for g in goals if re.sub(r"CMakeFiles/[^/]+\.dir/", "", g) == path + ".o"]
+        plain = {path: (ROOT / path).read_text(encoding="utf-8")}
+        others = {p: t for p, t in self.written().items() if p != path}
+        programs = sorted({str(pathlib.Path(t.program).relative_to(BUILD)) for t in self.tests if pathlib.Path(t.program).is_relative_to(BUILD)}
+                          | {g for g in ("cli/reach", "tests/reach_counting") if g in goals})
+        wanted = objects or programs
+        refresh(others | plain)
+        if ninja(*wanted).returncode != 0:
+            sys.exit(f"{path} does not compile without a fault")
+        before = {g: hash_of(BUILD / g) for g in wanted}
+        refresh(self.written(alone=number))
+        verdict, by = "alive", None
+        if ninja(*wanted).returncode != 0:
+            verdict = "does not compile"
+        elif all(hash_of(BUILD / g) == h for g, h in before.items()):
+            verdict = "same"
+        else:
+            ninja("-k0")
+            reached = {n for n, f in self.faults.items() if f[0] == path}
+            near = suites_near(path)
+            close = [t for t in self.tests if t.suite in near or t.reached & reached]
+            by = self.first_failure(0, close, near) or self.first_failure(0, [t for t in self.tests if t not in close], near)
+            if by:
+                verdict = "noticed"
+        self.note(number, verdict, by)
+        return verdict, by
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="*", help="folders or files; default: all below the window")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seed", type=int, action="append", help="[1]; several draws share one build")
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--least", type=float, default=0.95, help="share that must be noticed [0.95]")
     parser.add_argument("--only", type=int, help="the N-th fault of the draw alone")
     parser.add_argument("--list", action="store_true", help="the faults, without putting them in")
     parser.add_argument("--gui", action="store_true", help="the window's tests too")
+    parser.add_argument("--check", action="store_true", help="how faults are written behind switches, on examples")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     wishes = parser.parse_args()
     global JOBS
     JOBS = [f"-j{wishes.jobs}"]
+    if wishes.check:
+        return fault_check.check(faults_of, blanked)
     folders = wishes.folders or [f for f in FOLDERS if f != "gui" and (ROOT / f).is_dir()]
-    faults = draw(folders, wishes.seed)
+    seeds = wishes.seed or [1]
     if wishes.list:
-        for _, fault in zip(range(wishes.count), faults):
-            print(describe(fault))
+        for seed in seeds:
+            for _, fault in zip(range(wishes.count), draw(folders, seed)):
+                print(describe(fault))
         return 0
 
-    refresh()
-    configured = run(["cmake", "--preset", "dev", f"-DREACHLAB_GUI={'ON' if wishes.gui else 'OFF'}"], cwd=COPY)
-    if configured.returncode != 0:
-        sys.exit(configured.stdout)
-    campaign = Campaign(wishes.gui)
+    # More than are asked for, as some will not compile or change nothing.
+    most = wishes.only or wishes.count + wishes.count // 5 + 5
+    draws = {seed: list(itertools.islice(draw(folders, seed), most))[wishes.only - 1 if wishes.only else 0:] for seed in seeds}
+    numbers = {}  # of a fault: the same in every draw that has it
+    for drawn in draws.values():
+        for fault in drawn:
+            numbers.setdefault(fault, len(numbers) + 1)
     equivalents = known_equivalents()
-    noticed, alive, nothing, number, drawn = 0, [], 0, 0, 0
-    for fault in faults:
-        if number == wishes.count or (wishes.only and drawn == wishes.only):
+    verdicts = {n: ("listed", None) for fault, n in numbers.items() if re.sub(r":\d+: ", ": ", describe(fault), count=1) in equivalents}
+    campaign = Campaign({n: fault for fault, n in numbers.items()}, wishes.gui or "gui" in folders)
+    campaign.build()
+    campaign.baseline(wishes.jobs)
+
+    def tell(number):
+        verdicts[number] = campaign.judge(number)
+        print(f"({number}) {verdicts[number][0]} {verdicts[number][1]}: {describe(campaign.faults[number])}", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(wishes.jobs) as pool:
+        list(pool.map(tell, [n for n in campaign.faults if n not in campaign.single and n not in verdicts]))
+    worst = 1.0
+    for seed, drawn in draws.items():
+        worst = min(worst, report(seed, [(numbers[fault], fault) for fault in drawn], wishes.count, verdicts, campaign))
+    return 0 if worst >= wishes.least else 1
+
+
+def report(seed, drawn, count, verdicts, campaign):
+    """The verdicts in the order of the draw, until there are enough; the share that was noticed."""
+    noticed, alive, nothing = 0, [], 0
+    for place, (number, fault) in enumerate(drawn, 1):
+        if noticed + len(alive) == count:
             break
-        drawn += 1
-        if wishes.only and drawn != wishes.only:
-            continue
+        if number not in verdicts:
+            verdicts[number] = campaign.judge_alone(number)
+        verdict, by = verdicts[number]
         words = describe(fault)
-        if re.sub(r":\d+: ", ": ", words, count=1) in equivalents:
-            nothing += 1
-            print(f"{drawn} changes nothing (listed) {words}", flush=True)
-            continue
-        verdict, by = campaign.judge(fault, words)
-        if verdict == "does not compile":
-            continue
-        if verdict == "same":
-            nothing += 1
-            print(f"{drawn} changes nothing (same object) {words}", flush=True)
-            continue
-        number += 1
         if verdict == "noticed":
             noticed += 1
-            print(f"{drawn} noticed by {by}: {words}", flush=True)
-        else:
+            print(f"{place} noticed by {by}: {words}", flush=True)
+        elif verdict in ("listed", "same"):
+            nothing += 1
+            print(f"{place} changes nothing ({'listed' if verdict == 'listed' else 'same object'}) {words}", flush=True)
+        elif verdict == "alive":
             alive.append(words)
-            print(f"{drawn} ALIVE {words}", flush=True)
-    share = noticed / number if number else 1.0
-    print(f"seed {wishes.seed}: {noticed} of {number} noticed ({100 * share:.1f} %), {nothing} change nothing")
+            print(f"{place} ALIVE ({by}) {words}", flush=True)
+    judged = noticed + len(alive)
+    share = noticed / judged if judged else 1.0
+    print(f"seed {seed}: {noticed} of {judged} noticed ({100 * share:.1f} %), {nothing} change nothing")
     for words in alive:
         print(f"ALIVE {words}")
-    return 0 if share >= wishes.least else 1
+    return share
 
 
 if __name__ == "__main__":
