@@ -129,7 +129,9 @@ def known_equivalents():
 
 def run(command, seconds=None, **options):
     try:
-        return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds, text=True, errors="replace", **options)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds, text=True, errors="replace", **options)
+        done.stdout = re.sub(r"\x1b\[[\d;]*[mK]", "", done.stdout)  # colours
+        return done
     except subprocess.TimeoutExpired as late:
         return subprocess.CompletedProcess(command, 124, f"longer than {late.timeout:.0f} s", "")
 
@@ -167,7 +169,7 @@ def targets():
 
 
 def hash_of(file):
-    return hashlib.sha256(file.read_bytes()).hexdigest() if file and file.exists() else None
+    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None
 
 
 def suites_near(path):
@@ -204,23 +206,24 @@ class Test:
         return any(part.startswith("--gtest_filter=") for part in self.command)
 
 
-def limits():
+def limits(processor_seconds):
     """No fault may fill the disk or the memory."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 30, 4 << 30))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_AS, (16 << 30, 16 << 30))
+    resource.setrlimit(resource.RLIMIT_CPU, (processor_seconds, processor_seconds))
 
 
-def start(test, seconds, number=0, command=None, seen=None):
+def start(test, seconds, number=0, command=None, seen=None, processor_seconds=3600):
     """(exit code or None when it did not end, output, seconds)."""
-    with tempfile.TemporaryDirectory(prefix="fault-", dir=COPY / "tmp") as scratch:
+    with tempfile.TemporaryDirectory(prefix="fault-", dir=COPY / "tmp", ignore_cleanup_errors=True) as scratch:
         environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", TMPDIR=scratch, REACHLAB_FAULT=str(number), **test.environment)
         if seen:
             environment["REACHLAB_FAULTS_SEEN"] = str(seen)
         begin = time.monotonic()
         with open(pathlib.Path(scratch) / "out", "w+", encoding="utf-8", errors="replace") as out:
             process = subprocess.Popen(command or test.command, cwd=test.folder, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
-                                       env=environment, start_new_session=True, preexec_fn=limits)
+                                       env=environment, start_new_session=True, preexec_fn=lambda: limits(processor_seconds))
             try:
                 code = process.wait(timeout=seconds)
             except subprocess.TimeoutExpired:
@@ -247,6 +250,18 @@ def known_tests():
     return tests
 
 
+def programs(goals):
+    """Test programs of the build."""
+    return sorted(goal for goal in goals if re.fullmatch(r"tests/(?:\w+/)*test_\w+", goal))
+
+
+def programs_behind(program):
+    """What a test program, or a script, starts as well."""
+    if program is None:
+        return ["all"]
+    return ["cli/reach", "tests/reach_counting"] if program.endswith(("test_cli", "test_hidraw")) else []
+
+
 def places_of(program):
     """The source file of each test of a program."""
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
@@ -266,6 +281,7 @@ class Campaign:
         lines = self.log.read_text(encoding="utf-8").splitlines() if self.log.exists() else []
         self.judged = {(entry["fault"], entry["file"]): entry for entry in map(json.loads, lines)}
         self.lock = threading.Lock()
+        self.tests = []
         (COPY / "tmp").mkdir(parents=True, exist_ok=True)
 
     # --- the build
@@ -288,7 +304,7 @@ class Campaign:
                 self.single |= set(left_out)
         return files
 
-    def build(self):
+    def build(self, goals):
         """Compiles with every fault that bears a switch; what the compiler refuses is taken out and tried alone later."""
         kept = COPY / "build" / "single.json"
         known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
@@ -301,7 +317,9 @@ class Campaign:
                 configured = run(["cmake", "--preset", "dev", f"-DREACHLAB_GUI={'ON' if self.gui else 'OFF'}"], cwd=COPY)
                 if configured.returncode != 0:
                     sys.exit(configured.stdout)
-            made = ninja("-k0")
+            if not goals:  # only so that the build is known
+                return
+            made = ninja("-k0", *goals)
             if made.returncode == 0:
                 break
             blocks = made.stdout.split("FAILED: ")[1:]
@@ -321,21 +339,35 @@ class Campaign:
 
     # --- the tests
 
-    def baseline(self, jobs):
-        """Each test once without a fault: how long it takes, what it comes by, and whether it passes at all."""
+    def comes_by(self, program):
+        """Whether a program has any of the files that were changed."""
+        return b"seeded_faults" in pathlib.Path(program).read_bytes()
+
+    def leave_out_wide(self, most):
+        """Takes the faults in headers of more than so many files out, and gives their numbers."""
+        files = {}
+        for line in run(["ninja", "-C", str(BUILD), "-t", "deps"]).stdout.splitlines():
+            if line.startswith("    "):
+                name = os.path.relpath(os.path.normpath(BUILD / line.strip()), COPY)
+                files[name] = files.get(name, 0) + 1
+        wide = [n for n, fault in self.faults.items() if files.get(fault[0], 0) > most]
+        for number in wide:
+            del self.faults[number]
+        return wide
+
+    def baseline(self, program, jobs, longest):
+        """The tests of a program (None: those that are scripts), each run once without a fault: how long it takes, what it comes by, and
+        whether it passes at all."""
         kept = COPY / "build" / "reached.json"
         known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
-        places = {}
-        tests = known_tests()
-        for program in {t.program for t in tests if t.is_gtest}:
-            places |= {(program, name): file for name, file in places_of(program).items()}
+        if program and not self.comes_by(BUILD / program):
+            return []
+        tests = [t for t in known_tests() if (t.program == str(BUILD / program) if program else not t.is_gtest)]
+        places = places_of(str(BUILD / program)) if program else {}
+        behind = "".join(str(hash_of(BUILD / p)) for p in programs_behind(program))
         for test in tests:
             filter_ = next((part.split("=", 1)[1] for part in test.command if part.startswith("--gtest_filter=")), None)
-            file = places.get((test.program, filter_), "")
-            if test.is_gtest and file:
-                test.key = f"{test.name} {self.state} {hash_of(BUILD / file)}"
-            else:
-                test.key = f"{test.name} {self.state}"
+            test.key = f"{test.name} {self.state} {hash_of(BUILD / places.get(filter_, ''))} {behind}"
         before = {name.split(" ")[0]: entry["seconds"] for name, entry in known.items()}
         waiting = sorted((t for t in tests if t.key not in known), key=lambda t: before.get(t.name, 1e9))
 
@@ -343,7 +375,7 @@ class Campaign:
             with tempfile.NamedTemporaryFile(dir=COPY / "tmp") as seen:
                 seen.write(bytes(16384))
                 seen.flush()
-                code, _, seconds = start(test, 900, seen=seen.name)
+                code, _, seconds = start(test, 900, seen=seen.name, processor_seconds=math.ceil(min(longest, 3600)))
                 marks = pathlib.Path(seen.name).read_bytes()
             with self.lock:
                 known[test.key] = {"passes": code == 0, "seconds": seconds, "reached": [n for n, mark in enumerate(marks) if mark]}
@@ -352,14 +384,17 @@ class Campaign:
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             list(pool.map(one, waiting))
         kept.write_text(json.dumps(known), encoding="utf-8")
-        self.tests = []
+        sound = []
         for test in tests:
             entry = known[test.key]
             if entry["passes"]:
                 test.seconds, test.reached = entry["seconds"], frozenset(entry["reached"])
-                self.tests.append(test)
+                sound.append(test)
         bad = sorted(t.name for t in tests if not known[t.key]["passes"])
-        print(f"{len(tests)} tests, {sum(t.seconds for t in self.tests):.0f} s; left out, fail without a fault: {' '.join(bad) or 'none'}", flush=True)
+        print(f"{program or 'scripts'}: {len(tests)} tests, {sum(t.seconds for t in sound):.0f} s"
+              + (f"; left out, fail without a fault: {' '.join(bad)}" if bad else ""), flush=True)
+        self.tests += sound
+        return sound
 
     def batches(self, tests, near):
         """Tests shortest first, the nearest before others as long; short ones of a program in one start."""
@@ -418,15 +453,38 @@ class Campaign:
         with self.lock, self.log.open("a", encoding="utf-8") as log:
             log.write(json.dumps({"fault": describe(fault), "file": hash_of(ROOT / fault[0]), "verdict": verdict, "by": by}) + "\n")
 
-    def judge(self, number):
-        """A fault behind its switch."""
-        if known := self.known_verdict(number):
-            return known
-        tests = [t for t in self.tests if number in t.reached]
-        by = self.first_failure(number, tests, suites_near(self.faults[number][0]))
-        verdict, by = ("noticed", by) if by else ("alive", f"{len(tests)} tests come by it" if tests else "no test comes by it")
-        self.note(number, verdict, by)
-        return verdict, by
+    def judge(self, jobs, longest, skip):
+        """The faults behind switches, program by program, the nearest first: a program that no living fault needs is not even built."""
+        verdicts = {n: known for n in self.faults if n not in skip and (known := self.known_verdict(n))}
+        living = {n for n in self.faults if n not in verdicts and n not in skip}
+        come_by = dict.fromkeys(living, 0)
+        self.build([])
+        waiting = programs(targets())
+        while living - self.single:
+            if waiting is None:
+                break
+            near = {p: sum(p.endswith("test_" + part) for n in living for part in pathlib.Path(self.faults[n][0]).parts[:-1]) for p in waiting}
+            program = max(waiting, key=lambda p: (near[p], not programs_behind(p))) if waiting else None
+            self.build([program, *programs_behind(program)] if program else programs_behind(None))
+            tests = self.baseline(program, jobs, longest)
+
+            def tell(number):
+                own = [t for t in tests if number in t.reached]
+                by = self.first_failure(number, own, suites_near(self.faults[number][0]))
+                come_by[number] += len(own)
+                if by:
+                    verdicts[number] = ("noticed", by)
+                    self.note(number, "noticed", by)
+                    print(f"({number}) noticed by {by}: {describe(self.faults[number])}", flush=True)
+            with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+                list(pool.map(tell, sorted(living - self.single)))
+            living -= set(verdicts)
+            print(f"after {program or 'scripts'}: {len(verdicts)} noticed, {len(living - self.single)} live", flush=True)
+            waiting = [p for p in waiting if p != program] if program else None
+        for number in sorted(living - self.single):
+            verdicts[number] = ("alive", f"{come_by[number]} tests come by it" if come_by[number] else "no test comes by it")
+            self.note(number, *verdicts[number])
+        return verdicts
 
     def judge_alone(self, number):
         """A fault that the compiler must see: built by itself, tried by the tests of the programs that it changes."""
@@ -470,6 +528,8 @@ def main():
     parser.add_argument("--least", type=float, default=0.95, help="share that must be noticed [0.95]")
     parser.add_argument("--only", type=int, help="the N-th fault of the draw alone")
     parser.add_argument("--list", action="store_true", help="the faults, without putting them in")
+    parser.add_argument("--longest", type=float, default=1e9, help="leave out tests that need more seconds of processor time than this")
+    parser.add_argument("--widest", type=int, help="leave out faults in headers that more files than this include (to have an answer sooner)")
     parser.add_argument("--gui", action="store_true", help="the window's tests too")
     parser.add_argument("--check", action="store_true", help="how faults are written behind switches, on examples")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
@@ -495,15 +555,10 @@ def main():
             numbers.setdefault(fault, len(numbers) + 1)
     equivalents = known_equivalents()
     verdicts = {n: ("listed", None) for fault, n in numbers.items() if re.sub(r":\d+: ", ": ", describe(fault), count=1) in equivalents}
-    campaign = Campaign({n: fault for fault, n in numbers.items()}, wishes.gui or "gui" in folders)
-    campaign.build()
-    campaign.baseline(wishes.jobs)
-
-    def tell(number):
-        verdicts[number] = campaign.judge(number)
-        print(f"({number}) {verdicts[number][0]} {verdicts[number][1]}: {describe(campaign.faults[number])}", flush=True)
-    with concurrent.futures.ThreadPoolExecutor(wishes.jobs) as pool:
-        list(pool.map(tell, [n for n in campaign.faults if n not in campaign.single and n not in verdicts]))
+    campaign = Campaign({n: fault for fault, n in numbers.items() if n not in verdicts}, wishes.gui or "gui" in folders)
+    if wishes.widest:
+        verdicts |= {n: ("wide", None) for n in campaign.leave_out_wide(wishes.widest)}
+    verdicts |= campaign.judge(wishes.jobs, wishes.longest, verdicts)
     worst = 1.0
     for seed, drawn in draws.items():
         worst = min(worst, report(seed, [(numbers[fault], fault) for fault in drawn], wishes.count, verdicts, campaign))
@@ -512,7 +567,7 @@ def main():
 
 def report(seed, drawn, count, verdicts, campaign):
     """The verdicts in the order of the draw, until there are enough; the share that was noticed."""
-    noticed, alive, nothing = 0, [], 0
+    noticed, alive, nothing, wide = 0, [], 0, []
     for place, (number, fault) in enumerate(drawn, 1):
         if noticed + len(alive) == count:
             break
@@ -523,6 +578,8 @@ def report(seed, drawn, count, verdicts, campaign):
         if verdict == "noticed":
             noticed += 1
             print(f"{place} noticed by {by}: {words}", flush=True)
+        elif verdict == "wide":
+            wide.append(words)
         elif verdict in ("listed", "same"):
             nothing += 1
             print(f"{place} changes nothing ({'listed' if verdict == 'listed' else 'same object'}) {words}", flush=True)
@@ -534,6 +591,8 @@ def report(seed, drawn, count, verdicts, campaign):
     print(f"seed {seed}: {noticed} of {judged} noticed ({100 * share:.1f} %), {nothing} change nothing")
     for words in alive:
         print(f"ALIVE {words}")
+    for words in wide:
+        print(f"not tried, in a header of many files: {words}")
     return share
 
 
