@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -74,6 +75,10 @@ int fdatasync(int file) {
   REAL(fdatasync);
   return fails("fsync", EIO) ? -1 : real(file);
 }
+int flock(int file, int operation) {
+  REAL(flock);
+  return fails("lock", ENOLCK) ? -1 : real(file, operation);
+}
 int rename(const char* from, const char* to) {
   REAL(rename);
   return fails("rename", ENOSPC) ? -1 : real(from, to);
@@ -102,4 +107,16 @@ void* mmap(void* at, size_t size, int protection, int flags, int file, off_t off
   return file >= 0 && fails("mmap", ENOMEM) ? MAP_FAILED : real(at, size, protection, flags, file, offset);
 }
 extern void* __libc_malloc(size_t size);
+extern void* __libc_calloc(size_t count, size_t size);
+extern void* __libc_realloc(void* old, size_t size);
+extern void* __libc_memalign(size_t boundary, size_t size);
 void* malloc(size_t size) { return fails("malloc", ENOMEM) ? NULL : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) { return fails("malloc", ENOMEM) ? NULL : __libc_calloc(count, size); }
+void* realloc(void* old, size_t size) { return fails("malloc", ENOMEM) ? NULL : __libc_realloc(old, size); }
+void* aligned_alloc(size_t boundary, size_t size) { return fails("malloc", ENOMEM) ? NULL : __libc_memalign(boundary, size); }
+int posix_memalign(void** place, size_t boundary, size_t size) {
+  void* made = fails("malloc", ENOMEM) ? NULL : __libc_memalign(boundary, size);
+  if (made == NULL) return ENOMEM;
+  *place = made;
+  return 0;
+}

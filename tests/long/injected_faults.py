@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Lets every n-th write, read, fsync, rename, open, mmap and malloc of `reach` fail: the first --first of each, then --seeded at random.
+"""Lets every n-th write, read, fsync, rename, open, flock, mmap and malloc of `reach` fail: the first --first of each, then --seeded at random.
 
-    tests/long/injected_faults.py build/dev                      # 2000 and 500, as long as it takes
+    tests/long/injected_faults.py build/dev                      # 2000 and 500, about 13,000 commands: half an hour
     tests/long/injected_faults.py build/dev --first 60 --seeded 10
 
 Commands: a run of three trials, its resumption, export, analyze, recover. What must hold: no trial that was announced is lost; a command
@@ -12,15 +12,37 @@ import os
 import pathlib
 import random
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
+from concurrent.futures import ThreadPoolExecutor
 
-KINDS = ["write", "read", "fsync", "rename", "open", "mmap", "malloc"]
+KINDS = ["write", "read", "fsync", "rename", "open", "lock", "mmap", "malloc"]
+TRIAL, INTERRUPTED = 5, 4  # docs/recording.md: type of a trial's record, and its outcome
+
+
+def trials_in(log):
+    """Outcome by number of the trials of a log, by the rule of docs/recording.md: reading ends at the first record that is not right."""
+    data, at, number, found = log.read_bytes(), 16, 0, {}
+    while at + 16 <= len(data):
+        length, kind, _, sequence = struct.unpack_from("<IHHI", data, at)
+        end = at + 12 + length
+        if end + 4 > len(data) or sequence != number or zlib.crc32(data[at:end]) != struct.unpack_from("<I", data, end)[0]:
+            break
+        if kind == TRIAL:
+            trial, _, _, _, outcome = struct.unpack_from("<iiiBB", data, at + 12)
+            found[trial] = outcome
+        at, number = end + 4, number + 1
+    return found
 
 
 class Bench:
+    """Where commands run, one after another, each with at most one fault."""
+
     def __init__(self, build, scratch):
+        scratch.mkdir()
         self.reach = str((build / "cli" / "reach").resolve())
         self.scratch = scratch
         self.shim = scratch / "shim.so"
@@ -43,17 +65,10 @@ class Bench:
                                text=True, errors="replace", timeout=300)
         return ended, int(count.read_text()) if count.exists() and count.read_text().strip() else 0
 
-    def trials(self, data):
-        """The recorded trials, from the logs, without a fault."""
-        out = self.scratch / "csv"
-        shutil.rmtree(out, ignore_errors=True)
-        if not list(pathlib.Path(data).glob("sourcedata/*.reach")):
-            return []
-        ended, _ = self.run(["export", data, "--format", "csv", "--out", out])
-        if ended.returncode != 0 or not (out / "trials.csv").exists():
-            return []
-        rows = (out / "trials.csv").read_text().splitlines()[1:]
-        return [row.split(",")[2:10] for row in rows]
+    @staticmethod
+    def kept(data):
+        """How many trials are recorded that were not broken off."""
+        return sum(outcome != INTERRUPTED for log in pathlib.Path(data).glob("sourcedata/*.reach") for outcome in trials_in(log).values())
 
 
 def files_of(folder):
@@ -75,18 +90,18 @@ def scenarios(bench):
 
     def announced_are_kept(folder, ended):
         announced = [line for line in ended.stdout.splitlines() if line.startswith("trial=")]
-        kept = [row for row in bench.trials(folder) if row[5] != "interrupted"]
-        if len(kept) < len(announced):
-            return f"{len(announced)} trials announced, {len(kept)} kept"
-        if ended.returncode == 0 and len(kept) < 3:
-            return f"exit 0 and {len(kept)} of 3 trials"
+        kept = bench.kept(folder)
+        if kept < len(announced):
+            return f"{len(announced)} trials announced, {kept} kept"
+        if ended.returncode == 0 and kept < 3:
+            return f"exit 0 and {kept} of 3 trials"
         return ""
 
     run = ["run", "dingwell", "--device", "simulated", "--trials", "3", "--seed", "1", "--fast", "--disk-reserve", "0", "--data"]
     resume = ["run", "dingwell", "--device", "simulated", "--fast", "--resume", "--disk-reserve", "0", "--data"]
     yield "run", fresh, lambda f: [*run, f], announced_are_kept
-    yield "resume", lambda: copy_of(bench.half), lambda f: [*resume, f], lambda f, e: "" if e.returncode != 0 or len(
-        [r for r in bench.trials(f) if r[5] != "interrupted"]) >= 3 else "exit 0 and a trial is missing"
+    yield "resume", lambda: copy_of(bench.half), lambda f: [*resume, f], lambda f, e: "" if (
+        bench.kept(f) >= (3 if e.returncode == 0 else 1)) else f"exit {e.returncode} and {bench.kept(f)} trials are left"
 
     expected = {}
     for name, source, command in (("export", bench.whole, ["export", "F", "--format", "csv", "--out", "F/out"]),
@@ -104,10 +119,28 @@ def scenarios(bench):
                check)
 
     def recovered(folder, ended):
-        kept = bench.trials(folder)
-        return "" if kept and kept[0][5] != "interrupted" else "the first trial is lost"
+        return "" if bench.kept(folder) >= 1 else "the first trial is lost"
 
     yield ("recover", lambda: copy_of(bench.half), lambda f: ["recover", *sorted((f / "sourcedata").glob("*.reach"))], recovered)
+
+
+def try_faults(bench, scenario, kind, points):
+    """What is wrong after each of these faults: [(at, what)]."""
+    prepare, command, check = scenario
+    findings = []
+    for at in points:
+        folder = prepare()
+        ended, _ = bench.run(command(folder), kind, at)
+        why = check(folder, ended)
+        if ended.returncode < 0:
+            why = f"died of signal {-ended.returncode}" + (f"; {why}" if why else "")
+        elif ended.returncode not in (0, 2, 3, 4):
+            why = f"exit code {ended.returncode}" + (f"; {why}" if why else "")
+        elif ended.returncode != 0 and not ended.stderr.strip():
+            why = f"exit {ended.returncode} without a word"
+        if why:
+            findings.append((at, f"{why}: {ended.stderr.strip().splitlines()[-1:]}"))
+    return findings
 
 
 def main():
@@ -118,35 +151,29 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--scenarios", default="run,resume,export,analyze,recover")
+    parser.add_argument("--at", type=int, help="only this call")
+    parser.add_argument("--jobs", type=int, default=1)
     wishes = parser.parse_args()
     chance = random.Random(wishes.seed)
     findings = faults = 0
-    with tempfile.TemporaryDirectory(prefix="reach-faults-") as scratch:
-        bench = Bench(wishes.build, pathlib.Path(scratch))
-        for name, prepare, command, check in scenarios(bench):
-            if name not in wishes.scenarios.split(","):
-                continue
+    with tempfile.TemporaryDirectory(prefix="reach-faults-") as scratch, ThreadPoolExecutor(wishes.jobs) as workers:
+        benches = [Bench(wishes.build, pathlib.Path(scratch) / str(job)) for job in range(wishes.jobs)]
+        of_bench = [{name: rest for name, *rest in scenarios(bench)} for bench in benches]
+        for name in wishes.scenarios.split(","):
             for kind in wishes.kinds.split(","):
-                _, total = bench.run(command(prepare()), kind)
+                prepare, command, _ = of_bench[0][name]
+                _, total = benches[0].run(command(prepare()), kind)
                 beyond = range(wishes.first + 1, total + 1)
                 points = [*range(1, min(total, wishes.first) + 1), *sorted(chance.sample(beyond, min(wishes.seeded, len(beyond))))]
-                before = findings
-                for at in points:
-                    folder = prepare()
-                    ended, count = bench.run(command(folder), kind, at)
-                    faults += 1
-                    why = check(folder, ended)
-                    if ended.returncode < 0:
-                        why = f"died of signal {-ended.returncode}" + (f"; {why}" if why else "")
-                    elif ended.returncode not in (0, 2, 3, 4):
-                        why = f"exit code {ended.returncode}" + (f"; {why}" if why else "")
-                    elif ended.returncode != 0 and not ended.stderr.strip():
-                        why = f"exit {ended.returncode} without a word"
-                    if why:
-                        findings += 1
-                        if findings - before <= 12:
-                            print(f"{name}: {kind} {at} of {total}: {why}: {ended.stderr.strip().splitlines()[-1:]}", flush=True)
-                print(f"{name}: {len(points)} of {total} {kind}: {findings - before} findings", flush=True)
+                if wishes.at:
+                    points = [wishes.at]
+                parts = [workers.submit(try_faults, benches[job], of_bench[job][name], kind, points[job::wishes.jobs]) for job in range(wishes.jobs)]
+                found = sorted(finding for part in parts for finding in part.result())
+                for at, why in found[:20]:
+                    print(f"{name}: {kind} {at} of {total}: {why}", flush=True)
+                print(f"{name}: {len(points)} of {total} {kind}: {len(found)} findings", flush=True)
+                faults += len(points)
+                findings += len(found)
     print(f"injected faults: {faults}, findings: {findings}")
     return 1 if findings else 0
 
