@@ -13,10 +13,26 @@
 namespace reachlab::cli {
 namespace {
 
-/// "; --sede: did you mean --seed?" for the first word that no command knows; empty when nothing is near.
-std::string proposal(const CLI::App& app) {
+const CLI::App& givenCommand(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+/// The first thing that the command needs and was not given, with what it says of itself; a command without its word lists them.
+std::string missing(const CLI::App& app) {
+  const CLI::App& command = givenCommand(app);
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_required() && option->empty())
+      return command.get_name() + ": " + option->get_name() + " is missing: " + option->get_description();
+  std::string words;
+  for (const CLI::App* word : command.get_subcommands({})) words += (words.empty() ? "" : ", ") + word->get_name();
+  return (&command == &app ? std::string() : command.get_name() + ": ") + "a command is missing: " + words + "; --help tells what they do";
+}
+
+/// "; --sede: did you mean --seed?" for the first word that no command knows; empty when nothing is near.
+std::string proposal(const CLI::App& app) {
+  const CLI::App* command = &givenCommand(app);
   for (const std::string& word : app.remaining(true)) {
     std::vector<std::string> known;
     if (word.starts_with("--")) {
@@ -38,6 +54,9 @@ int exitCodeOf(CLI::App& app, const std::function<int()>& work) {
     return work();
   } catch (const CLI::Success& e) {
     return app.exit(e);
+  } catch (const CLI::RequiredError&) {
+    std::fprintf(stderr, "reach: %s%s\n", missing(app).c_str(), proposal(app).c_str());
+    return 2;
   } catch (const CLI::ParseError& e) {
     std::fprintf(stderr, "reach: %s%s\n", e.what(), proposal(app).c_str());
     return 2;

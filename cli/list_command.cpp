@@ -11,6 +11,7 @@
 #include "sim/experiment/describe.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
+#include "sim/session/plan.h"
 
 namespace reachlab::cli {
 namespace {
@@ -40,11 +41,27 @@ Json listExperiments() {
   return rows;
 }
 
+Json listPlans() {
+  Json rows = Json::array();
+  for (const std::string& name : session::shippedPlans()) {
+    const session::Plan plan = session::readPlan(*session::findPlan(name));
+    int trials = 0, days = 1;
+    for (const session::PlanBlock& block : plan.blocks) trials += block.trials, days = std::max(days, block.day);
+    rows.push_back({{"name", name},
+                    {"description", fmt::format("{} blocks, {} trials in all{}", plan.blocks.size(), trials,
+                                                days > 1 ? fmt::format(", {} days", days) : "")}});
+  }
+  return rows;
+}
+
 Json listConstraints() {
   Json rows = Json::array({{{"name", "free"}, {"kind", "free"}, {"description", "Nothing binds the object."}}});
-  for (const constraints::Definition& d : constraints::catalogue())
+  const auto add = [&](const constraints::Definition& d) {
     rows.push_back(
         {{"name", d.name}, {"kind", d.kind == constraints::ConstraintKind::Curve ? "curve" : "surface"}, {"description", d.sentence}});
+  };
+  for (const constraints::Definition& d : constraints::catalogue()) add(d);
+  for (const constraints::Definition& d : constraints::readDefinitionFolder(constraints::userDefinitionFolder())) add(d);
   return rows;
 }
 
@@ -102,13 +119,14 @@ void addListCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("list", "List what can be named on the command line");
   const auto what = std::make_shared<std::string>();
   const auto asJson = std::make_shared<bool>(false);
-  command->add_option("what", *what, "experiments, constraints, methods, criteria or devices")
+  command->add_option("what", *what, "experiments, plans, constraints, methods, criteria or devices")
       ->required()
-      ->check(CLI::IsMember({"experiments", "constraints", "methods", "criteria", "devices"}));
+      ->check(CLI::IsMember({"experiments", "plans", "constraints", "methods", "criteria", "devices"}));
   command->add_flag("--json", *asJson, "an array of objects with `name`");
   command->footer("Examples:\n  reach list experiments\n  reach list constraints --json");
   command->callback([what, asJson] {
     const Json rows = *what == "experiments"   ? listExperiments()
+                      : *what == "plans"       ? listPlans()
                       : *what == "constraints" ? listConstraints()
                       : *what == "methods"     ? listMethods()
                       : *what == "criteria"    ? listCriteria()

@@ -42,7 +42,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   const auto hands = std::make_shared<std::vector<std::string>>();
   command
       ->add_option("--device", *hands,
-                   "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER; reach list devices tells all. Once for each of the experiment's hands")
+                   "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, mouse …; `reach list devices` tells all. Once for each of the experiment's hands")
       ->required()
       ->allow_extra_args(false);
   command->add_option("--instrument", r->instruments,

@@ -39,6 +39,8 @@ struct Plan {
 bool isPlan(const std::string& text, const std::string& file);
 /// The file that `fileOrName` means: itself if it exists, else the shipped plan of that name; nullopt when neither.
 std::optional<std::string> findPlan(const std::string& fileOrName);
+/// Names of the shipped plans, in order.
+std::vector<std::string> shippedPlans();
 /// Throws FaultError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Plan parsePlan(const std::string& text, const std::string& file);
 Plan readPlan(const std::string& file);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/cli/program.h"
 #include "test_paths.h"
 
@@ -40,6 +42,10 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
        {Mistake{"run dingwell --devise simulated", "did you mean --device?"},
         Mistake{"run dingwell --device simulated --tirals=3", "did you mean --trials?"},
         Mistake{"simulat dingwell", "did you mean simulate?"},
+        Mistake{"", "a command is missing: list, validate, run"},
+        Mistake{"constraint", "constraint: a command is missing: list, show"},
+        Mistake{"list", "list: what is missing: experiments, plans, constraints"},
+        Mistake{"run dingwell", "run: --device is missing: simulated"},
         Mistake{"predict chain-slow --criterion 1", "(1) min-hand-jerk, (2) min-torque-change"},
         Mistake{"constraint check " + experiment, "is an experiment file, no constraint definition; `reach validate` checks it"},
         Mistake{"run dingwell --device simulated --fast --seed 1 --data " + table + "/data", "--data: ", 3}}) {
@@ -47,6 +53,18 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
     EXPECT_EQ(ended.exitCode, m.exitCode) << m.arguments;
     EXPECT_NE(ended.err.find(m.answer), std::string::npos) << m.arguments << "\n" << ended.err;
   }
+}
+
+TEST(Usage, PlansAndTheUsersOwnConstraintsAreListed) {
+  EXPECT_NE(reach("list plans").out.find("paper                    6 blocks"), std::string::npos) << reach("list plans").out;
+  const Folder folder;
+  folder.write("bow.json", R"json({"schema_version": 1, "name": "bow", "sentence": "A bow.", "kind": "curve",
+      "curve": ["phi", "phi^2", "0"], "domain": [-1, 1], "start": [0], "target": [0.5]})json");
+  ::setenv("REACHLAB_CONSTRAINTS", folder.string().c_str(), 1);
+  const Ended listed = reach("list constraints"), whole = reach("constraint list");
+  ::unsetenv("REACHLAB_CONSTRAINTS");
+  EXPECT_NE(listed.out.find("bow "), std::string::npos) << listed.out << listed.err;
+  EXPECT_NE(whole.out.find("bow "), std::string::npos) << whole.out;
 }
 
 TEST(Usage, RecoverGoesThroughAllItsLogs) {
