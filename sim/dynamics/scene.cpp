@@ -5,10 +5,13 @@
 
 #include "constraints/analysis.h"
 #include "base/error.h"
+#include "constraints/period.h"
 #include "constraints/places.h"
+#include "constraints/rounding.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/curve_places.h"
 #include "sim/dynamics/rk4_error.h"
 #include "sim/dynamics/shared_plant.h"
 
@@ -34,15 +37,17 @@ SpeedRange findSpeedRange(const constraints::Constraint& constraint, const const
   constexpr double kSteep = 8;
   SpeedRange range{1e300, 0};
   std::vector<double> speeds;
+  const bool broken = piece.lo > constraint.domain[0].lo || piece.hi < constraint.domain[0].hi;
   const auto speedAt = [&](double phi) { return norm(evaluate(piece.curve, phi).rPhi); };
   for (const double centre : {0.5 * (d.lo + d.hi), start}) {
     double before = 1e300, last = 1e300;
+    const double from = std::fmax(centre - 0.5 * (d.hi - d.lo), piece.lo), to = std::fmin(centre + 0.5 * (d.hi - d.lo), piece.hi);
+    if (broken && !(from < to)) continue;
+    const auto phiAt = [&](double k) {
+      if (broken) return from + (to - from) * ((k + 0.5) / (kSamples + 1));  // not its very ends, where |r_phi| may have no bound
+      return std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
+    };
     for (int i = 0; i <= kSamples; ++i) {
-      const auto phiAt = [&](double k) {
-        const double phi =
-            std::fmin(std::fmax(centre + (d.hi - d.lo) * (k / kSamples - 0.5), constraint.domain[0].lo), constraint.domain[0].hi);
-        return std::fmin(std::fmax(phi, piece.lo), piece.hi);
-      };
       const double speed = speedAt(phiAt(i));
       if (!std::isfinite(speed)) continue;
       speeds.push_back(speed);
@@ -125,6 +130,41 @@ void requireStart(const constraints::Constraint& c, const std::vector<double>& s
   }
 }
 
+/// A formula whose own rounding moves a mass (large numbers that cancel) is told so: what is computed would be noise.
+void requireDigits(const constraints::Constraint& c, const std::vector<double>& start) {
+  constexpr double kShown = 1e-9, kOfPlace = 1e-13;  // [m], and of |r| for a formula that lies far away
+  constexpr int kAcross = 5;
+  std::vector<double> excess;
+  double rounding = 0;
+  const auto look = [&](double first, double second) {
+    const Vec3 r = c.kind == constraints::ConstraintKind::Curve ? evaluate(c.curve, first).r : evaluate(c.surface, first, second).r;
+    if (!isFinite(r)) return;
+    const double off = constraints::computeRounding(c, first, second);
+    excess.push_back(off / (kShown + kOfPlace * norm(r)));
+    rounding = std::max(rounding, off);
+  };
+  for (int i = 0; i < kAcross * kAcross; ++i) {
+    if (c.kind == constraints::ConstraintKind::Curve) look(start[0] + 0.25 * (i - kAcross * kAcross / 2), 0);
+    else look(start[0] + 0.25 * (i % kAcross - kAcross / 2), start[1] + 0.25 * (i / kAcross - kAcross / 2));
+  }
+  if (excess.empty()) return;
+  std::nth_element(excess.begin(), excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2), excess.end());
+  if (excess[excess.size() / 2] > 1)
+    throw RefusedError(fmt::format("the formula loses its digits: roundings inside it move the mass by {:.2g} m about the start, for large "
+                                   "numbers cancel in it; write it so that they do not arise",
+                                   rounding));
+}
+
+/// Each tick rounds phi once.
+void requireNearZero(const constraints::Constraint& c, const constraints::Curve& curve, double start) {
+  if (!(std::isfinite(c.domain[0].lo) && std::isfinite(c.domain[0].hi) && !c.domain[0].periodic) && constraints::findPeriod(c).turn > 0) return;
+  const constraints::CurvePoint p = evaluate(curve, start);
+  if (roundingOfPhi(p, start) > allowedRounding(p))
+    throw RefusedError(fmt::format("the start phi = {} is so far from 0 that a rounding of phi moves the mass by {:.2g} m, in every tick; "
+                                   "shift the formula's phi, or choose a start nearer 0",
+                                   start, roundingOfPhi(p, start)));
+}
+
 /// The modes' estimate knows nothing of a curve's or a surface's bends: where there is a task its reach is measured.
 void estimateRk4(Scene& scene, const experiment::Experiment& experiment, double step) {
   constexpr double kAccurate = 1e-6;  // [m] a predicted error above it is worth a warning
@@ -195,6 +235,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
       experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == constraints::ConstraintKind::Free ? 3 : 2, 0.0);
   if (experiment.task) requireStart(constraint, start);
 
+  if (experiment.task && constraint.kind != constraints::ConstraintKind::Free) requireDigits(constraint, start);
   const bool linear = isLinear(constraint, model);
   SceneFacts facts{.linear = linear, .step = options.step};
   if (experiment.task) facts.duration = experiment.task->duration;
@@ -212,6 +253,7 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
     regularity = std::make_shared<const constraints::CurveRegularity>(constraints::computeRegularity(constraint, start[0]));
     const constraints::CurvePiece& piece = startPiece(*regularity, start[0]);
     requireValue(piece.curve, start[0]);
+    if (experiment.task) requireNearZero(constraint, piece.curve, start[0]);
     const SpeedRange speeds = findSpeedRange(constraint, piece, start[0]);
     speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
     form = {speedRatio < kHardSpeedRatio || !regularity->whole, speeds.most};
