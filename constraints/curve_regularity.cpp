@@ -77,6 +77,7 @@ class Examiner {
       result_.pieces = {{lo, hi, c_.curve}};
       result_.owner = c_.owner;
       addCusps(c_.curve, r_, from, to);
+      splitNarrow({r_});
       if (!std::isfinite(lo) && !c_.domain[0].periodic) addFarEnd(-1);
       if (!std::isfinite(hi) && !c_.domain[0].periodic) addFarEnd(1);
       result_.smooth = result_.places.empty();
@@ -303,6 +304,7 @@ class Examiner {
       result_.pieces = {{result_.lo, result_.hi, c_.curve}};
       result_.owner = c_.owner;
       addCusps(c_.curve, r_, result_.lo, result_.hi);
+      splitNarrow({r_});
       result_.smooth = result_.places.empty();
       return;
     }
@@ -395,8 +397,14 @@ class Examiner {
         addCusps(all[i].curve, {r[0], r[1], r[2]}, all[i].lo, all[i].hi);
       }
     result_.pieces.clear();
+    std::vector<std::vector<int>> formulas;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (alive[i]) result_.pieces.push_back(all[i]);
+      if (alive[i]) {
+        result_.pieces.push_back(all[i]);
+        const auto& r = programs_.at(keyOf(stretches_[i].signs)).second;
+        formulas.push_back({r[0], r[1], r[2]});
+      }
+    splitNarrow(formulas);
     // Cusps were added behind: in order again, and the pieces' indices with them.
     std::vector<std::size_t> order(result_.places.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -444,6 +452,71 @@ class Examiner {
       place.kind = turn > 0 ? PlaceKind::Standstill : same ? PlaceKind::Fold : PlaceKind::Cusp;
       result_.places.push_back(place);
     }
+  }
+
+  /// Stretches on which the curve bends much more than elsewhere and that are shorter than a tick's way: pieces of their own, so that a
+  /// step lands on them and goes through in small parts. `formulas`: r of each piece.
+  void splitNarrow(const std::vector<std::vector<int>>& formulas) {
+    constexpr double kMuch = 30, kWay = 2e-3;  // [m] of a tick, at most
+    constexpr std::size_t kMost = 64;
+    constexpr int kSamples = 257, kBoxesForThem = 20000;
+    if (!stillPlaces_ || c_.curve.function != evaluateCurveProgram) return;  // a definition of the catalogue is known
+    const auto [from, to] = window(lo_, hi_, 1.0 / 4);
+    std::vector<CurvePiece> parts;
+    std::size_t count = 0;
+    int boxes = kBoxesForThem;
+    for (std::size_t k = 0; k < result_.pieces.size(); ++k) {
+      const CurvePiece& piece = result_.pieces[k];
+      const double lo = std::max(piece.lo, from), hi = std::min(piece.hi, to);
+      std::vector<double> speeds, bends;
+      const double first = std::max(lo, about_ - std::numbers::pi), last = std::min(hi, about_ + std::numbers::pi);
+      for (int i = 0; i < kSamples && first < last; ++i) {
+        const CurvePoint p = evaluate(piece.curve, first + (last - first) * (i + 0.5) / kSamples);
+        if (!isFinite(p)) continue;
+        speeds.push_back(norm(p.rPhi));
+        bends.push_back(norm(p.rPhiPhi));
+      }
+      if (speeds.empty()) {
+        parts.push_back(piece);
+        continue;
+      }
+      const auto median = [](std::vector<double>& all) {
+        std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+        return all[all.size() / 2];
+      };
+      const double speed = median(speeds), usual = speed + median(bends);
+      std::vector<int> d = graph_.differentiate(graph_.differentiate(formulas[k], 0), 0);
+      int excess = graph_.constant(-kMuch * kMuch * usual * usual);
+      for (const int bend : d) excess = graph_.add(excess, graph_.powInt(bend, 2));
+      const RootSearch search = findRoots(graph_, excess, shape_, lo, hi, boxes);
+      std::vector<std::pair<double, double>> narrow;
+      for (std::size_t i = 0; i + 1 < search.roots.size(); ++i) {
+        const double a = search.roots[i], b = search.roots[i + 1];
+        const std::vector<int> one{excess};
+        const double middle = a + (b - a) / 2;
+        if (!(evaluateNodes(graph_, one, shape_, &middle)[0] > 0) || !((b - a) * speed < kWay)) continue;
+        const double more = 0.25 * (b - a);
+        if (!narrow.empty() && a - narrow.back().second < 4 * more + 2 * (narrow.back().second - narrow.back().first)) narrow.back().second = b + more;
+        else narrow.push_back({a - more, b + more});
+      }
+      count += narrow.size();
+      CurvePiece rest = piece;
+      for (const auto& [a, b] : narrow) {
+        if (!(a > rest.lo && b < rest.hi)) continue;
+        CurvePiece before = rest, within = rest;
+        before.hi = within.lo = a;
+        within.hi = rest.lo = b;
+        before.placeAtHi = within.placeAtLo = within.placeAtHi = rest.placeAtLo = -1;
+        before.passedAtHi = within.passedAtLo = within.passedAtHi = rest.passedAtLo = true;
+        within.narrow = true;
+        parts.push_back(before);
+        parts.push_back(within);
+      }
+      parts.push_back(rest);
+    }
+    if (parts.size() == result_.pieces.size() || count > kMost) return;
+    result_.pieces = std::move(parts);
+    result_.whole = false;
   }
 
   const Constraint& c_;

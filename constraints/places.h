@@ -40,6 +40,7 @@ struct CurvePiece {
   Curve curve;                         // runs on smoothly a little beyond both ends, for what a step looks at
   int placeAtLo = -1, placeAtHi = -1;  // index in CurveRegularity::places; -1: none (end of the domain, or of what was examined; a seam)
   bool passedAtLo = false, passedAtHi = false;  // a mass goes on into the neighbouring piece
+  bool narrow = false;                          // smooth, but a tick could step over what is there (a bump of a micrometre)
 };
 
 /// What interval analysis of the formula's graph decides about a curve.

@@ -85,6 +85,8 @@ class AbmWith {
     if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
     if constexpr (requires { system.careful; })
       if (system.careful) return stepOtherwise(system, hand, y, next, report);
+    if constexpr (requires { system.wantsCare(y); })
+      if (system.wantsCare(y)) return stepOtherwise(system, hand, y, next, report);
     const auto end = system.handOf(endOf(hand));
     const int n = system.states();
     State predicted(n), f(n);

@@ -110,7 +110,13 @@ class Adaptive {
     double tolerance = tolerance_;
     if constexpr (requires { system.careful; })
       if (system.careful) tolerance *= kCareful;
-    const auto unit = [&](int i, double value) { return tolerance * (system.scale(i) + std::abs(value)); };
+    [[maybe_unused]] double steep = 1;  // how many times more than usual a unit of phi moves a mass
+    const auto unit = [&](int i, double value) {
+      const double whole = tolerance * (system.scale(i) + std::abs(value));
+      if constexpr (requires { system.steepness(y); })
+        if (i < system.rates()) return std::max(whole / steep, kRounding * std::abs(value));
+      return whole;
+    };
     y = y0;
     rate(0, y, k[0]);
     int rhs = 1;
@@ -121,10 +127,18 @@ class Adaptive {
     StepStatus status = StepStatus::Ok;
     bool stopped = false;
     while (t < dt) {
+      if constexpr (requires { system.reach(y, k[0]); }) h = std::min(h, system.reach(y, k[0]));
       const bool lastPart = t + 1.01 * h >= dt;
       if (lastPart) h = dt - t;
-      const double error = dop853::attempt<System::kStates>(rate, unit, t, h, y, k, trial);
+      if constexpr (requires { system.steepness(y); }) steep = system.steepness(y);
+      double error = dop853::attempt<System::kStates>(rate, unit, t, h, y, k, trial);
       rhs += dop853::kStages - 1;
+      if constexpr (requires { system.steepness(y); })
+        if (const double ahead = system.steepness(trial); error <= 1 && ahead > steep) {
+          const double before = unit(0, y[0]);  // towards an end without bound of r_phi an error is what it moves the mass there
+          steep = ahead;
+          error *= before / unit(0, y[0]);
+        }
       const double factor = dop853::growth(error, most);
       most = error <= 1 ? 5 : 1;
       if (error <= 1) {
@@ -160,6 +174,7 @@ class Adaptive {
   }
 
   static constexpr double kCareful = 0.01;
+  static constexpr double kRounding = 4.5e-16;  // of phi: less is not to be had
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step
 };

@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 
 #include "constraints/places.h"
@@ -50,6 +51,28 @@ struct BrokenCurveSystem {
   const constraints::Curve& curveOf(int i) const noexcept { return pieceOf(i).curve; }
   double speedAt(int i, double phi) const noexcept { return norm(evaluate(curveOf(i), phi).rPhi); }
   double scale(int) const noexcept { return 0.1; }
+  /// [s] Within which no mass goes further than a part of a narrow piece it is in, so that sub-steps see what is there.
+  double reach(const State&, const State& rates) const noexcept {
+    constexpr double kParts = 24;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < n(); ++i)
+      if (const constraints::CurvePiece& piece = pieceOf(i); piece.narrow)
+        least = std::fmin(least, (piece.hi - piece.lo) / (kParts * std::abs(rates[i])));
+    return least;
+  }
+  /// Sub-steps alone know how to go on: phi is needed more exactly than usual, or something narrow is being passed.
+  bool wantsCare(const State& y) const noexcept {
+    constexpr double kSteep = 4;
+    for (int i = 0; i < n(); ++i)
+      if (pieceOf(i).narrow) return true;
+    return steepness(y) > kSteep;
+  }
+  /// How many times more than usual a unit of phi moves a mass; without bound towards the end of an arc, a root or a power.
+  double steepness(const State& y) const noexcept {
+    double most = 1;
+    for (int i = 0; i < n(); ++i) most = std::fmax(most, speedAt(i, y[i]) / speedScale);
+    return most;
+  }
   void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
   Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
   Hand handOf(const HandSample& hand) const noexcept { return hand; }
@@ -211,6 +234,13 @@ struct BrokenCurveSystem {
           nearest = distance;
           told = fmt::format("mass {} at phi = {:.9g}, {:.2g} from a {}; the formula loses its digits there", i + 1, y[i], distance,
                              describe(place, constraints::ConstraintKind::Curve));
+        }
+    for (int i = 0; i < n(); ++i)
+      for (const constraints::CurvePiece& piece : regularity->pieces)
+        if (const double at = piece.lo + 0.5 * (piece.hi - piece.lo); piece.narrow && std::abs(at - y[i]) < nearest) {
+          nearest = std::abs(at - y[i]);
+          told = fmt::format("mass {} at phi = {:.9g}, before phi = {:.9g}, about which the curve turns within {:.2g}", i + 1, y[i], at,
+                             piece.hi - piece.lo);
         }
     return told;
   }

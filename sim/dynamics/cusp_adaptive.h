@@ -23,15 +23,16 @@ class CuspAdaptive {
   }
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
-    if (nearest(system, y).speed > kFar * system.speedScale) {
+    bool timeAlone = false;  // where |r_phi| is large it is time in which phi is smooth, and narrow places are known to sub-steps in time
+    if constexpr (requires { system.wantsCare(y); }) timeAlone = system.wantsCare(y);
+    if (timeAlone || nearest(system, y).speed > kFar * system.speedScale) {
       StepReport tried;
       const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
-      if (status == StepStatus::Ok && tried.rhs < kSuspicious) {
-        report.rhs += tried.rhs;
+      report.rhs += tried.rhs;
+      if (timeAlone || (status == StepStatus::Ok && tried.rhs < kSuspicious)) {
         report.error = tried.error;
         return status;
       }
-      report.rhs += tried.rhs;
     }
     return pass(system, hand, dt, y, next, report);
   }
@@ -194,14 +195,14 @@ class CuspAdaptive {
     return std::numeric_limits<double>::infinity();
   }
   /// From `at`, whose time is nearly dt, to dt by one RK4 step in time, forwards or back, where the tangent turns so little in it that its
-  /// error is below rounding: kTurn^5/120.
+  /// error is below rounding: kTurn^5/120. Not where |r_phi| is another at its last stage.
   static bool endInTime(const System& system, const HandSegment& hand, double dt, int mass, Extended& at, State& plain, State& rates,
                         int& rhs) noexcept {
-    constexpr double kTurn = 4e-3;
+    constexpr double kTurn = 4e-3, kChange = 5 * kTurn;
     const int n = system.states();
     const double rest = dt - at[n];
     const constraints::CurvePoint p = evaluate(system.curveOf(mass), at[mass]);
-    const double square = dot(p.rPhi, p.rPhi), turn = norm(p.rPhiPhi) * std::abs(at[system.rates() + mass] * rest);
+    const double square = dot(p.rPhi, p.rPhi), speed = std::sqrt(square), turn = norm(p.rPhiPhi) * std::abs(at[system.rates() + mass] * rest);
     if (!(turn < kTurn * square) || !(std::abs(rest) < 0.1 * dt)) return false;
     State sum(n), begin(n);
     for (int i = 0; i < n; ++i) begin[i] = plain[i] = at[i];
@@ -212,9 +213,10 @@ class CuspAdaptive {
       system.rate(system.handAt(hand, (at[n] + share * rest) / dt), plain, rates);
       for (int i = 0; i < n; ++i) sum[i] += (share < 1 ? 2 : 1) * rates[i];
     }
+    rhs += 4;
+    if (!(std::abs(system.speedAt(mass, plain[mass]) - speed) <= kChange * speed)) return false;
     for (int i = 0; i < n; ++i) at[i] = begin[i] + rest / 6 * sum[i];
     at[n] = dt;
-    rhs += 4;
     return true;
   }
 
