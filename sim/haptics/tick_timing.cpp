@@ -6,16 +6,16 @@
 
 #include "base/os.h"
 #include "base/ticks.h"
+#include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::haptics {
 namespace {
 
-constexpr double kEndless = 1e6;         // [s]
 constexpr std::uint32_t kRowTicks = 10;  // a row of the recording every so many ticks, as by default
 
 experiment::Experiment withoutEnd(experiment::Experiment experiment) {
   if (!experiment.task) return experiment;
-  experiment.task->duration = kEndless;
+  experiment.task->duration = experiment::kMaxDuration;  // the longest that is allowed: a trial that does end is put up again
   experiment.task->rest = experiment::kNoStartRest;  // its hand never rests
   return experiment;
 }

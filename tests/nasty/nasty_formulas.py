@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Nasty formulas: where a free mass is after some seconds, to 30 digits, or which words end it.
 
-    python3 tests/nasty/nasty_formulas.py > tests/nasty/nasty_formulas.tsv        (mpmath, SymPy; two minutes)
+    python3 tests/nasty/nasty_formulas.py > tests/nasty/nasty_formulas.tsv        (mpmath, SymPy; three minutes)
 
-Rows of the second hundred are computed in double precision (1e-12 m), the first in 40 digits.
+Rows of the second hundred are computed in double precision (1e-12 m), the others in 40 digits.
 Independent of the program: every curve stands here once more as pieces that are smooth by hand, and the motion is arc length (dt = ds/v, with
 v^2 = v0^2 - 2 g (y - y0) under gravity), integrated and inverted by mpmath. Creased planes are unfolded, on paper.
 Columns: name, kind, x, y, z, at, rate, gravity_y, seconds, verdict (right | stopped | refused), x_m, y_m, z_m, words. For `stopped` the
@@ -281,6 +281,131 @@ refused('start on a jump', [x, '0.1*atan(1/phi)', '0'], 0, 1, 1, 'no place for a
 known('atan2 on a surface', ['u/10', '0.02*atan2(v, 2 + cos(u))', 'v/10'], '0,0', '1,0', 1, ['0.1', '0', '0'])
 stopped('jump of atan2 on a surface', ['u/10', '0.05*atan2(u, u)', 'v/10'], '1,0', '-1,0', 2, 'atan2(u, u)', ['0', mp.nstr(mp.pi / 80, 20), '0'], kind='surface')
 stopped('a jump a thousand kilometres away', [x, '0.02*abs(atan2(phi, phi))^2', '1e6'], 1, -2, 2, 'jump at phi = 0', ['0', mp.nstr(mp.pi**2 / 800, 20), '1000000'])
+
+# A third set: other kinds. Closed forms where there are, else quadrature in 40 digits.
+C, WORDS, NEAR = mp, 'mpmath', mp.mpf(10) ** -28
+from mpmath import mpf
+
+
+def at_place(*r):
+    return [mp.nstr(mp.chop(mpf(c), mpf(10) ** -25), 20) for c in r]
+
+
+def on_circle(angle):
+    return at_place(mp.cos(angle) / 10, mp.sin(angle) / 10, 0)
+
+
+def known_curve(name, formula, at, rate, T, place, g=0):
+    rows.append([name, 'curve', *formula, at, rate, -g, T, 'right', *place, ''])
+
+
+def swing(s0, v0, T, slopes, walls=()):
+    """Constant acceleration `slopes(side of 0)` along s, elastic walls."""
+    s, v, left = mpf(s0), mpf(v0), mpf(T)
+    side = 1 if s > 0 else -1
+    while True:
+        a = slopes(side)
+        ends = ([mpf(0)] if slopes(1) != slopes(-1) else []) + [mpf(w) for w in walls]
+        best = None
+        for e in ends:
+            d = v * v - 2 * a * (s - e)
+            if d < 0:
+                continue
+            for root in ((-v + mp.sqrt(d)) / a, (-v - mp.sqrt(d)) / a):
+                if root > mpf(10) ** -20 and (best is None or root < best[0]):
+                    best = (root, e)
+        if best is None or best[0] >= left:
+            return s + v * left + a * left * left / 2
+        t, e = best
+        left -= t
+        s, v = e, v + a * t
+        if e == 0 and slopes(1) != slopes(-1):
+            side = 1 if v > 0 else -1
+        else:
+            v = -v
+
+
+G = mpf('9.81')
+# the circle told otherwise: |r_phi| runs away, the motion does not
+known_curve('circle by an exponential', ['0.1*cos(exp(phi))', '0.1*sin(exp(phi))', '0'], 0, 2, 3, on_circle(7))
+known_curve('circle by 1/phi', ['0.1*cos(1/phi)', '0.1*sin(1/phi)', '0'], 1, -1, 30, on_circle(31))
+known_curve('circle by asin, to just before its end', ['0.1*cos(asin(phi))', '0.1*sin(asin(phi))', '0'], 0, 1, 1.5707, on_circle(mpf('1.5707')))
+known_curve('circle by acos and root', ['0.1*phi', '0.1*sqrt(1 - phi^2)', '0'], 0, 1, 1.57, at_place(mp.sin(mpf('1.57')) / 10, mp.cos(mpf('1.57')) / 10, 0))
+known_curve('circle by a root of phi', ['0.1*cos(sqrt(phi))', '0.1*sin(sqrt(phi))', '0'], 1, -1, 1.99, on_circle(mpf(1) - mpf('1.99') / 2))
+stopped('line by asin of tanh', ['0.1*atan(sinh(phi))', '0.1*asin(tanh(phi))', '0'], 0, 1, 1.5, 'left what was examined')
+known_curve('circle by a quotient', ['0.1*(1 - phi^2)/(1 + phi^2)', '0.2*phi/(1 + phi^2)', '0'], 0, 1, 1.5, on_circle(3))
+# what is nothing after all
+right('sine by tan and cos', [x, '0.1*tan(phi)*cos(phi)', '0'], 0, 1.5, 2, [(INF, [x, 'sin(phi)/10', '0'])])
+stopped('square by its logarithm', [x, '0.1*exp(log(phi^2))', '0'], -1, 1, 2, 'spike at phi = 0: log(phi^2)', ['0', '0', '0'])
+right('two roots of phi', [x, '0.1*sqrt(phi)*sqrt(phi)', '0'], 1, -1, 0.9, [(INF, [x, 'phi/10', '0'])])
+right('phi to the nothing', [x, '0.1*phi^0', '0'], -1, 1, 2, [(INF, [x, '1/Integer(10)', '0'])])
+right('huge times tiny', [x, '0.1*sin(phi*1e-300*1e300)', '0'], -1, 1, 2, [(INF, [x, 'sin(phi)/10', '0'])])
+right('sign squared', [x, '0.1*sign(phi)^2', '0'], -1, 2, 1.2, [(INF, [x, '1/Integer(10)', '0'])])
+# kinks by other words
+refused('root of 1 - cos', [x, '0.1*sqrt(1 - cos(phi))', '0'], -1, 1.5, 2, 'the formula loses its digits there')
+refused('acos that touches', [x, '0.1*acos(1 - phi^2)', '0'], -1, 1.5, 1.2, 'the formula loses its digits there')
+right('abs of a sawtooth', [x, '0.05*abs(atan2(sin(phi), cos(phi)))', '0'], 0.5, 3, 2, [(PI, [x, 'phi/20', '0']), (2 * PI, [x, '(2*pi - phi)/20', '0']), (INF, [x, '(phi - 2*pi)/20', '0'])])
+right('half the angle of atan2', [x, '0.1*cos(atan2(sin(phi), cos(phi))/2)', '0'], 0.5, 3, 2, [(PI, [x, 'cos(phi/2)/10', '0']), (3 * PI, [x, '-cos(phi/2)/10', '0']), (INF, [x, 'cos(phi/2)/10', '0'])])
+right('a bend by a sign', [x, '0.1*sign(phi)*phi^2', '0'], -1, 2, 1.2, both([x, '-phi**2/10', '0'], [x, 'phi**2/10', '0']))
+refused('a corner rounded by 1e-9', [x, '0.1*sqrt(phi^2 + 1e-18)', '0'], -1, 1, 1.5, 'too many sub-steps')
+right('a step of tanh, 1e-9 wide', [x, '0.05*tanh(1e9*phi)', '0'], -1, 1, 1.7, [(INF, [x, 'tanh(10**9*phi)/20', '0'])], marks=[mpf(k) * mpf(10) ** e for e in range(-11, -1) for k in (-5, -2, -1, 1, 2, 5)] + [0])
+NARROW = [mpf(k) * mpf(10) ** e for e in range(-9, -1) for k in (-5, -2, -1, 1, 2, 5)] + [0]
+right('a step of a micrometre within one', [x, '1e-6*tanh(1e6*phi)', '0'], -1, 1, 1.7, [(INF, [x, 'tanh(10**6*phi)/10**6', '0'])], marks=NARROW)
+right('a bump of a micrometre', [x, '1e-6*exp(-(1e6*phi)^2)', '0'], -1, 1, 1.7, [(INF, [x, 'exp(-10**12*phi**2)/10**6', '0'])], marks=NARROW)
+right('a hurry of a micrometre', ['phi/10 + 1e-6*tanh(1e6*phi)', '0', '0'], -1, 1, 1.7, [(INF, ['phi/10 + tanh(10**6*phi)/10**6', '0', '0'])], marks=NARROW)
+right('a needle in each turn', ['0.1*cos(phi)', '0.1*sin(phi)', '0.01/(1 + 1e8*sin(phi)^2)'], -1, 1, 1.5, [(INF, ['cos(phi)/10', 'sin(phi)/10', '1/(1 + 10**8*sin(phi)**2)/100'])], marks=NARROW)
+stopped('kinks that pile up', [x, '0.1*phi*abs(sin(1/phi))', '0'], 1, -1, 3, 'left what was examined')
+right('waves that pile up', [x, '0.1*phi^2*sin(1/phi)', '0'], 1, -1, 0.95)
+# to and fro
+a = G * mpf('0.05') / mp.sqrt(mpf('0.1') ** 2 + mpf('0.05') ** 2)
+unit = mp.sqrt(mpf('0.1') ** 2 + mpf('0.05') ** 2)
+s = swing(-unit, unit, 5, lambda side: -side * a)
+known_curve('to and fro in a valley', [x, '0.05*abs(phi)', '0'], -1, 1, 5, at_place(s / unit / 10, abs(s) / unit / 20, 0), g=9.81)
+s = swing(0, -2 * unit, 3, lambda side: -a, (-unit, unit))
+known_curve('to and fro on a folded slope', ['0.1*cos(phi)', '0.05*cos(phi)', '0'], PI / 2, 2, 3, at_place(s / unit / 10, s / unit / 20, 0), g=9.81)
+l4 = mpf('0.2')
+w, s0, v0 = mp.sqrt(G / l4), l4 * mp.sin(mpf('1.5')), -l4 * mp.cos(mpf('1.5')) / 2 * mpf('0.1')
+s = s0 * mp.cos(w * 10) + v0 / w * mp.sin(w * 10)
+p = 2 * mp.asin(s / l4)
+known_curve('the tautochrone to just before its cusps', ['0.05*(phi + sin(phi))', '0.05*(1 - cos(phi))', '0'], 3, -0.1, 10, at_place((p + mp.sin(p)) / 20, (1 - mp.cos(p)) / 20, 0), g=9.81)
+k, w = mpf('0.999'), mp.sqrt(G / mpf('0.1'))
+sn = mp.ellipfun('sn', w * 3, m=k * k)
+p = 2 * mp.asin(k * sn)
+known_curve('a pendulum to just before its top', ['0.1*sin(phi)', '-0.1*cos(phi)', '0'], 0, mp.nstr(2 * w * k, 17), 3, at_place(mp.sin(p) / 10, -mp.cos(p) / 10, 0), g=9.81)
+# scales
+right('phi in thousands of kilometres', ['1e6*phi', '0.1*sin(1e7*phi)', '0'], 0, 3e-7, 2, [(INF, ['10**6*phi', 'sin(10**7*phi)/10', '0'])])
+right('a double exponential', [x, '1e-3*exp(exp(phi))', '0'], 0, 1, 20, [(INF, [x, 'exp(exp(phi))/1000', '0'])])
+known_curve('phi a million', ['0.1*cos(phi)', '0.1*sin(phi)', '0'], 1e6, 1, 2, on_circle(mpf(1000002)))
+known_curve('phi a thousand million', ['0.1*cos(phi)', '0.1*sin(phi)', '0'], 1e9, 1, 2, on_circle(mpf(1000000002)))
+refused('digits that cancel', [x, '5e10*(1 - cos(1e-6*phi))', '0'], -1, 1, 2, 'the formula loses its digits')
+refused('a sum with 1e12', [x, '0.1*((sin(phi) + 1e12) - 1e12)', '0'], -1, 1, 2, 'the formula loses its digits')
+# surfaces
+stopped('plane by exponentials, past the origin', ['0.1*exp(u)*cos(v)', '0.1*exp(u)*sin(v)', '0'], '0,0', '-1,0.01', 2, 'degenerates', kind='surface')
+known('plane by exponentials', ['0.1*exp(u)*cos(v)', '0.1*exp(u)*sin(v)', '0'], '0,0', '-1,0.1', 2, ['-0.1', '0.02', '0'])
+known('plane by sinh', ['0.1*sinh(3*u)', '0.1*(v + u^2)', '0'], '-1,0', '0.2,0.5', 2, at_place(-mp.sinh(3) / 10 + 2 * mpf('0.06') * mp.cosh(3), mpf('0.1') + 2 * (mpf('0.05') - mpf('0.04')), 0))
+stopped('plane by cubes', ['u^3/10', 'v/10', '0'], '-1,0', '0.5,0.2', 3, 'degenerates', ['0', mp.nstr(mpf(2) / 150, 20), '0'], kind='surface')
+q = mp.sqrt(2)
+z = mp.mpc(mpf('0.1') * q, 0) + mpf('1.2') * mp.mpc(-mpf('0.05') * q, mpf('0.1'))
+rho, u = abs(z) / q, mp.arg(z) * q
+known('cone, unfolded', ['0.1*v*cos(u)', '0.1*v*sin(u)', '0.1*v'], '0,1', '1,-0.5', 1.2, at_place(rho * mp.cos(u), rho * mp.sin(u), rho))
+e = solve([(INF, ['cos(phi)/10', 'sin(phi)/20', '0'])], 0, 1, 4)
+known('elliptic cylinder, unfolded', ['0.1*cos(u)', '0.05*sin(u)', 'v/10'], '0,0', '1,0.3', 4, at_place(e[0], e[1], mpf('0.12')))
+
+
+def trumpet(v0, du, dv, T):  # rho = exp(-v)/10, z = v/10; Clairaut
+    rho = lambda v: mp.exp(-v) / 10
+    g = lambda v: mpf('0.01') * (1 + mp.exp(-2 * v))
+    L, E2 = rho(v0) ** 2 * du, rho(v0) ** 2 * du ** 2 + g(v0) * dv ** 2
+    vt = lambda v: mp.sqrt((E2 - L * L / rho(v) ** 2) / g(v))
+    v1 = mp.findroot(lambda b: mp.quad(lambda v: 1 / vt(v), mp.linspace(v0, b, 9)) - T, v0 + dv * T)
+    u1 = mp.quad(lambda v: L / rho(v) ** 2 / vt(v), mp.linspace(v0, v1, 9))
+    return at_place(rho(v1) * mp.cos(u1), rho(v1) * mp.sin(u1), v1 / 10)
+
+
+known('trumpet', ['0.1*exp(-v)*cos(u)', '0.1*exp(-v)*sin(u)', '0.1*v'], '0,0', '0.1,0.5', 2, trumpet(mpf(0), mpf('0.1'), mpf('0.5'), 2))
+known('sphere of a micrometre', ['1e-6*cos(u)*cos(v)', '1e-6*sin(v)', '1e-6*sin(u)*cos(v)'], '0,0', '0.3,0.4', 2, at_place(mpf('1e-6') * mp.cos(1), mpf('0.8e-6') * mp.sin(1), mpf('0.6e-6') * mp.sin(1)))
+known('sphere of a kilometre', ['1e3*cos(u)*cos(v)', '1e3*sin(v)', '1e3*sin(u)*cos(v)'], '0,0', '0.003,0.004', 2, at_place(1000 * mp.cos(mpf('0.01')), 800 * mp.sin(mpf('0.01')), 600 * mp.sin(mpf('0.01'))))
+known('pyramid of four planes', ['u/10', 'v/10', '0.1*abs(u)'], '-1,0.2', '1,0', 2, ['0.1', '0.02', '0.1'])
 
 print('name\tkind\tx\ty\tz\tat\trate\tgravity_y\tseconds\tverdict\tx_m\ty_m\tz_m\twords')
 for row in rows:
