@@ -51,7 +51,7 @@ void run() {
 
 def compile(folder, text):
     (folder / "program.cpp").write_text(text, encoding="utf-8")
-    made = subprocess.run([os.environ.get("CXX", "g++"), "-std=c++20", "-w", f"-I{ROOT}", "program.cpp", "-o", "program"], cwd=folder, capture_output=True, text=True)
+    made = subprocess.run([os.environ.get("CXX", "g++"), "-std=c++20", "-w", "-D_GLIBCXX_ASSERTIONS", f"-I{ROOT}", "program.cpp", "-o", "program"], cwd=folder, capture_output=True, text=True)
     return made.stderr if made.returncode != 0 else None
 
 

@@ -1,6 +1,7 @@
 // Put before every file that seeded_faults.py has written faults into: which of them is in force is read from the environment when a program
 // starts (REACHLAB_FAULT), and each one that a program comes by is marked in a file that the programs it starts share (REACHLAB_FAULTS_SEEN).
 #pragma once
+#define _GLIBCXX_ASSERTIONS 1  // an index beyond the end is noticed, as in the sanitizers' build
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>

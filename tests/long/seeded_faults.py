@@ -30,6 +30,7 @@ import random
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -214,6 +215,16 @@ def limits(processor_seconds):
     resource.setrlimit(resource.RLIMIT_CPU, (processor_seconds, processor_seconds))
 
 
+RUNNING = set()
+
+
+def end_all(number, _):
+    """A test that does not end does not outlive this program."""
+    for process in list(RUNNING):
+        os.killpg(process, signal.SIGKILL)
+    os._exit(128 + number)
+
+
 def start(test, seconds, number=0, command=None, seen=None, processor_seconds=3600):
     """(exit code or None when it did not end, output, seconds)."""
     with tempfile.TemporaryDirectory(prefix="fault-", dir=COPY / "tmp", ignore_cleanup_errors=True) as scratch:
@@ -224,6 +235,7 @@ def start(test, seconds, number=0, command=None, seen=None, processor_seconds=36
         with open(pathlib.Path(scratch) / "out", "w+", encoding="utf-8", errors="replace") as out:
             process = subprocess.Popen(command or test.command, cwd=test.folder, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
                                        env=environment, start_new_session=True, preexec_fn=lambda: limits(processor_seconds))
+            RUNNING.add(process.pid)
             try:
                 code = process.wait(timeout=seconds)
             except subprocess.TimeoutExpired:
@@ -233,6 +245,7 @@ def start(test, seconds, number=0, command=None, seen=None, processor_seconds=36
             except ProcessLookupError:
                 pass
             process.wait()
+            RUNNING.discard(process.pid)
             out.seek(0)
             return code, out.read(), time.monotonic() - begin
 
@@ -534,6 +547,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="how faults are written behind switches, on examples")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     wishes = parser.parse_args()
+    signal.signal(signal.SIGTERM, end_all)
     global JOBS
     JOBS = [f"-j{wishes.jobs}"]
     if wishes.check:
@@ -555,7 +569,7 @@ def main():
             numbers.setdefault(fault, len(numbers) + 1)
     equivalents = known_equivalents()
     verdicts = {n: ("listed", None) for fault, n in numbers.items() if re.sub(r":\d+: ", ": ", describe(fault), count=1) in equivalents}
-    campaign = Campaign({n: fault for fault, n in numbers.items() if n not in verdicts}, wishes.gui or "gui" in folders)
+    campaign = Campaign({n: fault for fault, n in numbers.items()}, wishes.gui or "gui" in folders)
     if wishes.widest:
         verdicts |= {n: ("wide", None) for n in campaign.leave_out_wide(wishes.widest)}
     verdicts |= campaign.judge(wishes.jobs, wishes.longest, verdicts)
