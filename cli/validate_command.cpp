@@ -13,7 +13,7 @@
 #include "base/json_reader.h"
 #include "devices/make_device.h"
 #include "sim/experiment/compiled_experiment.h"
-#include "sim/session/programme.h"
+#include "sim/session/checked_programme.h"
 #include "sim/trial/task_check.h"
 #include "sim/trial/task_places.h"
 
@@ -46,9 +46,9 @@ void checkIsJsonObject(const std::string& text, const std::string& file) {
                            FilePlace{file, 1, 1}});
 }
 
-// What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing. Returns the
-// experiment, if it is one.
-std::optional<experiment::CompiledExperiment> validateFile(const std::string& fileOrName) {
+// What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing. Returns what can
+// be done with it, if it is an experiment or a plan.
+std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   const std::string file = fileOf(fileOrName);
   std::error_code error;
   if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr)
@@ -58,7 +58,7 @@ std::optional<experiment::CompiledExperiment> validateFile(const std::string& fi
   checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
-    if (std::vector<Fault> faults = session::planProblems(file); !faults.empty()) throw FaultError(std::move(faults));
+    return session::checkedProgramme(file);
   } else if (tree.find("subjects") != nullptr) {
     study::checkPoints(study::readDesign(file), prepareSimulated());
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
@@ -68,7 +68,7 @@ std::optional<experiment::CompiledExperiment> validateFile(const std::string& fi
     if (experiment.experiment().task) trial::checkTask(experiment, file);
     for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)})
       for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "warning: {}\n", toText(warning));
-    return experiment;
+    return session::programmeOf(experiment);
   }
   return std::nullopt;
 }
@@ -104,9 +104,9 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
   command->callback([r, &exitCode] {
     for (const std::string& file : r->files) {
       try {
-        const auto experiment = validateFile(file);
+        const auto programme = validateFile(file);
         if (!r->json) fmt::print("{}: fine\n", file);
-        if (!r->device.empty()) checkOnDevice(*r, experiment ? session::programmeOf(*experiment) : session::readProgramme(file));
+        if (!r->device.empty()) checkOnDevice(*r, programme ? *programme : session::readProgramme(file));
       } catch (const FaultError& e) {
         fmt::print(stderr, "{}\n", toText(inOptionWords(e.faults)));
         exitCode = 2;

@@ -8,8 +8,7 @@
 
 #include "base/fault.h"
 #include "base/json_reader.h"
-#include "sim/experiment/compiled_experiment.h"
-#include "sim/trial/task_check.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::session {
 namespace {
@@ -103,15 +102,6 @@ std::optional<std::string> findPlan(const std::string& fileOrName) {
   return std::nullopt;
 }
 
-std::vector<std::string> shippedPlans() {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(experiment::resourceFolder()) / "plans", ignored))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 Plan parsePlan(const std::string& text, const std::string& file) {
   const JsonNode root = parseJson(text, file);
   FaultList faults(file);
@@ -172,33 +162,5 @@ std::string toJson(const Plan& plan) {
 }
 
 Plan readPlan(const std::string& file) { return parsePlan(readTextFile(file), file); }
-
-std::vector<Fault> planProblems(const std::string& file) {
-  const std::string text = readTextFile(file);
-  Plan plan;
-  try {
-    plan = parsePlan(text, file);
-  } catch (const FaultError& error) {
-    return error.faults;
-  }
-  std::vector<Fault> found, here;
-  std::vector<std::string> seen;
-  for (std::size_t i = 0; i < plan.blocks.size(); ++i) {
-    const std::string& name = plan.blocks[i].experiment;
-    if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
-    seen.push_back(name);
-    try {
-      trial::checkTask(experiment::openExperiment(name), name);
-    } catch (const FaultError& error) {
-      for (const Fault& fault : error.faults) {  // those of the experiment's file stand there
-        if (fault.place) found.push_back(fault);
-        else here.push_back({fmt::format("blocks[{}].experiment", i), toText(fault)});
-      }
-    }
-  }
-  here = atTheirPlaces(std::move(here), text, file);
-  found.insert(found.begin(), here.begin(), here.end());
-  return found;
-}
 
 }  // namespace reachlab::session

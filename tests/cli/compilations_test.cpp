@@ -66,6 +66,14 @@ TEST(Compilations, OfACheckBeforeABlockAreOneWhateverReachesItTries) {
   EXPECT_EQ(compiledBy("validate " + heavy + " --device virtual:omni"), std::vector<std::string>{kFormula});
 }
 
+TEST(Compilations, OfAPlanOnADeviceAreOneForAllItsBlocks) {
+  const Folder folder;
+  experimentFile(folder);
+  const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
+    { "experiment": "typed.json", "practice": true }, { "experiment": "typed.json" } ] })");
+  EXPECT_EQ(compiledBy("validate " + plan + " --device virtual:omni"), std::vector<std::string>{kFormula});
+}
+
 TEST(Compilations, OfAReplayAndOfAnAnalysisOfManyRunsAreOne) {
   const Folder folder;
   const std::string file = experimentFile(folder), data = (folder / "data").string();

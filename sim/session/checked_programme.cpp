@@ -1,0 +1,51 @@
+#include "sim/session/checked_programme.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/json_reader.h"
+#include "sim/trial/task_check.h"
+
+namespace reachlab::session {
+
+Programme checkedProgramme(const std::string& file) {
+  const std::string text = readTextFile(file);
+  Programme programme{parsePlan(text, file), {}};
+  std::vector<Fault> elsewhere, here;
+  std::map<std::string, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: its faults are told already
+  for (std::size_t i = 0; i < programme.plan.blocks.size(); ++i) {
+    const std::string& name = programme.plan.blocks[i].experiment;
+    const auto [known, isNew] = opened.try_emplace(name);
+    try {
+      if (isNew) {
+        const experiment::CompiledExperiment experiment = experiment::openExperiment(name);
+        trial::checkTask(experiment, name);
+        known->second = experiment;
+      }
+    } catch (const FaultError& error) {
+      for (const Fault& fault : error.faults) {  // those of the experiment's file stand there
+        if (fault.place) elsewhere.push_back(fault);
+        else here.push_back({fmt::format("blocks[{}].experiment", i), toText(fault)});
+      }
+    }
+    if (known->second) programme.experiments.push_back(*known->second);
+  }
+  std::vector<Fault> found = atTheirPlaces(std::move(here), text, file);
+  found.insert(found.end(), elsewhere.begin(), elsewhere.end());
+  if (!found.empty()) throw FaultError(std::move(found));
+  return programme;
+}
+
+std::vector<Fault> planProblems(const std::string& file) {
+  try {
+    (void)checkedProgramme(file);
+    return {};
+  } catch (const FaultError& error) {
+    return error.faults;
+  }
+}
+
+}  // namespace reachlab::session
