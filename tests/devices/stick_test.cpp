@@ -3,104 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <random>
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "tests/devices/fakes/pid_firmware.h"
 
 namespace reachlab::devices {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-// A joystick of HID PID, as open firmwares (JoyFFB, OpenFFBoard) describe themselves: X and Y of 16 bits and 8 buttons in report 1, then the
-// reports of an effect. `maskControl`: Device Control as bits instead of a list.
-Bytes pidDescriptor(bool maskControl = false) {
-  Bytes d{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01,                                                                    // joystick
-          0x85, 0x01, 0x09, 0x30, 0x09, 0x31, 0x16, 0x01, 0x80, 0x26, 0xFF, 0x7F,                                // X, Y: -32767 … 32767
-          0x75, 0x10, 0x95, 0x02, 0x81, 0x02,                                                                    //
-          0x05, 0x09, 0x19, 0x01, 0x29, 0x08, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x08, 0x81, 0x02,        // eight buttons
-          0x05, 0x0F,                                                                                            // physical interface
-          0x09, 0x21, 0xA1, 0x02, 0x85, 0x01,                                                                    // Set Effect
-          0x09, 0x22, 0x15, 0x01, 0x25, 0x28, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02,                                //   block index
-          0x09, 0x25, 0xA1, 0x02, 0x09, 0x26, 0x09, 0x27, 0x15, 0x01, 0x25, 0x02, 0x91, 0x00, 0xC0,              //   type
-          0x09, 0x50, 0x09, 0x54, 0x09, 0x51, 0x15, 0x00, 0x26, 0xFF, 0x7F, 0x75, 0x10, 0x95, 0x03, 0x91, 0x02,  // durations
-          0x09, 0x52, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02,                                      //   gain
-          0x09, 0x53, 0x15, 0x01, 0x26, 0xFF, 0x00, 0x91, 0x02,                                                  //   trigger button
-          0x09, 0x55, 0xA1, 0x02, 0x05, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95,
-          0x02, 0x91, 0x02, 0xC0, 0x05, 0x0F, 0x09, 0x56, 0x95, 0x01, 0x91, 0x02, 0x95, 0x05, 0x91, 0x03,  //   direction enable, padding
-          0x09, 0x57, 0xA1, 0x02, 0x05, 0x0A, 0x09, 0x01, 0x09, 0x02, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x02,
-          0x91, 0x02, 0xC0, 0x05, 0x0F, 0xC0,  //
-          0x09, 0x73, 0xA1, 0x02, 0x85, 0x05, 0x09, 0x22, 0x15, 0x01, 0x25, 0x28, 0x75, 0x08, 0x95, 0x01, 0x91,
-          0x02, 0x09, 0x70, 0x16, 0xF0, 0xD8, 0x26, 0x10, 0x27, 0x75, 0x10, 0x91, 0x02, 0xC0,  // Set Constant Force: -10000 … 10000
-          0x09, 0x77, 0xA1, 0x02, 0x85, 0x0A, 0x09, 0x22, 0x15, 0x01, 0x25, 0x28, 0x75, 0x08, 0x91, 0x02, 0x09,
-          0x78, 0xA1, 0x02, 0x09, 0x79, 0x09, 0x7A, 0x09, 0x7B, 0x15, 0x01, 0x25, 0x03, 0x91, 0x00, 0xC0, 0x09,
-          0x7C, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x91, 0x02, 0xC0};  // Effect Operation
-  const Bytes list{0x09, 0x96, 0xA1, 0x02, 0x85, 0x0C, 0x09, 0x97, 0x09, 0x98, 0x09, 0x99, 0x09,
-                   0x9A, 0x15, 0x01, 0x25, 0x04, 0x75, 0x08, 0x95, 0x01, 0x91, 0x00, 0xC0};
-  const Bytes mask{0x09, 0x96, 0xA1, 0x02, 0x85, 0x0C, 0x09, 0x97, 0x09, 0x98, 0x09, 0x99, 0x09, 0x9A, 0x15,
-                   0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x04, 0x91, 0x02, 0x95, 0x04, 0x91, 0x03, 0xC0};
-  const Bytes& control = maskControl ? mask : list;
-  d.insert(d.end(), control.begin(), control.end());
-  const Bytes rest{0x09, 0x7D, 0xA1, 0x02, 0x85, 0x0D, 0x09, 0x7E, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02,
-                   0xC0, 0x09, 0xAB, 0xA1, 0x02, 0x85, 0x01, 0x09, 0x25, 0xA1, 0x02, 0x09, 0x26, 0x09, 0x27, 0x15, 0x01, 0x25, 0x02,
-                   0xB1, 0x00, 0xC0, 0x05, 0x01, 0x09, 0x3B, 0x15, 0x00, 0x26, 0xFF, 0x01, 0x75, 0x10, 0xB1, 0x02, 0xC0, 0x05, 0x0F,
-                   0x09, 0x89, 0xA1, 0x02, 0x85, 0x02, 0x09, 0x22, 0x15, 0x01, 0x25, 0x28, 0x75, 0x08, 0xB1, 0x02, 0x09, 0x8B, 0xA1,
-                   0x02, 0x09, 0x8C, 0x09, 0x8D, 0x09, 0x8E, 0x15, 0x01, 0x25, 0x03, 0xB1, 0x00, 0xC0, 0xC0, 0xC0};
-  d.insert(d.end(), rest.begin(), rest.end());
-  return d;
-}
-
-/// What a firmware of HID PID does with these reports; counts what breaks its rules.
-struct Firmware {
-  struct Effect {
-    bool started = false;
-    int axes = 0, direction = -1, magnitude = 0;
-  };
-  bool actuators = false, full = false, refusesCreate = false, gone = false, mask = false;
-  int gain = 0, violations = 0, waiting = 0, next = 1, magnitudes = 0;
-  std::map<int, Effect> effects;
-  std::vector<Bytes> inputs;
-
-  bool write(const Bytes& r) {
-    if (gone) return false;
-    switch (r[0]) {
-      case 0x0C:
-        if (r[1] == 1) actuators = true;
-        else if (r[1] == (mask ? 4 : 3))
-          for (auto& [index, effect] : effects) effect.started = false;
-        else ++violations;
-        break;
-      case 0x0D: gain = r[1]; break;
-      case 0x01: {
-        if (r.size() != 14 || !effects.contains(r[1]) || r[2] != 1) ++violations;
-        effects[r[1]].axes = r[11] & 3;
-        effects[r[1]].direction = r[12];
-        if ((r[11] & 4) == 0 || (r[3] | r[4] << 8) != 0x7FFF || r[9] != 255) ++violations;
-        break;
-      }
-      case 0x05:
-        if (r.size() != 4 || !effects.contains(r[1])) ++violations;
-        effects[r[1]].magnitude = static_cast<std::int16_t>(r[2] | r[3] << 8);
-        ++magnitudes;
-        break;
-      case 0x0A:
-        if (r.size() != 4 || !effects.contains(r[1])) ++violations;
-        effects[r[1]].started = r[2] == 1;
-        break;
-      default: ++violations;
-    }
-    return true;
-  }
-  // [shares] x, y as a motor would feel it: only with actuators on, and effects that run.
-  std::pair<double, double> felt() const {
-    double x = 0, y = 0;
-    for (const auto& [index, effect] : effects)
-      if (actuators && effect.started) (effect.axes == 1 ? x : y) += effect.magnitude / 10000.0;
-    return {x, y};
-  }
-};
+using test::pidDescriptor;
+using Bytes = test::PidBytes;
+using Firmware = test::PidFirmware;
 
 class FirmwarePort final : public HidPort {
  public:
@@ -114,17 +28,12 @@ class FirmwarePort final : public HidPort {
     return static_cast<int>(report.size());
   }
   bool write(std::span<const std::uint8_t> bytes) noexcept override { return firmware_->write({bytes.begin(), bytes.end()}); }
-  bool sendFeature(std::span<const std::uint8_t> bytes) noexcept override {
-    if (firmware_->refusesCreate || bytes[0] != 1 || bytes[1] != 1) return false;
-    firmware_->waiting = firmware_->next++;
-    if (!firmware_->full) firmware_->effects[firmware_->waiting] = {};
-    return true;
-  }
+  bool sendFeature(std::span<const std::uint8_t> bytes) noexcept override { return firmware_->setFeature({bytes.begin(), bytes.end()}); }
   int getFeature(std::span<std::uint8_t> bytes) noexcept override {
-    if (bytes[0] != 2 || firmware_->waiting == 0) return -1;
-    bytes[1] = static_cast<std::uint8_t>(firmware_->waiting);
-    bytes[2] = firmware_->full ? 2 : 1;
-    return 3;
+    const Bytes answer = firmware_->getFeature(bytes[0]);
+    if (answer.empty()) return -1;
+    std::copy(answer.begin(), answer.end(), bytes.begin());
+    return static_cast<int>(answer.size());
   }
 
  private:
@@ -147,11 +56,7 @@ class PidStick : public ::testing::Test {
               return std::make_unique<FirmwarePort>(firmware);
             }};
   }
-  static Bytes at(std::int16_t x, std::int16_t y, std::uint8_t buttons = 0) {
-    const auto low = [](std::int16_t v) { return static_cast<std::uint8_t>(v & 0xFF); };
-    const auto high = [](std::int16_t v) { return static_cast<std::uint8_t>(v >> 8 & 0xFF); };
-    return {1, low(x), high(x), low(y), high(y), buttons};
-  }
+  static Bytes at(std::int16_t x, std::int16_t y, std::uint8_t buttons = 0) { return test::pidInput(x, y, buttons); }
   std::shared_ptr<Firmware> firmware = std::make_shared<Firmware>();
   Wish wish;
   haptics::DeviceSample sample;

@@ -1,23 +1,23 @@
 #include "tests/hidraw/hidraw_bed.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
+#include <cerrno>
 #include <stdexcept>
+#include <utility>
 
 namespace reachlab::test {
 namespace {
 
 // Vendor page, one collection, 64 bytes in and out without report numbers.
-constexpr const char* kDescriptor = "06ABFF0A0002A101150026FF0075089540090181020902954091 02C0";
+const HidrawBed::Bytes kVendorPage{0x06, 0xAB, 0xFF, 0x0A, 0x00, 0x02, 0xA1, 0x01, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75,
+                                   0x08, 0x95, 0x40, 0x09, 0x01, 0x81, 0x02, 0x09, 0x02, 0x95, 0x40, 0x91, 0x02, 0xC0};
 
-std::string descriptor() {
+std::string hexOf(const HidrawBed::Bytes& bytes) {
   std::string hex;
-  for (const char* c = kDescriptor; *c != 0; ++c)
-    if (*c != ' ') hex += *c;
+  for (const std::uint8_t byte : bytes) hex += fmt::format("{:02X}", byte);
   return hex;
 }
 
@@ -25,7 +25,7 @@ constexpr const char* kUsb = "/devices/pci0000:00/0000:00:14.0/usb1/1-1";
 
 std::string hidNode(int vendor, int product) { return fmt::format("{}/1-1:1.0/0003:{:04X}:{:04X}.0001", kUsb, vendor, product); }
 
-std::string describe(int node, int vendor, int product, const std::string& serial, const std::string& title) {
+std::string describe(int node, int vendor, int product, const std::string& serial, const std::string& title, const std::string& descriptor) {
   const std::string hid = hidNode(vendor, product);
   return fmt::format(
       "P: {hid}/hidraw/hidraw{node}\nN: hidraw{node}\nE: DEVNAME=/dev/hidraw{node}\nE: MAJOR=240\nE: MINOR={node}\nE: SUBSYSTEM=hidraw\n"
@@ -39,7 +39,7 @@ std::string describe(int node, int vendor, int product, const std::string& seria
       "E: SUBSYSTEM=usb\nA: idVendor={vendor:04x}\\n\nA: idProduct={product:04x}\\n\nA: bcdDevice=0100\\n\nA: manufacturer=Lab\\n\n"
       "A: product={title}\\n\nA: serial={serial}\\n\n",
       fmt::arg("hid", hid), fmt::arg("node", node), fmt::arg("usbNode", node + 2), fmt::arg("usb", kUsb), fmt::arg("vendor", vendor),
-      fmt::arg("product", product), fmt::arg("serial", serial), fmt::arg("title", title), fmt::arg("descriptor", descriptor()));
+      fmt::arg("product", product), fmt::arg("serial", serial), fmt::arg("title", title), fmt::arg("descriptor", descriptor));
 }
 
 void require(GError* error) {
@@ -48,27 +48,63 @@ void require(GError* error) {
 
 }  // namespace
 
-HidrawBed::HidrawBed(int vendor, int product, const std::string& serial, const std::string& title)
-    : vendor_(vendor), product_(product), serial_(serial), title_(title), bed_(umockdev_testbed_new()) {
+HidrawBed::HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor, Features features)
+    : vendor_(vendor), product_(product), serial_(serial), title_(title),
+      descriptor_(descriptor.empty() ? kVendorPage : std::move(descriptor)), features_(std::move(features)), bed_(umockdev_testbed_new()) {
   plug();
+}
+
+// hidapi asks for the descriptor's size and bytes (u32 size, then 4 + 4096 bytes), and for feature reports.
+gboolean HidrawBed::handleIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+  constexpr unsigned kSize = 1, kDescriptor = 2, kSetFeature = 6, kGetFeature = 7;
+  auto& bed = *static_cast<HidrawBed*>(self);
+  const gulong request = umockdev_ioctl_client_get_request(client);
+  if (_IOC_TYPE(request) != 'H') return FALSE;
+  const unsigned number = _IOC_NR(request);
+  GError* error = nullptr;
+  UMockdevIoctlData* const data =
+      umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0,
+                                  number == kSize ? 4 : number == kDescriptor ? 4 + 4096 : _IOC_SIZE(request), &error);
+  glong result = -1;
+  int code = EPIPE;
+  const auto give = [&](gsize at, Bytes bytes) {
+    if (!bytes.empty()) umockdev_ioctl_data_update(data, at, bytes.data(), static_cast<gint>(bytes.size()));
+  };
+  if (error != nullptr || data == nullptr) {
+    g_clear_error(&error);
+    code = EFAULT;
+  } else if (number == kSize || number == kDescriptor) {
+    const auto size = static_cast<std::uint32_t>(bed.descriptor_.size());
+    give(0, {static_cast<std::uint8_t>(size & 0xFF), static_cast<std::uint8_t>(size >> 8), 0, 0});
+    if (number == kDescriptor) give(4, bed.descriptor_);
+    else ++bed.opened_;
+    result = code = 0;
+  } else if (number == kSetFeature || number == kGetFeature) {
+    guint8* bytes = nullptr;
+    gint count = 0;
+    umockdev_ioctl_data_retrieve(data, &bytes, &count);
+    const Bytes report(bytes, bytes + count);
+    const Bytes answer = number == kGetFeature && bed.features_.get ? bed.features_.get(report.at(0)) : Bytes{};
+    if (number == kSetFeature && bed.features_.set && bed.features_.set(report)) result = count;
+    if (!answer.empty()) result = static_cast<glong>(answer.size());
+    give(0, answer);
+    if (result >= 0) code = 0;
+    g_free(bytes);
+  }
+  umockdev_ioctl_client_complete(client, result, code);
+  return TRUE;
 }
 
 void HidrawBed::plug() {
   ++node_;
   const std::string path = fmt::format("/dev/hidraw{}", node_);
   GError* error = nullptr;
-  umockdev_testbed_add_from_string(bed_, describe(node_, vendor_, product_, serial_, title_).c_str(), &error);
+  umockdev_testbed_add_from_string(bed_, describe(node_, vendor_, product_, serial_, title_, hexOf(descriptor_)).c_str(), &error);
   require(error);
-  // hidapi asks for the descriptor's size and bytes: u32 size, then 4 + 4096 bytes.
-  const std::string hex = descriptor(), size = fmt::format("{:02X}000000", hex.size() / 2);
-  char name[] = "/tmp/hidraw-ioctl-XXXXXX";
-  const int file = mkstemp(name);
-  const std::string script = fmt::format("@DEV {3}\nHIDIOCGRDESCSIZE 0 {0}\nHIDIOCGRDESC 0 {0}{1}{2}\n", size, hex,
-                                         std::string((4096 - hex.size() / 2) * 2, '0'), path);
-  if (file < 0 || ::write(file, script.data(), script.size()) != static_cast<ssize_t>(script.size())) throw std::runtime_error(name);
-  ::close(file);
-  umockdev_testbed_load_ioctl(bed_, path.c_str(), name, &error);
-  ::unlink(name);
+  UMockdevIoctlBase* const ioctls = umockdev_ioctl_base_new();
+  g_signal_connect(ioctls, "handle-ioctl", G_CALLBACK(handleIoctl), this);
+  umockdev_testbed_attach_ioctl(bed_, path.c_str(), ioctls, &error);
+  g_object_unref(ioctls);
   require(error);
   wire_ = umockdev_testbed_get_dev_fd(bed_, path.c_str());
 }

@@ -1,7 +1,11 @@
 #pragma once
 #include <umockdev.h>
 
+#include <atomic>
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace reachlab::test {
 
@@ -9,21 +13,35 @@ namespace reachlab::test {
 /// says and hears goes through `wire`, a descriptor without report boundaries: keep one report in flight.
 class HidrawBed {
  public:
-  HidrawBed(int vendor, int product, const std::string& serial, const std::string& title);
+  using Bytes = std::vector<std::uint8_t>;
+  /// What it does with feature reports, each with its number in front; called from a thread of umockdev's. An empty answer, or false: there is
+  /// no such report.
+  struct Features {
+    std::function<bool(const Bytes& report)> set;
+    std::function<Bytes(std::uint8_t number)> get;
+  };
+  /// `descriptor`: empty for a vendor's page with 64 bytes in and out.
+  HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor = {}, Features features = {});
   ~HidrawBed();
   HidrawBed(const HidrawBed&) = delete;
   HidrawBed& operator=(const HidrawBed&) = delete;
 
   int wire() const { return wire_; }
+  /// How often it was opened so far, by whatever program.
+  const std::atomic<int>& opened() const { return opened_; }
   /// The cable is pulled; `plug` puts it in again.
   void unplug();
   void plug();
 
  private:
+  static gboolean handleIoctl(UMockdevIoctlBase* base, UMockdevIoctlClient* client, gpointer self);
   int vendor_, product_;
   std::string serial_, title_;
+  Bytes descriptor_;
+  Features features_;
   UMockdevTestbed* bed_;
   int wire_ = -1;
+  std::atomic<int> opened_{0};
   int node_ = -1;  // of /dev/hidraw; a new one each time, as the system gives
 };
 

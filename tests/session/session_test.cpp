@@ -374,7 +374,9 @@ TEST_F(PlannedSession, DoesTheTrialAgainInWhichTheDeviceWasLostAndTheRunEnded) {
     recordOutcomes(planSession(r).blocks[0], {Interrupted, Success, Success}, trial::Reason::DeviceLost);
     const SessionToRun rest = planSession(r);
     EXPECT_EQ(rest.blocks.size(), repeat ? 1u : 0u);
-    if (repeat) EXPECT_EQ(indicesOf(rest.blocks.at(0)), (std::vector<int>{1}));
+    if (repeat) {
+      EXPECT_EQ(indicesOf(rest.blocks.at(0)), (std::vector<int>{1}));
+    }
   }
 }
 
