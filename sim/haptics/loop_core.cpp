@@ -88,9 +88,10 @@ void LoopCore::acceptReset() noexcept {
 DeviceSample LoopCore::watched(HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
                                std::int64_t measuredNs) noexcept {
   watch.latch(fault.load(std::memory_order_acquire));
+  // Before it is looked at: a force that the engine has let grow while the device was not given it would come as a kick.
+  if (watchedDevice.health() == DeviceHealth::Failed) watch.latch(DeviceFault::Device);
   const TickState& before = engine->state();
   const DeviceSample believed = watch.look(sample, {trial::isEngaged(before.phase), missed, measuredNs});
-  if (watchedDevice.health() == DeviceHealth::Failed) watch.latch(DeviceFault::Device);
   latch(watch.fault());
   return believed;
 }
