@@ -17,6 +17,13 @@ bool forcesAreFinite(const TickState& state) noexcept {
   return true;
 }
 
+// A trial is under way, or a stylus is held against its weight.
+bool forceActs(const TickState& state) noexcept {
+  bool acts = trial::isEngaged(state.phase);
+  for (int hand = 0; hand < state.handCount; ++hand) acts = acts || !(handOf(state, hand).deviceForce == Vec3{});
+  return acts;
+}
+
 }  // namespace
 
 LoopCore::LoopCore(std::unique_ptr<TickEngine> theEngine, std::shared_ptr<HapticDevice> theDevice, RunSink* theSink)
@@ -133,7 +140,7 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   if (const auto cue = engine->cue()) device->cue(*cue);
   device->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
   if (!leaveDevice()) return false;
-  forceOn.store(trial::isEngaged(state.phase), std::memory_order_relaxed);
+  forceOn.store(forceActs(state), std::memory_order_relaxed);
 
   LoopFaults& faults = engine->faults();
   faults.lateTicks = late.load(std::memory_order_relaxed);

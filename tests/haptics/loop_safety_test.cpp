@@ -144,6 +144,19 @@ TEST_F(LoopSafety, AHangingReadIsToldZeroByTheSecondPath) {
   EXPECT_TRUE(until([&] { return loop->hangs(); }));
 }
 
+TEST_F(LoopSafety, AReadThatHangsBetweenTrialsIsToldZeroWhileAStylusIsHeld) {
+  EngineOptions options;
+  options.guards.compensation = {0, 3, 0};
+  loop = std::make_unique<HapticLoop>(std::make_unique<TickEngine>(experiment, options), device, nullptr);
+  loop->start();
+  ASSERT_TRUE(until([&] { return device->lastForce > 2.9; }));
+  const TickState* state = loop->takeLatest();
+  ASSERT_NE(state, nullptr);
+  EXPECT_FALSE(trial::isEngaged(state->phase));
+  device->hangsInRead = true;
+  EXPECT_TRUE(until([&] { return loop->fault() == DeviceFault::Stalled && device->stops > 0; }));
+}
+
 TEST_F(LoopSafety, WhenTheCallReturnsNoForceFollows) {
   engage();
   device->hangsInWrite = true;
