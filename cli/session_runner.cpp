@@ -33,8 +33,12 @@ void printRun(const session::RecordedRun& run) {
 std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                          std::uint64_t seed) {
   auto device = devices::makeDevice(spec, experiment, seed);
-  if (const haptics::DeviceInfo info = device->info(); info.rendersForce && experiment.experiment().task)
-    fmt::print(stderr, "{}", preflightWarnings(devices::checkBeforeBlock(experiment, info)));
+  const auto warn = [&](const haptics::DeviceInfo& info) {
+    if (info.rendersForce && experiment.experiment().task)
+      fmt::print(stderr, "{}", preflightWarnings(devices::checkBeforeBlock(experiment, info)));
+  };
+  warn(device->info());
+  for (const haptics::HapticDevice* other : device->otherHands()) warn(other->info());
   return device;
 }
 

@@ -37,21 +37,32 @@ std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const 
   return guardDevice(driver.make({asked.name, argument, experiment, seed}), hand);
 }
 
+// Only the first hand's device may be the clock; another one that could be is sampled, unless it is told how.
+Spec sampled(const Spec& asked) {
+  if (asked.name != "phantom" || ("," + asked.argument).find(",clock=") != std::string::npos) return asked;
+  return {asked.name, asked.argument + ",clock=computer"};
+}
+
+std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                std::uint64_t seed, bool first) {
+  const Spec asked = parse(spec);
+  if (const DeviceDriver* driver = findDriver(asked.name)) return makeBy(*driver, first ? asked : sampled(asked), experiment, seed);
+  std::string known;
+  for (const DeviceDriver& driver : deviceDrivers()) known += (known.empty() ? "" : ", ") + driver.usage;
+  throw FaultError(Fault{"device", "is " + spec + ", which is unknown", known});
+}
+
 }  // namespace
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed) {
-  if (const std::vector<std::string> hands = splitHands(spec); hands.size() > 1) {
-    std::vector<std::unique_ptr<haptics::HapticDevice>> all;
-    // Two subjects of one seed would move alike.
-    for (std::size_t i = 0; i < hands.size(); ++i) all.push_back(makeDevice(hands[i], experiment, i == 0 ? seed : seededBits(seed, kOfAHand + i)));
-    return joinDevices(std::move(all));
-  }
-  const Spec asked = parse(spec);
-  if (const DeviceDriver* driver = findDriver(asked.name)) return makeBy(*driver, asked, experiment, seed);
-  std::string known;
-  for (const DeviceDriver& driver : deviceDrivers()) known += (known.empty() ? "" : ", ") + driver.usage;
-  throw FaultError(Fault{"device", "is " + spec + ", which is unknown", known});
+  const std::vector<std::string> hands = splitHands(spec);
+  if (hands.size() == 1) return makeHand(spec, experiment, seed, true);
+  std::vector<std::unique_ptr<haptics::HapticDevice>> all;
+  // Two subjects of one seed would move alike.
+  for (std::size_t i = 0; i < hands.size(); ++i)
+    all.push_back(makeHand(hands[i], experiment, i == 0 ? seed : seededBits(seed, kOfAHand + i), i == 0));
+  return joinDevices(std::move(all));
 }
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {

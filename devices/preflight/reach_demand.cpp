@@ -67,8 +67,13 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
   options.deviceMaxForce = kNoLimit;
   options.virtualHand = true;
   const experiment::CompiledExperiment compiled(asked, experiment);
-  haptics::TickEngine engine(compiled, options);
   ReachDemand demand;
+  if (asked.hands.size() > 1) {
+    demand = rigidBodyDemand(asked, trial::makeProtocolSettings(asked, compiled.constraint()), centre, "one of its hands may bear it alone");
+    demand.duration = asked.task->duration;
+    return demand;
+  }
+  haptics::TickEngine engine(compiled, options);
   try {
     demand = simulatedDemand(compiled, engine, centre);
   } catch (const Error& error) {  // a task that nobody can plan is still felt

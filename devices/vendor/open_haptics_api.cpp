@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace reachlab::devices::hd {
 
 Api::Api() : library({"libHD.so", "libHD.so.3", "libHD.so.3.4", "libHD.so.3.4.0", "libHD.so.3.0", "libHD.so.3.0.0"}) {
@@ -29,14 +31,32 @@ Api::Api() : library({"libHD.so", "libHD.so.3", "libHD.so.3.4", "libHD.so.3.4.0"
   library.bind(unschedule, "hdUnschedule");
 }
 
-std::string Api::takeErrors() const {
+namespace {
+
+// What helps, where the library's own words do not say it.
+std::string_view hintOf(std::uint32_t code) {
+  switch (code) {
+    case kDeviceFault:
+    case kCommunication:
+    case kCommunicationConfig: return "; is it connected, switched on, and set up under that name in the vendor's own tool?";
+    case kAlreadyInitiated: return "; another program has it: end that one";
+    case kInvalidLicence: return "; the vendor's licence manager renews it";
+    default: return "";
+  }
+}
+
+}  // namespace
+
+std::string Api::takeErrors(std::uint32_t* newest) const {
   constexpr int kMost = 100;  // a library that never stops telling is left
   std::string words;
   for (int i = 0; i < kMost; ++i) {
     const ErrorInfo error = getError();
     if (error.code == kSuccess) break;
+    if (!words.empty()) continue;
     const char* said = getErrorString(error.code);
-    if (words.empty()) words = fmt::format("{} (0x{:04X})", said != nullptr && *said != 0 ? said : "no words given", error.code);
+    words = fmt::format("{} (0x{:04X}){}", said != nullptr && *said != 0 ? said : "no words given", error.code, hintOf(error.code));
+    if (newest != nullptr) *newest = error.code;
   }
   return words;
 }

@@ -97,7 +97,8 @@ struct Api {
   void (*unschedule)(unsigned long) = nullptr;
 
   /// The newest error in words, "no valid license (0x0600)"; empty when there is none. Takes every error that waits.
-  std::string takeErrors() const;
+  /// `newest`, if given, becomes its code.
+  std::string takeErrors(std::uint32_t* newest = nullptr) const;
 };
 
 /// Loaded once for the program; throws ResourceError as long as it cannot be.

@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <map>
+#include <utility>
 
 #include "base/error.h"
-#include "base/os.h"
 #include "devices/drivers.h"
 #include "devices/options.h"
-#include "devices/orientation.h"
 
 namespace reachlab::devices {
-
-using haptics::DeviceHealth;
 
 namespace {
 
@@ -28,31 +25,80 @@ std::string textOf(const hd::Api& hd, hd::Enum what) {
   return text != nullptr ? text : "";
 }
 
+// A device is opened and closed while the scheduler stands still, as the vendor asks.
+class SchedulerPause {
+ public:
+  explicit SchedulerPause(const hd::Api& hd) : hd_(hd) {
+    if (schedulerUsers > 0) hd_.stopScheduler();
+  }
+  ~SchedulerPause() {
+    if (schedulerUsers > 0) hd_.startScheduler();
+  }
+  SchedulerPause(const SchedulerPause&) = delete;
+  SchedulerPause& operator=(const SchedulerPause&) = delete;
+
+ private:
+  const hd::Api& hd_;
+};
+
+// What of this program is open, with what it says of itself: asking the library again would refuse it, or take it from its user. Controlling
+// thread only.
+std::map<std::string, haptics::DeviceInfo>& openDevices() {
+  static std::map<std::string, haptics::DeviceInfo> open;
+  return open;
+}
+
 }  // namespace
 
 PhantomDevice::PhantomDevice(const Options& options)
     : hd_(hd::api()), options_(options), words_("device phantom" + (options.name.empty() ? "" : ":" + options.name)) {
+  open();
+  try {
+    readDescription();
+    updateCalibration();
+    frames_ = new PhantomFrames(hd_, {handle_, options_.deviceVelocity, options_.deadMan, info_.maxContinuousForce});
+    if (!options_.drivesClock) schedule(nullptr, nullptr);
+  } catch (...) {
+    if (!everScheduled_) delete std::exchange(frames_, nullptr);
+    closeDevice();
+    throw;
+  }
+  openDevices()[options_.name] = info_;
+}
+
+void PhantomDevice::open() {
+  const SchedulerPause pause(hd_);
   hd_.takeErrors();
-  handle_ = hd_.initDevice(options_.name.empty() ? nullptr : options_.name.c_str());
-  const std::string error = hd_.takeErrors();
-  if (handle_ == hd::kNoHandle || !error.empty()) refuse(error.empty() ? "hdInitDevice gave no device" : error);
+  std::uint32_t code = hd::kSuccess;
+  const hd::Handle handle = hd_.initDevice(options_.name.empty() ? nullptr : options_.name.c_str());
+  const std::string error = hd_.takeErrors(&code);
+  if (code != hd::kAlreadyInitiated) handle_ = handle;  // else it is somebody else's
+  if (handle == hd::kNoHandle || !error.empty()) {
+    closeDevice();
+    refuse(error.empty() ? "hdInitDevice gave no device" : error);
+  }
   hd_.makeCurrentDevice(handle_);
   for (const hd::Enum wish : {hd::kForceOutput, hd::kMaxForceClamping, hd::kForceRamping}) {
     hd_.enable(wish);
-    if (const std::string said = hd_.takeErrors(); !said.empty() && wish == hd::kForceOutput) refuse(said);
+    if (const std::string said = hd_.takeErrors(); !said.empty() && wish == hd::kForceOutput) {
+      closeDevice();
+      refuse(said);
+    }
   }
-  readDescription();
-  updateCalibration();
 }
 
-void PhantomDevice::refuse(const std::string& what) {
-  if (handle_ != hd::kNoHandle) hd_.disableDevice(handle_);
-  handle_ = hd::kNoHandle;
-  throw ResourceError(fmt::format("{}: {}: {}", words_, hd_.library.name(), what));
+void PhantomDevice::closeDevice() noexcept {
+  if (handle_ == hd::kNoHandle) return;
+  const SchedulerPause pause(hd_);
+  hd_.disableDevice(std::exchange(handle_, hd::kNoHandle));
+  hd_.takeErrors();
 }
+
+void PhantomDevice::refuse(const std::string& what) { throw ResourceError(fmt::format("{}: {}: {}", words_, hd_.library.name(), what)); }
 
 void PhantomDevice::readDescription() {
   const std::string model = textOf(hd_, hd::kModel), serial = textOf(hd_, hd::kSerial);
+  hd_.takeErrors();  // a name that it does not tell is no reason against it
   info_.name = model.empty() ? "PHANToM" : model + (serial.empty() ? "" : " " + serial);
   info_.version = "OpenHaptics, " + hd_.library.name();
   const auto numberOf = [&](hd::Enum what) {
@@ -71,7 +117,9 @@ void PhantomDevice::readDescription() {
     for (const double edge : workspace) radius = std::min(radius, std::abs(edge));
     info_.workspaceRadius = radius * kMetresPerMm;
   }
-  info_.rendersForce = info_.drivesClock = true;
+  info_.rendersForce = true;
+  info_.drivesClock = options_.drivesClock;
+  if (options_.deadMan && hd_.getBooleanv == nullptr) refuse("it does not tell its safety switch (hdGetBooleanv), which dead-man=yes asks for");
   info_.secondPath = "hdDisable(HD_FORCE_OUTPUT) from the watchdog's thread";
 }
 
@@ -93,11 +141,13 @@ void PhantomDevice::updateCalibration() {
 
 PhantomDevice::~PhantomDevice() {
   stopClock();
-  if (handle_ != hd::kNoHandle) hd_.disableDevice(handle_);
+  openDevices().erase(options_.name);
+  closeDevice();
+  if (!everScheduled_) delete frames_;
 }
 
 std::string PhantomDevice::healthText() const {
-  const std::uint32_t code = lastError_.load(std::memory_order_acquire);
+  const std::uint32_t code = frames_->lastError();
   if (code == hd::kSuccess) return {};
   const char* said = hd_.getErrorString(code);
   return fmt::format("{} (0x{:04X})", said != nullptr ? said : "", code);
@@ -111,20 +161,28 @@ void PhantomDevice::calibrate() {
 }
 
 bool PhantomDevice::stopForce() noexcept {
-  forceOff_.store(true, std::memory_order_release);
+  frames_->noteForceOff();
   hd_.makeCurrentDevice(handle_);
   hd_.disable(hd::kForceOutput);
   return true;
 }
 
 void PhantomDevice::startClock(ClockTick tick, void* context) {
-  tick_ = tick;
-  context_ = context;
-  stopping_ = false;
+  if (!scheduled_) schedule(tick, context);
+}
+
+void PhantomDevice::schedule(ClockTick tick, void* context) {
+  if (everScheduled_) frames_ = new PhantomFrames(hd_, {handle_, options_.deviceVelocity, options_.deadMan, info_.maxContinuousForce});
+  frames_->setTick(tick, context);
+  frames_->enlist();
+  everScheduled_ = true;
   hd_.makeCurrentDevice(handle_);
-  callback_ = hd_.scheduleAsynchronous([](void* self) -> std::uint32_t { return static_cast<PhantomDevice*>(self)->frame(); }, this,
+  callback_ = hd_.scheduleAsynchronous([](void* frames) -> std::uint32_t { return static_cast<PhantomFrames*>(frames)->call(); }, frames_,
                                        hd::kHighestPriority);
-  if (const std::string error = hd_.takeErrors(); !error.empty()) throw ResourceError(words_ + ": no callback: " + error);
+  if (const std::string error = hd_.takeErrors(); !error.empty()) {
+    frames_->retire();
+    refuse("no callback: " + error);
+  }
   scheduled_ = true;
   if (schedulerUsers++ > 0) return;
   if (hd_.setSchedulerRate != nullptr) {
@@ -134,97 +192,18 @@ void PhantomDevice::startClock(ClockTick tick, void* context) {
   hd_.startScheduler();
   if (const std::string error = hd_.takeErrors(); !error.empty()) {
     stopClock();
-    throw ResourceError(words_ + ": its scheduler does not start: " + error);
+    refuse("its scheduler does not start: " + error);
   }
 }
 
-// A frame with zero force, then no more frames. Bounded: a scheduler that does not call any more is not waited for.
+// A frame with zero force, then no more frames.
 void PhantomDevice::stopClock() noexcept {
-  if (!scheduled_) return;
-  scheduled_ = false;
-  zeroFrames_ = 0;
-  stopping_.store(true, std::memory_order_release);
-  constexpr int kMostWaits = 50;
-  constexpr std::int64_t kWaitNs = 2'000'000;
-  for (int i = 0; i < kMostWaits && zeroFrames_.load(std::memory_order_acquire) < 2; ++i) os::sleepUntil(os::now() + kWaitNs);
+  if (!std::exchange(scheduled_, false)) return;
+  frames_->stop();
   if (--schedulerUsers == 0) hd_.stopScheduler();
   hd_.unschedule(callback_);
+  frames_->retire();
   hd_.takeErrors();
-}
-
-void PhantomDevice::readFrame() noexcept {
-  // A call that fails leaves what it was given: the place of before, and not the origin.
-  const Vec3 before = sample_.position / kMetresPerMm;
-  std::array<double, 3> mm{before.x, before.y, before.z}, speed{};
-  std::array<double, 16> transform{};
-  std::int32_t buttons = 0;
-  hd_.getDoublev(hd::kPosition, mm.data());
-  hd_.getIntegerv(hd::kButtons, &buttons);
-  if (readsTransform_) hd_.getDoublev(hd::kTransform, transform.data());
-  sample_.position = kMetresPerMm * Vec3{mm[0], mm[1], mm[2]};
-  sample_.buttons = static_cast<std::uint32_t>(buttons);
-  if (options_.deviceVelocity) {
-    hd_.getDoublev(hd::kVelocity, speed.data());
-    sample_.velocity = kMetresPerMm * Vec3{speed[0], speed[1], speed[2]};
-    sample_.hasVelocity = true;
-  }
-  if (options_.deadMan && hd_.getBooleanv != nullptr) {
-    std::uint8_t closed = 1;
-    hd_.getBooleanv(hd::kSafetySwitch, &closed);
-    sample_.released = closed == 0;
-  }
-  if (const auto q = quaternionOf({{{transform[0], transform[4], transform[8]},
-                                    {transform[1], transform[5], transform[9]},
-                                    {transform[2], transform[6], transform[10]}}})) {
-    sample_.orientation = *q;
-    sample_.hasOrientation = true;
-  }
-  ++sample_.reports;
-  sample_.takenNs = os::now();
-}
-
-void PhantomDevice::writeFrame() noexcept {
-  Vec3 force = stopping_.load(std::memory_order_acquire) ? Vec3{} : force_;
-  const DeviceHealth health = health_.load(std::memory_order_relaxed);
-  if (health == DeviceHealth::Lost || health == DeviceHealth::Failed || !isFinite(force)) force = {};
-  if (const double size = norm(force); health == DeviceHealth::Warm && info_.maxContinuousForce > 0 && size > info_.maxContinuousForce)
-    force = info_.maxContinuousForce / size * force;
-  if (norm(force) > 0 && forceOff_.exchange(false, std::memory_order_acq_rel)) hd_.enable(hd::kForceOutput);
-  const std::array<double, 3> newtons{force.x, force.y, force.z};
-  hd_.setDoublev(hd::kForce, newtons.data());
-}
-
-void PhantomDevice::takeFrameErrors() noexcept {
-  constexpr int kMost = 16, kCoolFrames = 1000;
-  ++goodFrames_;
-  for (int i = 0; i < kMost; ++i) {
-    const hd::ErrorInfo error = hd_.getError();
-    if (error.code == hd::kSuccess) break;
-    goodFrames_ = 0;
-    lastError_.store(error.code, std::memory_order_release);
-    DeviceHealth health = health_.load(std::memory_order_relaxed);
-    if (error.code == hd::kWarmMotors) health = health == DeviceHealth::Ready ? DeviceHealth::Warm : health;
-    else if (error.code >= hd::kFirstArgumentError && error.code <= hd::kLastArgumentError && readsTransform_)
-      readsTransform_ = false;  // the one thing asked for that a device may not know
-    else if (error.code >= hd::kDeviceFault && error.code <= hd::kTimer) health = DeviceHealth::Lost;
-    else if (health != DeviceHealth::Lost) health = DeviceHealth::Failed;
-    health_.store(health, std::memory_order_release);
-  }
-  if (goodFrames_ > kCoolFrames && health_.load(std::memory_order_relaxed) == DeviceHealth::Warm)
-    health_.store(DeviceHealth::Ready, std::memory_order_release);
-  if (health_.load(std::memory_order_relaxed) == DeviceHealth::Lost) sample_.valid = false;
-}
-
-std::uint32_t PhantomDevice::frame() noexcept {
-  hd_.beginFrame(handle_);
-  readFrame();
-  takeFrameErrors();
-  if (!stopping_.load(std::memory_order_acquire)) tick_(context_);
-  writeFrame();
-  hd_.endFrame(handle_);
-  takeFrameErrors();
-  if (stopping_.load(std::memory_order_acquire)) zeroFrames_.fetch_add(1, std::memory_order_acq_rel);
-  return hd::kCallbackContinue;
 }
 
 namespace {
@@ -235,11 +214,15 @@ std::unique_ptr<haptics::HapticDevice> makePhantom(const DeviceRequest& request)
   chosen.name = options.plain();
   chosen.deviceVelocity = options.word("velocity", {"estimated", "device"}) == "device";
   chosen.deadMan = options.word("dead-man", {"no", "yes"}) == "yes";
+  chosen.drivesClock = options.word("clock", {"device", "computer"}) == "device";
   options.done();
   return std::make_unique<PhantomDevice>(chosen);
 }
 
 std::vector<FoundDevice> findPhantom(const DeviceDriver& self) {
+  std::vector<FoundDevice> inUse;
+  for (const auto& [name, info] : openDevices()) inUse.push_back(presentDevice(self, self.name + (name.empty() ? "" : ":" + name), info));
+  if (!inUse.empty()) return inUse;
   try {
     return {presentDevice(self, self.name, PhantomDevice({}).info())};
   } catch (const ResourceError& error) {
@@ -250,7 +233,7 @@ std::vector<FoundDevice> findPhantom(const DeviceDriver& self) {
 }  // namespace
 
 DeviceDriver phantomDriver() {
-  return {"phantom", "phantom[:NAME]", "PHANToM and Touch by the vendor's OpenHaptics (libHD.so); NAME as in its configuration",
+  return {"phantom", "phantom[:NAME][,clock=computer]", "PHANToM and Touch by the vendor's OpenHaptics (libHD.so); NAME as in its configuration",
           false,     findPhantom,      makePhantom};
 }
 

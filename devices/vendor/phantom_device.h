@@ -1,32 +1,31 @@
 #pragma once
-#include <array>
-#include <atomic>
 #include <string>
 
 #include "devices/vendor/open_haptics_api.h"
+#include "devices/vendor/phantom_frames.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
 
-/// A PHANToM or Touch by OpenHaptics. Its scheduler is the clock: it calls at 1 kHz, and one call is one frame with one tick in it
-/// (position read at its begin, force in effect at its end). Force limits are the device's own (nominal peak and continuous).
-///   errors of a frame: communication or device fault -> lost for good; force, impulse, velocity or any other -> failed (its own
-///   software has taken the force off): latched; warm motors -> the force is held to the continuous one while it lasts.
+/// A PHANToM or Touch by OpenHaptics, one of two ways. Its scheduler is the clock: it calls at 1 kHz, and one call is one frame with one
+/// tick in it. Or it is a source that the tick samples: frames go on by themselves from the construction on, each gives the newest place
+/// and takes the newest force. What goes wrong in a frame: phantom_frames.h. Force limits are the device's own (nominal peak and continuous).
 class PhantomDevice final : public haptics::HapticDevice {
  public:
   struct Options {
     std::string name;             // of the configuration; empty: the default device
     bool deviceVelocity = false;  // the vendor's smoothed velocity instead of our estimator's
     bool deadMan = false;         // HD_CURRENT_SAFETY_SWITCH must be closed
+    bool drivesClock = true;      // false: the tick samples it
   };
-  /// Opens it. Throws ResourceError in the library's own words.
+  /// Opens it; where its scheduler runs for another one, that is paused meanwhile. Throws ResourceError in the library's own words.
   explicit PhantomDevice(const Options& options);
   ~PhantomDevice() override;
 
   haptics::DeviceInfo info() const override { return info_; }
-  haptics::DeviceSample read() noexcept override { return sample_; }
-  void write(const Vec3& force) noexcept override { force_ = force; }
-  haptics::DeviceHealth health() const noexcept override { return health_.load(std::memory_order_acquire); }
+  haptics::DeviceSample read() noexcept override { return frames_->read(); }
+  void write(const Vec3& force) noexcept override { frames_->write(force); }
+  haptics::DeviceHealth health() const noexcept override { return frames_->health(); }
   std::string healthText() const override;
   std::string calibrationHint() const override;
   void calibrate() override;
@@ -34,11 +33,12 @@ class PhantomDevice final : public haptics::HapticDevice {
   void startClock(ClockTick tick, void* context) override;
   void stopClock() noexcept override;
 
+  const FrameTimes& times() const noexcept { return frames_->times(); }
+
  private:
-  std::uint32_t frame() noexcept;
-  void readFrame() noexcept;
-  void writeFrame() noexcept;
-  void takeFrameErrors() noexcept;
+  void open();
+  void closeDevice() noexcept;
+  void schedule(ClockTick tick, void* context);
   [[noreturn]] void refuse(const std::string& what);
   void readDescription();
   void updateCalibration();
@@ -48,18 +48,9 @@ class PhantomDevice final : public haptics::HapticDevice {
   std::string words_;  // "device phantom"
   hd::Handle handle_ = hd::kNoHandle;
   haptics::DeviceInfo info_;
-  haptics::DeviceSample sample_;
-  Vec3 force_;
-  ClockTick tick_ = nullptr;
-  void* context_ = nullptr;
+  PhantomFrames* frames_ = nullptr;  // kept for ever once it was scheduled
   unsigned long callback_ = 0;
-  bool scheduled_ = false;
-  bool readsTransform_ = true;
-  int goodFrames_ = 0;  // in a row, since the motors were last told to be warm
-  std::atomic<haptics::DeviceHealth> health_{haptics::DeviceHealth::Ready};
-  std::atomic<std::uint32_t> lastError_{0};
-  std::atomic<bool> stopping_{false}, forceOff_{false};
-  std::atomic<int> zeroFrames_{0};
+  bool scheduled_ = false, everScheduled_ = false;
 };
 
 }  // namespace reachlab::devices

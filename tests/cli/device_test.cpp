@@ -110,6 +110,42 @@ TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
   EXPECT_NE(felt.find("engaged"), std::string::npos);
 }
 
+// A scheduler that never calls, calls twice, or stands still for 30 ms each second: the run is done, or is given up in words.
+TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
+  for (const char* fault : {"NEVER", "TWICE", "LATE"}) {
+    const Folder folder;
+    const Ended run = reach("run chain-slow --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                            kFakes + " FAKE_HD_" + fault + "=1 timeout -s INT 30");
+    EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << fault << ": " << run.exitCode << run.err;
+    if (run.exitCode == 3) {
+      EXPECT_NE(run.err.find("device PHANToM"), std::string::npos) << fault << ": " << run.err;
+    }
+    if (std::string(fault) == "NEVER") {
+      EXPECT_EQ(run.exitCode, 3) << run.out;
+    }
+  }
+}
+
+TEST(Devices, TwoPhantomsAreTwoHandsOfOneExperiment) {
+  const Folder folder;
+  const Ended run = reach("run chain-two-hands --device \"phantom:Left + phantom:Right\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                          kFakes + " FAKE_HD_DEVICES=Left,Right timeout -s INT 30");
+  EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
+  EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
+}
+
+TEST(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {
+  const Ended measured = reach("latency --seconds 0.3 --json", kFakes);
+  ASSERT_EQ(measured.exitCode, 0) << measured.err;
+  const Json rows = Json::parse(measured.out);
+  ASSERT_EQ(rows.size(), 2u);
+  for (const Json& row : rows) {
+    EXPECT_GT(row["ticks"], 0) << row;
+    EXPECT_GT(row["latency_p50_s"], 0) << row;
+    EXPECT_GT(row["jitter_max_s"], 0) << row;
+  }
+}
+
 TEST(Devices, EstimatorsOfVelocityAreComparedByOneCommand) {
   const Ended table = reach("velocity --json");
   ASSERT_EQ(table.exitCode, 0) << table.err;

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "base/os.h"
+#include "devices/registry.h"
 #include "tests/devices/fakes/fake_hd.h"
 
 namespace reachlab::devices {
@@ -203,6 +206,109 @@ TEST_F(Phantom, WarmMotorsHoldTheForceToTheContinuousOne) {
   EXPECT_NEAR(feltAlongX(), 0.88, 1e-12);
   for (int i = 0; i < 1100; ++i) test::stepFakeHd();
   EXPECT_EQ(feltAlongX(), 3) << "a second without the warning: cool again";
+}
+
+TEST_F(Phantom, AFailedDeviceIsReadyAgainAfterASecondWithoutAnErrorAndItsForcesAreSwitchedOn) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {1, 0, 0}, {}};
+  device.startClock(tick, &ticks);
+  fakeHd().failures["hdEndFrame"] = 0x0203;
+  test::stepFakeHd();
+  fakeHd().devices[""].forceOutput = false;  // by its own software
+  ASSERT_EQ(device.health(), haptics::DeviceHealth::Failed);
+  for (int i = 0; i < 900; ++i) test::stepFakeHd();
+  ASSERT_EQ(feltAlongX(), 0);
+  for (int i = 0; i < 200; ++i) test::stepFakeHd();
+  EXPECT_EQ(device.health(), haptics::DeviceHealth::Ready) << "what latches the force off until it is reset is the loop";
+  EXPECT_EQ(feltAlongX(), 1);
+}
+
+TEST_F(Phantom, AnErrorIsTheDevicesThatItNames) {
+  fakeHd().devices["Left"], fakeHd().devices["Right"];
+  PhantomDevice left({"Left"}), right({"Right"});
+  Ticks first{&left, 0, {1, 0, 0}, {}}, second{&right, 0, {2, 0, 0}, {}};
+  left.startClock(tick, &first);
+  right.startClock(tick, &second);
+  test::stepFakeHd();
+  fakeHd().errors.push_back({0x0302, test::fakeHdHandle("Right")});  // asked for first in the left one's frame
+  test::stepFakeHd();
+  EXPECT_EQ(left.health(), haptics::DeviceHealth::Ready);
+  EXPECT_EQ(right.health(), haptics::DeviceHealth::Lost);
+  EXPECT_EQ(feltAlongX("Left"), 1);
+  EXPECT_EQ(feltAlongX("Right"), 0);
+}
+
+TEST_F(Phantom, ASampledDeviceGivesItsNewestPlaceAndTakesTheNewestForce) {
+  fakeHd().devices[""].position[0] = 12;
+  PhantomDevice::Options sampled;
+  sampled.drivesClock = false;
+  PhantomDevice device(sampled);
+  EXPECT_FALSE(device.info().drivesClock);
+  EXPECT_TRUE(fakeHd().schedulerRuns) << "from the beginning on";
+  test::stepFakeHd();
+  const haptics::DeviceSample sample = device.read();
+  EXPECT_NEAR(sample.position.x, 0.012, 1e-15);
+  EXPECT_EQ(sample.reports, 1u);
+  EXPECT_EQ(device.read().reports, 1u) << "no newer one";
+  device.write({1, 0, 0});
+  EXPECT_EQ(feltAlongX(), 0) << "in effect with the next frame";
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 1);
+  os::sleepUntil(os::now() + 25'000'000);
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 0) << "a force that is not renewed is none";
+  fakeHd().failures["hdEndFrame"] = 0x0302;
+  test::stepFakeHd();
+  test::stepFakeHd();
+  EXPECT_FALSE(device.read().valid);
+  EXPECT_EQ(fakeHd().violations, 0);
+}
+
+TEST_F(Phantom, ASecondDeviceIsOpenedWhileTheSchedulerStandsStill) {
+  fakeHd().devices["Left"], fakeHd().devices["Right"];
+  PhantomDevice::Options sampled;
+  sampled.drivesClock = false;
+  sampled.name = "Left";
+  PhantomDevice left(sampled);
+  sampled.name = "Right";
+  PhantomDevice right(sampled);
+  const auto& calls = fakeHd().calls;
+  const auto second = std::find(calls.begin(), calls.end(), "hdInitDevice:Right");
+  ASSERT_NE(second, calls.end());
+  EXPECT_EQ(*std::prev(second), "hdStopScheduler");
+  EXPECT_TRUE(fakeHd().schedulerRuns);
+  EXPECT_EQ(fakeHd().violations, 0);
+}
+
+TEST_F(Phantom, ACallThatComesAfterTheEndTouchesNothing) {
+  {
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {1, 0, 0}, {}};
+    device.startClock(tick, &ticks);
+    test::stepFakeHd();
+    device.stopClock();
+    const int ticked = ticks.count;
+    test::callLateFakeHd();
+    EXPECT_EQ(ticks.count, ticked);
+  }
+  const int frames = fakeHd().devices[""].frames;
+  test::callLateFakeHd();
+  EXPECT_EQ(fakeHd().devices[""].frames, frames);
+  EXPECT_EQ(fakeHd().violations, 0);
+}
+
+TEST_F(Phantom, OneThatIsInUseIsRefusedAndLeftToItsUser) {
+  PhantomDevice device({});
+  EXPECT_NE(refusal().find("another program has it"), std::string::npos) << refusal();
+  EXPECT_TRUE(fakeHd().devices[""].open);
+  const auto rows = findDriver("phantom")->find(*findDriver("phantom"));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_TRUE(rows[0].present) << rows[0].whyNot;
+}
+
+TEST_F(Phantom, AnErrorOfWhatIsOnlyDescribedIsNoReasonAgainstIt) {
+  fakeHd().failures["hdGetString"] = 0x0100;
+  EXPECT_EQ(refusal(), "");
 }
 
 TEST_F(Phantom, AForceThatIsNoNumberIsNoForce) {

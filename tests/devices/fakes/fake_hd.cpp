@@ -1,5 +1,7 @@
 #include "tests/devices/fakes/fake_hd.h"
 
+#include <pthread.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -18,7 +20,7 @@ struct Scheduled {
 };
 
 FakeHd state;
-std::vector<Scheduled> scheduled;
+std::vector<Scheduled> scheduled, everScheduled;
 std::vector<std::string> names;  // by handle
 std::uint32_t current = 0xFFFFFFFF;
 int openFrame = -1;
@@ -31,14 +33,14 @@ std::atomic<bool> servoStops{false};
 bool fails(const char* call) {
   const auto at = state.failures.find(call);
   if (at == state.failures.end()) return false;
-  state.errors.push_back(at->second);
+  state.errors.push_back({at->second, current});
   state.failures.erase(at);
   return true;
 }
 
 void breakRule(std::uint32_t error) {
   ++state.violations;
-  state.errors.push_back(error);
+  state.errors.push_back({error, current});
 }
 
 FakeHdDevice* currentDevice() {
@@ -72,6 +74,7 @@ void resetFakeHd() {
   state = {};
   state.devices[""] = {};
   scheduled.clear();
+  everScheduled.clear();
   names.clear();
   current = 0xFFFFFFFF;
   openFrame = -1;
@@ -82,6 +85,18 @@ void stepFakeHd() {
   if (!state.schedulerRuns) return;
   for (const Scheduled& one : std::vector<Scheduled>(scheduled))
     if (one.callback(one.data) == 0) std::erase_if(scheduled, [&](const Scheduled& other) { return other.handle == one.handle; });
+}
+
+void callLateFakeHd() {
+  const std::lock_guard lock(mutex);
+  for (const Scheduled& one : std::vector<Scheduled>(everScheduled)) one.callback(one.data);
+}
+
+std::uint32_t fakeHdHandle(const std::string& name) {
+  const std::lock_guard lock(mutex);
+  for (std::size_t i = names.size(); i-- > 0;)
+    if (names[i] == name) return static_cast<std::uint32_t>(i);
+  return 0xFFFFFFFF;
 }
 
 }  // namespace reachlab::test
@@ -101,7 +116,10 @@ std::uint32_t hdInitDevice(const char* name) {
   const std::string key = name != nullptr ? name : "";
   state.calls.push_back("hdInitDevice:" + key);
   if (fails("hdInitDevice")) return 0xFFFFFFFF;
-  if (runsAlone() && key.empty()) state.devices[""];
+  // By themselves: the default device, and those that FAKE_HD_DEVICES names, with commas.
+  const char* named = std::getenv("FAKE_HD_DEVICES");
+  if (runsAlone() && (key.empty() || (named != nullptr && ("," + std::string(named) + ",").find("," + key + ",") != std::string::npos)))
+    state.devices[key];
   const auto at = state.devices.find(key);
   if (at == state.devices.end()) {
     state.errors.push_back(0x0300);
@@ -132,8 +150,7 @@ std::uint32_t hdGetCurrentDevice() { return current; }
 
 void hdBeginFrame(std::uint32_t handle) {
   const std::lock_guard lock(mutex);
-  current = handle;
-  fails("hdBeginFrame");
+  fails("hdBeginFrame");  // which device is current is hdMakeCurrentDevice's business alone
   if (openFrame >= 0) breakRule(0x0400);
   openFrame = static_cast<int>(handle);
   std::memset(pendingForce, 0, sizeof pendingForce);
@@ -153,9 +170,9 @@ void hdEndFrame(std::uint32_t handle) {
 HDErrorInfo hdGetError() {
   const std::lock_guard lock(mutex);
   if (state.errors.empty()) return {0, 0, 0xFFFFFFFF};
-  const std::uint32_t code = state.errors.back();
+  const FakeHdError error = state.errors.back();
   state.errors.pop_back();
-  return {code, 0, current};
+  return {error.code, 0, error.device};
 }
 
 const char* hdGetErrorString(std::uint32_t code) {
@@ -211,7 +228,11 @@ void hdGetDoublev(std::uint32_t what, double* values) {
 }
 void hdGetIntegerv(std::uint32_t, std::int32_t* value) { *value = 0; }
 void hdGetBooleanv(std::uint32_t, std::uint8_t* value) { *value = 1; }
-const char* hdGetString(std::uint32_t what) { return what == 0x2501 ? "PHANToM Omni" : what == 0x2504 ? "SN7" : ""; }
+const char* hdGetString(std::uint32_t what) {
+  const std::lock_guard lock(mutex);
+  if (fails("hdGetString")) return nullptr;
+  return what == 0x2501 ? "PHANToM Omni" : what == 0x2504 ? "SN7" : "";
+}
 
 void hdSetDoublev(std::uint32_t what, const double* values) {
   const std::lock_guard lock(mutex);
@@ -236,14 +257,23 @@ void hdStartScheduler() {
   if (!runsAlone()) return;
   servoStops = false;
   servo = std::thread([begin = std::chrono::steady_clock::now()] {
+    // As the vendor's: before all else, where that is allowed.
+    sched_param priority{};
+    priority.sched_priority = 82;
+    pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+    // What a scheduler may do wrong: never call, call twice, come 30 ms late every second.
+    const bool never = std::getenv("FAKE_HD_NEVER") != nullptr, twice = std::getenv("FAKE_HD_TWICE") != nullptr,
+               late = std::getenv("FAKE_HD_LATE") != nullptr;
     auto next = begin;
-    while (!servoStops) {
-      std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
+    for (int call = 1; !servoStops; ++call) {
+      std::this_thread::sleep_until(next += std::chrono::milliseconds(late && call % 1000 == 0 ? 30 : 1));
       {
         const std::lock_guard inner(mutex);
         for (auto& [name, device] : state.devices) moveAlone(device, begin);
       }
+      if (never) continue;
       stepFakeHd();
+      if (twice) stepFakeHd();
     }
   });
 }
@@ -263,6 +293,7 @@ unsigned long hdScheduleAsynchronous(std::uint32_t (*callback)(void*), void* dat
   state.calls.push_back("hdScheduleAsynchronous");
   if (fails("hdScheduleAsynchronous")) return 0;
   scheduled.push_back({nextHandle, callback, data});
+  everScheduled.push_back(scheduled.back());
   return nextHandle++;
 }
 void hdScheduleSynchronous(std::uint32_t (*callback)(void*), void* data, std::uint16_t) { callback(data); }

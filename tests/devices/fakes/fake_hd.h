@@ -15,11 +15,17 @@ struct FakeHdDevice {
   bool open = false, forceOutput = false;
 };
 
+/// An error that waits, and whose it is; converts from the bare code: whose is not told.
+struct FakeHdError {
+  FakeHdError(std::uint32_t c, std::uint32_t d = 0xFFFFFFFF) : code(c), device(d) {}
+  std::uint32_t code, device;
+};
+
 struct FakeHd {
   std::map<std::string, FakeHdDevice> devices;    // by configuration name; "" is the default device
   std::vector<std::string> calls;                 // in order, without what is read
   std::map<std::string, std::uint32_t> failures;  // the next call of this name leaves this error
-  std::vector<std::uint32_t> errors;              // that wait
+  std::vector<FakeHdError> errors;                // that wait
   int violations = 0;                             // of the documented rules
   bool schedulerRuns = false;
   std::uint32_t calibration = 0x5000;
@@ -30,5 +36,9 @@ FakeHd& fakeHd();
 void resetFakeHd();
 /// Calls every scheduled callback once, as the servo loop does.
 void stepFakeHd();
+/// Calls every callback that was ever scheduled, as a library does that is late: after hdUnschedule, and with the device closed.
+void callLateFakeHd();
+/// The handle that a device was given last.
+std::uint32_t fakeHdHandle(const std::string& name);
 
 }  // namespace reachlab::test
