@@ -45,6 +45,31 @@ TEST(Bounds, OfAnExperimentsTimes) {
   EXPECT_EQ(reach("validate " + folder.write("e.json", experimentWith("3600"))).exitCode, 0);
 }
 
+// A hundred and sixty times round a torus, and a mass that swings a thousand times on its way: each took many seconds, or gigabytes.
+TEST(Bounds, OfWhatAPredictionMayCost) {
+  const Folder folder;
+  const auto file = [&](const std::string& constraint, const std::string& stiffness, const std::string& task) {
+    return folder.write("far.json", R"({"schema_version":1,"constraint":)" + constraint +
+                                        R"(,"object":{"kind":"chain","masses_kg":[1,0.01],"stiffness_n_per_m":[)" + stiffness +
+                                        R"(]},"coupling":{"stiffness_n_per_m":600},"task":{)" + task +
+                                        R"(,"duration_s":1.5,"tolerance":{"position_m":0.01,"velocity_m_per_s":0.01,"time_s":0.5}}})");
+  };
+  std::string torus = contentOf(std::string(REACHLAB_SOURCE_DIR) + "/resources/experiments/torus.json");
+  const std::size_t target = torus.find("\"target\": [") + 11;
+  torus.replace(target, torus.find(',', target) - target, "1000");
+  const std::string words[] = {"multiplications, which is what a prediction may cost", "numbers at once; allowed"};
+  const std::string experiments[] = {folder.write("round.json", torus),
+                                     file(R"({"name":"ellipse"})", "1e5", R"("start":[0.2],"target":[3])")};
+  for (int i = 0; i < 2; ++i) {
+    const Ended ended = reach("predict " + experiments[i] + " --criterion min-hand-jerk");
+    EXPECT_EQ(ended.exitCode, 4) << ended.err;
+    EXPECT_NE(ended.err.find(words[i]), std::string::npos) << ended.err;
+  }
+  const Ended many = reach("predict dingwell --criterion min-torque-change --unknowns 2000000000");
+  EXPECT_EQ(many.exitCode, 4) << many.err;
+  EXPECT_NE(many.err.find(words[1]), std::string::npos) << many.err;
+}
+
 TEST(Bounds, OfAReplayedReach) {
   const Folder folder;
   const std::string file = folder.write("far.csv", kReach + "1000000,0.1,0,0\n");

@@ -68,9 +68,10 @@ struct Optimum {
 
 class Search {
  public:
-  Search(const constraints::ArcCurve& curve, const LineObject& object, double duration)
+  Search(const constraints::ArcCurve& curve, const LineObject& object, double duration, const std::shared_ptr<WorkLimit>& work)
       : curve_(curve), duration_(duration), object_(makeCurveObject(object)), problem_(makeCurveJerkProblem(curve, duration)),
         scale_(makeConditionScale(object)), target_(2 * object.count()) {
+    problem_.work = work;
     target_ << Vector::Constant(object.count(), curve.length()), Vector::Zero(object.count());
   }
 
@@ -90,12 +91,17 @@ class Search {
 };
 
 Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Vector& multiplier) const {
+  const double n = object_.count(), stage = CurveMotion::kStages * n, nodes = 1.0 * intervals * CurveMotion::kStages;
+  const double followed = intervals * (stage * stage * stage + 1e3 * stage), turned = 2 * (n + 1) * nodes * unknowns;
+  const double stepped = intervals * stage * stage * unknowns + turned * (4 * n + unknowns / 2.0) + 3 * std::pow(unknowns, 3);
+  WorkLimit::hold(2 * turned + intervals * 2 * stage * stage + 4.0 * unknowns * unknowns);
   Optimum found{RestToRestBasis(problem_.order, unknowns), Vector::Zero(unknowns), multiplier};
   found.unknowns.head(std::min<Eigen::Index>(guess.size(), unknowns)) = guess.head(std::min<Eigen::Index>(guess.size(), unknowns));
   const TranscribedCost cost(problem_, found.basis);
   CurveMotion motion(curve_, object_, duration_, intervals);
   const HandTable hand = tabulateHand(found.basis, motion, curve_.length(), duration_);
   const auto follow = [&](const Vector& c) {
+    problem_.work->spend(followed + 2 * nodes * unknowns);
     return motion.follow(hand.fixedPosition + hand.position * c, hand.fixedSpeed + hand.speed * c);
   };
   const auto refuse = [&] { throw RefusedError("the object cannot follow the hand: springs would turn over on a way that is so bent"); };
@@ -106,6 +112,7 @@ Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Ve
   double size = 0, miss = 0;
   for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
     found.iterations = iteration;
+    problem_.work->spend(stepped);
     found.cost = cost.expand(found.unknowns, gradient, hessian);
     const Vector off = scale_ * (motion.end() - target_);
     const Matrix slope = scale_ * motion.linearise(hand.position, hand.speed);
@@ -160,10 +167,11 @@ CurveMotion Search::follow(const Optimum& optimum, int intervals) const {
 }
 
 // The optimum on the straight line, then on the curve: at once, or by parts of it where that does not settle.
-Optimum continueFromStraight(const constraints::ArcCurve& curve, const LineObject& object, double duration, int unknowns, int intervals) {
+Optimum continueFromStraight(const constraints::ArcCurve& curve, const LineObject& object, double duration, int unknowns, int intervals,
+                             const std::shared_ptr<WorkLimit>& work) {
   const auto solve = [&](double part, const Vector& guess, const Vector& multiplier) {
     const constraints::ArcCurve bent = curve.magnified(part);
-    return Search(bent, object, duration).solve(unknowns, intervals, guess, multiplier);
+    return Search(bent, object, duration, work).solve(unknowns, intervals, guess, multiplier);
   };
   Optimum best = solve(0, {}, {});
   double part = 0;
@@ -232,7 +240,8 @@ double compare(const LegendreSeries& coarse, const LegendreSeries& fine) {
 
 std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurve& curve, const LineObject& object, double duration,
                                                       int unknowns) {
-  const Search search(curve, object, duration);
+  const auto work = std::make_shared<WorkLimit>();
+  const Search search(curve, object, duration, work);
   const int conditions = 2 * object.count();
   const double phase = search.fastest() * duration;
   double asked = std::max(8.0, phase / kIntervalPhase);
@@ -244,7 +253,7 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurv
   if (n <= conditions)
     throw FaultError(Fault{"unknowns", fmt::format("are {}", n), fmt::format("more than {} here, twice the number of masses", conditions)});
 
-  Optimum best = continueFromStraight(curve, object, duration, n, intervals);
+  Optimum best = continueFromStraight(curve, object, duration, n, intervals, work);
   MotionSeries hand = seriesOf(best, curve.length(), duration);
   double error = 0, before = 0, bound = 0;
   while (unknowns == 0) {

@@ -53,6 +53,8 @@ TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestTo
     : problem_(problem), table_(tableOf(basis)) {
   const int unknowns = basis.columns() - 1, motions = static_cast<int>(problem.from.size()), nodes = static_cast<int>(table_->at.size());
   const int locals = problem.locals, width = problem.order + 1;
+  WorkLimit::hold(2.0 * nodes * locals * motions * unknowns);
+  problem.work->spend(1.0 * nodes * locals * width * motions * unknowns);
   rows_.resize(nodes * locals, motions * unknowns);
   fixed_ = Vector::Zero(nodes * locals);
   Matrix all(locals, basis.columns());
@@ -73,6 +75,7 @@ TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestTo
 double TranscribedCost::weight(int node) const { return table_->rule.weight[static_cast<size_t>(node)] * problem_.duration / 2; }
 
 double TranscribedCost::evaluate(const Vector& unknowns) const {
+  problem_.work->spend(static_cast<double>(rows_.size()));
   Vector a = fixed_;
   a.noalias() += rows_ * unknowns;
   std::vector<double> r(static_cast<size_t>(problem_.residuals));
@@ -86,6 +89,7 @@ double TranscribedCost::evaluate(const Vector& unknowns) const {
 
 double TranscribedCost::expand(const Vector& unknowns, Vector& gradient, Matrix& hessian) const {
   const int l = problem_.locals, nodes = static_cast<int>(table_->at.size());
+  problem_.work->spend(static_cast<double>(rows_.size()) * static_cast<double>(l + rows_.cols() / 2 + 1));
   std::vector<double> r(problem_.residuals), ra(problem_.residuals * l), raa(problem_.residuals * l * l);
   Vector a = fixed_, g = Vector::Zero(a.size());
   a.noalias() += rows_ * unknowns;

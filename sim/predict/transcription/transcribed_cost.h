@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/gauss_legendre.h"
+#include "sim/predict/numerics/work_limit.h"
 #include "sim/predict/transcription/rest_to_rest_basis.h"
 
 namespace reachlab::predict {
@@ -21,10 +22,12 @@ struct TranscribedProblem {
   std::vector<std::vector<double>> local;
   /// R, dR/da (residuals x locals) and d2R/da2 (residuals x locals x locals) at one instant; R alone when ra is null.
   std::function<void(const double* a, double* r, double* ra, double* raa)> residual;
+  /// Of all searches for its minimum together.
+  std::shared_ptr<WorkLimit> work = std::make_shared<WorkLimit>();
 };
 
 /// That integral as a function of the unknowns (those of the first motion, then of the second …), by Gauss-Legendre with three
-/// nodes for two unknowns; gradient and Hessian are exact. Borrows the problem.
+/// nodes for two unknowns; gradient and Hessian are exact. Borrows the problem, and throws RefusedError where its work has no end.
 class TranscribedCost {
  public:
   TranscribedCost(const TranscribedProblem& problem, const RestToRestBasis& basis);

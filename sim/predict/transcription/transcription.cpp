@@ -45,6 +45,7 @@ std::array<double, 4> TranscribedMotion::at(int motion, double t) const {
 }
 
 TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unknowns, const std::vector<std::vector<double>>& guess) {
+  WorkLimit::hold(0.5 * (problem.order + 1) * unknowns * unknowns);  // of the basis
   const int motions = static_cast<int>(problem.from.size()), total = motions * unknowns;
   TranscribedMotion motion{RestToRestBasis(problem.order, unknowns), {}, problem.from, problem.duration};
   const TranscribedCost cost(problem, motion.basis);
@@ -60,6 +61,7 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
     motion.cost = cost.expand(c, gradient, hessian);
     motion.iterations = iteration + 1;
     if (!std::isfinite(motion.cost)) break;
+    problem.work->spend(std::pow(total, 3) / 6);
     const double scale = hessian.diagonal().cwiseAbs().maxCoeff();
     Eigen::LLT<Matrix> factor(hessian + damping * scale * Matrix::Identity(total, total));
     while (factor.info() != Eigen::Success) {  // not convex here: lean towards steepest descent
