@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "devices/hot_plug.h"
 #include "devices/registry.h"
+#include "gui/docks/device_dialog.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/scene/trial_texts.h"
@@ -71,15 +72,26 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   trials_->setRange(1, 100000);
   auto* hands = new QHBoxLayout;
   hands->addWidget(device_, 1);
+  auto* devices = new QPushButton(QStringLiteral("…"));
+  devices->setObjectName(QStringLiteral("devicesButton"));
+  devices->setToolTip(QStringLiteral("which devices there are, and one of them live: place, force, calibration"));
+  devices->setMaximumWidth(28);
+  connect(devices, &QPushButton::clicked, this, [this] {
+    auto* dialog = new DeviceDialog(experiment::CompiledExperiment(shown()), device_->currentText(),
+                                    [this](const QString& name) { device_->setCurrentText(name); }, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+  });
+  hands->addWidget(devices);
   hands->addWidget(new QLabel(QStringLiteral("trials")));
   hands->addWidget(trials_);
   form->addRow(QStringLiteral("device"), hands);
   data_ = new QLineEdit;
   data_->setObjectName(QStringLiteral("data"));
   form->addRow(QStringLiteral("data in"), data_);
-  QString devices;
-  for (const devices::DeviceDriver& d : devices::deviceDrivers()) devices += QString::fromStdString(d.usage + ": " + d.description + "\n");
-  device_->setToolTip(devices.trimmed());
+  QString usage;
+  for (const devices::DeviceDriver& d : devices::deviceDrivers()) usage += QString::fromStdString(d.usage + ": " + d.description + "\n");
+  device_->setToolTip(usage.trimmed());
   layout->addWidget(who_);
   faults()->setObjectName(QStringLiteral("sessionFaults"));
   layout->addWidget(faults());

@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/haptics/haptic_loop.h"
+
+namespace reachlab::devices {
+
+/// A device that is looked at and calibrated: the loop runs on it and nothing is put up, so it feels no force but what its own guards give
+/// (wall, stylus). Controlling thread.
+class LiveDevice {
+ public:
+  /// Opens it and starts the loop. Throws as makeDevice does.
+  LiveDevice(const std::string& spec, const experiment::CompiledExperiment& experiment);
+  ~LiveDevice();
+  LiveDevice(const LiveDevice&) = delete;
+  LiveDevice& operator=(const LiveDevice&) = delete;
+
+  static constexpr std::size_t kBins = 40;
+  static constexpr double kBinSeconds = 0.25e-3;  // the last bin has all that is longer
+  struct View {
+    Vec3 position;  // [m] world
+    Vec3 force;     // [N] that it is told
+    std::uint32_t buttons = 0;
+    bool valid = false;
+    double speed = 0;                          // [m/s]
+    double rate = 0;                           // [1/s] of its reports
+    std::uint64_t reports = 0;                 // counted into the bins
+    std::array<std::uint64_t, kBins> between;  // reports: how long the time between two of them was
+    std::string fault;                         // what is wrong with it, a sentence; empty: nothing
+  };
+  View look();
+
+  haptics::DeviceInfo info() const { return device_->info(); }
+  std::string calibrationHint() const { return device_->calibrationHint(); }
+  /// Throws ResourceError in the device's words.
+  void calibrate() { device_->calibrate(); }
+
+ private:
+  class Intervals;
+  std::shared_ptr<haptics::HapticDevice> device_;
+  std::unique_ptr<Intervals> intervals_;  // outlives the loop
+  std::unique_ptr<haptics::HapticLoop> loop_;
+  haptics::TickState newest_;
+};
+
+}  // namespace reachlab::devices

@@ -1,0 +1,72 @@
+#include "gui/docks/device_dialog.h"
+
+#include <gtest/gtest.h>
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTest>
+#include <QTreeWidget>
+#include <numeric>
+
+namespace reachlab::gui::docks {
+namespace {
+
+experiment::CompiledExperiment chain() { return experiment::openExperiment("chain-slow"); }
+
+QTreeWidgetItem* rowOf(const QTreeWidget& rows, const QString& name) {
+  for (int i = 0; i < rows.topLevelItemCount(); ++i)
+    if (rows.topLevelItem(i)->text(0) == name) return rows.topLevelItem(i);
+  return nullptr;
+}
+
+// The times between reports that were counted are those of every report but the first.
+TEST(LiveDevice, CountsTheTimesBetweenItsReports) {
+  devices::LiveDevice device("virtual:omni", chain());
+  devices::LiveDevice::View view;
+  ASSERT_TRUE(QTest::qWaitFor([&] { return (view = device.look()).reports > 200; }, 20000));
+  EXPECT_EQ(std::accumulate(view.between.begin(), view.between.end(), std::uint64_t{0}), view.reports);
+  EXPECT_GT(view.rate, 0);
+  EXPECT_TRUE(view.valid);
+  EXPECT_EQ(norm(view.force), 0) << "nothing is put up";
+  EXPECT_TRUE(view.fault.empty()) << view.fault;
+}
+
+TEST(DeviceDialog, SaysWhatIsThereWhatIsNotAndWhy) {
+  DeviceDialog dialog(chain(), QStringLiteral("mouse"), [](const QString&) {}, nullptr);
+  const auto* rows = dialog.findChild<QTreeWidget*>(QStringLiteral("deviceRows"));
+  const QTreeWidgetItem* phantom = rowOf(*rows, QStringLiteral("phantom"));
+  ASSERT_NE(phantom, nullptr);
+  EXPECT_TRUE(phantom->text(2).contains(QStringLiteral("libHD.so"))) << phantom->text(2).toStdString();
+  ASSERT_NE(rowOf(*rows, QStringLiteral("simulated")), nullptr);
+  EXPECT_TRUE(rowOf(*rows, QStringLiteral("simulated"))->text(2).isEmpty());
+  EXPECT_FALSE(dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"))->isEnabled()) << "the mouse is seen in the window";
+}
+
+TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
+  QString taken;
+  DeviceDialog dialog(chain(), QStringLiteral("virtual:premium15"), [&](const QString& name) { taken = name; }, nullptr);
+  dialog.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&dialog));
+  auto* button = dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"));
+  QTest::mouseClick(button, Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return dialog.words().contains(QStringLiteral("reports/s")) && !dialog.words().contains(QStringLiteral(" 0.0 reports/s")); }, 20000));
+  EXPECT_FALSE(dialog.findChild<QLineEdit*>(QStringLiteral("deviceName"))->isEnabled());
+  QTest::qWait(1500);
+  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty()) dialog.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/devices.png"));
+  QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_TRUE(dialog.words().isEmpty());
+  QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("deviceTake")), Qt::LeftButton);
+  EXPECT_EQ(taken, QStringLiteral("virtual:premium15"));
+}
+
+TEST(DeviceDialog, ADeviceThatCannotBeHadIsSaidInItsWords) {
+  DeviceDialog dialog(chain(), QStringLiteral("hid:NOWHERE"), [](const QString&) {}, nullptr);
+  dialog.openOrLetGo();
+  bool said = false;
+  for (const QLabel* label : dialog.findChildren<QLabel*>()) said = said || label->text().contains(QStringLiteral("no WoodenHaptics or Polhem arm"));
+  EXPECT_TRUE(said);
+}
+
+}  // namespace
+}  // namespace reachlab::gui::docks
