@@ -54,7 +54,7 @@ constexpr int lanesFor(int count) noexcept {
 
 template <class Lanes>
 Lanes broadcast(double value) noexcept {
-  return Lanes{} + value;
+  return value - Lanes{};  // nothing to compute; 0 + value would be an addition, for the sign of -0
 }
 template <class Lanes>
 Lanes loadLanes(const double* from) noexcept {

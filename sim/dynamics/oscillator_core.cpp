@@ -133,6 +133,41 @@ OscillatorCore::Ends OscillatorCore::readEnds(const State& state) const noexcept
   return ends;
 }
 
+// Inlined below: a second call would be a tenth of a single mass's step.
+template <int Degree, bool Full>
+[[gnu::always_inline]] inline bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
+  Lanes check{};
+  const Group* group = groups_.data();
+  const Lanes *x = state.x.data(), *v = state.v.data();
+  Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
+  const std::size_t count = groups_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Group& g = group[i];
+    // What comes from outside does not wait for the state.
+    Lanes pushX{}, pushV{};
+    if constexpr (Full) {
+      pushX = mulAdd(hand.extraForce, g.extraX, g.gravityX * hand.gravity);
+      pushV = mulAdd(hand.extraForce, g.extraV, g.gravityV * hand.gravity);
+      if (damped_)
+        for (int k = 0; k <= Degree; ++k) {
+          pushX = mulAdd(hand.v(k), g.rateX[k], pushX);
+          pushV = mulAdd(hand.v(k), g.rateV[k], pushV);
+        }
+    }
+    for (int k = 1; k <= Degree; ++k) {
+      pushX = mulAdd(hand.r(k), g.handX[k], pushX);
+      pushV = mulAdd(hand.r(k), g.handV[k], pushV);
+    }
+    const Lanes e = mulAdd(-hand.origin, g.rest, x[i]), rate = v[i];
+    const Lanes newX = x[i] + mulAdd(g.xx, e, mulAdd(g.xv, rate, pushX));
+    const Lanes newV = rate + mulAdd(g.vx, e, mulAdd(g.vv, rate, pushV));
+    nextX[i] = newX;
+    nextV[i] = newV;
+    check += (newX + newV) * 0.0;
+  }
+  return allZero(check);
+}
+
 bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
   const bool pushed = hand.extraForce != 0 || hand.gravity != 0;
   if (!free_.empty() && !pushed && hand.degree <= kFreeDegree) return advanceFree(state, hand, next);
@@ -175,40 +210,6 @@ bool OscillatorCore::advanceFree(const State& state, const AxisHand& hand, State
   double sum = 0;
   for (int lane = 0; lane < kLanes; ++lane) sum += check[lane];
   return std::isfinite(sum);
-}
-
-template <int Degree, bool Full>
-bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
-  Lanes check{};
-  const Group* group = groups_.data();
-  const Lanes *x = state.x.data(), *v = state.v.data();
-  Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
-  const std::size_t count = groups_.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Group& g = group[i];
-    // What comes from outside does not wait for the state.
-    Lanes pushX{}, pushV{};
-    if constexpr (Full) {
-      pushX = mulAdd(hand.extraForce, g.extraX, g.gravityX * hand.gravity);
-      pushV = mulAdd(hand.extraForce, g.extraV, g.gravityV * hand.gravity);
-      if (damped_)
-        for (int k = 0; k <= Degree; ++k) {
-          pushX = mulAdd(hand.v(k), g.rateX[k], pushX);
-          pushV = mulAdd(hand.v(k), g.rateV[k], pushV);
-        }
-    }
-    for (int k = 1; k <= Degree; ++k) {
-      pushX = mulAdd(hand.r(k), g.handX[k], pushX);
-      pushV = mulAdd(hand.r(k), g.handV[k], pushV);
-    }
-    const Lanes e = mulAdd(-hand.origin, g.rest, x[i]), rate = v[i];
-    const Lanes newX = x[i] + mulAdd(g.xx, e, mulAdd(g.xv, rate, pushX));
-    const Lanes newV = rate + mulAdd(g.vx, e, mulAdd(g.vv, rate, pushV));
-    nextX[i] = newX;
-    nextV[i] = newV;
-    check += (newX + newV) * 0.0;
-  }
-  return allZero(check);
 }
 
 }  // namespace reachlab::dynamics

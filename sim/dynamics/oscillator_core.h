@@ -53,7 +53,7 @@ class OscillatorCore {
     Lanes turn, vx, xv;  // cos(w dt) - 1, -w sin(w dt), sin(w dt)/w
     Lanes rest, period;  // period: 1/w^2 [s^2]
   };
-  static constexpr int kFewestFree = 32;    // masses: fewer fit as they are
+  static constexpr int kFewestFree = 128;   // masses: fewer fit as they are
   static constexpr int kFewestEnds = 32;    // masses: fewer are read whole for the price of two
   static constexpr int kFreeDegree = 5;     // of the hand's polynomial
   static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
