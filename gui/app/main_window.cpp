@@ -295,7 +295,7 @@ const scene::OverlayState& MainWindow::overlay() const { return screens_->overla
 QString MainWindow::message() const { return message_->sentence(); }
 
 void MainWindow::nextTrial() {
-  if (plans_->resumes()) session_.resume();
+  if (session_.run() == nullptr && plans_->resumes()) session_.resume();
   beginNext();
 }
 
