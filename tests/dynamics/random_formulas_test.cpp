@@ -113,7 +113,7 @@ void tryOne(std::uint64_t seed, Tally& tally) {
       rate = {kSpeed * std::cos(angle) / speed, kSpeed * std::sin(angle) / speed};
     } else {
       const constraints::CurveRegularity regularity = constraints::computeRegularity(c, start[0]);
-      smooth = regularity.smooth && regularity.whole;
+      smooth = regularity.smooth && std::isinf(regularity.lo) && std::isinf(regularity.hi);  // narrow places may be pieces of their own
       rate = {kSpeed / norm(constraints::evaluate(c.curve, start[0]).rPhi)};
     }
   } catch (const Error& refusal) {
