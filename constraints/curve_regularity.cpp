@@ -8,6 +8,7 @@
 #include "constraints/formula.h"
 #include "constraints/guards.h"
 #include "constraints/interval.h"
+#include "constraints/narrow.h"
 #include "constraints/places.h"
 #include "constraints/roots.h"
 
@@ -457,7 +458,6 @@ class Examiner {
   /// Stretches on which the curve bends much more than elsewhere and that are shorter than a tick's way: pieces of their own, so that a
   /// step lands on them and goes through in small parts. `formulas`: r of each piece.
   void splitNarrow(const std::vector<std::vector<int>>& formulas) {
-    constexpr double kMuch = 30, kWay = 2e-3;  // [m] of a tick, at most
     constexpr std::size_t kMost = 64;
     constexpr int kSamples = 257, kBoxesForThem = 20000;
     if (!stillPlaces_ || c_.curve.function != evaluateCurveProgram) return;  // a definition of the catalogue is known
@@ -486,7 +486,7 @@ class Examiner {
       };
       const double speed = median(speeds), usual = speed + median(bends);
       std::vector<int> d = graph_.differentiate(graph_.differentiate(formulas[k], 0), 0);
-      int excess = graph_.constant(-kMuch * kMuch * usual * usual);
+      int excess = graph_.constant(-narrow::kMuch * narrow::kMuch * usual * usual);
       for (const int bend : d) excess = graph_.add(excess, graph_.powInt(bend, 2));
       const RootSearch search = findRoots(graph_, excess, shape_, lo, hi, boxes);
       std::vector<std::pair<double, double>> narrow;
@@ -494,7 +494,7 @@ class Examiner {
         const double a = search.roots[i], b = search.roots[i + 1];
         const std::vector<int> one{excess};
         const double middle = a + (b - a) / 2;
-        if (!(evaluateNodes(graph_, one, shape_, &middle)[0] > 0) || !((b - a) * speed < kWay)) continue;
+        if (!(evaluateNodes(graph_, one, shape_, &middle)[0] > 0) || !((b - a) * speed < narrow::kWay)) continue;
         const double more = 0.25 * (b - a);
         if (!narrow.empty() && a - narrow.back().second < 4 * more + 2 * (narrow.back().second - narrow.back().first)) narrow.back().second = b + more;
         else narrow.push_back({a - more, b + more});

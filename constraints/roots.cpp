@@ -15,7 +15,7 @@ bool holdsZero(Interval a) { return !(a.lo > 0 || a.hi < 0); }
 }  // namespace
 
 RootSearch findRoots(ExpressionGraph& graph, int expression, const double* shape, double lo, double hi, int& boxes, double apart,
-                     int variable) {
+                     int variable, double other) {
   RootSearch found;
   found.examinedTo = hi;
   if (graph.isConstant(expression)) return found;
@@ -23,7 +23,7 @@ RootSearch findRoots(ExpressionGraph& graph, int expression, const double* shape
   const std::vector<int> both{expression, slope}, one{expression};
   IntervalEvaluator bounds(graph, both, shape), value(graph, one, shape);
   const auto boxOf = [&](double a, double b) {
-    std::array<Interval, 2> box{};
+    std::array<Interval, 2> box{Interval{other, other}, Interval{other, other}};
     box[static_cast<std::size_t>(variable)] = {a, b};
     return box;
   };

@@ -5,6 +5,7 @@
 
 #include "constraints/analysis.h"
 #include "base/error.h"
+#include "constraints/narrow_band.h"
 #include "constraints/period.h"
 #include "constraints/places.h"
 #include "constraints/rounding.h"
@@ -235,7 +236,8 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
       experiment.task ? experiment.task->start : std::vector<double>(constraint.kind == constraints::ConstraintKind::Free ? 3 : 2, 0.0);
   if (experiment.task) requireStart(constraint, start);
 
-  if (experiment.task && constraint.kind != constraints::ConstraintKind::Free) requireDigits(constraint, start);
+  const bool typed = constraint.name == "curve" || constraint.name == "surface";  // the catalogue's formulas are known
+  if (experiment.task && typed) requireDigits(constraint, start);
   const bool linear = isLinear(constraint, model);
   SceneFacts facts{.linear = linear, .step = options.step};
   if (experiment.task) facts.duration = experiment.task->duration;
@@ -297,6 +299,10 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
     const auto branches = constraints::computeBranches(constraint);
     if (!isFinite(evaluate(constraint.surface, start[0], start[1]).r))
       throw RefusedError(fmt::format("the surface has no value at the start u = {}, v = {}; choose another start", start[0], start[1]));
+    if (const auto band = branches->smooth() ? constraints::findNarrowBand(constraint, {start[0], start[1]}) : std::nullopt)
+      throw RefusedError(fmt::format("about {} = {:.6g} the surface turns within {:.2g} of it, less than the way of a tick, and a mass would be "
+                                     "carried across unseen; write a wider place",
+                                     band->parameter == 0 ? "u" : "v", band->at, band->width));
     const auto quadric = branches->smooth() ? fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]}) : std::nullopt;
     if (quadric && provesQuadric(constraint, *quadric)) {
       choice.form = "surface of second degree in world coordinates, 6 states";
