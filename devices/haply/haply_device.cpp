@@ -27,8 +27,11 @@ HaplyInverse3::HaplyInverse3(const Options& options, OpenLink open) : options_(o
 std::string HaplyInverse3::firstMessage() {
   std::string message;
   if (link_->receive(message, kUnaskedMs) == MessageLink::Got::Message) return message;
-  link_->send(haplyGreeting());
-  if (link_->receive(message, kFirstMs) == MessageLink::Got::Message) return message;
+  // One that does not care for profiles may still answer a message that asks for nothing.
+  for (const std::string& greeting : {haplyGreeting(), std::string("{}")}) {
+    link_->send(greeting);
+    if (link_->receive(message, kFirstMs / 2) == MessageLink::Got::Message) return message;
+  }
   throw ResourceError(link_->fault().empty() ? fmt::format("the service does not answer within {} ms", kFirstMs) : link_->fault());
 }
 

@@ -1,5 +1,6 @@
 #include "devices/haply/haply_message.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -54,6 +55,15 @@ const Json* deviceIn(const Json& list, const std::string& id) {
   return nullptr;
 }
 
+// What equals its identity may be left out, the place at the origin as well: then nothing else is in it but what we know.
+bool isKnownState(const Json* state) {
+  if (state == nullptr || !state->is_object() || state->empty()) return false;
+  constexpr std::string_view known[] = {"cursor_velocity", "current_cursor_force", "current_cursor_position", "body_orientation", "control_mode",
+                                        "control_domain",  "angular_position",     "angular_velocity",        "transform",        "mode"};
+  return std::all_of(state->items().begin(), state->items().end(),
+                     [&](const auto& item) { return std::find(std::begin(known), std::end(known), item.key()) != std::end(known); });
+}
+
 // The wireless grip, or the one on a cable.
 void readGrip(const Json& message, HaplyState& state) {
   for (const char* kind : {"wireless_verse_grip", "verse_grip"}) {
@@ -86,8 +96,8 @@ HaplyAnswer readHaplyMessage(std::string_view text, const std::string& id, Haply
     return named ? HaplyAnswer::NoDevice : HaplyAnswer::OtherVersion;
   }
   const Json *told = find(device, "state"), *place = find(told, "cursor_position");
-  if (place == nullptr) return HaplyAnswer::OtherVersion;
-  const auto position = vectorOf(place);
+  if (place == nullptr && !isKnownState(told)) return HaplyAnswer::OtherVersion;
+  const auto position = place == nullptr ? std::optional(Vec3{}) : vectorOf(place);
   if (!position) return HaplyAnswer::NotJson;
   state = {};
   state.id = idOf(*device);

@@ -168,7 +168,11 @@ std::vector<FoundDevice> findForceDimension(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
   try {
     const int count = dhd::api().getDeviceCount();
-    if (count <= 0) return {absentDevice(self, fmt::format("{}: no device: {}", dhd::api().library.name(), dhd::api().lastError()))};
+    if (count <= 0) {
+      const bool silent = dhd::api().errorGetLast == nullptr || dhd::api().errorGetLast() == dhd::kNone;
+      return {absentDevice(self, fmt::format("{}: no device is connected{}", dhd::api().library.name(),
+                                             silent ? std::string() : ": " + dhd::api().lastError()))};
+    }
     for (int i = 0; i < count; ++i) {
       const std::string name = fmt::format("{}:{}", self.name, i);
       try {

@@ -52,6 +52,10 @@ TEST(HaplyMessage, WhatIsNoStateIsNotBelieved) {
   EXPECT_EQ(readHaplyMessage("{\"inverse3\": {\"049D\": {}}}", "", state), HaplyAnswer::OtherVersion);
   EXPECT_EQ(readHaplyMessage("{\"inverse3\": []}", "", state), HaplyAnswer::NoDevice);
   EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{}}]})", "", state), HaplyAnswer::OtherVersion);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"place":{"x":1}}}]})", "", state), HaplyAnswer::OtherVersion);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"control_mode":"idle"}}]})", "", state), HaplyAnswer::State)
+      << "what equals its identity is left out";
+  EXPECT_EQ(state.position, Vec3{});
   EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":"left"}}}]})", "", state),
             HaplyAnswer::NotJson);
   EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":1e999}}}]})", "", state),
