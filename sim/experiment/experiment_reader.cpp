@@ -7,6 +7,7 @@
 #include "constraints/definition.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/scene_look.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -284,6 +285,7 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   readTiming(root, experiment);
   readVelocityEstimator(root, experiment);
   readSubjectScreen(root, experiment.subjectScreen);
+  (void)readLook(root);  // stands in the text
   readArm(root, experiment);
   root.finish();
 

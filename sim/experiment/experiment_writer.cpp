@@ -3,6 +3,7 @@
 #include "constraints/definition.h"
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/scene_look.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -105,6 +106,7 @@ std::string toJson(const Experiment& experiment) {
   if (const SubjectScreen& screen = experiment.subjectScreen; !(screen == SubjectScreen{}))
     json["subject_screen"] = {{"semaphore", screen.semaphore}, {"target", screen.target}, {"masses", screen.masses},
                               {"words", screen.words},         {"score", screen.score},   {"photodiode", screen.photodiode}};
+  if (!(lookOf(experiment) == SceneLook{})) json["look"] = Json::parse(experiment.text, nullptr, true, true)["look"];
   return json.dump(2) + "\n";
 }
 

@@ -10,6 +10,7 @@
 #include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/scene_look.h"
 
 using namespace reachlab;
 using namespace reachlab::experiment;
@@ -48,6 +49,22 @@ TEST_F(ShippedSchema, AcceptsWhatTheReaderAccepts) {
   }
 }
 
+TEST_F(ShippedSchema, AcceptsALookThatTheReaderTakesAndTheWriterKeeps) {
+  SceneLook look;
+  look.surfaceOpacity = 0.8;
+  look.depthCue = "shadow";
+  look.sceneFile = "table.wrl";
+  look.colours["last"] = "#f58521";
+  look.cameras.push_back({"above", {0, 0.5, 0.1}, {0.1, 0, 0}, {0, 0, -1}, 20, true});
+  const Experiment seen = withLook(readExperiment("chain-moderate"), look);
+  EXPECT_EQ(lookOf(seen), look);
+  const Experiment read = parseExperiment(toJson(seen), "x.json");
+  EXPECT_EQ(lookOf(read), look);
+  EXPECT_TRUE(schemaAccepts(Json::parse(toJson(seen))));
+  EXPECT_EQ(lookOf(withLook(read, {})), SceneLook{});
+  EXPECT_EQ(lookOf(readExperiment("chain-moderate")), SceneLook{});
+}
+
 TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
   const Json good = Json::parse(toJson(readExperiment("chain-moderate")));
   ASSERT_TRUE(schemaAccepts(good) && readerAccepts(good));
@@ -75,6 +92,11 @@ TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
       [](Json& j) { j["timing"]["max_gap"] = 0.02; },
       [](Json& j) { j["velocity_estimator"] = "guess"; },
       [](Json& j) { j["arm"]["link_length_m"] = {1}; },
+      [](Json& j) { j["look"]["surface_opacity"] = 1.1; },
+      [](Json& j) { j["look"]["depth_cue"] = "fog"; },
+      [](Json& j) { j["look"]["colours"]["mass7"] = "#ffffff"; },
+      [](Json& j) { j["look"]["colours"]["last"] = "orange"; },
+      [](Json& j) { j["look"]["cameras"] = {{{"name", "above"}}}; },
       [](Json& j) {
         j["constraint"]["curve"] = {"0", "0", "phi"};
       },
