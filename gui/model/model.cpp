@@ -1,0 +1,137 @@
+#include "gui/model/model.h"
+
+#include <fmt/format.h>
+
+#include <QCoreApplication>
+#include <QFileInfo>
+#include <QProcess>
+#include <charconv>
+#include <cmath>
+
+#include "base/fault.h"
+#include "base/json_reader.h"
+#include "gui/model/model_stream.h"
+#include "gui/model/vrml.h"
+
+namespace reachlab::gui::model {
+namespace {
+
+constexpr int kPatienceMs = 20'000;
+
+// Beside this program, where it is installed, or of its build tree.
+QString findGltfReader() {
+  const QString here = QCoreApplication::applicationDirPath();
+  for (const char* place : {"/reachlab-gltf", "/../" REACHLAB_LIBEXEC "/reachlab/reachlab-gltf", "/../../gui/reachlab-gltf"})
+    if (QFileInfo(here + QLatin1String(place)).isExecutable()) return here + QLatin1String(place);
+  return {};
+}
+
+FaultError refusal(const std::string& file, const std::string& what, const std::string& allowed = {}) {
+  return FaultError(Fault{{}, what, allowed, FilePlace{file}});
+}
+
+// What another program says of a file, as one short line.
+std::string shortened(std::string words) {
+  for (char& c : words)
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  while (!words.empty() && words.back() == ' ') words.pop_back();
+  constexpr std::size_t kMost = 200;
+  return words.size() > kMost ? words.substr(0, kMost) + " …" : words;
+}
+
+Model readGltf(const std::string& file) {
+  const QString program = findGltfReader();
+  if (program.isEmpty()) throw ResourceError(file + ": glTF is read by the program reachlab-gltf, which is not installed; VRML 2.0 needs none");
+  QProcess process;
+  process.start(program, {QString::fromStdString(file)});
+  if (!process.waitForStarted() || !process.waitForFinished(kPatienceMs)) {
+    process.kill();
+    process.waitForFinished();
+    throw refusal(file, fmt::format("was not read within {} s", kPatienceMs / 1000), "a smaller scene");
+  }
+  if (process.exitStatus() != QProcess::NormalExit)
+    throw refusal(file, "is damaged: the reader of glTF fell over it", "a glTF 2.0 file that a validator passes");
+  if (process.exitCode() != 0)
+    throw refusal(file, "is no glTF 2.0 scene that is read: " + shortened(process.readAllStandardError().toStdString()));
+  return readStream(process.readAllStandardOutput().toStdString(), file);
+}
+
+// Takes a number's text up to the blank or the line's end.
+template <typename T>
+bool takeNumber(std::string_view& line, T& value) {
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+  if (error != std::errc()) return false;
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  if (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+  return true;
+}
+
+}  // namespace
+
+std::size_t Model::triangleCount() const {
+  std::size_t count = 0;
+  for (const ModelPart& part : parts) count += part.triangles.size();
+  return count;
+}
+
+void check(const Model& model, const std::string& file) {
+  if (model.triangleCount() > kMostTriangles)
+    throw refusal(file, fmt::format("has {} triangles", model.triangleCount()), fmt::format("up to {}", kMostTriangles));
+  for (const ModelPart& part : model.parts) {
+    for (const Vec3& p : part.points)
+      if (!isFinite(p) || norm(p) > 1e6) throw refusal(file, "has a point that is not finite, or a thousand kilometres away", "metres");
+    for (const auto& triangle : part.triangles)
+      for (const std::uint32_t corner : triangle)
+        if (corner >= part.points.size())
+          throw refusal(file, fmt::format("has the corner {} of {} points", corner, part.points.size()), "corners that are points");
+    for (const double share : {part.colour[0], part.colour[1], part.colour[2], part.opacity})
+      if (!(share >= 0 && share <= 1)) throw refusal(file, "has a colour outside 0 to 1", "0 to 1");
+  }
+}
+
+Model readStream(std::string_view bytes, const std::string& file) {
+  const auto broken = [&] { return refusal(file, "is damaged: its reader wrote no whole scene"); };
+  if (!bytes.starts_with(kStreamHead)) throw broken();
+  bytes.remove_prefix(kStreamHead.size());
+  Model model;
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find('\n');
+    if (end == std::string_view::npos || !bytes.starts_with("part ")) throw broken();
+    std::string_view line = bytes.substr(5, end - 5);
+    bytes.remove_prefix(end + 1);
+    ModelPart part;
+    const std::size_t blank = line.find(' ');
+    if (blank == std::string_view::npos) throw broken();
+    if (line.substr(0, blank) != "-") part.name = std::string(line.substr(0, blank));
+    if (!part.name.empty() && !isMoving(part.name)) throw broken();
+    line.remove_prefix(blank + 1);
+    std::size_t points = 0, triangles = 0;
+    if (!takeNumber(line, part.colour[0]) || !takeNumber(line, part.colour[1]) || !takeNumber(line, part.colour[2]) ||
+        !takeNumber(line, part.opacity) || !takeNumber(line, points) || !takeNumber(line, triangles) || !line.empty())
+      throw broken();
+    if (points > bytes.size() / sizeof(Vec3) || triangles > (bytes.size() - points * sizeof(Vec3)) / sizeof part.triangles[0]) throw broken();
+    part.points.resize(points);
+    part.triangles.resize(triangles);
+    if (points > 0) std::memcpy(part.points.data(), bytes.data(), points * sizeof(Vec3));
+    bytes.remove_prefix(points * sizeof(Vec3));
+    if (triangles > 0) std::memcpy(part.triangles.data(), bytes.data(), triangles * sizeof part.triangles[0]);
+    bytes.remove_prefix(triangles * sizeof part.triangles[0]);
+    model.parts.push_back(std::move(part));
+  }
+  if (model.triangleCount() == 0) throw refusal(file, "has nothing to draw", "triangles");
+  check(model, file);
+  return model;
+}
+
+Model readModel(const std::string& file) {
+  const QFileInfo info(QString::fromStdString(file));
+  if (!info.isFile()) throw ResourceError(file + ": there is no such file");
+  if (static_cast<std::uintmax_t>(info.size()) > kMostBytes)
+    throw refusal(file, fmt::format("has {:.0f} MB", 1e-6 * static_cast<double>(info.size())), fmt::format("up to {:.0f} MB", 1e-6 * static_cast<double>(kMostBytes)));
+  const QString ending = info.suffix().toLower();
+  if (ending == QLatin1String("wrl") || ending == QLatin1String("vrml")) return readVrml(readTextFile(file), file);
+  if (ending == QLatin1String("gltf") || ending == QLatin1String("glb")) return readGltf(file);
+  throw refusal(file, "is no scene that is read, by its ending", ".wrl (VRML 2.0), .gltf, .glb");
+}
+
+}  // namespace reachlab::gui::model

@@ -1,0 +1,38 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec3.h"
+
+/// Scenes from files, as plain data: known to no graphics library, and checked so that none can fall over them.
+namespace reachlab::gui::model {
+
+/// Triangles of one colour. [m]
+struct ModelPart {
+  std::string name;  // "hand", "mass1", …: stands for it, its origin there; empty: scenery
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::array<double, 3> colour{0.8, 0.8, 0.8};  // [0, 1] red, green, blue
+  double opacity = 1;
+};
+
+struct Model {
+  std::vector<ModelPart> parts;
+  std::size_t triangleCount() const;
+};
+
+inline constexpr std::size_t kMostTriangles = 500'000;
+inline constexpr std::uintmax_t kMostBytes = 64'000'000;
+
+/// "hand", "mass7": what moves in a scene.
+bool isMoving(const std::string& name);
+
+/// Throws FaultError for a part that no picture can be made of: a corner that is none of its points, a number that is not finite, too much.
+void check(const Model& model, const std::string& file);
+
+/// A scene file, by its ending: wrl (VRML 2.0), gltf or glb (read by a process of its own). Throws FaultError, ResourceError.
+Model readModel(const std::string& file);
+
+}  // namespace reachlab::gui::model

@@ -1,0 +1,423 @@
+#include "gui/model/vrml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "gui/model/shapes.h"
+#include "gui/model/vrml_words.h"
+
+namespace reachlab::gui::model {
+namespace {
+
+constexpr int kDeepest = 60;
+constexpr std::size_t kMostPoints = 1'000'000, kMostNodes = 200'000;
+
+struct Look {
+  std::array<double, 3> colour{0.8, 0.8, 0.8};
+  double opacity = 1;
+};
+
+// A node as it was read; DEF names it, USE means it again.
+struct Node {
+  std::string name;
+  Transform frame;    // of a Transform
+  Transform unmoved;  // the same without its shift
+  std::vector<std::shared_ptr<const Node>> children;
+  std::shared_ptr<const Node> appearance, geometry;  // of a Shape
+  std::optional<Look> look;                          // of an Appearance or Material
+  std::optional<ModelPart> solid;                    // of a geometry, without its name and colour
+  std::vector<Vec3> points;                          // of a Coordinate
+  enum class Kind { Group, Shape, Look, Geometry, Points, Nothing } kind = Kind::Nothing;
+};
+
+using NodePtr = std::shared_ptr<const Node>;
+
+const char* const kKnown =
+    "Group, Transform, Shape, Appearance, Material, Box, Sphere, Cylinder, Cone, IndexedFaceSet, Coordinate, Anchor, Billboard, Collision";
+// Nothing of them is drawn.
+const char* const kPassedOver[] = {"WorldInfo", "NavigationInfo", "Viewpoint", "Background", "Fog", "DirectionalLight", "PointLight", "SpotLight",
+                                   "TimeSensor", "TouchSensor", "PlaneSensor", "SphereSensor", "CylinderSensor", "ProximitySensor",
+                                   "VisibilitySensor", "PositionInterpolator", "OrientationInterpolator", "ColorInterpolator",
+                                   "ScalarInterpolator", "CoordinateInterpolator", "NormalInterpolator", "Sound", "AudioClip", "Script",
+                                   "ImageTexture", "PixelTexture", "MovieTexture", "TextureTransform", "TextureCoordinate", "Normal", "Color",
+                                   "PointSet", "IndexedLineSet", "Text", "FontStyle"};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& file) : words_(text, file) {}
+
+  std::vector<NodePtr> readAll() {
+    std::vector<NodePtr> nodes;
+    while (!words_.ended()) readStatement(nodes, 0);
+    return nodes;
+  }
+
+ private:
+  // A node, or a ROUTE, of which nothing is drawn.
+  void readStatement(std::vector<NodePtr>& nodes, int depth) {
+    if (words_.tryTake("ROUTE")) {
+      words_.take();
+      words_.expect("TO", "ROUTE");
+      words_.take();
+      return;
+    }
+    for (const char* refused : {"PROTO", "EXTERNPROTO", "Inline"})
+      if (words_.word() == refused) words_.fail(refused, "is not read", "a scene that is written out, in one file");
+    if (words_.tryTake("NULL")) return;
+    nodes.push_back(readNode(depth));
+  }
+
+  NodePtr readNode(int depth) {
+    if (depth > kDeepest) words_.fail({}, fmt::format("is nested deeper than {}", kDeepest), "a flatter scene");
+    if (++nodes_ > kMostNodes) words_.fail({}, fmt::format("has more than {} nodes", kMostNodes), "a smaller scene");
+    if (words_.tryTake("USE")) {
+      const auto known = defined_.find(std::string(words_.word()));
+      if (known == defined_.end()) words_.fail("USE", fmt::format("means {}, which is not defined before", words_.shown()), "a name after DEF");
+      words_.take();
+      return known->second;
+    }
+    std::string name;
+    if (words_.tryTake("DEF")) name = takeName("DEF");
+    const std::string type(words_.word());
+    if (words_.isQuoted() || words_.ended() || type == "{" || type == "}" || type == "[" || type == "]")
+      words_.fail({}, words_.ended() ? "ends in the middle" : fmt::format("has {} where a node begins", words_.shown()), kKnown);
+    auto node = std::make_shared<Node>();
+    node->name = name;
+    const bool passedOver = std::find(std::begin(kPassedOver), std::end(kPassedOver), type) != std::end(kPassedOver);
+    const auto read = readers().find(type);
+    if (!passedOver && read == readers().end()) words_.fail(words_.shown(), "is no node that is read", kKnown);
+    words_.take();
+    words_.expect("{", type);
+    if (passedOver) skipBlock(type);
+    else (this->*read->second)(*node, depth);
+    if (!name.empty()) defined_[name] = node;
+    return node;
+  }
+
+  std::string takeName(const std::string& key) {
+    const char first = words_.ended() ? '{' : words_.word().front();
+    if (words_.isQuoted() || first == '{' || first == '}' || first == '[' || first == ']')
+      words_.fail(key, words_.ended() ? "ends in the middle" : fmt::format("has {}", words_.shown()), "a name");
+    return words_.take();
+  }
+
+  using ReadNode = void (Reader::*)(Node&, int);
+  static const std::map<std::string, ReadNode>& readers() {
+    static const std::map<std::string, ReadNode> all{
+        {"Group", &Reader::readGroup},       {"Transform", &Reader::readTransform}, {"Anchor", &Reader::readGroup},
+        {"Billboard", &Reader::readGroup},   {"Collision", &Reader::readGroup},     {"Shape", &Reader::readShape},
+        {"Appearance", &Reader::readAppearance}, {"Material", &Reader::readMaterial}, {"Box", &Reader::readBox},
+        {"Sphere", &Reader::readSphere},     {"Cylinder", &Reader::readCylinder},   {"Cone", &Reader::readCone},
+        {"IndexedFaceSet", &Reader::readFaces}, {"Coordinate", &Reader::readCoordinate}};
+    return all;
+  }
+
+  // The value of a field of which nothing is drawn: words up to the next field are its own only where brackets hold them together.
+  void skipValue(const std::string& field) {
+    if (words_.tryTake("{")) return skipBlock(field);
+    if (words_.tryTake("[")) return skipList(field);
+    if (words_.tryTake("DEF")) takeName("DEF");
+    if (words_.tryTake("USE")) return static_cast<void>(takeName("USE"));
+    if (words_.word() == "}" || words_.word() == "]" || words_.ended()) words_.fail(field, "has no value");
+    // A node, or one value of one or several words.
+    const bool quoted = words_.isQuoted();
+    const std::string word = words_.take();
+    if (quoted) return;
+    if (words_.tryTake("{")) return skipBlock(word);
+    while (!words_.ended() && isNumber(words_.word())) words_.take();
+  }
+
+  static bool isNumber(std::string_view word) { return !word.empty() && (word[0] == '-' || word[0] == '+' || word[0] == '.' || (word[0] >= '0' && word[0] <= '9')); }
+
+  void skipBlock(const std::string& what) { skipTo("}", what); }
+  void skipList(const std::string& what) { skipTo("]", what); }
+  void skipTo(std::string_view closing, const std::string& what) {
+    std::vector<std::string> open{std::string(closing)};
+    while (!open.empty()) {
+      if (words_.ended()) words_.fail(what, "ends in the middle", std::string(open.back()));
+      if (words_.isQuoted()) {
+        words_.take();
+        continue;
+      }
+      const std::string word = words_.take();
+      if (word == "{") open.emplace_back("}");
+      else if (word == "[") open.emplace_back("]");
+      else if (word == "}" || word == "]") {
+        if (word != open.back()) words_.fail(what, fmt::format("closes with {}", word), open.back());
+        open.pop_back();
+      }
+      if (open.size() > 4 * kDeepest) words_.fail(what, "is nested too deep", "a flatter scene");
+    }
+  }
+
+  // Field after field up to the node's end; `take` says whether it knew the field.
+  template <typename Take>
+  void readFields(const std::string& type, Take take) {
+    while (!words_.tryTake("}")) {
+      if (words_.ended()) words_.fail(type, "ends in the middle", "}");
+      if (words_.isQuoted() || words_.word() == "{" || words_.word() == "[" || words_.word() == "]" || isNumber(words_.word()))
+        words_.fail(type, fmt::format("has {} where a field begins", words_.shown()));
+      if (words_.tryTake("ROUTE")) {
+        words_.take();
+        words_.expect("TO", "ROUTE");
+        words_.take();
+        continue;
+      }
+      const std::string field = words_.take();
+      if (!take(field)) skipValue(field);
+    }
+  }
+
+  Vec3 readVector(const std::string& key) {
+    const double x = words_.number(key), y = words_.number(key), z = words_.number(key);
+    return {x, y, z};
+  }
+
+  void readChildren(std::vector<NodePtr>& children, int depth) {
+    if (!words_.tryTake("[")) return readStatement(children, depth + 1);
+    while (!words_.tryTake("]")) {
+      if (words_.ended()) words_.fail("children", "ends in the middle", "]");
+      readStatement(children, depth + 1);
+    }
+  }
+
+  void readGroup(Node& node, int depth) {
+    node.kind = Node::Kind::Group;
+    readFields("Group", [&](const std::string& field) { return field == "children" && (readChildren(node.children, depth), true); });
+  }
+
+  void readTransform(Node& node, int depth) {
+    node.kind = Node::Kind::Group;
+    Vec3 shift, centre, scale{1, 1, 1}, axis{0, 0, 1}, scaleAxis{0, 0, 1};
+    double angle = 0, scaleAngle = 0;
+    readFields("Transform", [&](const std::string& field) {
+      if (field == "translation") shift = readVector(field);
+      else if (field == "center") centre = readVector(field);
+      else if (field == "scale") scale = readVector(field);
+      else if (field == "rotation") axis = readVector(field), angle = words_.number(field);
+      else if (field == "scaleOrientation") scaleAxis = readVector(field), scaleAngle = words_.number(field);
+      else if (field == "children") readChildren(node.children, depth);
+      else return false;
+      return true;
+    });
+    const Transform inner = turned(axis, angle) * turned(scaleAxis, scaleAngle) * scaled(scale) * turned(scaleAxis, -scaleAngle);
+    node.unmoved = inner;
+    node.frame = shifted(shift + centre) * inner * shifted(-centre);
+  }
+
+  void readShape(Node& node, int depth) {
+    node.kind = Node::Kind::Shape;
+    readFields("Shape", [&](const std::string& field) {
+      const bool appearance = field == "appearance";
+      if (!appearance && field != "geometry") return false;
+      if (words_.tryTake("NULL")) return true;
+      NodePtr read = readNode(depth + 1);
+      if (read->kind != (appearance ? Node::Kind::Look : Node::Kind::Geometry) && read->kind != Node::Kind::Nothing)
+        words_.fail(field, appearance ? "is no Appearance" : "is no geometry", appearance ? "Appearance" : "Box, Sphere, Cylinder, Cone, IndexedFaceSet");
+      (appearance ? node.appearance : node.geometry) = std::move(read);
+      return true;
+    });
+  }
+
+  void readAppearance(Node& node, int depth) {
+    node.kind = Node::Kind::Look;
+    node.look = Look{};
+    readFields("Appearance", [&](const std::string& field) {
+      if (field != "material") return false;
+      if (words_.tryTake("NULL")) return true;
+      const NodePtr read = readNode(depth + 1);
+      if (!read->look) words_.fail(field, "is no Material", "Material");
+      node.look = read->look;
+      return true;
+    });
+  }
+
+  void readMaterial(Node& node, int) {
+    node.kind = Node::Kind::Look;
+    Look look;
+    const auto share = [&](const std::string& field) {
+      const double value = words_.number(field);
+      if (value < 0 || value > 1) words_.fail(field, fmt::format("is {}", value), "0 to 1");
+      return value;
+    };
+    readFields("Material", [&](const std::string& field) {
+      if (field == "diffuseColor") {
+        for (double& part : look.colour) part = share(field);
+      } else if (field == "transparency") {
+        look.opacity = 1 - share(field);
+      } else {
+        return false;
+      }
+      return true;
+    });
+    node.look = look;
+  }
+
+  double length(const std::string& field) {
+    const double value = words_.number(field);
+    if (!(value > 0)) words_.fail(field, fmt::format("is {}", value), "more than 0");
+    return value;
+  }
+  bool boolean(const std::string& field) {
+    if (words_.tryTake("TRUE")) return true;
+    if (words_.tryTake("FALSE")) return false;
+    words_.fail(field, fmt::format("has {}", words_.shown()), "TRUE, FALSE");
+  }
+
+  void readBox(Node& node, int) {
+    Vec3 size{2, 2, 2};
+    readFields("Box", [&](const std::string& field) {
+      if (field != "size") return false;
+      size.x = length(field), size.y = length(field), size.z = length(field);
+      return true;
+    });
+    addBox(solidOf(node), {}, size);
+  }
+
+  void readSphere(Node& node, int) {
+    double radius = 1;
+    readFields("Sphere", [&](const std::string& field) { return field == "radius" && (radius = length(field), true); });
+    addSphere(solidOf(node), {}, radius);
+  }
+
+  void readCylinder(Node& node, int) {
+    double radius = 1, height = 2;
+    bool side = true, top = true, bottom = true;
+    readFields("Cylinder", [&](const std::string& field) {
+      if (field == "radius") radius = length(field);
+      else if (field == "height") height = length(field);
+      else if (field == "side") side = boolean(field);
+      else if (field == "top") top = boolean(field);
+      else if (field == "bottom") bottom = boolean(field);
+      else return false;
+      return true;
+    });
+    addFrustum(solidOf(node), {}, radius, radius, height, bottom, top, side);
+  }
+
+  void readCone(Node& node, int) {
+    double radius = 1, height = 2;
+    bool side = true, bottom = true;
+    readFields("Cone", [&](const std::string& field) {
+      if (field == "bottomRadius") radius = length(field);
+      else if (field == "height") height = length(field);
+      else if (field == "side") side = boolean(field);
+      else if (field == "bottom") bottom = boolean(field);
+      else return false;
+      return true;
+    });
+    addFrustum(solidOf(node), {}, radius, 0, height, bottom, false, side);
+  }
+
+  static ModelPart& solidOf(Node& node) {
+    node.kind = Node::Kind::Geometry;
+    return node.solid.emplace();
+  }
+
+  void readCoordinate(Node& node, int) {
+    node.kind = Node::Kind::Points;
+    readFields("Coordinate", [&](const std::string& field) {
+      if (field != "point") return false;
+      if (!words_.tryTake("[")) return node.points.push_back(readVector(field)), true;
+      while (!words_.tryTake("]")) {
+        if (node.points.size() >= kMostPoints) words_.fail(field, fmt::format("has more than {} points", kMostPoints), "fewer");
+        node.points.push_back(readVector(field));
+      }
+      return true;
+    });
+  }
+
+  // A face that turns back at a corner is cut wrongly by a fan: such a face is to be written as several.
+  void readFaces(Node& node, int depth) {
+    NodePtr points;
+    std::vector<int> corners;
+    bool counterClockwise = true, convex = true;
+    readFields("IndexedFaceSet", [&](const std::string& field) {
+      if (field == "ccw") counterClockwise = boolean(field);
+      else if (field == "convex") convex = boolean(field);
+      else if (field == "coord") {
+        if (words_.tryTake("NULL")) return true;
+        points = readNode(depth + 1);
+        if (points->kind != Node::Kind::Points) words_.fail(field, "is no Coordinate", "Coordinate");
+      } else if (field == "coordIndex") {
+        if (!words_.tryTake("[")) return corners.push_back(words_.whole(field)), true;
+        while (!words_.tryTake("]")) {
+          if (corners.size() >= 4 * kMostPoints) words_.fail(field, "has too many corners", "fewer");
+          corners.push_back(words_.whole(field));
+        }
+      } else {
+        return false;
+      }
+      return true;
+    });
+    ModelPart& solid = solidOf(node);
+    if (points) solid.points = points->points;
+    std::vector<std::uint32_t> face;
+    if (!corners.empty() && corners.back() >= 0) corners.push_back(-1);
+    for (const int corner : corners) {
+      if (corner >= 0) {
+        if (static_cast<std::size_t>(corner) >= solid.points.size())
+          words_.fail("coordIndex", fmt::format("has the corner {}, and there are {} points", corner, solid.points.size()),
+                      solid.points.empty() ? "points in coord" : fmt::format("0 to {}", solid.points.size() - 1));
+        face.push_back(static_cast<std::uint32_t>(corner));
+        continue;
+      }
+      if (corner != -1) words_.fail("coordIndex", fmt::format("has the corner {}", corner), "a point's number from 0, or -1 at a face's end");
+      if (face.size() > 4 && !convex) words_.fail("convex", "is FALSE for a face of more than four corners", "faces that are cut into triangles");
+      for (std::size_t i = 2; i < face.size(); ++i) {
+        if (counterClockwise) solid.triangles.push_back({face[0], face[i - 1], face[i]});
+        else solid.triangles.push_back({face[0], face[i], face[i - 1]});
+      }
+      if (solid.triangles.size() > kMostTriangles) words_.fail("coordIndex", fmt::format("makes more than {} triangles", kMostTriangles), "fewer");
+      face.clear();
+    }
+  }
+
+  VrmlWords words_;
+  std::map<std::string, NodePtr> defined_;
+  std::size_t nodes_ = 0;
+};
+
+struct Work {
+  std::size_t nodes = 0, triangles = 0;
+};
+
+// Every place a shape stands at, as a part. USE may mean one shape many times: counted, or a page of it would fill the memory.
+void collect(const Node& node, const Transform& frame, const std::string& moving, const std::string& file, Work& work, Model& model) {
+  if (++work.nodes > 4 * kMostNodes) throw FaultError(Fault{"USE", "means too much again and again", "a smaller scene", FilePlace{file}});
+  const bool named = isMoving(node.name);
+  const std::string& name = named ? node.name : moving;
+  if (node.kind == Node::Kind::Shape && node.geometry && node.geometry->solid && !node.geometry->solid->triangles.empty()) {
+    ModelPart part = *node.geometry->solid;
+    work.triangles += part.triangles.size();
+    if (work.triangles > kMostTriangles)
+      throw FaultError(Fault{{}, fmt::format("has more than {} triangles", kMostTriangles), "a smaller scene", FilePlace{file}});
+    const Transform own = named ? Transform{} : frame;
+    for (Vec3& p : part.points) p = own(p);
+    part.name = name;
+    if (node.appearance && node.appearance->look) part.colour = node.appearance->look->colour, part.opacity = node.appearance->look->opacity;
+    model.parts.push_back(std::move(part));
+  }
+  const Transform inner = named ? node.unmoved : frame * node.frame;
+  for (const NodePtr& child : node.children) collect(*child, inner, name, file, work, model);
+}
+
+}  // namespace
+
+Model readVrml(std::string_view text, const std::string& file) {
+  constexpr std::string_view kHead = "#VRML V2.0 utf8";
+  if (text.substr(0, kHead.size()) != kHead)
+    throw FaultError(Fault{{}, "does not begin as a VRML 2.0 file", std::string(kHead), FilePlace{file, 1, 1}});
+  Model model;
+  Work work;
+  for (const NodePtr& node : Reader(text, file).readAll()) collect(*node, {}, {}, file, work, model);
+  if (model.parts.empty()) throw FaultError(Fault{{}, "has nothing to draw", "a Shape with a geometry", FilePlace{file}});
+  check(model, file);
+  return model;
+}
+
+}  // namespace reachlab::gui::model
