@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <QApplication>
 #include <QMessageBox>
+#include <QSettings>
 #include <QIcon>
 #include <QSurfaceFormat>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "gui/scene/picture_sheet.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
+#include "gui/widgets/themes.h"
 
 namespace {
 
@@ -76,6 +78,8 @@ int run(const Arguments& arguments, int argc, char** argv) {
   QApplication application(argc, argv);
   QApplication::setOrganizationName(QStringLiteral("reachlab"));
   QApplication::setApplicationName(QStringLiteral("reachlab"));
+  if (QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"))
+    reachlab::gui::widgets::setTheme(reachlab::gui::widgets::Theme::Light);
   reachlab::gui::widgets::applyTheme(application);
   if (!arguments.pictures.empty()) {
     const int drawn = reachlab::gui::scene::drawPictures(QString::fromStdString(arguments.pictures));

@@ -65,8 +65,11 @@ MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) 
   screens_->setSubjectsActions({actions_.next, actions_.abort, actions_.repeat, actions_.end, actions_.subjectsScreen});
   new KeyFocus(*this, *view_);
   plans_ = new PlanPages(session_, *docks_.session, *view_);
+  if (!file_.isEmpty()) screens_->lookIn(QFileInfo(file_).path());
+  connect(screens_, &Screens::said, this, &MainWindow::say);
   wireDocks();
   wireSession();
+  stackOnNarrowScreen(*this);
   firstLayout_ = saveState();
   layout_ = restoreLayout(*this);
   if (inspecting()) switchLayout(WindowLayout::SetUp);  // nothing is open yet
@@ -331,6 +334,7 @@ void MainWindow::openExperiment(const QString& what) {
   if (isRecorded(what)) return inspect(what);
   if (!mayEndRun(QStringLiteral("Opening another experiment")) || !mayBeLeft()) return;
   try {
+    screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
     for (const experiment::CompiledExperiment& experiment : opened.experiments) (void)dynamics::compileScene(experiment);
     edits_.open(opened, QStringLiteral("open %1").arg(what));
@@ -492,6 +496,22 @@ void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
   changed.subjectScreen = screen;
   if (!mayEndRun(tr("Another picture for the subject"))) return;
   if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty()) message_->say(faults.join(QLatin1Char('\n')));
+}
+
+void MainWindow::say(const QString& sentence) { message_->say(sentence); }
+
+void MainWindow::setLook(const experiment::SceneLook& look) {
+  if (look == this->look() || !mayEndRun(tr("Another look of the scene"))) return;
+  const QStringList faults = edits_.tryEdit(experiment::withLook(session_.experiment(), look), tr("look of the scene"));
+  if (!faults.isEmpty()) message_->say(faults.join(QLatin1Char('\n')));
+}
+
+void MainWindow::rememberView(const QString& name) {
+  const scene::Camera& c = view_->camera();
+  experiment::SceneLook changed = look();
+  std::erase_if(changed.cameras, [&](const experiment::NamedCamera& known) { return known.name == name.toStdString(); });
+  changed.cameras.push_back({name.toStdString(), c.position, c.focus, c.up, c.angle, c.parallel});
+  setLook(changed);
 }
 
 void MainWindow::setSideBySide(bool on) {

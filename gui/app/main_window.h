@@ -17,6 +17,7 @@
 #include "gui/plot/live_trace.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/subject/subject_words.h"
+#include "sim/experiment/scene_look.h"
 
 class QTabWidget;
 class QTimer;
@@ -57,6 +58,10 @@ class MainWindow : public QMainWindow {
   const QString& subjectsLanguage() const { return words_.language(); }
   QUndoStack& edits() { return edits_.stack(); }
   const scene::OverlayState& overlay() const;
+  /// How the scene is drawn, as the experiment has it.
+  experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }
+  /// In the bar at the top.
+  void say(const QString& sentence);
   /// The sentence in the bar at the top, empty when there is none.
   QString message() const;
   /// Waits for nothing; true once the criteria have been computed for the experiment as it is.
@@ -87,6 +92,10 @@ class MainWindow : public QMainWindow {
   void setSubjectsLanguage(const QString& code);
   /// What the subject sees is part of the experiment.
   void setSubjectScreen(const reachlab::experiment::SubjectScreen& screen);
+  /// An edit of the experiment.
+  void setLook(const reachlab::experiment::SceneLook& look);
+  /// Where the scene is looked from now, as a named camera of the experiment; one of that name is replaced.
+  void rememberView(const QString& name);
   void setSideBySide(bool on);
   void setMuted(bool muted);
   void resetLayout();

@@ -1,11 +1,16 @@
 #include "gui/app/screens.h"
 
+#include <QDir>
+#include <QFileInfo>
 #include <QLabel>
+#include <QMetaObject>
 #include <QTimer>
 #include <algorithm>
 
+#include "base/ending.h"
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
+#include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -28,14 +33,52 @@ Screens::~Screens() { delete subject_; }
 
 void Screens::showExperiment(const experiment::CompiledExperiment& experiment) {
   experiment_ = experiment;
+  readModel();
   rebuild();
 }
 
+// Beside the window: a large file, or a slow disk, keeps nobody waiting. The newest one wins.
+void Screens::readModel() {
+  const QString named = QString::fromStdString(experiment::lookOf(experiment_->experiment()).sceneFile);
+  const QString beside = QDir(folder_).filePath(named);
+  const std::string file = (named.isEmpty() || !QFileInfo::exists(beside) ? named : beside).toStdString();
+  if (file == modelFile_) return;
+  modelFile_ = file;
+  model_.reset();
+  if (file.empty()) return;
+  modelReader_ = std::jthread([this, file] {
+    std::shared_ptr<const model::Model> read;
+    QString fault;
+    try {
+      read = std::make_shared<model::Model>(model::readModel(file));
+    } catch (const std::exception& e) {
+      fault = QString::fromStdString(endingOf(e).sentence);
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, file, read, fault] {
+          if (file != modelFile_) return;
+          if (!fault.isEmpty()) return static_cast<void>(Q_EMIT said(fault));
+          model_ = read;
+          const scene::Camera kept = main_.camera();
+          rebuild();
+          main_.setCamera(kept);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
 void Screens::rebuild() {
-  const scene::ScenePlan plan = planScene(experiment_->experiment(), experiment_->constraint(), options_);
+  scene::ScenePlan plan = planScene(experiment_->experiment(), experiment_->constraint(), options_);
+  plan.model = model_;
   frame_ = restingFrame(plan);
   main_.setPlan(plan);
   if (subject_) subject_->view().setPlan(subjectsPlan(plan, experiment_->experiment().subjectScreen));
+  if (const experiment::SceneLook look = experiment::lookOf(experiment_->experiment()); !look.cameras.empty()) {
+    const experiment::NamedCamera& first = look.cameras.front();
+    for (scene::SceneView* view : {&main_, subject_ ? &subject_->view() : nullptr})
+      if (view != nullptr) view->setCamera({first.position, first.focus, first.up, first.angle, first.parallel});
+  }
   showPatch(nullptr);
 }
 
@@ -56,6 +99,7 @@ void Screens::showPatch(const haptics::TickState* state) {
 
 void Screens::showState(const haptics::TickState& state) {
   copyToFrame(state, frame_);
+  if (!main_.plan().look.forceArrow) frame_.force = {};
   main_.showFrame(frame_);
   if (subject_) subject_->view().showFrame(frame_);
   showPatch(&state);

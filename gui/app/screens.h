@@ -2,6 +2,10 @@
 #include <QList>
 #include <QObject>
 #include <QPointer>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
 
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_plan.h"
@@ -29,6 +33,8 @@ class Screens : public QObject {
 
   /// Builds the picture anew, the hand at rest at the start.
   void showExperiment(const experiment::CompiledExperiment& experiment);
+  /// Where a scene file stands that is named without a folder.
+  void lookIn(const QString& folder) { folder_ = folder; }
   /// The object back at the start: no run is open.
   void showRest();
   /// Moves what there is.
@@ -49,9 +55,12 @@ class Screens : public QObject {
  Q_SIGNALS:
   /// As SceneView::handDragged, from whichever picture.
   void handDragged(double x, double y, double z, qint64 eventMs);
+  /// What is wrong with a scene file.
+  void said(const QString& sentence);
 
  private:
   void rebuild();
+  void readModel();
   void showPatch(const haptics::TickState* state);
   void openSubject(const QString& screen);
   void mirror();
@@ -63,6 +72,10 @@ class Screens : public QObject {
   scene::SceneFrame frame_;
   scene::OverlayState overlay_, subjectsOverlay_;
   QList<QAction*> actions_;
+  QString folder_;
+  std::string modelFile_;  // that is read, or being read
+  std::shared_ptr<const model::Model> model_;
+  std::jthread modelReader_;
   QLabel* mirror_;  // the subject's screen, small, in a corner of the experimenter's
   QTimer* mirrorTimer_;
 };

@@ -10,6 +10,7 @@
 namespace reachlab::gui::app {
 namespace {
 
+constexpr int kThreeColumns = 1200;  // pixels, as the scale has them: docks left and right of a scene that is still seen
 constexpr int kLayoutVersion = 4;  // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
@@ -30,6 +31,14 @@ QStringList docksOf(WindowLayout layout) {
 }
 
 }  // namespace
+
+void stackOnNarrowScreen(QMainWindow& window) {
+  const QScreen* screen = QGuiApplication::primaryScreen();
+  auto* onto = window.findChild<QDockWidget*>(QStringLiteral("trialsDock"));
+  if (screen == nullptr || onto == nullptr || screen->availableSize().width() >= kThreeColumns) return;
+  for (QDockWidget* dock : window.findChildren<QDockWidget*>())
+    if (window.dockWidgetArea(dock) == Qt::RightDockWidgetArea) window.tabifyDockWidget(onto, dock);
+}
 
 void rememberDocks(const QMainWindow& window, WindowLayout layout) {
   QSettings().setValue(docksKey(layout), window.saveState(kLayoutVersion));

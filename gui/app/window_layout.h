@@ -13,6 +13,8 @@ void rememberLayout(const QMainWindow& window, WindowLayout layout);
 WindowLayout restoreLayout(QMainWindow& window);
 void forgetLayout();
 
+/// Where docks on both sides would leave no room, those of the right become tabs on the left.
+void stackOnNarrowScreen(QMainWindow& window);
 void rememberDocks(const QMainWindow& window, WindowLayout layout);
 /// As they were left in this layout, or as it begins: everything to set up, the session and the plot to run, none to
 /// inspect: a recording has its own page.

@@ -7,6 +7,7 @@
 #include <QMessageBox>
 #include <QUndoStack>
 
+#include "gui/app/look_menu.h"
 #include "gui/app/main_window.h"
 #include "gui/plot/velocity_plot.h"
 #include "gui/app/session_controller.h"
@@ -122,6 +123,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
   addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
             [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
+  addLookMenu(window, *menu);
   menu->addSeparator();
   actions.subjectsScreen = add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
   add(window, menu, QStringLiteral("Save pi&cture…"), QKeySequence(QStringLiteral("Ctrl+Shift+P")), &MainWindow::savePicture);

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::plot {
@@ -51,8 +52,8 @@ class Zoomer : public QwtPlotZoomer {
  public:
   explicit Zoomer(QWidget* canvas) : QwtPlotZoomer(canvas) {
     setTrackerMode(QwtPicker::AlwaysOn);
-    setRubberBandPen(QPen(Qt::white, 1, Qt::DashLine));
-    setTrackerPen(QPen(Qt::white));
+    setRubberBandPen(QPen(widgets::ink(255), 1, Qt::DashLine));
+    setTrackerPen(QPen(widgets::ink(255)));
   }
   QwtText trackerTextF(const QPointF& at) const override {
     return QwtText(QStringLiteral("%1, %2").arg(at.x(), 0, 'f', 3).arg(at.y(), 0, 'g', 4));
@@ -107,7 +108,7 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   plot->setCanvas(canvas);
   plot->plotLayout()->setAlignCanvasToScales(true);
   d.grid = std::make_unique<QwtPlotGrid>();
-  d.grid->setPen(QPen(QColor(255, 255, 255, 26), 0));
+  d.grid->setPen(QPen(widgets::ink(26), 0));
   d.grid->attach(plot);
   for (int i = 0; i < kLines; ++i) {
     auto& curve = d.curves[static_cast<std::size_t>(i)];

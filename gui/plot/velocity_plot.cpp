@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::plot {
@@ -102,7 +103,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
     plot->setAxisFont(axis, font);
   }
   impl_->grid = std::make_unique<QwtPlotGrid>();
-  impl_->grid->setPen(QPen(QColor(255, 255, 255, 26), 0));
+  impl_->grid->setPen(QPen(widgets::ink(26), 0));
   impl_->grid->attach(plot);
   impl_->band = std::make_unique<QwtPlotZoneItem>();
   impl_->band->setOrientation(Qt::Vertical);

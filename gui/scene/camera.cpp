@@ -41,10 +41,11 @@ Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double
   return camera;
 }
 
-Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect) {
+Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect, bool parallel) {
   Box box;
   for (const Vec3& p : points) box.add(p);
   Camera camera = lookAt(box.valid() ? box.centre() : Vec3{}, std::max(box.diagonal() + 2 * margin, 1e-6), direction, aspect);
+  camera.parallel = parallel;
   if (!box.valid()) return camera;
   // The middle of what is seen, across and up, is the middle of the picture; then as near as the worst point allows.
   const CameraAxes axes = axesOf(camera);
@@ -59,15 +60,16 @@ Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& dir
   for (const Vec3& p : points) {
     const Vec3 arm = p - camera.focus;
     const double across = (std::abs(dot(arm, axes.right)) + margin) / aspect, up = std::abs(dot(arm, axes.up)) + margin;
-    distance = std::max(distance, std::max(across, up) / tanHalf(camera) - dot(arm, axes.forward));
+    distance = std::max(distance, std::max(across, up) / tanHalf(camera) - (parallel ? 0 : dot(arm, axes.forward)));
   }
   camera.position = camera.focus - distance * axes.forward;
   return camera;
 }
 
-Camera lookAtPointsBelow(double head, std::span<const Vec3> points, double margin, const Vec3& direction, double width, double height) {
+Camera lookAtPointsBelow(double head, std::span<const Vec3> points, double margin, const Vec3& direction, double width, double height,
+                         bool parallel) {
   const double free = std::max(height - head, 0.5 * height);
-  Camera camera = lookAtPoints(points, margin, direction, width / free);
+  Camera camera = lookAtPoints(points, margin, direction, width / free, parallel);
   // Back until the free part is as large as the picture was, then up, so that what is seen comes down.
   camera.position = camera.focus + (height / free) * (camera.position - camera.focus);
   pan(camera, 0, 0.5 * (height - free), height);
@@ -101,7 +103,7 @@ void zoom(Camera& camera, double factor) {
 }
 
 double metresPerPixel(const Camera& camera, const Vec3& at, double height) {
-  const double depth = dot(at - camera.position, axesOf(camera).forward);
+  const double depth = camera.parallel ? norm(camera.focus - camera.position) : dot(at - camera.position, axesOf(camera).forward);
   return 2 * std::max(depth, 1e-6) * tanHalf(camera) / std::max(height, 1.0);
 }
 

@@ -11,6 +11,7 @@ namespace reachlab::gui::scene {
 struct Camera {
   Vec3 position{0, 0, 1}, focus, up{0, 1, 0};  // [m]
   double angle = 30;                           // [degrees] of view, vertical
+  bool parallel = false;                       // what is farther is not smaller: as large as at the focus
 };
 
 /// Unit directions of a camera.
@@ -22,10 +23,11 @@ CameraAxes axesOf(const Camera& camera);
 /// Looks from `direction` so that a ball of that diameter fills the height (and, for an upright picture, the width).
 Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double aspect);
 /// Looks from `direction` so that all the points, with `margin` [m] around each, are just seen.
-Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect);
+Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect, bool parallel = false);
 
 /// The same, with `head` pixels at the top of a picture of that size left free.
-Camera lookAtPointsBelow(double head, std::span<const Vec3> points, double margin, const Vec3& direction, double width, double height);
+Camera lookAtPointsBelow(double head, std::span<const Vec3> points, double margin, const Vec3& direction, double width, double height,
+                         bool parallel = false);
 
 /// Turns about the focus: `right` and `down` pixels of a picture `height` high.
 void turn(Camera& camera, double right, double down, double height);

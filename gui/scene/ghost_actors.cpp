@@ -18,13 +18,14 @@ struct GhostActors::Impl {
   vtkRenderer& renderer;
   std::vector<double> radius;  // of each mass, then of the hand
   std::vector<Vec3> shift;
+  PartColours colours;
   std::vector<std::vector<Actor>> ghosts;  // balls of each: its masses, its hand
 
   void addGhost() {
     std::vector<Actor> balls;
     for (std::size_t i = 0; i < radius.size(); ++i) {
       const bool hand = i + 1 == radius.size();
-      const widgets::Colour colour = hand ? widgets::colours::kHand : i + 2 == radius.size() ? widgets::colours::kLast : widgets::colours::kMiddle;
+      const widgets::Colour colour = hand ? colours.hand : i + 2 == radius.size() ? colours.last : colours.middle;
       Actor ball = makeBall({colour, kFaint, 0.1});
       ball->SetScale(radius[i]);
       ball->PickableOff();
@@ -35,7 +36,7 @@ struct GhostActors::Impl {
   }
 };
 
-GhostActors::GhostActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(new Impl{renderer, plan.massRadius, plan.massShift, {}}) {
+GhostActors::GhostActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(new Impl{renderer, plan.massRadius, plan.massShift, plan.look.colours, {}}) {
   impl_->radius.push_back(plan.handRadius);
   impl_->shift.resize(plan.massRadius.size() + 1);
 }

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+#include "gui/scene/cue_actors.h"
+#include "gui/scene/model_actors.h"
 #include "gui/scene/scene_actors.h"
 
 namespace reachlab::gui::scene {
@@ -16,13 +18,13 @@ namespace {
 
 using Actor = vtkSmartPointer<vtkActor>;
 
-widgets::Colour colourOf(MassRole role) {
+widgets::Colour colourOf(MassRole role, const PartColours& colours) {
   switch (role) {
-    case MassRole::Driven: return widgets::colours::kDriven;
-    case MassRole::Last: return widgets::colours::kLast;
+    case MassRole::Driven: return colours.driven;
+    case MassRole::Last: return colours.last;
     case MassRole::Middle: break;
   }
-  return widgets::colours::kMiddle;
+  return colours.middle;
 }
 
 void place(vtkActor& actor, const Vec3& at) { actor.SetPosition(at.x, at.y, at.z); }
@@ -50,6 +52,8 @@ struct ObjectActors::Impl {
   ScenePlan plan;  // without its meshes
   std::vector<Actor> all, masses, springs;
   Actor hand;
+  std::unique_ptr<CueActors> cues;
+  std::unique_ptr<ModelActors> model;
   bool handWasValid = true;
 
   Actor add(Actor actor) {
@@ -59,15 +63,15 @@ struct ObjectActors::Impl {
   }
   void addConstraint(const ScenePlan& from, SurfaceStyle style) {
     if (from.curve.pointCount() > 1) {
-      add(makeRail(from.curve, from.railRadius, {widgets::colours::kRail, 1, 0.5}));
+      add(makeRail(from.curve, from.railRadius, {from.look.colours.rail, 1, 0.5}));
       // Shifted masses run beside the rail: a faint copy for each.
       for (const Vec3& shift : from.massShift)
-        if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {widgets::colours::kRail, 0.30, 0})), shift);
+        if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {from.look.colours.rail, 0.30, 0})), shift);
     }
     if (!from.surface.quads.empty()) {
-      if (style == SurfaceStyle::Glass) add(makeSkin(from.surface, {widgets::colours::kSurface, 0.42, 0.3}))->PickableOff();
+      if (style == SurfaceStyle::Glass) add(makeSkin(from.surface, {from.look.colours.surface, from.look.surfaceOpacity, 0.3}))->PickableOff();
       Actor lines =
-          add(makeParameterLines(from.surface, {widgets::colours::kSurfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
+          add(makeParameterLines(from.surface, {from.look.colours.surfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
       lines->PickableOff();
     }
   }
@@ -78,7 +82,7 @@ struct ObjectActors::Impl {
       for (const PlaceMark& mark : from.places)
         if (mark.passed == passed) places.push_back(mark.r);
       const double radius = from.surface.quads.empty() ? 1.9 * from.railRadius : 0.9 * from.railRadius;
-      if (!places.empty()) add(makeDots(places, radius, {passed ? widgets::colours::kHand : widgets::colours::kRed, 1, 0.2}));
+      if (!places.empty()) add(makeDots(places, radius, {passed ? from.look.colours.hand : widgets::colours::kRed, 1, 0.2}));
     }
   }
   void addMarks(const ScenePlan& from) {
@@ -92,37 +96,41 @@ struct ObjectActors::Impl {
     const double ball = from.massRadius.empty() ? 0 : *std::max_element(from.massRadius.begin(), from.massRadius.end());
     for (const Vec3& shift : from.massShift) {
       if (norm(shift) == 0) continue;
-      mark(from.start + shift, widgets::colours::kStart, 0.55 * from.markRadius, 0.8);
+      mark(from.start + shift, from.look.colours.start, 0.55 * from.markRadius, 0.8);
       if (!from.targetShown) continue;
-      mark(from.target + shift, widgets::colours::kTarget, 0.55 * from.markRadius, 0.8);
-      if (from.tolerance > 0.55 * from.markRadius) mark(from.target + shift, widgets::colours::kTarget, from.tolerance, 0.13);
+      mark(from.target + shift, from.look.colours.target, 0.55 * from.markRadius, 0.8);
+      if (from.tolerance > 0.55 * from.markRadius) mark(from.target + shift, from.look.colours.target, from.tolerance, 0.13);
     }
-    mark(from.start, widgets::colours::kStart, from.markRadius, 1);
-    mark(from.start, widgets::colours::kStart, 1.45 * std::max(ball, from.markRadius), 0.25);  // seen around the mass that stands there
+    mark(from.start, from.look.colours.start, from.markRadius, 1);
+    mark(from.start, from.look.colours.start, 1.45 * std::max(ball, from.markRadius), 0.25);  // seen around the mass that stands there
     if (!from.targetShown) return;
-    mark(from.target, widgets::colours::kTarget, from.markRadius, 1);
+    mark(from.target, from.look.colours.target, from.markRadius, 1);
     const bool massOnRail = from.massShift.empty() ||
                             std::any_of(from.massShift.begin(), from.massShift.end(), [](const Vec3& shift) { return norm(shift) == 0; });
-    if (from.tolerance > from.markRadius && massOnRail) mark(from.target, widgets::colours::kTarget, from.tolerance, 0.13);
+    if (from.tolerance > from.markRadius && massOnRail) mark(from.target, from.look.colours.target, from.tolerance, 0.13);
   }
   void addObject(const ScenePlan& from) {
     for (const SpringPlan& spring : from.springs)
-      springs.push_back(add(makeCoil({spring.coupling ? widgets::colours::kCoupling : widgets::colours::kSpring, 1, 0.5},
+      springs.push_back(add(makeCoil({spring.coupling ? from.look.colours.coupling : from.look.colours.spring, 1, 0.5},
                                      spring.coupling ? 6 : 9, spring.coupling ? 0.16 : 0.2)));
     for (std::size_t i = 0; i < from.massRadius.size(); ++i) {
-      const Look look{colourOf(from.massRole[i]), 1, 0.55};
+      const Look look{colourOf(from.massRole[i], from.look.colours), 1, 0.55};
       masses.push_back(add(from.body ? makeBox(look) : makeBall(look)));
       if (!from.body) masses.back()->SetScale(from.massRadius[i]);
     }
-    hand = add(makePen({widgets::colours::kHand, 1, 0.6}));
+    hand = add(makePen({from.look.colours.hand, 1, 0.6}));
     hand->SetScale(from.handRadius);
+    for (std::size_t i = 0; i < masses.size(); ++i) masses[i]->SetVisibility(!model->hasMass(i));
+    hand->SetVisibility(!model->hasHand());
   }
 };
 
 ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
-    : impl_(new Impl{renderer, plan, {}, {}, {}, {}}) {
+    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, nullptr, nullptr}) {
   impl_->plan.curve = {};
   impl_->plan.surface = {};
+  impl_->model = std::make_unique<ModelActors>(renderer, plan);
+  impl_->cues = std::make_unique<CueActors>(renderer, plan);
   impl_->addConstraint(plan, style);
   impl_->addPlaces(plan);
   impl_->addMarks(plan);
@@ -135,6 +143,8 @@ ObjectActors::~ObjectActors() {
 
 void ObjectActors::show(const SceneFrame& frame) {
   const ScenePlan& plan = impl_->plan;
+  impl_->model->show(frame);
+  impl_->cues->show(frame);
   const std::size_t count = std::min(frame.masses.size(), impl_->masses.size());
   const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan.massShift[i]; };
   for (std::size_t i = 0; i < count; ++i) {
@@ -145,7 +155,7 @@ void ObjectActors::show(const SceneFrame& frame) {
   if (isFinite(frame.hand)) place(*impl_->hand, frame.hand);
   if (frame.handValid != impl_->handWasValid) {
     impl_->handWasValid = frame.handValid;
-    const widgets::Colour c = frame.handValid ? widgets::colours::kHand : widgets::colours::kHandLost;
+    const widgets::Colour c = frame.handValid ? plan.look.colours.hand : widgets::colours::kHandLost;
     impl_->hand->GetProperty()->SetColor(c.red, c.green, c.blue);
   }
   for (std::size_t i = 0; i < impl_->springs.size(); ++i) {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "constraints/geometry/task_path.h"
+#include "gui/widgets/themes.h"
+#include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -67,6 +69,35 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
     for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, false});
 }
 
+widgets::Colour* partNamed(PartColours& c, const std::string& name) {
+  const std::pair<const char*, widgets::Colour*> parts[] = {
+      {"background_top", &c.backgroundTop}, {"background_bottom", &c.backgroundBottom}, {"rail", &c.rail}, {"surface", &c.surface},
+      {"surface_line", &c.surfaceLine}, {"start", &c.start}, {"target", &c.target}, {"driven", &c.driven}, {"middle", &c.middle}, {"last", &c.last},
+      {"hand", &c.hand}, {"spring", &c.spring}, {"coupling", &c.coupling}, {"force", &c.force}, {"trace", &c.trace}};
+  for (const auto& [known, colour] : parts)
+    if (name == known) return colour;
+  return nullptr;
+}
+
+PlanLook plannedLook(const experiment::Experiment& experiment) {
+  using namespace widgets::colours;
+  const experiment::SceneLook look = experiment::lookOf(experiment);
+  PlanLook plan;
+  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven, kMiddle, kLast, kHand, kSpring, kCoupling, kRed, kHand};
+  for (const std::string& part : experiment::colouredParts()) {
+    widgets::Colour* colour = partNamed(plan.colours, part);
+    if (colour == nullptr) continue;
+    *colour = widgets::themed(*colour);
+    if (const auto own = look.colours.find(part); own != look.colours.end()) *colour = widgets::colourOf(own->second);
+  }
+  plan.surfaceOpacity = look.surfaceOpacity;
+  plan.shadow = look.depthCue == "shadow";
+  plan.grid = plan.shadow || look.depthCue == "grid";
+  plan.trace = look.trace;
+  plan.forceArrow = look.forceArrow;
+  return plan;
+}
+
 // Some hundreds of the constraint's points, and the task's places with the shifts of their masses.
 std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
   std::vector<Vec3> seen;
@@ -125,6 +156,9 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   plan.markRadius = 0.014 * plan.unit;
   plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
   planMasses(experiment, options.sideBySide, plan);
+  plan.look = plannedLook(experiment);
+  plan.box = box;
+  plan.floor = box.low.y - 0.12 * plan.size;
   plan.seen = pointsSeen(plan);
   return plan;
 }
@@ -150,6 +184,9 @@ SceneFrame restingFrame(const ScenePlan& plan) {
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
   frame.hand = state.hand.position;
   frame.handValid = state.hand.valid;
+  frame.force = state.feedbackForce;
+  frame.trial = state.trial;
+  frame.traced = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving;
   frame.body = state.body;
   frame.masses.resize(static_cast<std::size_t>(state.massCount));
   for (std::size_t i = 0; i < frame.masses.size(); ++i) frame.masses[i] = state.masses[i].r;
@@ -160,6 +197,7 @@ bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) 
   if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || apart(from.hand, to.hand)) return true;
   for (std::size_t i = 0; i < from.masses.size(); ++i)
     if (apart(from.masses[i], to.masses[i])) return true;
+  if (!(norm(from.force - to.force) <= 0.05)) return true;
   for (std::size_t i = 0; i < 4; ++i)
     if (!(std::abs(from.body.orientation[i] - to.body.orientation[i]) <= 1e-3)) return true;
   return false;

@@ -1,8 +1,11 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "gui/scene/constraint_mesh.h"
+#include "gui/model/model.h"
 #include "gui/scene/place_marks.h"
+#include "gui/widgets/colours.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_state.h"
 
@@ -14,6 +17,20 @@ enum class MassRole { Driven, Middle, Last };
 struct SpringPlan {
   int from = -1, to = 0;  // masses from 0; -1: the hand
   bool coupling = false;  // the coupling (8): drawn thinner than the object's own springs
+};
+
+/// Colours of the scene's parts: the theme's, and over them the experiment's.
+struct PartColours {
+  widgets::Colour backgroundTop, backgroundBottom, rail, surface, surfaceLine, start, target, driven, middle, last, hand, spring, coupling, force,
+      trace;
+};
+
+/// How it is drawn.
+struct PlanLook {
+  PartColours colours;
+  double surfaceOpacity = 0.42;
+  bool grid = false, shadow = false;     // at the height `floor`
+  bool trace = false, forceArrow = false;
 };
 
 struct ScenePlan {
@@ -36,6 +53,10 @@ struct ScenePlan {
   std::vector<SpringPlan> springs;
   bool body = false;                                      // drawn as a box that turns
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
+  PlanLook look;
+  Box box;           // [m] of constraint and task
+  double floor = 0;  // [m] height of the grid, below all of it
+  std::shared_ptr<const model::Model> model;  // scenery, and what stands for hand and masses; null: none
 };
 
 struct ViewOptions {
@@ -54,11 +75,14 @@ struct SceneFrame {
   std::vector<Vec3> masses;  // [m] true places
   dynamics::BodyState body;
   bool handValid = true;
+  Vec3 force;              // [N] of the coupling on the hand; zero where no arrow is drawn
+  std::int32_t trial = 0;  // a trace ends with its trial
+  bool traced = false;     // the hand is under way
 };
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
-/// Something has moved by more than that [m], turned by more than a thousandth, or the hand was lost or found.
+/// Something has moved by more than that [m], turned by more than a thousandth, the drawn force is another by 0.05 N, or the hand was lost or found.
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);
 /// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);

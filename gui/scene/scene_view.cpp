@@ -7,12 +7,22 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 #include <vtkCamera.h>
+#include <vtkCameraPass.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
+#include <vtkLightsPass.h>
 #include <vtkNew.h>
+#include <vtkOpaquePass.h>
+#include <vtkOpenGLFXAAPass.h>
+#include <vtkOverlayPass.h>
+#include <vtkRenderPassCollection.h>
 #include <vtkRenderer.h>
+#include <vtkSequencePass.h>
+#include <vtkSmartPointer.h>
+#include <vtkTranslucentPass.h>
 #include <vtkVersion.h>
 
+#include <QElapsedTimer>
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +34,9 @@ namespace reachlab::gui::scene {
 namespace {
 
 constexpr int kRestMs = 250;  // a picture that has not moved for so long rests
+// Where the processor draws and pictures of a movement come slower than this, so many times in a row, they are drawn coarser.
+constexpr int kSlowMs = 48, kSlowPictures = 6;
+constexpr double kScales[] = {1, 0.75, 0.5};
 
 // Key light from the upper left, a weak fill from the right, both fixed to the viewer.
 void addLights(vtkRenderer& renderer) {
@@ -37,6 +50,20 @@ void addLights(vtkRenderer& renderer) {
     light->SetIntensity(l.intensity);
     renderer.AddLight(light);
   }
+}
+
+// Opaque first, then what is translucent over it: one pass over the pixels, where VTK's own order-independent way takes several.
+vtkSmartPointer<vtkCameraPass> makePlainPass() {
+  vtkNew<vtkRenderPassCollection> passes;
+  passes->AddItem(vtkNew<vtkLightsPass>());
+  passes->AddItem(vtkNew<vtkOpaquePass>());
+  passes->AddItem(vtkNew<vtkTranslucentPass>());
+  passes->AddItem(vtkNew<vtkOverlayPass>());
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(passes);
+  const auto camera = vtkSmartPointer<vtkCameraPass>::New();
+  camera->SetDelegatePass(sequence);
+  return camera;
 }
 
 }  // namespace
@@ -61,6 +88,11 @@ struct SceneView::Impl {
   bool placed = false;  // the camera has been put in place for a real size
   bool drawn = false;   // what is on the screen is `frame`
   std::int64_t pictures = 0;
+  vtkSmartPointer<vtkCameraPass> plain = makePlainPass();
+  vtkNew<vtkOpenGLFXAAPass> smooth;
+  bool parallel = false;
+  int coarse = 0, slow = 0;  // which of kScales a movement is drawn at; slow pictures in a row
+  QElapsedTimer sinceMoving;
   QPoint pressedAt, lastAt;
   Vec3 handAtPress;
   bool reaching = false;
@@ -72,7 +104,7 @@ struct SceneView::Impl {
   void lookFrom(const Vec3& direction) {
     std::vector<Vec3> points = plan.seen;
     for (const Vec3& hand : {plan.start, plan.target}) points.push_back(penEnd(hand, plan.handRadius));
-    camera = lookAtPointsBelow(overlay->headHeight(), points, 0.09 * plan.size, direction, width(), height());
+    camera = lookAtPointsBelow(overlay->headHeight(), points, 0.09 * plan.size, direction, width(), height(), parallel);
   }
 
   void applyCamera() {
@@ -81,6 +113,8 @@ struct SceneView::Impl {
     c->SetFocalPoint(camera.focus.x, camera.focus.y, camera.focus.z);
     c->SetViewUp(camera.up.x, camera.up.y, camera.up.z);
     c->SetViewAngle(camera.angle);
+    c->SetParallelProjection(camera.parallel);
+    c->SetParallelScale(0.5 * metresPerPixel(camera, camera.focus, height()) * height());
     renderer->ResetCameraClippingRange();
     const CameraAxes axes = axesOf(camera);
     std::array<QPointF, 3> directions;
@@ -122,12 +156,34 @@ struct SceneView::Impl {
 
   bool inSoftware() const { return rendererName.contains(QLatin1String("llvmpipe")) || rendererName.contains(QLatin1String("softpipe")); }
 
+  // A movement that the processor cannot follow is drawn coarser until it rests.
+  void adapt() {
+    const qint64 ms = sinceMoving.isValid() ? sinceMoving.restart() : (sinceMoving.start(), 0);
+    if (ms > 4 * kRestMs) return;  // it was no movement before
+    slow = ms > kSlowMs ? slow + 1 : 0;
+    if (slow < kSlowPictures || coarse + 1 >= static_cast<int>(std::size(kScales))) return;
+    ++coarse;
+    slow = 0;
+  }
+
+  void setScale(double scale) {
+    const double ratio = scale == 1 ? 0 : scale * widget->devicePixelRatioF();  // 0: the screen's own
+    if (widget->customDevicePixelRatio() == ratio) return;
+    widget->setCustomDevicePixelRatio(ratio);
+    const double real = scale * widget->devicePixelRatioF();
+    window->SetSize(static_cast<int>(std::lround(width() * real)), static_cast<int>(std::lround(height() * real)));
+  }
+
   // Where the processor draws, edges are smoothed once the picture rests: the eye does not see them while it moves.
   void render(bool moving = false) {
     drawn = false;
     if (!widget->isVisible()) return;
     const bool rough = moving && inSoftware();
-    if (renderer->GetUseFXAA() == rough) renderer->SetUseFXAA(!rough);
+    if (inSoftware()) {
+      if (rough) adapt(), renderer->SetPass(plain);
+      else renderer->SetPass(smooth);
+      setScale(rough ? kScales[coarse] : 1);
+    }
     if (rough) resting->start();
     window->Render();
     drawn = true;
@@ -146,10 +202,9 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
   impl_->window->SetAlphaBitPlanes(1);
   impl_->widget->setRenderWindow(impl_->window);
   impl_->window->AddRenderer(impl_->renderer);
+  impl_->smooth->SetDelegatePass(impl_->plain);
   impl_->renderer->SetUseFXAA(true);
   impl_->renderer->GradientBackgroundOn();
-  impl_->renderer->SetBackground(widgets::colours::kSkyBottom.red, widgets::colours::kSkyBottom.green, widgets::colours::kSkyBottom.blue);
-  impl_->renderer->SetBackground2(widgets::colours::kSkyTop.red, widgets::colours::kSkyTop.green, widgets::colours::kSkyTop.blue);
   impl_->renderer->GetActiveCamera();
   addLights(*impl_->renderer);
   impl_->resting = new QTimer(this);
@@ -173,6 +228,10 @@ void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
   impl_->ghosts.reset();
   impl_->actors.reset();
   impl_->actors = std::make_unique<ObjectActors>(*impl_->renderer, plan, impl_->style);
+  const widgets::Colour &low = plan.look.colours.backgroundBottom, &high = plan.look.colours.backgroundTop;
+  impl_->renderer->SetBackground(low.red, low.green, low.blue);
+  impl_->renderer->SetBackground2(high.red, high.green, high.blue);
+  impl_->coarse = impl_->slow = 0;
   impl_->frame = restingFrame(plan);
   impl_->actors->show(impl_->frame);
   impl_->label();
@@ -242,6 +301,17 @@ void SceneView::setCamera(const Camera& camera) {
   impl_->camera = camera;
   impl_->placed = true;
   impl_->applyCamera();
+  impl_->render(true);
+}
+
+void SceneView::setParallel(bool parallel) {
+  impl_->parallel = parallel;
+  fit();
+}
+
+void SceneView::setStereo(bool stereo) {
+  impl_->window->SetStereoTypeToAnaglyph();
+  impl_->window->SetStereoRender(stereo);
   renderNow();
 }
 

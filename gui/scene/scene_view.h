@@ -36,6 +36,10 @@ class SceneView : public QWidget {
   void fit();
   /// From the side of x, y or z, or 0: the usual view.
   void lookAlong(char axis);
+  /// What is farther is not smaller; the whole scene is then looked at anew.
+  void setParallel(bool parallel);
+  /// For red and cyan glasses.
+  void setStereo(bool stereo);
   /// How often the scene was drawn.
   std::int64_t picturesDrawn() const;
   /// Draws now. For screenshots and tests.

@@ -3,7 +3,7 @@
 
 #include <QTest>
 #include <array>
-#include <cmath>
+#include <map>
 
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/scene_overlay.h"
@@ -11,34 +11,10 @@
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "tests/gui/eyes.h"
 
 namespace reachlab::gui::scene {
 namespace {
-
-using Light = std::array<double, 3>;  // linear RGB
-
-Light lightOf(const QColor& colour) {
-  const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-  return {linear(colour.redF()), linear(colour.greenF()), linear(colour.blueF())};
-}
-
-// Machado, Oliveira, Fernandes 2009, table 1, severity 1.
-Light toDeuteranope(const Light& c) {
-  return {0.367322 * c[0] + 0.860646 * c[1] - 0.227968 * c[2], 0.280085 * c[0] + 0.672501 * c[1] + 0.047413 * c[2],
-          -0.011820 * c[0] + 0.042940 * c[1] + 0.968881 * c[2]};
-}
-// Of the same table.
-Light toProtanope(const Light& c) {
-  return {0.152286 * c[0] + 1.052583 * c[1] - 0.204868 * c[2], 0.114503 * c[0] + 0.786281 * c[1] + 0.099216 * c[2],
-          -0.003882 * c[0] - 0.048116 * c[1] + 1.051998 * c[2]};
-}
-
-// WCAG 2.1's contrast ratio.
-double contrast(const Light& a, const Light& b) {
-  const auto luminance = [](const Light& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
-  const double la = luminance(a) + 0.05, lb = luminance(b) + 0.05;
-  return la > lb ? la / lb : lb / la;
-}
 
 QImage lampPicture(trial::Semaphore semaphore) {
   QWidget page;

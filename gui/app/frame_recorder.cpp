@@ -1,0 +1,68 @@
+#include "gui/app/frame_recorder.h"
+
+#include <QMetaObject>
+#include <QTimer>
+
+#include "gui/scene/scene_view.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+constexpr std::size_t kMostWaiting = 20;
+
+}  // namespace
+
+FrameRecorder::FrameRecorder(scene::SceneView& view, QObject* parent) : QObject(parent), view_(view), timer_(new QTimer(this)) {
+  timer_->setInterval(1000 / kPerSecond);
+  timer_->setTimerType(Qt::PreciseTimer);
+  connect(timer_, &QTimer::timeout, this, &FrameRecorder::take);
+}
+
+FrameRecorder::~FrameRecorder() = default;
+
+void FrameRecorder::start(const QString& folder) {
+  if (timer_->isActive()) return;
+  thread_ = {};  // of the film before: done
+  folder_ = folder;
+  written_ = leftOut_ = failed_ = 0;
+  last_ = false;
+  waiting_.clear();
+  thread_ = std::jthread([this](const std::stop_token& stop) { write(stop); });
+  timer_->start();
+}
+
+void FrameRecorder::stop() {
+  if (!timer_->isActive()) return;
+  timer_->stop();
+  const std::scoped_lock lock(mutex_);
+  last_ = true;
+  changed_.notify_all();
+}
+
+void FrameRecorder::take() {
+  QImage picture = view_.grabScene();
+  const std::scoped_lock lock(mutex_);
+  if (waiting_.size() >= kMostWaiting) return static_cast<void>(++leftOut_);
+  waiting_.push_back(std::move(picture));
+  changed_.notify_all();
+}
+
+void FrameRecorder::write(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [this] { return last_ || !waiting_.empty(); })) {
+    if (waiting_.empty()) break;
+    const QImage picture = std::move(waiting_.front());
+    waiting_.pop_front();
+    const QString file = QStringLiteral("%1/frame-%2.png").arg(folder_).arg(written_ + 1, 6, 10, QLatin1Char('0'));
+    lock.unlock();
+    const bool good = picture.save(file, "PNG", 80);
+    lock.lock();
+    ++(good ? written_ : failed_);
+  }
+  QString sentence = tr("%1 pictures, %2 a second, in %3").arg(written_).arg(kPerSecond).arg(folder_);
+  if (leftOut_ > 0) sentence += tr("; %1 left out: the disk was too slow").arg(leftOut_);
+  if (failed_ > 0) sentence += tr("; %1 could not be written").arg(failed_);
+  QMetaObject::invokeMethod(this, [this, sentence] { Q_EMIT ended(sentence); }, Qt::QueuedConnection);
+}
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,49 @@
+#pragma once
+#include <QImage>
+#include <QObject>
+#include <QString>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+class QTimer;
+
+namespace reachlab::gui::scene {
+class SceneView;
+}
+
+namespace reachlab::gui::app {
+
+/// Pictures of a scene for a film, 25 a second, as frame-000001.png and on. Written on a thread of its own; where the disk is slower than the
+/// pictures come, pictures are left out and counted: neither window nor memory waits.
+class FrameRecorder : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int kPerSecond = 25;
+  FrameRecorder(scene::SceneView& view, QObject* parent);
+  ~FrameRecorder() override;
+
+  void start(const QString& folder);
+  /// `ended` follows when the last one is written.
+  void stop();
+
+ Q_SIGNALS:
+  void ended(const QString& sentence);
+
+ private:
+  void take();
+  void write(const std::stop_token& stop);
+
+  scene::SceneView& view_;
+  QTimer* timer_;
+  QString folder_;
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable_any changed_;
+  std::deque<QImage> waiting_;
+  int written_ = 0, leftOut_ = 0, failed_ = 0;
+  bool last_ = false;
+  std::jthread thread_;
+};
+
+}  // namespace reachlab::gui::app

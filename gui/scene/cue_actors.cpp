@@ -1,0 +1,196 @@
+#include "gui/scene/cue_actors.h"
+
+#include <vtkActor.h>
+#include <vtkArrowSource.h>
+#include <vtkCellArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRegularPolygonSource.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gui/scene/scene_overlay.h"
+
+namespace reachlab::gui::scene {
+namespace {
+
+using Actor = vtkSmartPointer<vtkActor>;
+
+constexpr double kLongest = 1.2;       // of the reach: no arrow leaves the picture
+constexpr double kLeastForce = 0.02;   // [N]
+constexpr double kTraceStep = 0.0015;  // of the reach, between two points
+
+Actor actorOf(vtkPolyDataMapper* mapper, const widgets::Colour& colour, double opacity) {
+  mapper->ScalarVisibilityOff();
+  const Actor actor = Actor::New();
+  actor->SetMapper(mapper);
+  actor->PickableOff();
+  actor->GetProperty()->SetColor(colour.red, colour.green, colour.blue);
+  actor->GetProperty()->SetOpacity(opacity);
+  actor->GetProperty()->SetLighting(false);
+  return actor;
+}
+
+}  // namespace
+
+struct CueActors::Impl {
+  Impl(vtkRenderer& to, const ScenePlan& plan)
+      : renderer(to), look(plan.look), shift(plan.massShift), radius(plan.massRadius), unit(plan.unit), floor(plan.floor), handRadius(plan.handRadius) {}
+
+  vtkRenderer& renderer;
+  const PlanLook look;
+  const std::vector<Vec3> shift;
+  const std::vector<double> radius;
+  const double unit, floor, handRadius;
+  std::vector<Actor> all, shadows;  // of the masses, and last the hand's
+  Actor arrow;
+  vtkNew<vtkPoints> tracePoints;
+  vtkNew<vtkPolyData> trace;
+  std::int32_t tracedTrial = 0;
+  Vec3 lastTraced;
+
+  Actor add(Actor actor) {
+    renderer.AddActor(actor);
+    all.push_back(actor);
+    return actor;
+  }
+
+  // Squares of a round length, so that they are a measure too.
+  void addGrid(const Box& box, double size) {
+    const double step = roundLength(0.16 * size);
+    if (!(step > 0)) return;
+    const auto down = [&](double v) { return step * (std::floor(v / step) - 1); };
+    const auto up = [&](double v) { return step * (std::ceil(v / step) + 1); };
+    const double left = down(box.low.x), right = up(box.high.x), back = down(box.low.z), front = up(box.high.z);
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> lines;
+    const auto line = [&](double ax, double az, double bx, double bz) {
+      lines->InsertNextCell(2);
+      lines->InsertCellPoint(points->InsertNextPoint(ax, floor, az));
+      lines->InsertCellPoint(points->InsertNextPoint(bx, floor, bz));
+    };
+    for (int i = 0; left + i * step <= right + 0.5 * step; ++i) line(left + i * step, back, left + i * step, front);
+    for (int i = 0; back + i * step <= front + 0.5 * step; ++i) line(left, back + i * step, right, back + i * step);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetLines(lines);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    add(actorOf(mapper, look.colours.rail, 0.35));
+  }
+
+  Actor addShadow(double size) {
+    vtkNew<vtkRegularPolygonSource> disc;
+    disc->SetNumberOfSides(28);
+    disc->SetRadius(size);
+    disc->SetNormal(0, 1, 0);
+    disc->GeneratePolylineOff();
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(disc->GetOutputPort());
+    return add(actorOf(mapper, {0, 0, 0}, 0.45));
+  }
+
+  void addTrace() {
+    trace->SetPoints(tracePoints);
+    trace->SetLines(vtkNew<vtkCellArray>());
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(trace);
+    Actor line = add(actorOf(mapper, look.colours.trace, 0.85));
+    line->GetProperty()->SetLineWidth(2);
+  }
+
+  void addArrow() {
+    vtkNew<vtkArrowSource> source;
+    source->SetShaftRadius(0.05);
+    source->SetTipRadius(0.13);
+    source->SetTipLength(0.3);
+    source->SetShaftResolution(14);
+    source->SetTipResolution(18);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(source->GetOutputPort());
+    arrow = add(actorOf(mapper, look.colours.force, 1));
+    arrow->GetProperty()->SetLighting(true);
+    arrow->GetProperty()->SetAmbient(0.3);
+    arrow->SetUserMatrix(vtkNew<vtkMatrix4x4>());
+    arrow->VisibilityOff();
+  }
+
+  void showTrace(const SceneFrame& frame) {
+    if (frame.trial != tracedTrial) {
+      tracedTrial = frame.trial;
+      tracePoints->Reset();
+    }
+    const vtkIdType count = tracePoints->GetNumberOfPoints();
+    if (!frame.traced || !isFinite(frame.hand) || (count > 0 && norm(frame.hand - lastTraced) < kTraceStep * unit)) return;
+    lastTraced = frame.hand;
+    if (count >= kTracePoints) {  // the older half goes
+      for (vtkIdType i = 0; i < count / 2; ++i) tracePoints->SetPoint(i, tracePoints->GetPoint(i + count - count / 2));
+      tracePoints->SetNumberOfPoints(count / 2);
+    }
+    tracePoints->InsertNextPoint(frame.hand.x, frame.hand.y, frame.hand.z);
+    vtkNew<vtkCellArray> line;
+    line->InsertNextCell(static_cast<int>(tracePoints->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < tracePoints->GetNumberOfPoints(); ++i) line->InsertCellPoint(i);
+    trace->SetLines(line);
+    tracePoints->Modified();
+    trace->Modified();
+  }
+
+  void showArrow(const SceneFrame& frame) {
+    const double force = norm(frame.force);
+    const bool shown = force > kLeastForce && std::isfinite(force) && isFinite(frame.hand);
+    arrow->SetVisibility(shown);
+    if (!shown) return;
+    const double length = std::min(kReachPerNewton * force, kLongest) * unit, thick = std::max(length, 0.25 * unit);
+    const Vec3 x = frame.force / force, helper = std::abs(x.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    Vec3 z = cross(x, helper);
+    z = z / norm(z);
+    const Vec3 y = cross(z, x);
+    vtkMatrix4x4* m = arrow->GetUserMatrix();
+    const double rows[3][4] = {{length * x.x, thick * y.x, thick * z.x, frame.hand.x},
+                               {length * x.y, thick * y.y, thick * z.y, frame.hand.y},
+                               {length * x.z, thick * y.z, thick * z.z, frame.hand.z}};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 4; ++j) m->SetElement(i, j, rows[i][j]);
+    m->Modified();
+  }
+};
+
+CueActors::CueActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(std::make_unique<Impl>(renderer, plan)) {
+  Impl& d = *impl_;
+  if (d.look.grid) d.addGrid(plan.box, plan.size);
+  if (d.look.shadow) {
+    for (const double radius : d.radius) d.shadows.push_back(d.addShadow(radius));
+    d.shadows.push_back(d.addShadow(1.6 * d.handRadius));
+  }
+  if (d.look.trace) d.addTrace();
+  if (d.look.forceArrow) d.addArrow();
+}
+
+CueActors::~CueActors() {
+  for (const Actor& actor : impl_->all) impl_->renderer.RemoveActor(actor);
+}
+
+void CueActors::show(const SceneFrame& frame) {
+  Impl& d = *impl_;
+  const double height = d.floor + 1e-3 * d.unit;  // above the grid's lines
+  for (std::size_t i = 0; i < d.shadows.size(); ++i) {
+    const bool hand = i + 1 == d.shadows.size();
+    if (!hand && i >= frame.masses.size()) continue;
+    const Vec3 at = hand ? frame.hand : frame.masses[i] + d.shift[i];
+    if (isFinite(at)) d.shadows[i]->SetPosition(at.x, height, at.z);
+  }
+  if (d.look.trace) d.showTrace(frame);
+  if (d.look.forceArrow) d.showArrow(frame);
+}
+
+int CueActors::tracePointCount() const { return static_cast<int>(impl_->tracePoints->GetNumberOfPoints()); }
+
+}  // namespace reachlab::gui::scene

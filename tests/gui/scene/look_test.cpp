@@ -1,0 +1,122 @@
+// What helps an eye, where the experiment asks for it.
+#include <gtest/gtest.h>
+
+#include <QTest>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include "gui/scene/cue_actors.h"
+#include "gui/scene/scene_view.h"
+#include "gui/widgets/themes.h"
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/scene_look.h"
+
+namespace reachlab::gui::scene {
+namespace {
+
+ScenePlan planWith(const experiment::SceneLook& look, const char* shipped = "chain-moderate") {
+  const experiment::CompiledExperiment compiled = experiment::openExperiment(shipped);
+  return planScene(experiment::withLook(compiled.experiment(), look), compiled.constraint());
+}
+
+int differing(const QImage& a, const QImage& b) {
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x) {
+      const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+      count += std::abs(qRed(p) - qRed(q)) + std::abs(qGreen(p) - qGreen(q)) + std::abs(qBlue(p) - qBlue(q)) > 30;
+    }
+  return count;
+}
+
+class Looks : public ::testing::Test {
+ protected:
+  Looks() {
+    view_.resize(600, 450);
+    view_.setOverlayVisible(false);
+    view_.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&view_));
+  }
+  QImage picture(const ScenePlan& plan, const SceneFrame* frame = nullptr) {
+    view_.setPlan(plan);
+    if (frame != nullptr) view_.showFrame(*frame);
+    return view_.grabScene().convertToFormat(QImage::Format_RGB32);
+  }
+  SceneView view_;
+};
+
+TEST_F(Looks, GridShadowArrowAndColoursAreSeen) {
+  const QImage plain = picture(planWith({}));
+  experiment::SceneLook look;
+  look.depthCue = "grid";
+  const QImage grid = picture(planWith(look));
+  EXPECT_GT(differing(plain, grid), 300);
+  look.depthCue = "shadow";
+  EXPECT_GT(differing(grid, picture(planWith(look))), 20);
+  look = {};
+  look.colours["background_top"] = look.colours["background_bottom"] = "#ffffff";
+  EXPECT_GT(qGray(picture(planWith(look)).pixel(5, 5)), 240);
+  look = {};
+  look.forceArrow = true;
+  const ScenePlan plan = planWith(look);
+  SceneFrame frame = restingFrame(plan);
+  const QImage without = picture(plan, &frame);
+  frame.force = {0, 6, 0};
+  EXPECT_GT(differing(without, picture(plan, &frame)), 100) << "6 N, three tenths of the reach";
+}
+
+TEST(Trace, IsOfOneTrialAndItsMemoryIsBounded) {
+  vtkNew<vtkRenderer> renderer;
+  experiment::SceneLook look;
+  look.trace = true;
+  const ScenePlan plan = planWith(look);
+  CueActors cues(*renderer, plan);
+  SceneFrame frame = restingFrame(plan);
+  frame.trial = 1;
+  cues.show(frame);
+  EXPECT_EQ(cues.tracePointCount(), 0) << "waiting is no way";
+  frame.traced = true;
+  for (int i = 0; i < 3 * CueActors::kTracePoints; ++i) {
+    frame.hand.x = (i % 2 == 0 ? 0.01 : 0.02) * plan.unit;
+    cues.show(frame);
+  }
+  EXPECT_GT(cues.tracePointCount(), CueActors::kTracePoints / 3);
+  EXPECT_LE(cues.tracePointCount(), CueActors::kTracePoints);
+  frame.trial = 2;
+  cues.show(frame);
+  EXPECT_LE(cues.tracePointCount(), 1);
+}
+
+TEST(ParallelProjection, KeepsSizesAndFindsItsPointsAgain) {
+  const ScenePlan plan = planWith({}, "torus");
+  Camera camera = lookAtPoints(plan.seen, 0.1 * plan.size, plan.viewFrom, 1.5, true);
+  EXPECT_TRUE(camera.parallel);
+  EXPECT_DOUBLE_EQ(metresPerPixel(camera, plan.start, 600), metresPerPixel(camera, plan.target, 600));
+  for (const Vec3& p : plan.seen) {
+    const auto [x, y] = pixelOf(camera, p, 900, 600);
+    EXPECT_TRUE(x > 0 && x < 900 && y > 0 && y < 600) << x << ", " << y;
+    EXPECT_NEAR(norm(pointUnder(camera, p, x, y, 900, 600) - p), 0, 1e-9);
+  }
+}
+
+TEST(LightTheme, KeepsItsContrast) {
+  using namespace widgets;
+  const auto luminance = [](const Colour& c) {
+    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue) + 0.05;
+  };
+  const auto contrast = [&](const Colour& a, const Colour& b) { return std::max(luminance(a) / luminance(b), luminance(b) / luminance(a)); };
+  for (const Theme theme : {Theme::Dark, Theme::Light}) {
+    setTheme(theme);
+    for (const Colour& ground : {colours::kWindow, colours::kBase, colours::kSkyTop}) {
+      EXPECT_GE(contrast(themed(colours::kText), themed(ground)), 7);
+      EXPECT_GE(contrast(themed(colours::kFaintText), themed(ground)), 4.5);
+    }
+    for (const Colour& part : {colours::kDriven, colours::kLast, colours::kHand, colours::kRail, colours::kTarget})
+      EXPECT_GE(contrast(themed(part), themed(colours::kSkyTop)), 3) << static_cast<int>(theme) << ": " << part.red << " " << part.green;
+  }
+  setTheme(Theme::Dark);
+}
+
+}  // namespace
+}  // namespace reachlab::gui::scene
