@@ -108,6 +108,8 @@ void EpsilonPanel::show(const analyze::StudyResult& study, std::size_t condition
   QStringList out;
   for (const auto& [why, count] : r.exclusions) out << tr("%1 × %2").arg(count).arg(QString::fromStdString(why));
   if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(QStringLiteral(", ")));
+  const bool anyFitted = best[kFitted] >= 0;
+  if (!anyFitted) words += tr(". ε is fitted from %1 counted trials of a person on").arg(analyze::kFewestTrials);
   if (r.onlyFailures) words += tr(". None succeeded: the failed ones are described");
   told_->setText(words + QLatin1Char('.'));
 }

@@ -3,40 +3,30 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QShortcut>
 #include <QSignalBlocker>
 #include <QSplitter>
-#include <QStandardPaths>
 #include <QTableView>
 #include <QTimer>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "base/ending.h"
-#include "base/fault.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
 #include "gui/inspector/study_lines.h"
-#include "sim/record/append_file.h"
 
 namespace reachlab::gui::inspector {
 namespace {
 
 constexpr int kSoonMs = 150;          // a choice that is still being dragged is not read yet
 constexpr int kMostInspected = 1000;  // more lines are a blot, and the report is for all of them
-constexpr int kMostGhosts = 8;
-
-QString indexFolder() { return QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + QStringLiteral("/reachlab"); }
 
 }  // namespace
 
@@ -90,107 +80,6 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
 
 InspectorPage::~InspectorPage() {
   if (openingStop_) *openingStop_ = true;
-}
-
-void InspectorPage::addTop(QVBoxLayout& layout) {
-  auto* top = new QHBoxLayout;
-  auto* openButton = new QToolButton;
-  openButton->setText(tr("Open"));
-  openButton->setObjectName(QStringLiteral("inspectorOpen"));
-  openButton->setPopupMode(QToolButton::InstantPopup);
-  auto* menu = new QMenu(openButton);
-  menu->addAction(tr("Dataset…"), this, [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset or a session"), path_);
-    if (!folder.isEmpty()) open(folder);
-  });
-  menu->addAction(tr("Recording…"), this, [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open a recording"), path_, tr("Recordings (*.reach)"));
-    if (!file.isEmpty()) open(file);
-  });
-  menu->addAction(tr("Look again"), this, [this] {
-    if (!path_.isEmpty()) open(path_);
-  });
-  openButton->setMenu(menu);
-  title_ = new QLabel(tr("No recording is open."));
-  title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
-  words_ = new QLineEdit;
-  words_->setObjectName(QStringLiteral("inspectorFilter"));
-  words_->setPlaceholderText(tr("filter: words of a row, e.g. sub-03 fast success"));
-  words_->setClearButtonEnabled(true);
-  words_->setMinimumWidth(260);
-  count_ = new QLabel;
-  count_->setObjectName(QStringLiteral("inspectorCount"));
-  count_->setProperty("role", "quiet");
-  progress_ = new QProgressBar;
-  progress_->setObjectName(QStringLiteral("inspectorProgress"));
-  progress_->setMaximumWidth(230);
-  progress_->hide();
-  cancel_ = new QPushButton(tr("Cancel"));
-  cancel_->setObjectName(QStringLiteral("inspectorCancel"));
-  cancel_->hide();
-  auto* exportButton = new QToolButton;
-  exportButton->setText(tr("Export"));
-  exportButton->setPopupMode(QToolButton::InstantPopup);
-  auto* exports = new QMenu(exportButton);
-  exports->addAction(tr("Figure or lines of the chosen trials…"), this, &InspectorPage::saveFigure);
-  exports->addAction(tr("Table as it is shown…"), this, &InspectorPage::saveTable);
-  exportButton->setMenu(exports);
-  report_ = new QPushButton(tr("Report"));
-  report_->setObjectName(QStringLiteral("inspectorReport"));
-  report_->setToolTip(tr("analyses everything that is open, as `reach analyze` does, and shows the report"));
-  report_->setEnabled(false);
-  top->addWidget(openButton);
-  top->addWidget(title_);
-  top->addWidget(words_, 1);
-  top->addWidget(count_);
-  top->addWidget(progress_);
-  top->addWidget(cancel_);
-  top->addWidget(exportButton);
-  top->addWidget(report_);
-  layout.addLayout(top);
-}
-
-QWidget* InspectorPage::makeRight() {
-  auto* right = new QWidget;
-  auto* column = new QVBoxLayout(right);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(3);
-  auto* row = new QHBoxLayout;
-  signal_ = new QComboBox;
-  signal_->setObjectName(QStringLiteral("inspectorSignal"));
-  signal_->addItems({tr("velocity of the hand"), tr("velocity of the last mass")});
-  axis_ = new QComboBox;
-  axis_->setObjectName(QStringLiteral("inspectorAxis"));
-  axis_->addItems({tr("as moved"), tr("time-scaled to the mean")});
-  predicted_ = new QCheckBox(tr("predicted for T"));
-  predicted_->setChecked(true);
-  fitted_ = new QCheckBox(tr("fitted"));
-  fitted_->setObjectName(QStringLiteral("inspectorFitted"));
-  fitted_->setChecked(true);
-  fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials; from ten trials on"));
-  for (QWidget* widget : std::initializer_list<QWidget*>{signal_, axis_, predicted_, fitted_}) row->addWidget(widget);
-  row->addStretch(1);
-  column->addLayout(row);
-  plot_ = new ProfilePlot;
-  plot_->setObjectName(QStringLiteral("inspectorPlot"));
-  replay_ = new ReplayView;
-  epsilons_ = new EpsilonPanel;
-  auto* below = new QSplitter(Qt::Horizontal);
-  below->addWidget(replay_);
-  below->addWidget(epsilons_);
-  below->setStretchFactor(0, 3);
-  below->setStretchFactor(1, 2);
-  below->setSizes({520, 340});
-  below->setChildrenCollapsible(false);
-  auto* halves = new QSplitter(Qt::Vertical);
-  halves->addWidget(plot_);
-  halves->addWidget(below);
-  halves->setStretchFactor(0, 1);
-  halves->setStretchFactor(1, 1);
-  halves->setSizes({420, 400});
-  halves->setChildrenCollapsible(false);
-  column->addWidget(halves, 1);
-  return right;
 }
 
 void InspectorPage::wire() {
@@ -270,68 +159,6 @@ void InspectorPage::addKeys() {
   key(Qt::Key_Comma, [this] { replay_->step(-1); });
   key(Qt::Key_Period, [this] { replay_->step(1); });
   key(QKeySequence(QStringLiteral("Ctrl+F")), [this] { words_->setFocus(), words_->selectAll(); });
-}
-
-void InspectorPage::open(const QString& path) {
-  inspector_.cancel();
-  if (openingStop_) *openingStop_ = true;
-  path_ = path;
-  Q_EMIT said({});
-  openingDone_ = std::make_shared<std::atomic<int>>(0);
-  openingOf_ = std::make_shared<std::atomic<int>>(0);
-  openingStop_ = std::make_shared<std::atomic<bool>>(false);
-  opening_ = std::async(std::launch::async, [path = path.toStdString(), folder = indexFolder().toStdString(), done = openingDone_,
-                                             of = openingOf_, stop = openingStop_] {
-    return record::openTrialIndex(path, record::indexFileFor(path, folder), [&](std::size_t now, std::size_t all) {
-      *done = static_cast<int>(now);
-      *of = static_cast<int>(all);
-      return !*stop;
-    });
-  });
-  opener_->start();
-  pollOpening();
-}
-
-void InspectorPage::pollOpening() {
-  if (!opening_.valid()) return opener_->stop();
-  if (opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    progress_->setRange(0, *openingOf_);
-    progress_->setValue(*openingDone_);
-    progress_->setFormat(tr("indexing %v / %m"));
-    progress_->setVisible(*openingOf_ > 0);
-    cancel_->setVisible(*openingOf_ > 0);
-    return;
-  }
-  opener_->stop();
-  progress_->hide();
-  cancel_->hide();
-  try {
-    opened(opening_.get());
-  } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
-  }
-}
-
-void InspectorPage::opened(record::TrialIndex index) {
-  logs_.clear();
-  experiments_.clear();
-  inspection_.reset();
-  inspectedRows_.clear();
-  picked_ = -1;
-  QStringList unread;
-  for (const std::string& sentence : index.unreadable) unread << QString::fromStdString(sentence);
-  table_->setIndex(std::move(index));
-  if (!unread.isEmpty()) Q_EMIT said(unread.join(QLatin1Char('\n')));
-  title_->setText(QFileInfo(path_).fileName().isEmpty() ? path_ : QFileInfo(path_).fileName());
-  title_->setToolTip(path_);
-  count_->setText(tr("%1 trials, %2 runs").arg(table_->rowCount()).arg(table_->recordings().runs.size()));
-  const int widths[] = {58, 58, 124, 36, 42, 126, 54, 78, 66, 66, 80};
-  for (int column = 0; column < TrialTable::kColumns; ++column) view_->setColumnWidth(column, widths[column]);
-  report_->setEnabled(table_->rowCount() > 0);
-  marks_->clear();
-  replay_->clear();
-  draw();
-  if (filter_->rowCount() > 0) view_->selectRow(0);
 }
 
 std::vector<int> InspectorPage::chosenRows() const {
@@ -452,135 +279,6 @@ void InspectorPage::draw() {
   plot_->setMean(mean.x, mean.mean, mean.sd);
   plot_->setPredictions(predictions);
   showPicked();
-}
-
-void InspectorPage::pick(int row) {
-  if (row == picked_) return;
-  picked_ = row;
-  showPicked();
-}
-
-const record::RunLog& InspectorPage::logOf(const std::string& path) {
-  const auto known = logs_.find(path);
-  if (known != logs_.end()) return known->second;
-  if (logs_.size() > 8) logs_.clear();
-  return logs_.emplace(path, record::RunLog::open(path, record::LogCheck::Trials)).first->second;
-}
-
-const experiment::CompiledExperiment& InspectorPage::experimentOf(const record::RunLog& log) {
-  const record::RunConfiguration& c = log.configuration();
-  const std::string key = c.experimentText + '\0' + c.definitionText;
-  const auto known = experiments_.find(key);
-  if (known != experiments_.end()) return known->second;
-  return experiments_.emplace(key, experiment::openExperimentText(c.experimentText, log.path(), c.definitionText)).first->second;
-}
-
-void InspectorPage::showPicked() {
-  const auto line = lineOf(picked_);
-  plot_->setPicked(line ? static_cast<int>(*line) : -1);
-  if (!line) {
-    plot_->setMarks({}, {});
-    marks_->clear();
-    return;
-  }
-  try {
-    const auto trackOf = [&](std::size_t i) {
-      const int row = inspectedRows_[i];
-      return ReplayView::Track{Replay(logOf(table_->run(row).path), table_->trial(row)), zeroOf(*inspection_, i)};
-    };
-    const record::RunLog& log = logOf(table_->run(picked_).path);
-    std::vector<ReplayView::Track> ghosts;
-    for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
-      if (i != *line && inspectedRows_[i] >= 0 && table_->run(inspectedRows_[i]).condition == table_->run(picked_).condition) ghosts.push_back(trackOf(i));
-    replay_->show(experimentOf(log), trackOf(*line), std::move(ghosts));
-    const record::IndexedRun& run = table_->run(picked_);
-    const analyze::Movement& move = inspection_->signals[*line].movement;
-    const double first = inspection_->input.trials[*line].first;
-    const bool asMoved = axis_->currentIndex() == 0;
-    plot_->setMarks(move.found && asMoved ? std::optional(0.0) : std::nullopt,
-                    move.found && asMoved ? std::optional(move.duration()) : std::nullopt);
-    marks_->show(tr("subject %1, session %2, run %3, trial %4")
-                     .arg(QString::fromStdString(run.subject), QString::fromStdString(run.session))
-                     .arg(run.run)
-                     .arg(table_->trial(picked_).trial),
-                 table_->mark(picked_), move.found ? first + move.onset : std::nan(""), move.found ? first + move.offset : std::nan(""));
-  } catch (const std::exception& e) {
-    replay_->clear();
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
-  }
-}
-
-void InspectorPage::marksDragged(double onset, double end, bool done) {
-  const auto line = lineOf(picked_);
-  if (!line || !done) return;
-  const double zero = zeroOf(*inspection_, *line);
-  const analyze::Movement& move = inspection_->signals[*line].movement;
-  if (!(onset < end)) return showPicked();  // an onset behind the end is none
-  try {
-    record::TrialMark mark = table_->mark(picked_);
-    if (std::abs(onset) > 1e-4) mark.onset = std::max(0.0, zero + onset);
-    if (std::abs(end - move.duration()) > 1e-4) mark.offset = zero + end;
-    setMark(mark);
-  } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
-  }
-}
-
-void InspectorPage::setMark(const record::TrialMark& mark) {
-  if (picked_ < 0) return;
-  try {
-    const record::TrialMark before = table_->mark(picked_);
-    table_->setMark(picked_, mark);
-    if (mark.excluded != before.excluded || mark.onset != before.onset || mark.offset != before.offset) inspect();  // other numbers
-    else showPicked();
-  } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
-  }
-}
-
-void InspectorPage::exportTo(const QString& file) {
-  if (!inspection_ || inspection_->input.trials.empty()) throw FaultError(Fault{"trials", "none is chosen", "rows of the table"});
-  if (QFileInfo(file).suffix().toLower() == QLatin1String("csv")) {
-    record::writeFileAtomically(file.toStdString(), linesCsv(*inspection_));
-    return;
-  }
-  const TimeAxis axis = axis_->currentIndex() == 0 ? TimeAxis::AsMoved : TimeAxis::Scaled;
-  figure::writeFigure(figureOf(*inspection_, condition(), axis, epsilons_->chosen()), file.toStdString());
-}
-
-void InspectorPage::exportTable(const QString& file) {
-  std::vector<int> rows;
-  for (int row = 0; row < filter_->rowCount(); ++row) rows.push_back(filter_->mapToSource(filter_->index(row, 0)).row());
-  record::writeFileAtomically(file.toStdString(), toCsv(*table_, rows));
-}
-
-void InspectorPage::saveFigure() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Export figure or lines"), QStringLiteral("trials.svg"),
-                                                    tr("Figure as SVG (*.svg);;Figure as PDF (*.pdf);;Figure as PNG (*.png);;Lines as CSV (*.csv)"));
-  if (file.isEmpty()) return;
-  try {
-    exportTo(file);
-    Q_EMIT said(tr("Written: %1").arg(file));
-  } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
-  }
-}
-
-void InspectorPage::saveTable() {
-  QString file = QFileDialog::getSaveFileName(this, tr("Export table"), QStringLiteral("trials.csv"), tr("CSV (*.csv)"));
-  if (file.isEmpty()) return;
-  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".csv");
-  try {
-    exportTable(file);
-    Q_EMIT said(tr("Written: %1").arg(file));
-  } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
-  }
-}
-
-void InspectorPage::openReport() {
-  report_->setEnabled(false);
-  inspector_.report(path_);
 }
 
 }  // namespace reachlab::gui::inspector

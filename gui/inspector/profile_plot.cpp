@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::inspector {
@@ -75,6 +76,7 @@ struct ProfilePlot::Impl {
   int pickedLine = -1;
   enum class Drag { None, Cursor, Onset, End } drag = Drag::None;
   QPoint pressedAt;
+  double markAtPress = 0;
   bool moved = false;
 
   double xAt(int pixel) const { return plot->invTransform(QwtPlot::xBottom, pixel); }
@@ -118,19 +120,19 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
     plot->setAxisFont(axis, font);
   }
   impl_->grid = std::make_unique<QwtPlotGrid>();
-  impl_->grid->setPen(QPen(QColor(255, 255, 255, 26), 0));
+  impl_->grid->setPen(QPen(widgets::ink(26), 0));
   impl_->grid->attach(plot);
   impl_->band = std::make_unique<QwtPlotIntervalCurve>(tr("± SD"));
-  impl_->band->setBrush(QColor(255, 255, 255, 34));
+  impl_->band->setBrush(widgets::ink(34));
   impl_->band->setPen(QPen(Qt::NoPen));
   impl_->band->setZ(12);
   impl_->band->attach(plot);
   impl_->picked = makeCurve(*plot, QPen(widgets::toQColor(widgets::colours::kLast), 2.2), 40, tr("picked"));
-  impl_->mean = makeCurve(*plot, QPen(Qt::white, 2.6), 30, tr("mean"));
+  impl_->mean = makeCurve(*plot, QPen(widgets::ink(255), 2.6), 30, tr("mean"));
   const QColor mark = widgets::toQColor(widgets::colours::kTarget);
   impl_->onset = makeMark(*plot, mark, Qt::DashLine, tr("onset"));
   impl_->end = makeMark(*plot, mark, Qt::DashLine, tr("end"));
-  impl_->cursor = makeMark(*plot, QColor(255, 255, 255, 150), Qt::SolidLine, {});
+  impl_->cursor = makeMark(*plot, widgets::ink(150), Qt::SolidLine, {});
   auto* legend = new QwtLegend;
   legend->setDefaultItemMode(QwtLegendData::ReadOnly);
   plot->insertLegend(legend, QwtPlot::RightLegend);
@@ -223,6 +225,8 @@ QPoint ProfilePlot::pixelOf(double x, double y) const {
   return impl_->plot->canvas()->mapTo(const_cast<ProfilePlot*>(this), at);
 }
 
+double ProfilePlot::timeAt(const QPoint& at) const { return impl_->xAt(impl_->plot->canvas()->mapFrom(const_cast<ProfilePlot*>(this), at).x()); }
+
 bool ProfilePlot::eventFilter(QObject* watched, QEvent* event) {
   Impl& d = *impl_;
   using Drag = Impl::Drag;
@@ -234,6 +238,7 @@ bool ProfilePlot::eventFilter(QObject* watched, QEvent* event) {
       d.pressedAt = mouse->pos();
       d.moved = false;
       d.drag = d.near(*d.onset, mouse->x()) ? Drag::Onset : d.near(*d.end, mouse->x()) ? Drag::End : Drag::Cursor;
+      d.markAtPress = (d.drag == Drag::End ? *d.end : *d.onset).xValue();
       return true;
     case QEvent::MouseMove:
       if (d.drag == Drag::None) break;
@@ -242,7 +247,7 @@ bool ProfilePlot::eventFilter(QObject* watched, QEvent* event) {
       if (d.drag == Drag::Cursor) {
         Q_EMIT cursorMoved(d.xAt(mouse->x()));
       } else {
-        (d.drag == Drag::Onset ? *d.onset : *d.end).setXValue(d.xAt(mouse->x()));
+        (d.drag == Drag::Onset ? *d.onset : *d.end).setXValue(d.markAtPress + d.xAt(mouse->x()) - d.xAt(d.pressedAt.x()));
         d.plot->replot();
         Q_EMIT marksMoved(d.onset->xValue(), d.end->xValue(), false);
       }

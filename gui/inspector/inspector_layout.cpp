@@ -1,0 +1,123 @@
+// InspectorPage: the row at the top, and the right half.
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSplitter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "gui/inspector/epsilon_panel.h"
+#include "gui/inspector/inspector.h"
+#include "gui/inspector/profile_plot.h"
+#include "gui/inspector/replay_view.h"
+
+namespace reachlab::gui::inspector {
+
+void InspectorPage::addTop(QVBoxLayout& layout) {
+  auto* top = new QHBoxLayout;
+  auto* openButton = new QToolButton;
+  openButton->setText(tr("Open"));
+  openButton->setObjectName(QStringLiteral("inspectorOpen"));
+  openButton->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(openButton);
+  menu->addAction(tr("Dataset…"), this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset or a session"), path_);
+    if (!folder.isEmpty()) open(folder);
+  });
+  menu->addAction(tr("Recording…"), this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open a recording"), path_, tr("Recordings (*.reach)"));
+    if (!file.isEmpty()) open(file);
+  });
+  menu->addAction(tr("Look again"), this, [this] {
+    if (!path_.isEmpty()) open(path_);
+  });
+  openButton->setMenu(menu);
+  title_ = new QLabel(tr("No recording is open."));
+  title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
+  words_ = new QLineEdit;
+  words_->setObjectName(QStringLiteral("inspectorFilter"));
+  words_->setPlaceholderText(tr("filter: words of a row, e.g. sub-03 fast success"));
+  words_->setClearButtonEnabled(true);
+  words_->setMinimumWidth(260);
+  count_ = new QLabel;
+  count_->setObjectName(QStringLiteral("inspectorCount"));
+  count_->setProperty("role", "quiet");
+  progress_ = new QProgressBar;
+  progress_->setObjectName(QStringLiteral("inspectorProgress"));
+  progress_->setMaximumWidth(230);
+  progress_->hide();
+  cancel_ = new QPushButton(tr("Cancel"));
+  cancel_->setObjectName(QStringLiteral("inspectorCancel"));
+  cancel_->hide();
+  auto* exportButton = new QToolButton;
+  exportButton->setText(tr("Export"));
+  exportButton->setPopupMode(QToolButton::InstantPopup);
+  auto* exports = new QMenu(exportButton);
+  exports->addAction(tr("Figure or lines of the chosen trials…"), this, &InspectorPage::saveFigure);
+  exports->addAction(tr("Table as it is shown…"), this, &InspectorPage::saveTable);
+  exportButton->setMenu(exports);
+  report_ = new QPushButton(tr("Report"));
+  report_->setObjectName(QStringLiteral("inspectorReport"));
+  report_->setToolTip(tr("analyses everything that is open, as `reach analyze` does, and shows the report"));
+  report_->setEnabled(false);
+  top->addWidget(openButton);
+  top->addWidget(title_);
+  top->addWidget(words_, 1);
+  top->addWidget(count_);
+  top->addWidget(progress_);
+  top->addWidget(cancel_);
+  top->addWidget(exportButton);
+  top->addWidget(report_);
+  layout.addLayout(top);
+}
+
+QWidget* InspectorPage::makeRight() {
+  auto* right = new QWidget;
+  auto* column = new QVBoxLayout(right);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(3);
+  auto* row = new QHBoxLayout;
+  signal_ = new QComboBox;
+  signal_->setObjectName(QStringLiteral("inspectorSignal"));
+  signal_->addItems({tr("velocity of the hand"), tr("velocity of the last mass")});
+  axis_ = new QComboBox;
+  axis_->setObjectName(QStringLiteral("inspectorAxis"));
+  axis_->addItems({tr("as moved"), tr("time-scaled to the mean")});
+  predicted_ = new QCheckBox(tr("predicted for T"));
+  predicted_->setChecked(true);
+  fitted_ = new QCheckBox(tr("fitted"));
+  fitted_->setObjectName(QStringLiteral("inspectorFitted"));
+  fitted_->setChecked(true);
+  fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials; from ten trials on"));
+  for (QWidget* widget : std::initializer_list<QWidget*>{signal_, axis_, predicted_, fitted_}) row->addWidget(widget);
+  row->addStretch(1);
+  column->addLayout(row);
+  plot_ = new ProfilePlot;
+  plot_->setObjectName(QStringLiteral("inspectorPlot"));
+  replay_ = new ReplayView;
+  epsilons_ = new EpsilonPanel;
+  auto* below = new QSplitter(Qt::Horizontal);
+  below->addWidget(replay_);
+  below->addWidget(epsilons_);
+  below->setStretchFactor(0, 3);
+  below->setStretchFactor(1, 2);
+  below->setSizes({520, 340});
+  below->setChildrenCollapsible(false);
+  auto* halves = new QSplitter(Qt::Vertical);
+  halves->addWidget(plot_);
+  halves->addWidget(below);
+  halves->setStretchFactor(0, 1);
+  halves->setStretchFactor(1, 1);
+  halves->setSizes({420, 400});
+  halves->setChildrenCollapsible(false);
+  column->addWidget(halves, 1);
+  return right;
+}
+
+}  // namespace reachlab::gui::inspector

@@ -1,0 +1,104 @@
+// InspectorPage: the one trial that is looked at: its replay, its marks.
+#include <QComboBox>
+#include <cmath>
+
+#include "base/ending.h"
+#include "base/fault.h"
+#include "gui/inspector/inspector.h"
+#include "gui/inspector/marks_panel.h"
+#include "gui/inspector/profile_plot.h"
+#include "gui/inspector/replay_view.h"
+#include "gui/inspector/study_lines.h"
+
+namespace reachlab::gui::inspector {
+namespace {
+
+constexpr int kMostGhosts = 8;
+
+}  // namespace
+
+void InspectorPage::pick(int row) {
+  if (row == picked_) return;
+  picked_ = row;
+  showPicked();
+}
+
+const record::RunLog& InspectorPage::logOf(const std::string& path) {
+  const auto known = logs_.find(path);
+  if (known != logs_.end()) return known->second;
+  if (logs_.size() > 8) logs_.clear();
+  return logs_.emplace(path, record::RunLog::open(path, record::LogCheck::Trials)).first->second;
+}
+
+const experiment::CompiledExperiment& InspectorPage::experimentOf(const record::RunLog& log) {
+  const record::RunConfiguration& c = log.configuration();
+  const std::string key = c.experimentText + '\0' + c.definitionText;
+  const auto known = experiments_.find(key);
+  if (known != experiments_.end()) return known->second;
+  return experiments_.emplace(key, experiment::openExperimentText(c.experimentText, log.path(), c.definitionText)).first->second;
+}
+
+void InspectorPage::showPicked() {
+  const auto line = lineOf(picked_);
+  plot_->setPicked(line ? static_cast<int>(*line) : -1);
+  if (!line) {
+    plot_->setMarks({}, {});
+    marks_->clear();
+    return;
+  }
+  try {
+    const auto trackOf = [&](std::size_t i) {
+      const int row = inspectedRows_[i];
+      return ReplayView::Track{Replay(logOf(table_->run(row).path), table_->trial(row)), zeroOf(*inspection_, i)};
+    };
+    const record::RunLog& log = logOf(table_->run(picked_).path);
+    std::vector<ReplayView::Track> ghosts;
+    for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
+      if (i != *line && inspectedRows_[i] >= 0 && table_->run(inspectedRows_[i]).condition == table_->run(picked_).condition) ghosts.push_back(trackOf(i));
+    replay_->show(experimentOf(log), trackOf(*line), std::move(ghosts));
+    const record::IndexedRun& run = table_->run(picked_);
+    const analyze::Movement& move = inspection_->signals[*line].movement;
+    const double first = inspection_->input.trials[*line].first;
+    const bool asMoved = axis_->currentIndex() == 0;
+    plot_->setMarks(move.found && asMoved ? std::optional(0.0) : std::nullopt,
+                    move.found && asMoved ? std::optional(move.duration()) : std::nullopt);
+    marks_->show(tr("subject %1, session %2, run %3, trial %4")
+                     .arg(QString::fromStdString(run.subject), QString::fromStdString(run.session))
+                     .arg(run.run)
+                     .arg(table_->trial(picked_).trial),
+                 table_->mark(picked_), move.found ? first + move.onset : std::nan(""), move.found ? first + move.offset : std::nan(""));
+  } catch (const std::exception& e) {
+    replay_->clear();
+    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+  }
+}
+
+void InspectorPage::marksDragged(double onset, double end, bool done) {
+  const auto line = lineOf(picked_);
+  if (!line || !done) return;
+  const double zero = zeroOf(*inspection_, *line);
+  const analyze::Movement& move = inspection_->signals[*line].movement;
+  if (!(onset < end)) return showPicked();  // an onset behind the end is none
+  try {
+    record::TrialMark mark = table_->mark(picked_);
+    if (std::abs(onset) > 1e-4) mark.onset = std::max(0.0, zero + onset);
+    if (std::abs(end - move.duration()) > 1e-4) mark.offset = zero + end;
+    setMark(mark);
+  } catch (const std::exception& e) {
+    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+  }
+}
+
+void InspectorPage::setMark(const record::TrialMark& mark) {
+  if (picked_ < 0) return;
+  try {
+    const record::TrialMark before = table_->mark(picked_);
+    table_->setMark(picked_, mark);
+    if (mark.excluded != before.excluded || mark.onset != before.onset || mark.offset != before.offset) inspect();  // other numbers
+    else showPicked();
+  } catch (const std::exception& e) {
+    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+  }
+}
+
+}  // namespace reachlab::gui::inspector
