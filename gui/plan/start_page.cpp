@@ -27,7 +27,7 @@ QString stateOf(const session::BlockStanding& block) {
 
 StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   setObjectName(QStringLiteral("startPage"));
-  setStyleSheet(QStringLiteral("#startPage { background: rgba(24, 28, 35, 245); border: 1px solid #46505f; border-radius: 8px; }"));
+  setStyleSheet(QStringLiteral("#startPage { background: #181c23; border: 1px solid #46505f; border-radius: 8px; }"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(24, 18, 24, 18);
   layout->setSpacing(9);
