@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <QDir>
-#include <QFileInfo>
 #include <QTest>
 
 #include "gui/scene/scene_view.h"
@@ -62,15 +61,15 @@ class Figures : public ::testing::Test {
   QImage picture() { return view_.grabScene().convertToFormat(QImage::Format_RGB32); }
   QImage kept(const std::string& name) {
     const QString folder = QStringLiteral(REACHLAB_SOURCE_DIR "/tests/gui/scene/figures/");
-    if (const QByteArray anew = qgetenv("REACHLAB_KEEP_PICTURES"); !anew.isEmpty()) {
-      QDir().mkpath(QString::fromLocal8Bit(anew));
-      EXPECT_TRUE(picture().save(QString::fromLocal8Bit(anew) + QLatin1Char('/') + QString::fromStdString(name) + QStringLiteral(".png")));
-    }
     QImage image(folder + QString::fromStdString(name) + QStringLiteral(".png"));
     EXPECT_FALSE(image.isNull()) << folder.toStdString() << name;
     return image.convertToFormat(QImage::Format_RGB32);
   }
   void compare(const std::string& name) {
+    if (const QByteArray anew = qgetenv("REACHLAB_KEEP_PICTURES"); !anew.isEmpty()) {
+      QDir().mkpath(QString::fromLocal8Bit(anew));
+      EXPECT_TRUE(picture().save(QString::fromLocal8Bit(anew) + QLatin1Char('/') + QString::fromStdString(name) + QStringLiteral(".png")));
+    }
     const Difference d = differenceOf(picture(), kept(name));
     EXPECT_FALSE(d.beyond()) << name << ": mean " << d.mean << ", worst cell " << d.worst;
     if (d.beyond()) picture().save(QDir::tempPath() + QStringLiteral("/reachlab-") + QString::fromStdString(name) + QStringLiteral(".png"));
