@@ -3,24 +3,32 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
-#include <cstring>
+#include <cstdint>
+
+#include "base/os.h"
 
 namespace reachlab {
 namespace {
 
-constexpr int kPatienceUs = 800'000;  // so that the program has ended within a second of the signal
+constexpr std::int64_t kPatienceNs = 800'000'000;  // so that the program has ended within a second of the signal
 
 std::atomic<bool> stopAsked{false};
 std::atomic<int> firstSignal{0};
+std::atomic<std::int64_t> signalledNs{0};
 std::atomic<bool> orderIsKept{false};  // a StopRequest is there and not all is in order yet
 std::atomic<bool> tablesUnderWay{false};
-static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
 
 [[noreturn]] void endNow(int signal) { ::_exit(128 + signal); }
 
+// Counted from the signal, not from here: to put things in order may have taken its time.
 void startPatience() {
-  const itimerval once{{0, 0}, {0, kPatienceUs}};
+  constexpr std::int64_t kLeastNs = 1'000'000;  // nothing would be no alarm at all
+  const std::int64_t left = std::clamp(signalledNs + kPatienceNs - os::now(), kLeastNs, kPatienceNs);
+  const itimerval once{{0, 0}, {0, static_cast<suseconds_t>(left / 1000)}};
   ::setitimer(ITIMER_REAL, &once, nullptr);
 }
 
@@ -31,7 +39,9 @@ void onPatienceOver(int) {
 }
 
 void onSignal(int signal) {
-  const bool first = firstSignal.exchange(signal) == 0;
+  int none = 0;
+  const bool first = firstSignal.compare_exchange_strong(none, signal);
+  if (first) signalledNs = os::now();
   stopAsked = true;
   if (orderIsKept) return;
   if (!tablesUnderWay) endNow(signal);

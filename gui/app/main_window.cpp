@@ -2,7 +2,6 @@
 
 #include <QAction>
 #include <QCloseEvent>
-#include <QCoreApplication>
 #include <QDesktopServices>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -158,7 +157,6 @@ void MainWindow::wireSession() {
   for (const auto& sentence : {&SessionController::told, &SessionController::failed})
     connect(&session_, sentence, this, [this](const QString& words) { message_->say(words); });
   connect(&edits_.stack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
-  connect(&session_, &SessionController::stopped, this, [](int exitCode) { QCoreApplication::exit(exitCode); });
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
   connect(timer_, &QTimer::timeout, this, &MainWindow::oneFrame);

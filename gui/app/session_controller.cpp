@@ -3,6 +3,8 @@
 
 #include <QStringList>
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "base/ending.h"
@@ -38,9 +40,24 @@ QString wordsOf(const session::SessionNotice& notice) {
 
 SessionController::SessionController(const session::SessionRequest& request, QObject* parent)
     : QObject(parent), programme_(session::readProgramme(request.what)), shown_(firstExperiment(programme_, request)),
-      resume_(request.resume), asked_(request) {}
+      resume_(request.resume), asked_(request), endsOnSignal_([this](const std::stop_token& over) { endOnSignal(over); }) {}
 
-SessionController::~SessionController() = default;
+SessionController::~SessionController() {
+  const std::scoped_lock lock(changing_);
+  (void)putInOrder();  // nobody is left to be told
+}
+
+// First what cannot be done again: zero force, the trial marked, the log closed. What went wrong, in a sentence. With `changing_` held.
+std::optional<std::string> SessionController::putInOrder() {
+  if (run() == nullptr) return std::nullopt;
+  try {
+    run()->closeLog();
+    stop_->allInOrder();
+    return std::nullopt;
+  } catch (const std::exception& e) {
+    return endingOf(e).sentence;
+  }
+}
 
 void SessionController::setProgramme(const session::Programme& programme) {
   programme_ = programme;
@@ -53,6 +70,7 @@ void SessionController::setProgramme(const session::Programme& programme) {
     endAfterTrial_ = true;
   } else {
     endRun();
+    const std::scoped_lock lock(changing_);
     recorded_.reset();
   }
   Q_EMIT experimentChanged();
@@ -88,6 +106,7 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
 }
 
 void SessionController::openRun(const session::SessionRequest& request) {
+  const std::scoped_lock lock(changing_);
   if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) {
     session::SessionRequest asked = request;
     asked.resume = resume_;
@@ -109,6 +128,10 @@ void SessionController::openRun(const session::SessionRequest& request) {
   numberUsed_ = true;
   for (plot::TracePoint left; trace_.tryTake(left);) {}  // of the run before
   last_.reset();
+}
+
+void SessionController::tellOpened() {
+  if (run() == nullptr) return;
   if (isPlan()) {
     shown_ = run()->experiment();
     Q_EMIT experimentChanged();
@@ -117,11 +140,13 @@ void SessionController::openRun(const session::SessionRequest& request) {
 }
 
 void SessionController::resume() {
+  const std::scoped_lock lock(changing_);
   if (run() == nullptr) recorded_.reset();  // planned anew, from what is on the disk
   resume_ = true;
 }
 
 void SessionController::beginAnew() {
+  const std::scoped_lock lock(changing_);
   if (run() == nullptr) recorded_.reset();
   resume_ = false;
 }
@@ -144,25 +169,39 @@ bool SessionController::next(const session::SessionRequest& request) {
     endRun();
     if (isPlan() && recorded_->blocksLeft() == 0) return false;
   }
-  if (run() == nullptr) openRun(request);
-  if (run() == nullptr || !run()->putUpNext()) return false;
+  if (run() == nullptr) {
+    openRun(request);
+    tellOpened();
+  }
+  {
+    const std::scoped_lock lock(changing_);
+    if (run() == nullptr || !run()->putUpNext()) return false;
+  }
   Q_EMIT trialBegun();
   return true;
 }
 
 void SessionController::abort() {
+  const std::scoped_lock lock(changing_);
   if (run() != nullptr) run()->abort();
 }
 
 bool SessionController::repeat() {
+  const std::scoped_lock lock(changing_);
   if (run() == nullptr || !last_) return false;
   run()->repeat(last_->planned);
   return true;
 }
 
+bool SessionController::takeBackRepeat() {
+  const std::scoped_lock lock(changing_);
+  return run() != nullptr && run()->takeBackRepeat();
+}
+
 void SessionController::note(const QString& text) {
   if (run() == nullptr) return;
   try {
+    const std::scoped_lock lock(changing_);
     run()->note(text.toStdString());
   } catch (const Error& e) {
     fail(e);
@@ -174,12 +213,8 @@ void SessionController::endRun() {
   restUntil_ = {};
   endAfterTrial_ = false;
   mouse_ = nullptr;
-  try {
-    run()->closeLog();  // first what cannot be done again: zero force, the trial marked
-    stop_->allInOrder();
-  } catch (const std::exception& e) {
-    Q_EMIT failed(QString::fromUtf8(e.what()));
-  }
+  std::unique_lock lock(changing_);
+  if (const auto wrong = putInOrder()) Q_EMIT failed(QString::fromStdString(*wrong));
   try {
     const std::string dataset = asked_.place.data;
     recorded_->closeRun();
@@ -195,6 +230,7 @@ void SessionController::endRun() {
     Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
   }
   stop_.reset();
+  lock.unlock();
   Q_EMIT runClosed();
 }
 
@@ -204,11 +240,14 @@ void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
 }
 
 void SessionController::poll() {
-  if (StopRequest::asked()) return stopInOrder();
+  if (StopRequest::asked()) return;
   tellBackup();
   if (run() == nullptr) return;
   try {
-    const auto ended = run()->poll();
+    const auto ended = [this] {
+      const std::scoped_lock lock(changing_);
+      return run()->poll();
+    }();
     tellTiming();
     if (!ended) return;
     tellInstruments();
@@ -221,6 +260,7 @@ void SessionController::poll() {
     if (const auto fault = run()->fault()) throw ResourceError(*fault);
     if (!endAfterTrial_) return;
     endRun();
+    const std::scoped_lock lock(changing_);
     recorded_.reset();  // what is to be done next is another
   } catch (const std::exception& e) {
     fail(e);
@@ -249,17 +289,34 @@ void SessionController::tellBackup() {
   else Q_EMIT told(sentence);
 }
 
+void SessionController::endOnSignal(const std::stop_token& over) {
+  constexpr auto kLook = std::chrono::milliseconds(10);
+  while (!over.stop_requested() && !StopRequest::asked()) std::this_thread::sleep_for(kLook);
+  if (StopRequest::asked()) stopInOrder();
+}
+
+// The window is not asked, and its objects are left as they are: it may be in the midst of anything.
 void SessionController::stopInOrder() {
-  endRun();
-  Q_EMIT stopped(StopRequest::exitCode());
+  const std::scoped_lock lock(changing_);
+  auto wrong = putInOrder();
+  try {
+    if (run() != nullptr && !wrong) run()->finish();
+  } catch (const std::exception& e) {
+    wrong = endingOf(e).sentence;
+  }
+  if (wrong) std::fprintf(stderr, "%s\n", wrong->c_str());
+  std::_Exit(StopRequest::exitCode());
 }
 
 // The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
 void SessionController::fail(const std::exception& fault) {
   const QString sentence = QString::fromStdString(endingOf(fault).sentence);
   mouse_ = nullptr;
+  std::unique_lock lock(changing_);
+  (void)putInOrder();  // the fault itself is what is told
   recorded_.reset();
   stop_.reset();
+  lock.unlock();
   resume_ = isPlan();  // its other blocks are still to be done
   Q_EMIT failed(sentence);
   Q_EMIT runClosed();

@@ -3,7 +3,9 @@
 #include <QString>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "base/fault.h"
@@ -20,7 +22,8 @@ namespace reachlab::gui::app {
 
 /// The session behind the window: what is to be done, as opened or edited, and the run that is open. Knows no widget. Changes take effect
 /// between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so that each log holds one
-/// configuration.
+/// configuration. A signal that asks the program to end (base/stop_signals.h) ends it within a second whatever the window is busy with (a large
+/// picture, a table): the trial is kept as interrupted, and the log is closed, by a thread of its own.
 class SessionController : public QObject {
   Q_OBJECT
  public:
@@ -51,7 +54,7 @@ class SessionController : public QObject {
   /// The last trial once more, at the end of the run. False when there was none.
   bool repeat();
   /// The last repeat is not done after all. False when none is still to come.
-  bool takeBackRepeat() { return run() != nullptr && run()->takeBackRepeat(); }
+  bool takeBackRepeat();
   /// [s] that the plan rests yet before its next block; 0: it may begin.
   double restLeft() const;
   /// Of the block that is open or, once that is done, of the next; empty: none.
@@ -84,18 +87,19 @@ class SessionController : public QObject {
   void failed(const QString& sentence);
   /// Worth a word, and no fault.
   void told(const QString& sentence);
-  /// A signal asked the program to end: the run is closed in order, its trial kept as interrupted.
-  void stopped(int exitCode);
 
  private:
   void openRun(const session::SessionRequest& request);
+  void tellOpened();
   void showBlock(const session::SessionRequest& request);
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                         std::uint64_t seed);
   void fail(const std::exception& fault);
+  std::optional<std::string> putInOrder();
   void tellTiming();
   void tellInstruments();
   void tellBackup();
+  void endOnSignal(const std::stop_token& over);
   void stopInOrder();
 
   session::Programme programme_;
@@ -114,6 +118,8 @@ class SessionController : public QObject {
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
   std::chrono::steady_clock::time_point restUntil_{};
+  std::mutex changing_;         // held by whoever changes the run that is open or looks whether there is one: the window, or the thread below
+  std::jthread endsOnSignal_;   // last: it looks at all of the above
 };
 
 /// What is worth a word before a session, as the window says it; empty: nothing.

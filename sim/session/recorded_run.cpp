@@ -238,10 +238,13 @@ void RecordedRun::abort() {
 void RecordedRun::closeLog() {
   if (std::exchange(closed_, true)) return;
   awaited_ = false;  // never put up
-  if (underWay()) conductor_->interrupt();
-  for (int looks = 0; looks < kLooks && underWay(); ++looks) {
-    (void)conductor_->poll();
-    std::this_thread::sleep_for(kLook);
+  if (conductor_->underWay()) {
+    conductor_->interrupt();
+    if (options_.virtualClock) (void)conductor_->poll();
+    // In real time by the recorder's word: a window that shows the newest state meanwhile is not disturbed, and a device that hangs is no fault here.
+    const int trial = block_.configuration.firstTrial + static_cast<int>(conducted_);
+    for (int looks = 0; looks < kLooks && !options_.virtualClock && recorder_->lastTrial().trial < trial; ++looks)
+      std::this_thread::sleep_for(kLook);
   }
   if (started_ && !options_.virtualClock) {
     timing_ = describe(report());

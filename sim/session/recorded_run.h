@@ -71,7 +71,7 @@ class RecordedRun {
   void recordPeers(std::span<const std::uint8_t> payload) { recorder_->append(record::RecordType::PeerTicks, payload); }
 
   /// Interrupts the trial under way, stops the loop with zero force, notes how well it kept time and closes the log: all that was recorded is
-  /// then in order. Idempotent.
+  /// then in order. Idempotent. Also from another thread, while the controlling one calls nothing that is not const.
   void closeLog();
   /// closeLog, and writes the run into the dataset by every exporter that is due. Idempotent. Throws DatasetError.
   void finish();

@@ -7,6 +7,7 @@
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QThread>
 #include <fstream>
 
 #include "base/stop_signals.h"
@@ -18,7 +19,7 @@
 namespace reachlab::gui::app {
 namespace {
 
-enum class Stage { Resting, Checking, InATrial, Between };
+enum class Stage { Resting, Checking, InATrial, Between, Busy };  // Busy: in a trial, and the window's thread comes back from nothing any more
 
 // The program as main() starts it, in a process of its own: not tests by themselves, run by the one below.
 class SignalledWindow : public ::testing::Test {
@@ -42,12 +43,13 @@ class SignalledWindow : public ::testing::Test {
       if (stage == Stage::Resting) return true;
       if (run == nullptr) return false;
       if (stage == Stage::Checking) return run->underWay();
-      return run->latest().phase == (stage == Stage::InATrial ? trial::Phase::Moving : trial::Phase::Done);
+      return run->latest().phase == (stage == Stage::Between ? trial::Phase::Done : trial::Phase::Moving);
     };
     if (stage != Stage::Resting) window.nextTrial();
     if (!QTest::qWaitFor(reached, 60000)) std::_Exit(99);
     std::puts("reached");
     std::fflush(stdout);
+    while (stage == Stage::Busy) QThread::sleep(1);
     std::_Exit(QApplication::exec());
   }
 };
@@ -56,6 +58,7 @@ TEST_F(SignalledWindow, DISABLED_Resting) { live(Stage::Resting); }
 TEST_F(SignalledWindow, DISABLED_Checking) { live(Stage::Checking); }
 TEST_F(SignalledWindow, DISABLED_InATrial) { live(Stage::InATrial); }
 TEST_F(SignalledWindow, DISABLED_Between) { live(Stage::Between); }
+TEST_F(SignalledWindow, DISABLED_Busy) { live(Stage::Busy); }
 
 class WindowSignals : public ::testing::TestWithParam<std::tuple<const char*, int>> {};
 
@@ -93,14 +96,15 @@ TEST_P(WindowSignals, EndItWithTheTrialMarkedAndTheLogClosed) {
   EXPECT_TRUE(log.healthy());
   ASSERT_EQ(log.trials().size(), std::string(stage) == "Checking" ? 0u : 1u);
   for (const record::RecordedTrial& trial : log.trials()) EXPECT_TRUE(trial.complete);
-  if (std::string(stage) == "InATrial") {
+  if (std::string(stage) == "InATrial" || std::string(stage) == "Busy") {
     EXPECT_EQ(log.trials()[0].result.outcome, trial::Outcome::Interrupted);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(AtAnyStage, WindowSignals,
                          ::testing::Values(std::tuple{"Resting", SIGINT}, std::tuple{"Checking", SIGTERM}, std::tuple{"InATrial", SIGINT},
-                                           std::tuple{"InATrial", SIGHUP}, std::tuple{"Between", SIGTERM}));
+                                           std::tuple{"InATrial", SIGHUP}, std::tuple{"Between", SIGTERM},
+                                           std::tuple{"Busy", SIGINT}, std::tuple{"Busy", SIGTERM}, std::tuple{"Busy", SIGHUP}));
 
 TEST(WindowProgram, RefusesASeedThatWouldBecomeAnother) {
   for (const char* seed : {"-1", "18446744073709551616", "1e3"}) {
