@@ -1,10 +1,12 @@
 #include "sim/session/backup.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <thread>
 
 #include "base/error.h"
 #include "sim/record/append_file.h"
@@ -130,6 +132,22 @@ TEST_F(Backups, NeverOverwriteALogOfAnother) {
   std::ofstream(inBackup(logOf(1))) << "another laboratory's only copy";
   EXPECT_NE(refusal().find("is there already with other bytes; nothing is overwritten"), std::string::npos);
   EXPECT_EQ(contentOf(inBackup(logOf(1))), "another laboratory's only copy");
+}
+
+// A disk that loses what it was given: somebody cuts the copy short as soon as it is there, before it has been read back.
+TEST_F(Backups, LeaveNoCopyThatReadsBackOtherwise) {
+  const std::string file = dataset_ + "/sourcedata/video.mp4", copy = inBackup(file);
+  std::ofstream(file) << std::string(std::size_t{1} << 25, 'v');
+  constexpr int kTries = 50;  // the copy may be read back before it is cut
+  std::string said = "made";
+  for (int k = 0; k < kTries && said == "made"; ++k) {
+    std::jthread disk([&](const std::stop_token& stop) {
+      while (!stop.stop_requested() && ::truncate(copy.c_str(), 1000) != 0) std::this_thread::yield();
+    });
+    said = refusal();
+  }
+  EXPECT_NE(said.find("reads back with other bytes than were written; the copy was removed"), std::string::npos) << said;
+  EXPECT_FALSE(fs::exists(copy));
 }
 
 TEST_F(Backups, LieElsewhere) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -241,6 +243,26 @@ TEST_F(Recorded, WhoWatchesSeesEveryTickAndCannotLoseOneForTheRecord) {
   EXPECT_EQ(watcher.announced, (std::vector<std::int32_t>{1, 2, 3}));
 }
 
+TEST_F(Recorded, AFinishedRunLeavesTheDatasetAlone) {
+  const std::string file = request_.place.data + "/participants.tsv";
+  {
+    RecordedRun run(block(), goodHand(), options());
+    (void)run.runTrial(kNeverStop);
+    run.finish();
+    ASSERT_TRUE(std::filesystem::remove(file));
+    run.finish();
+  }
+  EXPECT_FALSE(std::filesystem::exists(file)) << "it was written when the run was finished, and not again";
+}
+
+TEST_F(Recorded, WhatAKilledProgramLeftIsRemovedWhenTheNextRunIsOpened) {
+  const std::string left = request_.place.data + "/sub-01/.0123456789abcdef.reachlab-tmp";
+  record::writeFileAtomically(left, "half a table");
+  std::filesystem::last_write_time(left, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  const RecordedRun run(block(), goodHand(), options());
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
 TEST_F(Recorded, ANoteIsKept) {
   RecordedRun run(block(), goodHand(), options());
   (void)run.runTrial(kNeverStop);
@@ -330,6 +352,9 @@ TEST_F(InRealTime, ATrialThatMissedTooMuchIsInterruptedAndPutUpOnceMoreIfTheBloc
   EXPECT_EQ(told, "0 interrupted timing\n1 success none\n2 interrupted timing\n0 success none\n2 interrupted timing\n")
       << "five missed ticks are allowed; 2 is not put up a third time";
   run.finish();
+  const std::string words = "longest gap ";
+  ASSERT_NE(run.timing().find(words), std::string::npos);
+  EXPECT_NEAR(std::stod(run.timing().substr(run.timing().find(words) + words.size())), 40, 2) << "[ms], the tick's own in it or not";
   std::vector<std::string> unreadable;
   const record::RunLog log = logs().at(0);
   ASSERT_EQ(log.trials().size(), 5u);
@@ -492,6 +517,36 @@ TEST_F(Conducted, AStopKeepsTheTrialAsInterruptedAndLeavesTheRestToBeResumed) {
   EXPECT_EQ(found[2].trials()[0].planned.index, 1);
   EXPECT_EQ(found[3].configuration().condition, "b");
   EXPECT_EQ(RecordedSession(programme, request_, maker()).blocksLeft(), 0u);
+}
+
+// Pulled out in the first movement.
+class LostHand final : public haptics::HapticDevice {
+ public:
+  haptics::DeviceInfo info() const override { return reach_.info(); }
+  haptics::DeviceHealth health() const noexcept override { return isLost() ? haptics::DeviceHealth::Lost : haptics::DeviceHealth::Ready; }
+  void cue(haptics::Cue cue) noexcept override { reach_.cue(cue); }
+  haptics::DeviceSample read() noexcept override {
+    if (!isLost()) last_ = reach_.read();
+    ++reads_;
+    last_.valid = !isLost();
+    return last_;
+  }
+  void write(const Vec3& force) noexcept override { reach_.write(force); }
+
+ private:
+  bool isLost() const { return reads_ >= 100; }
+  ScriptedDevice reach_{-0.1, 0.1, 300};
+  haptics::DeviceSample last_;
+  std::atomic<int> reads_{0};
+};
+
+TEST_F(Conducted, ALostDeviceEndsTheRunWithTheTrialItWasLostIn) {
+  RecordedSession session(easy_, request_, [](const std::string&, const experiment::CompiledExperiment&, std::uint64_t) {
+    return std::unique_ptr<haptics::HapticDevice>(std::make_unique<LostHand>());
+  });
+  EXPECT_THROW(conduct(session, kNeverStop, words()), ResourceError);
+  EXPECT_EQ(told_, (std::vector<std::string>{"opened 1", "1", "in order", "closed"}));
+  EXPECT_EQ(logs().at(0).trials().at(0).result.outcome, trial::Outcome::Interrupted);
 }
 
 TEST_F(Conducted, ABlockWhoseDeviceCannotBeHadIsStillLeft) {

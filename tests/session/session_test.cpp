@@ -233,6 +233,17 @@ TEST_F(PlannedSession, IsOneDayOfThePlan) {
   EXPECT_EQ(planSession(r).blocks.size(), 3u);
 }
 
+TEST_F(PlannedSession, OfAPlanWithoutDaysMayHaveAnyName) {
+  SessionRequest r = request(write("p.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
+      { "experiment": "chain-slow" }, { "experiment": "chain-fast" } ] })"));
+  for (const char* label : {"evening", "07"}) {
+    r.place.session = label;
+    const SessionToRun session = planSession(r);
+    ASSERT_EQ(session.blocks.size(), 2u) << label;
+    for (const BlockToRun& block : session.blocks) EXPECT_EQ(block.configuration.day, 0) << label;
+  }
+}
+
 TEST_F(PlannedSession, TakesLettersAndDigitsOnlyAsLabels) {
   SessionRequest r = request("chain-moderate");
   for (const char* label : {"", "a b", "a_b", "../x", "ü"}) {
@@ -471,6 +482,11 @@ TEST_F(PlannedSession, TellsTheFaultsOfAPlansExperimentOnce) {
   const std::vector<Fault> once = faultsOf(R"({ "experiment": "bad.json" })");
   EXPECT_FALSE(once.empty());
   EXPECT_EQ(faultsOf(R"({ "experiment": "bad.json" }, { "experiment": "chain-slow" }, { "experiment": "bad.json" })"), once);
+}
+
+TEST(Seed, IsAnyNumberOf64BitsAndNothingElse) {
+  for (const char* text : {"0", "1", "18446744073709551615"}) EXPECT_FALSE(seedFault(text)) << text;
+  for (const char* text : {"", "-1", "1x", "1.5", "18446744073709551616"}) EXPECT_TRUE(seedFault(text)) << text;
 }
 
 TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
