@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -15,6 +17,7 @@
 #include "cli/success_table.h"
 #include "devices/make_device.h"
 #include "network/line/station_line.h"
+#include "sim/dynamics/shared_plant.h"
 #include "sim/session/recorded_run.h"
 
 namespace reachlab::cli {
@@ -27,6 +30,9 @@ struct StationRequest {
   network::StationOptions station;
   bool insecure = false;
   double wait = 60;  // [s] for the other stations
+  int rate = 1000;   // [1/s] at which its state is sent
+  bool lookOn = false;
+  double every = 1;  // [s] between two looks
 };
 
 /// One station from its first word to its last. The conductor arms trial after trial; the others put up what it arms.
@@ -36,9 +42,11 @@ class Station {
       : request_(request), block_(session::planSession(request.session).blocks.at(0)), own_(request.station.station - 1) {
     const auto& experiment = block_.experiment.experiment();
     const int hands = static_cast<int>(experiment.hands.size());
-    if (hands < 2) throw FaultError(Fault{"hands", fmt::format("are {}", std::max(hands, 1)), "an experiment with a hand for each station"});
+    if (hands < 2)
+      throw FaultError(Fault{"hands", fmt::format("are {}", std::max(hands, 1)), "an experiment with a hand for each station"});
     if (request_.station.station > hands)
-      throw FaultError(Fault{"number", fmt::format("is {}, and the experiment has {} hands", request_.station.station, hands), fmt::format("1 to {}", hands)});
+      throw FaultError(Fault{"number", fmt::format("is {}, and the experiment has {} hands", request_.station.station, hands),
+                             fmt::format("1 to {}", hands)});
     request_.station.stations = hands;
     line_ = std::make_unique<network::StationLine>(request_.station, network::sharedHash(experiment));
     session::RecordedRunOptions options;
@@ -47,12 +55,13 @@ class Station {
     options.makeEngine = [this](const experiment::CompiledExperiment& e, const haptics::EngineOptions& engine) {
       network::CoupledCopy* copy = nullptr;
       auto made = network::makeStationEngine(e, own_, engine, copy);
-      sink_ = std::make_unique<network::StationSink>(line_->memory(), *copy, own_);
+      sink_ = std::make_unique<network::StationSink>(line_->memory(), *copy, own_, 1000 / request_.rate);
       watcher_.sink = sink_.get();
       return made;
     };
     options.watcher = &watcher_;
-    auto device = devices::makeDevice(request_.session.device, block_.experiment, seededBits(block_.configuration.seed, static_cast<std::uint64_t>(own_)));
+    auto device = devices::makeDevice(request_.session.device, block_.experiment,
+                                      seededBits(block_.configuration.seed, static_cast<std::uint64_t>(own_)));
     run_ = std::make_unique<session::RecordedRun>(block_, std::move(device), options);
     run_->note(fmt::format("station {} of {}{}, {}", request_.station.station, hands, request_.station.conductor ? ", conductor" : "",
                            request_.insecure ? "not encrypted" : "encrypted"));
@@ -65,8 +74,11 @@ class Station {
     run_->checkTiming(never);  // the loop runs from here on, and with it the line
     const bool done = request_.station.conductor ? lead() : follow();
     look();
+    run_->note(fmt::format("network: {} bytes of states came twice or after newer ones and were dropped; {} samples found no room",
+                           line_->memory().discardedBytes.load(), line_->memory().ringsFull.load()));
     run_->closeLog();
     fmt::print(stderr, "{}", line_->describe());
+    if (const std::string fault = line_->finish(); !fault.empty()) fmt::print(stderr, "{}\n", fault);
     run_->finish();
     fmt::print("{}", table_.text());
     if (!problem_.empty()) throw ResourceError(problem_);
@@ -103,7 +115,7 @@ class Station {
       for (const std::string& one : obstacles) all += (all.empty() ? "" : "; ") + one;
       if (obstacles.empty()) return true;
       if (all != said) fmt::print(stderr, "not armed: {}\n", all), said = all;
-      if (now() > until) {
+      if (now() > until || !line_->endpointFault().empty()) {
         problem_ = "no trial was armed: " + all;
         return false;
       }
@@ -115,12 +127,15 @@ class Station {
   void tellEnd(const haptics::ConductedTrial& trial) {
     network::LineEvent event;
     event.kind = network::EventKind::Ended;
-    event.trial = trial.trial;
+    event.trial = trial.trial + trialsBefore_;
     event.outcome = trial.result.outcome;
     event.reason = trial.result.reason;
     event.apart = sink_->rmsApart();
     line_->send(event);
-    run_->note(fmt::format("trial {}: copies apart {:.6g} m RMS, {:.6g} m at most", run_->numberOf(trial), sink_->rmsApart(), sink_->mostApart()));
+    run_->note(
+        fmt::format("trial {}: copies apart {:.6g} m RMS, {:.6g} m at most; other hands' samples up to {:.6g} s old, held by less than "
+                    "their full coupling for {} ticks; {} samples were no newer than one before",
+                    run_->numberOf(trial), sink_->rmsApart(), sink_->mostApart(), sink_->oldest(), sink_->fadedTicks(), sink_->repeated()));
     fmt::print("{}\n", trialLine(run_->numberOf(trial), trial.result));
     std::fflush(stdout);
     table_.add(run_->configuration().condition, trial.result);
@@ -207,14 +222,27 @@ class Station {
       takeEvents();
       if (finished_) return true;
       if (armed_ < armAsked_) {
+        if (!begun) {  // what was told before this station came: has that trial ended?
+          std::this_thread::sleep_for(std::chrono::milliseconds(50));
+          takeEvents();
+          if (armed_ == armAsked_) continue;
+        }
         begun = true;
         armed_ = armAsked_;
+        trialsBefore_ = static_cast<std::int32_t>(armAsked_) - ++putUp_;  // this station may have come back in mid-run
+        sink_->countTrialsFrom(trialsBefore_);
         if (run_->trialsLeft() == 0) run_->repeat(planned_);
         run_->putUpNext();
         if (!awaitEnd()) return false;
       }
-      if (!line_->endpointAlive() || (!begun && now() > until)) {
-        problem_ = line_->endpointAlive() ? fmt::format("the conductor armed no trial within {:.0f} s", request_.wait) : "the endpoint has ended";
+      if (const std::string fault = line_->endpointFault(); !fault.empty() || (!begun && now() > until)) {
+        std::string why;
+        for (const std::string& one : line_->obstacles()) why += "; " + one;
+        problem_ = fault.empty() ? fmt::format("the conductor armed no trial within {:.0f} s{}", request_.wait, why) : fault;
+        return false;
+      }
+      if (begun && line_->conductorSilence() > request_.wait) {
+        problem_ = fmt::format("the conductor was not heard of for {:.0f} s", request_.wait);
         return false;
       }
       std::this_thread::sleep_for(kLook);
@@ -233,9 +261,11 @@ class Station {
       if (event.kind == network::EventKind::Finish) finished_ = true;
       if (event.kind == network::EventKind::Ended) {
         endedTrial_.at(event.station - 1) = event.trial;
-        fmt::print(stderr, "station {}: trial {} {}{}{}, copies apart {:.3f} mm RMS\n", event.station, event.trial, trial::nameOf(event.outcome),
-                   event.reason == trial::Reason::None ? "" : ", ", event.reason == trial::Reason::None ? "" : trial::nameOf(event.reason),
-                   1e3 * event.apart);
+        if (!request_.station.conductor && static_cast<std::size_t>(std::max(event.trial, 0)) == armAsked_)
+          armed_ = armAsked_;  // over without this one
+        fmt::print(stderr, "station {}: trial {} {}{}{}, copies apart {:.3f} mm RMS\n", event.station, event.trial,
+                   trial::nameOf(event.outcome), event.reason == trial::Reason::None ? "" : ", ",
+                   event.reason == trial::Reason::None ? "" : trial::nameOf(event.reason), 1e3 * event.apart);
       }
     }
   }
@@ -249,10 +279,88 @@ class Station {
   SuccessTable table_;
   std::string problem_;
   std::size_t armed_ = 0, armAsked_ = 0;
+  std::int32_t putUp_ = 0, trialsBefore_ = 0;
   trial::PlannedTrial planned_;
   bool finished_ = false, interrupted_ = false;
   std::array<std::int32_t, network::kMaxStations> endedTrial_{};
   std::unique_ptr<session::RecordedRun> run_;  // last: its loop ends before what it writes to
+};
+
+const char* wordOf(std::uint8_t phase) {
+  constexpr std::array kWords{"idle", "waiting", "armed", "moving", "done"};
+  return phase < kWords.size() ? kWords[phase] : "unknown";
+}
+
+/// Who only looks on: no hand, no copy, nothing recorded; the others do not know of it. Ends with the conductor's last word.
+class LookerOn {
+ public:
+  explicit LookerOn(const StationRequest& request)
+      : request_(request), block_(session::planSession(request.session).blocks.at(0)),
+        plant_(dynamics::makeSharedPlant(block_.experiment.experiment(), block_.experiment.constraint())) {
+    request_.station.station = 0;
+    request_.station.stations = static_cast<int>(block_.experiment.experiment().hands.size());
+    line_ = std::make_unique<network::StationLine>(request_.station, network::sharedHash(block_.experiment.experiment()));
+  }
+
+  int watch() {
+    const StopRequest stop;
+    const double begun = now();
+    double shown = begun;
+    bool heard = false;
+    while (!StopRequest::asked()) {
+      line_->look();
+      take();
+      if (finished_) return 0;
+      heard = heard || std::any_of(newest_.begin(), newest_.end(), [](const network::HeardState& s) { return s.sample.sequence != 0; });
+      if (const std::string fault = line_->endpointFault(); !fault.empty()) throw ResourceError(fault);
+      if (!heard && now() - begun > request_.wait) throw ResourceError(fmt::format("no station was heard within {:.0f} s", request_.wait));
+      if (now() - shown >= request_.every) show(), shown = now();
+      std::this_thread::sleep_for(kLook);
+    }
+    return StopRequest::exitCode();
+  }
+
+ private:
+  static double now() { return static_cast<double>(os::now()) * 1e-9; }
+
+  void take() {
+    network::LineMemory& memory = line_->memory();
+    for (std::size_t i = 0; i < newest_.size(); ++i)
+      while (memory.in[i].tryPop(newest_[i])) {}
+    network::LineEvent event;
+    while (memory.eventsIn.tryPop(event)) {
+      if (event.kind == network::EventKind::Finish) finished_ = true;
+      if (event.kind != network::EventKind::Ended) continue;
+      fmt::print("station={} trial={} outcome={}{} apart_rms_m={:.6g}\n", event.station, event.trial, trial::nameOf(event.outcome),
+                 event.reason == trial::Reason::None ? "" : fmt::format(" reason={}", trial::nameOf(event.reason)), event.apart);
+      std::fflush(stdout);
+    }
+  }
+
+  // Of every station the newest that came, and how far its copy was then from the first's.
+  void show() {
+    const auto count = static_cast<std::size_t>(plant_->placeCount());
+    const network::CopySample* first = nullptr;
+    for (std::size_t i = 0; i < newest_.size(); ++i) {
+      const network::HeardState& state = newest_[i];
+      if (state.sample.sequence == 0) continue;
+      const network::CopySample& sample = state.sample;
+      fmt::print("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", i + 1, state.trial,
+                 wordOf(state.phase), now() - sample.time, sample.hand.x, sample.hand.y, sample.hand.z, sample.work);
+      if (first != nullptr)
+        fmt::print(" apart_m={:.6f}", plant_->distanceBetween({first->places.data(), count}, {sample.places.data(), count}));
+      else first = &sample;
+      fmt::print("\n");
+    }
+    std::fflush(stdout);
+  }
+
+  StationRequest request_;
+  session::BlockToRun block_;
+  std::unique_ptr<dynamics::SharedPlant> plant_;  // for distances
+  std::unique_ptr<network::StationLine> line_;
+  std::array<network::HeardState, network::kMaxStations> newest_{};
+  bool finished_ = false;
 };
 
 std::string hostName() {
@@ -268,19 +376,32 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   session::SessionRequest& s = r->session;
   network::StationOptions& station = r->station;
   command->add_option("experiment", s.what, "Experiment with a hand for each station; the same at all of them")->required();
-  command->add_option("--number", station.station, "Which of the experiment's hands is here, from 1")
-      ->required()
-      ->check(CLI::Range(1, network::kMaxStations));
-  command->add_option("--device", s.device, "The device here; reach list devices tells all")->required();
-  command->add_flag("--conductor", station.conductor, "Arms the trials and judges them for all; one station");
+  auto* number = command->add_option("--number", station.station, "Which of the experiment's hands is here, from 1")
+                     ->check(CLI::Range(1, network::kMaxStations));
+  auto* device = command->add_option("--device", s.device, "The device here; reach list devices tells all");
+  auto* conductor = command->add_flag("--conductor", station.conductor, "Arms the trials and judges them for all; one station");
+  auto* lookOn =
+      command->add_flag("--look-on", r->lookOn, "Without a hand: prints what the stations do, and how trials end; records nothing")
+          ->excludes(number)
+          ->excludes(device)
+          ->excludes(conductor);
+  command->add_option("--every", r->every, "Seconds between two looks of who looks on")
+      ->check(CLI::Range(0.01, 3600.0))
+      ->capture_default_str()
+      ->needs(lookOn);
   auto* peers = command->add_option("--peers", station.secure, "Folder of this station's certificates (reach peers)");
   command->add_flag("--insecure", r->insecure, "Without certificates and encryption: on a network of one's own")->excludes(peers);
   command->add_option("--name", station.name, "Name that the others see [the computer's]");
   command->add_option("--interface", station.interface, "Network interface [the system's choice]");
   command->add_option("--peer", station.peers, "Address of another station beyond this network; several times. No multicast then")
       ->allow_extra_args(false);
-  command->add_option("--domain", station.domain, "Stations of one domain hear each other")->check(CLI::Range(0, 230))->capture_default_str();
+  command->add_option("--domain", station.domain, "Stations of one domain hear each other")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
   command->add_option("--wait", r->wait, "Seconds to wait for the others")->check(CLI::Range(1.0, 86400.0))->capture_default_str();
+  command->add_option("--rate", r->rate, "How often a second this station's state is sent; less where the line or the computer is slow")
+      ->check(CLI::IsMember({1000, 500, 250, 125}))
+      ->capture_default_str();
   command->add_option("--trials", s.trials, "Trials [one]; the conductor's count holds")->check(CLI::Range(1, 1000000));
   command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", s.place.session, "Session's label, letters and digits [01]");
@@ -288,12 +409,19 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   command->add_option("--seed", s.seed, "Seed of noise; default: one is drawn and stored")->check(wholeSeed());
   command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
   command->footer(
-      "Prints one line a trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has too\n"
+      "Prints one line a trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "
+      "too\n"
       "poor a line (more than 120 ms round trip, nothing for more than 50 ms at a time): stderr says which, with the numbers.\n\n"
       "Examples, on one machine:\n"
       "  reach station chain-two-hands --number 1 --conductor --device simulated --insecure --interface lo --peer 127.0.0.1 --data left\n"
-      "  reach station chain-two-hands --number 2 --device partner:follower --insecure --interface lo --peer 127.0.0.1 --data right");
-  command->callback([r, &exitCode] {
+      "  reach station chain-two-hands --number 2 --device partner:follower --insecure --interface lo --peer 127.0.0.1 --data right\n"
+      "  reach station chain-two-hands --look-on --insecure --interface lo --peer 127.0.0.1");
+  command->callback([r, number, device, &exitCode] {
+    if (!r->lookOn && number->count() == 0)
+      throw FaultError(Fault{"number", "is not told", "1 up, which of the experiment's hands is here; or --look-on"});
+    if (!r->lookOn && device->count() == 0)
+      throw FaultError(Fault{"device", "is not told", "the device here (reach list devices); or --look-on"});
+    if (r->lookOn) r->session.device = "simulated";  // of a plan that is never carried out
     if (!r->insecure && r->station.secure.empty())
       throw FaultError(Fault{"peers", "are not told", "--peers DIR with this station's certificates, or --insecure"});
     if (r->station.name.empty()) r->station.name = hostName();
@@ -301,6 +429,11 @@ void addStationCommand(CLI::App& app, int& exitCode) {
     r->station.software = "reachlab " REACHLAB_VERSION;
     r->station.endpoint = findHelperProgram("reachlab-endpoint", "station", "the program that speaks to the network");
     if (r->insecure) fmt::print(stderr, "NOT ENCRYPTED: whoever is on this network can listen and join\n");
+    if (r->lookOn) {
+      LookerOn looker(*r);
+      exitCode = looker.watch();
+      return;
+    }
     Station own(*r);
     exitCode = own.conduct();
   });

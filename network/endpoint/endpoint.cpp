@@ -1,4 +1,5 @@
 #include <dds/dds.h>
+#include <dds/ddsc/dds_statistics.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -24,7 +25,7 @@ namespace reachlab::network {
 namespace {
 
 static_assert(reach_stations == kMaxStations && reach_coordinates == kMaxCoordinates);
-constexpr std::int64_t kNapNs = 200'000;
+constexpr std::int64_t kNapNs = 200'000, kNapPerPeerNs = 100'000;  // with many peers a round takes longer, and finds more
 
 struct DdsError : ResourceError {
   using ResourceError::ResourceError;
@@ -46,10 +47,12 @@ std::string configurationOf(const EndpointSettings& settings) {
                            peers.empty() ? "" : " multicast=\"false\"");
   if (!peers.empty()) {
     general += "<AllowMulticast>false</AllowMulticast>";
-    discovery = fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex><Peers>{}</Peers>",
-                            2 * kMaxStations, peers);
+    discovery =
+        fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex><Peers>{}</Peers>",
+                    2 * kMaxStations, peers);
   }
-  return fmt::format("<CycloneDDS><Domain id=\"any\"><General>{}</General><Discovery>{}</Discovery></Domain></CycloneDDS>", general, discovery);
+  return fmt::format("<CycloneDDS><Domain id=\"any\"><General>{}</General><Discovery>{}</Discovery></Domain></CycloneDDS>", general,
+                     discovery);
 }
 
 void addSecurity(dds_qos_t* qos, const std::string& folder) {
@@ -59,7 +62,8 @@ void addSecurity(dds_qos_t* qos, const std::string& folder) {
   struct Plugin {
     const char *key, *file, *function;
   };
-  for (const Plugin& plugin : {Plugin{"auth", "auth", "authentication"}, Plugin{"crypto", "crypto", "crypto"}, Plugin{"access", "ac", "access_control"}}) {
+  for (const Plugin& plugin :
+       {Plugin{"auth", "auth", "authentication"}, Plugin{"crypto", "crypto", "crypto"}, Plugin{"access", "ac", "access_control"}}) {
     const std::string key = fmt::format("dds.sec.{}.library.", plugin.key);
     set(key + "path", fmt::format("{}/libdds_security_{}.so", libraries, plugin.file));
     set(key + "init", fmt::format("init_{}", plugin.function));
@@ -140,7 +144,7 @@ class PeerClock {
     if (echoHeard != 0) longest_ = std::max(longest_, seconds(nowNs - echoHeard));
     echoSent = s.sent_ns;
     echoHeard = nowNs;
-    const std::int64_t sent = s.echo_sent_ns[own - 1], heard = s.echo_heard_ns[own - 1];
+    const std::int64_t sent = own == 0 ? 0 : s.echo_sent_ns[own - 1], heard = own == 0 ? 0 : s.echo_heard_ns[own - 1];
     if (sent != 0) {
       Exchange& e = exchanges_[at_++ % kExchanges];
       e.roundTrip = seconds((nowNs - sent) - (s.sent_ns - heard));
@@ -148,15 +152,17 @@ class PeerClock {
       judge();
     }
     if (firstSeq_ == 0 || s.seq < lastSeq_) firstSeq_ = lastSeq_ = s.seq, came_ = 0, sinceNs_ = nowNs;
+    if (s.seq > lastSeq_) stride_ = std::min(stride_, s.seq - lastSeq_);  // not every tick need be sent
     lastSeq_ = s.seq;
     ++came_;
     if (nowNs - sinceNs_ < 1'000'000'000) return;
-    loss = std::max(0.0, 1 - static_cast<double>(came_) / static_cast<double>(lastSeq_ - firstSeq_ + 1));
+    const double expected = static_cast<double>(lastSeq_ - firstSeq_) / (stride_ == kNoStride ? 1 : stride_) + 1;
+    loss = std::max(0.0, 1 - static_cast<double>(came_) / expected);
     gap = longest_;
-    firstSeq_ = lastSeq_ + 1, came_ = 0, sinceNs_ = nowNs, longest_ = 0;
+    firstSeq_ = lastSeq_ + (stride_ == kNoStride ? 1 : stride_), came_ = 0, sinceNs_ = nowNs, longest_ = 0, stride_ = kNoStride;
   }
   double roundTrip = -1, jitter = 0, offset = 0, loss = 0, gap = 0;  // [s], [s], [s], share, [s]
-  std::int64_t echoSent = 0, echoHeard = 0;                 // [ns]
+  std::int64_t echoSent = 0, echoHeard = 0;                          // [ns]
 
  private:
   static constexpr std::size_t kExchanges = 128;
@@ -180,7 +186,8 @@ class PeerClock {
   }
   std::array<Exchange, kExchanges> exchanges_{};
   std::size_t at_ = 0;
-  std::uint32_t firstSeq_ = 0, lastSeq_ = 0;
+  static constexpr std::uint32_t kNoStride = 0xffffffff;
+  std::uint32_t firstSeq_ = 0, lastSeq_ = 0, stride_ = kNoStride;
   std::uint64_t came_ = 0;
   std::int64_t sinceNs_ = 0;
   double longest_ = 0;  // [s]
@@ -189,7 +196,7 @@ class PeerClock {
 template <std::size_t N>
 void copyText(const char* from, std::array<char, N>& to) {
   to.fill(0);
-  if (from != nullptr) std::strncpy(to.data(), from, N - 1);
+  if (from != nullptr) std::copy_n(from, std::min(std::strlen(from), N - 1), to.begin());
 }
 
 class Endpoint {
@@ -197,8 +204,9 @@ class Endpoint {
   Endpoint(LineMemory& memory, dds_entity_t participant)
       : own_(memory.settings.card), memory_(memory), states_(participant, reach_State_desc, "reach_state", qos(stateQos())),
         events_(participant, reach_Event_desc, "reach_event", qos(reliableQos())),
-        cards_(participant, reach_Card_desc, "reach_station", qos(cardQos())) {}
+        cards_(participant, reach_Card_desc, "reach_station", qos(cardQos())), statistics_(dds_create_statistics(states_.reader)) {}
   ~Endpoint() {
+    dds_delete_statistics(statistics_);
     for (dds_qos_t* qos : kept_) dds_delete_qos(qos);
   }
   Endpoint(const Endpoint&) = delete;
@@ -206,14 +214,17 @@ class Endpoint {
 
   void run() {
     std::int64_t cardNs = 0;
-    os::requestExactSleep();
     while (!memory_.stop.load(std::memory_order_acquire)) {
       const std::int64_t now = os::now();
       memory_.aliveNs.store(now, std::memory_order_release);
       receive();
       send();
-      if (now - cardNs > 1'000'000'000) sendCard(), cardNs = now;
-      os::sleepUntil(now + kNapNs);
+      if (now - cardNs > 1'000'000'000) {
+        sendCard();
+        countDiscarded();
+        cardNs = now;
+      }
+      os::sleepUntil(now + std::max(kNapNs, kNapPerPeerNs * peers_));
     }
     send();  // the last event
     constexpr std::int64_t kLastWords = 200'000'000;
@@ -232,30 +243,35 @@ class Endpoint {
       if (!isPeer(s.station)) return;
       const std::int64_t now = os::now();
       PeerClock& clock = clocks_[s.station - 1];
+      if (clock.echoHeard == 0) ++peers_;
       clock.add(s, own_.station, now);
       LineStatus& status = memory_.status[s.station - 1];
       status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
       status.loss.store(clock.loss), status.gap.store(clock.gap), status.heardNs.store(now);
-      if (clock.roundTrip < 0) return;  // its time means nothing here yet
+      if (clock.roundTrip < 0 && own_.station != 0) return;  // its time means nothing here yet
       HeardState heard;
       heard.trial = s.trial;
       heard.phase = s.phase;
       heard.roundTrip = clock.roundTrip;
       CopySample& sample = heard.sample;
       sample.sequence = s.seq;
-      sample.time = seconds(s.time_ns) - clock.offset;
+      sample.time = own_.station == 0 ? seconds(now) : seconds(s.time_ns) - clock.offset;  // nobody answers who only looks on
       sample.hand = {s.hand[0], s.hand[1], s.hand[2]};
       sample.handVelocity = {s.hand_velocity[0], s.hand_velocity[1], s.hand_velocity[2]};
       sample.work = s.work;
-      std::copy(std::begin(s.places), std::end(s.places), sample.places.begin());
-      std::copy(std::begin(s.rates), std::end(s.rates), sample.rates.begin());
+      std::copy_n(s.places._buffer, std::min<std::size_t>(s.places._length, kMaxCoordinates), sample.places.begin());
+      std::copy_n(s.rates._buffer, std::min<std::size_t>(s.rates._length, kMaxCoordinates), sample.rates.begin());
       if (!memory_.in[s.station - 1].tryPush(heard)) memory_.ringsFull.fetch_add(1);
     });
     events_.takeAll([&](const reach_Event& e) {
       if (!isPeer(e.station) || e.kind > static_cast<std::uint8_t>(EventKind::Finish)) return;
-      LineEvent event{e.station, static_cast<EventKind>(e.kind), e.trial, {e.index, e.foreperiod_ticks, e.catch_trial != 0},
+      LineEvent event{e.station,
+                      static_cast<EventKind>(e.kind),
+                      e.trial,
+                      {e.index, e.foreperiod_ticks, e.catch_trial != 0},
                       static_cast<trial::Outcome>(std::min<int>(e.outcome, static_cast<int>(trial::Outcome::Interrupted))),
-                      static_cast<trial::Reason>(std::min<int>(e.reason, static_cast<int>(trial::kLastReason))), e.apart};
+                      static_cast<trial::Reason>(std::min<int>(e.reason, static_cast<int>(trial::kLastReason))),
+                      e.apart};
       if (!memory_.eventsIn.tryPush(event)) memory_.ringsFull.fetch_add(1);
     });
     cards_.takeAll([&](const reach_Card& c) {
@@ -276,12 +292,14 @@ class Endpoint {
       s.time_ns = own.timeNs;
       s.trial = own.trial;
       s.phase = own.phase;
-      const CopySample& sample = own.sample;
+      CopySample& sample = own.sample;
       s.hand[0] = sample.hand.x, s.hand[1] = sample.hand.y, s.hand[2] = sample.hand.z;
       s.hand_velocity[0] = sample.handVelocity.x, s.hand_velocity[1] = sample.handVelocity.y, s.hand_velocity[2] = sample.handVelocity.z;
       s.work = sample.work;
-      std::copy(sample.places.begin(), sample.places.end(), std::begin(s.places));
-      std::copy(sample.rates.begin(), sample.rates.end(), std::begin(s.rates));
+      const auto of = [](std::array<double, kMaxCoordinates>& numbers, std::uint32_t count) {
+        return dds_sequence_double{kMaxCoordinates, std::min<std::uint32_t>(count, kMaxCoordinates), numbers.data(), false};
+      };
+      s.places = of(sample.places, own.places), s.rates = of(sample.rates, own.rates);
       for (std::size_t i = 0; i < kMaxStations; ++i) s.echo_sent_ns[i] = clocks_[i].echoSent, s.echo_heard_ns[i] = clocks_[i].echoHeard;
       s.sent_ns = os::now();
       dds_write(states_.writer, &s);
@@ -296,7 +314,14 @@ class Endpoint {
     }
   }
 
+  // What came twice, or long after its time, and was dropped before anybody saw it.
+  void countDiscarded() {
+    if (statistics_ == nullptr || dds_refresh_statistics(statistics_) != DDS_RETCODE_OK) return;
+    if (const dds_stat_keyvalue* bytes = dds_lookup_statistic(statistics_, "discarded_bytes")) memory_.discardedBytes.store(bytes->u.u64);
+  }
+
   void sendCard() {
+    if (own_.station == 0) return;  // who only looks on is nobody's peer
     reach_Card card{};
     card.station = own_.station, card.version = LineMemory::kVersion, card.experiment = own_.experiment, card.conductor = own_.conductor;
     std::copy(own_.name.begin(), own_.name.end(), std::begin(card.name));
@@ -311,24 +336,37 @@ class Endpoint {
   Channel<reach_State> states_;
   Channel<reach_Event> events_;
   Channel<reach_Card> cards_;
+  dds_statistics* statistics_;  // of the states' reader; null where there are none
   std::array<PeerClock, kMaxStations> clocks_;
+  std::int64_t peers_ = 0;  // heard so far
   reach_State outgoing_{};
+};
+
+/// Ends all threads of Cyclone DDS, on every way out: what they use (OpenSSL) is taken down behind main.
+struct DdsThreads {
+  DdsThreads() = default;
+  DdsThreads(const DdsThreads&) = delete;
+  DdsThreads& operator=(const DdsThreads&) = delete;
+  ~DdsThreads() { dds_delete(DDS_CYCLONEDDS_HANDLE); }
 };
 
 void run(const std::string& memoryName) {
   LineMemory& memory = mapMemory(memoryName);
   const EndpointSettings settings = memory.settings;
+  // Below the haptic thread, above what else the computer does; the threads of Cyclone DDS inherit it. Where it is not allowed the line is as
+  // late as the computer is busy.
+  constexpr int kPriority = 40;
+  (void)os::requestRealTime(kPriority);
+  os::requestExactSleep();
   const auto domain = static_cast<dds_domainid_t>(settings.domain);
+  const DdsThreads threads;
   made(dds_create_domain(domain, configurationOf(settings).c_str()), "the domain");
   dds_qos_t* qos = dds_create_qos();
   if (settings.secure[0] != 0) addSecurity(qos, settings.secure.data());
   const dds_entity_t participant = made(dds_create_participant(domain, qos, nullptr), "the participant");
   dds_delete_qos(qos);
-  {
-    Endpoint endpoint(memory, participant);
-    endpoint.run();
-  }
-  dds_delete(DDS_CYCLONEDDS_HANDLE);
+  Endpoint endpoint(memory, participant);
+  endpoint.run();
 }
 
 }  // namespace

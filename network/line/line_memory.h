@@ -16,7 +16,8 @@ namespace reachlab::network {
 struct OwnState {
   std::int64_t timeNs = 0;  // monotonic clock
   std::int32_t trial = 0;
-  std::uint8_t phase = 0;  // trial::Phase
+  std::uint8_t phase = 0;               // trial::Phase
+  std::uint32_t places = 0, rates = 0;  // of the sample, that there are
   CopySample sample;
 };
 /// A peer's, as it came: its time on this station's clock.
@@ -45,7 +46,7 @@ struct LineEvent {
 
 /// Who a station says it is. Texts end with a zero.
 struct StationCard {
-  std::uint32_t station = 0;  // from 1
+  std::uint32_t station = 0;  // from 1; 0 only looks on
   std::uint32_t version = 0;  // of the messages
   std::uint64_t experiment = 0;
   bool conductor = false;
@@ -69,13 +70,13 @@ struct EndpointSettings {
   static constexpr std::size_t kPath = 512, kAddress = 64, kAddresses = 16;
   StationCard card;
   int domain = 0;
-  std::array<char, kPath> secure{};      // folder of certificates; empty: nothing is encrypted
-  std::array<char, kAddress> interface{};  // of the network; empty: the system's choice
+  std::array<char, kPath> secure{};                            // folder of certificates; empty: nothing is encrypted
+  std::array<char, kAddress> interface {};                     // of the network; empty: the system's choice
   std::array<std::array<char, kAddress>, kAddresses> peers{};  // addresses; the first empty one ends the list
 };
 
 struct LineMemory {
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
   std::uint32_t version = kVersion;
   EndpointSettings settings;
   std::atomic<bool> stop{false};
@@ -85,7 +86,8 @@ struct LineMemory {
   SpscQueue<LineEvent, 64> eventsOut, eventsIn;
   SpscQueue<StationCard, 32> cardsIn;
   std::array<LineStatus, kMaxStations> status;
-  std::atomic<std::uint64_t> ringsFull{0};  // samples that found no room
+  std::atomic<std::uint64_t> ringsFull{0};       // samples that found no room
+  std::atomic<std::uint64_t> discardedBytes{0};  // of states that came twice or after newer ones, dropped by the endpoint's reader
 };
 
 }  // namespace reachlab::network

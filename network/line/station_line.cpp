@@ -10,14 +10,17 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <cstring>
+#include <filesystem>
+#include <limits>
 #include <new>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/os.h"
 #include "base/seeded.h"
 #include "base/ticks.h"
+#include "sim/dynamics/compiled_scene.h"
 
 extern char** environ;
 
@@ -27,6 +30,9 @@ namespace {
 constexpr double kMostRoundTrip = 0.12, kMostGap = 0.05;  // [s]: beyond them the coupling is not known to be stable
 constexpr std::int64_t kPresentNs = 3'000'000'000;        // a card comes every second
 constexpr std::int64_t kHeardNs = 500'000'000;
+constexpr double kMostJump = 0.005;                 // [s] of a clock against ours, in one look
+constexpr std::int64_t kSettledNs = 1'000'000'000;  // until then the fastest exchange is still looked for
+constexpr std::int64_t kJumpNs = 1'000'000'000;     // for so long a jump stands in the way
 
 std::string textOf(const char* text) { return text; }
 
@@ -50,7 +56,8 @@ void fillSettings(const StationOptions& options, std::uint64_t experiment, Endpo
   put(options.secure.empty() ? std::string() : std::filesystem::absolute(options.secure).string(), settings.secure, "peers");
   put(options.interface, settings.interface, "interface");
   if (options.peers.size() > settings.peers.size())
-    throw FaultError(Fault{"peer", fmt::format("is given {} times", options.peers.size()), fmt::format("up to {} times", settings.peers.size())});
+    throw FaultError(
+        Fault{"peer", fmt::format("is given {} times", options.peers.size()), fmt::format("up to {} times", settings.peers.size())});
   for (std::size_t i = 0; i < options.peers.size(); ++i) put(options.peers[i], settings.peers[i], "peer");
 }
 
@@ -112,20 +119,34 @@ StationLine::StationLine(const StationOptions& options, std::uint64_t experiment
 }
 
 StationLine::~StationLine() {
+  (void)finish();
+  ::munmap(memory_, sizeof(LineMemory));
+  ::shm_unlink(memoryName_.c_str());
+}
+
+std::string StationLine::finish() {
+  if (process_ <= 0) return {};
+  const std::string early = endpointFault();
   memory_->stop.store(true, std::memory_order_release);
-  constexpr int kLooks = 200;
+  constexpr int kLooks = 300;
   constexpr std::int64_t kLookNs = 10'000'000;
   int status = 0;
-  for (int look = 0; look < kLooks && process_ > 0; ++look) {
-    if (::waitpid(process_, &status, WNOHANG) != 0) process_ = -1;
-    else os::sleepUntil(os::now() + kLookNs);
+  for (int look = 0; look < kLooks; ++look) {
+    if (::waitpid(process_, &status, WNOHANG) == process_) {
+      process_ = -1;
+      break;
+    }
+    os::sleepUntil(os::now() + kLookNs);
   }
+  if (!early.empty()) return early;
   if (process_ > 0) {
     ::kill(process_, SIGKILL);
     ::waitpid(process_, &status, 0);
+    process_ = -1;
+    return "the endpoint did not end when it was asked to, and was killed";
   }
-  ::munmap(memory_, sizeof(LineMemory));
-  ::shm_unlink(memoryName_.c_str());
+  if (WIFSIGNALED(status)) return fmt::format("the endpoint ended by signal {} when it was asked to end", WTERMSIG(status));
+  return {};
 }
 
 void StationLine::send(const LineEvent& event) {
@@ -141,18 +162,47 @@ void StationLine::look() {
     cards_[card.station - 1] = card;
     cardNs_[card.station - 1] = os::now();
   }
+  const std::int64_t now = os::now();
+  for (std::size_t i = 0; i < kMaxStations; ++i) {
+    const LineStatus& line = memory_->status[i];
+    Offset& known = offsets_[i];
+    if (line.roundTrip.load() < 0 || now - line.heardNs.load() > kHeardNs) {
+      known = {};
+      continue;
+    }
+    const double offset = line.offset.load();
+    if (known.sinceNs == 0) known.sinceNs = now;
+    else if (now - known.sinceNs > kSettledNs && std::abs(offset - known.value) > kMostJump)
+      known.jump = offset - known.value, known.jumpNs = now;
+    known.value = offset;
+  }
 }
 
 bool StationLine::endpointAlive() const {
   constexpr std::int64_t kSilentNs = 1'000'000'000;
-  if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG | WNOWAIT) < 0 && errno == ECHILD) return false;
   const std::int64_t alive = memory_->aliveNs.load(std::memory_order_acquire);
-  return alive == 0 || os::now() - alive < kSilentNs;
+  return endpointFault().empty() && (alive == 0 || os::now() - alive < kSilentNs);
+}
+
+double StationLine::conductorSilence() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kMaxStations; ++i)
+    if (cardNs_[i] != 0 && cards_[i].conductor) least = std::min(least, static_cast<double>(os::now() - cardNs_[i]) * 1e-9);
+  return least;
+}
+
+std::string StationLine::endpointFault() const {
+  if (process_ <= 0) return {};
+  siginfo_t ended{};
+  if (::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == 0) return {};
+  if (ended.si_code == CLD_EXITED) return fmt::format("this station's endpoint has ended with exit code {}", ended.si_status);
+  return fmt::format("this station's endpoint was ended by signal {}", ended.si_status);
 }
 
 std::vector<std::string> StationLine::obstacles() const {
   std::vector<std::string> found;
-  if (!endpointAlive()) found.push_back("this station's endpoint has ended");
+  if (const std::string fault = endpointFault(); !fault.empty()) found.push_back(fault);
+  else if (!endpointAlive()) found.push_back("this station's endpoint has not done a round for a second");
   const std::int64_t now = os::now();
   for (int i = 0; i < options_.stations; ++i) {
     if (i + 1 == options_.station) continue;
@@ -164,8 +214,10 @@ std::vector<std::string> StationLine::obstacles() const {
       say("is not there");
       continue;
     }
-    if (card.version != LineMemory::kVersion) say(fmt::format("speaks version {} of the messages, and this one {}", card.version, LineMemory::kVersion));
-    if (options_.software != card.software.data()) say(fmt::format("runs {}, and this one {}", textOf(card.software.data()), options_.software));
+    if (card.version != LineMemory::kVersion)
+      say(fmt::format("speaks version {} of the messages, and this one {}", card.version, LineMemory::kVersion));
+    if (options_.software != card.software.data())
+      say(fmt::format("runs {}, and this one {}", textOf(card.software.data()), options_.software));
     if (card.experiment != experiment_) say(fmt::format("has another experiment ({:016x}, here {:016x})", card.experiment, experiment_));
     if (card.conductor && options_.conductor) say("is a conductor too");
     if (now - line.heardNs.load() > kHeardNs || line.roundTrip.load() < 0) {
@@ -177,6 +229,9 @@ std::vector<std::string> StationLine::obstacles() const {
     // Overtaken samples are dropped by design, so their share says nothing; how long nothing comes does.
     if (line.gap.load() > kMostGap)
       say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * line.gap.load(), 1e3 * kMostGap));
+    if (offsets_[index].jumpNs != 0 && now - offsets_[index].jumpNs < kJumpNs)
+      say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump,
+                      1e3 * kMostJump));
   }
   return found;
 }
@@ -188,11 +243,17 @@ std::string StationLine::describe() const {
     if (i + 1 == options_.station || cardNs_[index] == 0) continue;
     const StationCard& card = cards_[index];
     const LineStatus& line = memory_->status[index];
-    text += fmt::format("station {} ({}, {}{}): round trip {:.2f} ms, jitter {:.2f} ms, loss {:.1f} %, clock {:+.6f} s\n", i + 1, card.name.data(),
-                        card.device.data(), card.conductor ? ", conductor" : "", 1e3 * line.roundTrip.load(), 1e3 * line.jitter.load(),
-                        100 * line.loss.load(), line.offset.load());
+    text += fmt::format("station {} ({}, {}{}): round trip {:.2f} ms, jitter {:.2f} ms, loss {:.1f} %, clock {:+.6f} s\n", i + 1,
+                        card.name.data(), card.device.data(), card.conductor ? ", conductor" : "", 1e3 * line.roundTrip.load(),
+                        1e3 * line.jitter.load(), 100 * line.loss.load(), line.offset.load());
   }
   return text;
+}
+
+std::uint64_t StationSink::repeatedNow() const noexcept {
+  std::uint64_t all = 0;
+  for (int i = 0; i < copy_.peerCount(); ++i) all += copy_.line(i).old;
+  return all;
 }
 
 bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept {
@@ -200,35 +261,49 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
     trial_ = state.trial;
     squares_ = 0, count_ = 0;
     mostApart_.store(0, std::memory_order_relaxed), rmsApart_.store(0, std::memory_order_relaxed);
+    oldest_.store(0, std::memory_order_relaxed), fadedTicks_.store(0, std::memory_order_relaxed);
+    repeatedBefore_ = repeatedNow();
+  }
+  if (trial::isEngaged(state.phase)) {
+    double apart = 0;
+    double oldest = 0;
+    bool faded = false;
+    for (int i = 0; i < copy_.peerCount(); ++i) {
+      const PeerLine& line = copy_.line(i);
+      apart = std::max(apart, line.apart), oldest = std::max(oldest, line.age);
+      faded = faded || (line.heard && line.age > 0 && line.fade < 1);  // age 0: not stepped yet
+    }
+    oldest_.store(std::max(oldest, oldest_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+    if (faded) fadedTicks_.store(fadedTicks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    repeated_.store(repeatedNow() - repeatedBefore_, std::memory_order_relaxed);
+    squares_ += apart * apart, ++count_;
+    mostApart_.store(std::max(apart, mostApart_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+    rmsApart_.store(std::sqrt(squares_ / static_cast<double>(count_)), std::memory_order_relaxed);
   }
   const double next = nextTime(state);
+  const std::int32_t trial = state.trial < 1 ? state.trial : state.trial + trialsBefore_.load(std::memory_order_acquire);
   copy_.beginTick(next);
   HeardState heard;
   int peer = 0;
   for (int station = 0; station < kMaxStations && peer < copy_.peerCount(); ++station) {
     if (station == own_) continue;
     while (memory_.in[static_cast<std::size_t>(station)].tryPop(heard)) {
-      if (heard.trial != state.trial || heard.trial < 1) continue;
+      if (heard.trial != trial || trial < 1) continue;
       copy_.take(peer, heard.sample, heard.roundTrip);
       if (!given_->tryPush({state.tick, peer, heard.roundTrip, heard.sample})) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
     }
     ++peer;
   }
-  if (trial::isEngaged(state.phase)) {
-    double apart = 0;
-    for (int i = 0; i < copy_.peerCount(); ++i) apart = std::max(apart, copy_.line(i).apart);
-    squares_ += apart * apart, ++count_;
-    mostApart_.store(std::max(apart, mostApart_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
-    rmsApart_.store(std::sqrt(squares_ / static_cast<double>(count_)), std::memory_order_relaxed);
-  }
   OwnState own;
   own.timeNs = state.measuredNs;
-  own.trial = state.trial;
+  own.trial = trial;
   own.phase = static_cast<std::uint8_t>(state.phase);
+  own.places = places_, own.rates = rates_;
   own.sample.sequence = ++sequence_;
   // Before it is armed a hand holds nothing: for the others it is where it will hold.
   const bool armed = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving || state.phase == trial::Phase::Done;
   copy_.fill(own.sample, armed ? state.hand : dynamics::HandSample{copy_.ownFixedPoint(), {}, true});
+  if (state.tick % static_cast<std::uint64_t>(sendEvery_) != 0) return true;
   if (!memory_.out.tryPush(own)) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
   return true;
 }
@@ -236,18 +311,20 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
 std::vector<std::uint8_t> StationSink::takeGiven() {
   record::ByteWriter out;
   std::uint32_t count = 0;
-  const auto places = static_cast<std::uint32_t>(copy_.placeCount()), rates = static_cast<std::uint32_t>(copy_.rateCount());
+  const auto begin = [&] { out.put(std::uint32_t{0}), out.put(static_cast<std::uint32_t>(own_)), out.put(places_), out.put(rates_); };
+  if (!std::exchange(said_, true)) begin();
   GivenSample given;
   while (given_->tryPop(given)) {
-    if (count++ == 0) out.put(std::uint32_t{0}), out.put(static_cast<std::uint32_t>(own_)), out.put(places), out.put(rates);
+    if (out.size() == 0) begin();
+    ++count;
     const CopySample& s = given.sample;
     out.put(given.tick), out.put(given.peer), out.put(given.roundTrip), out.put(s.sequence), out.put(s.time);
     for (const Vec3& v : {s.hand, s.handVelocity}) out.put(v.x), out.put(v.y), out.put(v.z);
     out.put(s.work);
-    for (std::uint32_t i = 0; i < places; ++i) out.put(s.places[i]);
-    for (std::uint32_t i = 0; i < rates; ++i) out.put(s.rates[i]);
+    for (std::uint32_t i = 0; i < places_; ++i) out.put(s.places[i]);
+    for (std::uint32_t i = 0; i < rates_; ++i) out.put(s.rates[i]);
   }
-  if (count == 0) return {};
+  if (out.size() == 0) return {};
   out.overwrite(0, count);
   return {out.bytes().begin(), out.bytes().end()};
 }
@@ -256,15 +333,36 @@ bool isOfStation(const record::RunLog& log) {
   return recordedValues(log.configuration()).hands.size() > static_cast<std::size_t>(log.configuration().table.hands);
 }
 
-record::Replay replayStation(const record::RunLog& log) {
+namespace {
+
+std::vector<GivenSample> readGiven(const record::RunLog& log, int& own) {
   std::vector<GivenSample> given;
-  int own = -1;
+  own = -1;
   record::LogReader reader(log.path());
   record::RecordView record;
   while (reader.goodEnd() < log.goodBytes() && reader.next(record)) {
     if (record.type != record::RecordType::PeerTicks) continue;
     for (const GivenSample& one : decodeGiven(record.payload, own)) given.push_back(one);
   }
+  return given;
+}
+
+}  // namespace
+
+int recordedStation(const record::RunLog& log) {
+  int own = -1;
+  (void)readGiven(log, own);
+  return own + 1;
+}
+
+std::vector<GivenSample> givenSamples(const record::RunLog& log) {
+  int own = -1;
+  return readGiven(log, own);
+}
+
+record::Replay replayStation(const record::RunLog& log, const LookAtCopy& look) {
+  int own = -1;
+  const std::vector<GivenSample> given = readGiven(log, own);
   if (own < 0)
     throw FaultError(Fault{{}, "holds nothing of the other stations, so the run cannot be simulated again", {}, FilePlace{log.path()}});
   CoupledCopy* copy = nullptr;
@@ -274,9 +372,11 @@ record::Replay replayStation(const record::RunLog& log) {
     return makeStationEngine(experiment, own, options, copy);
   };
   hooks.afterTick = [&](const haptics::TickState& state) {
+    if (look) look(state, *copy);
     copy->beginTick(nextTime(state));
     for (; next < given.size() && given[next].tick <= state.tick; ++next)
-      if (given[next].peer >= 0 && given[next].peer < copy->peerCount()) copy->take(given[next].peer, given[next].sample, given[next].roundTrip);
+      if (given[next].peer >= 0 && given[next].peer < copy->peerCount())
+        copy->take(given[next].peer, given[next].sample, given[next].roundTrip);
   };
   return record::replayRun(log, hooks);
 }
@@ -284,14 +384,13 @@ record::Replay replayStation(const record::RunLog& log) {
 std::unique_ptr<haptics::TickEngine> makeStationEngine(const experiment::CompiledExperiment& experiment, int own,
                                                        const haptics::EngineOptions& options, CoupledCopy*& copy) {
   experiment::Experiment e = experiment.experiment();
+  dynamics::Scene scene = dynamics::compileScene(experiment);  // with all that it refuses
   auto plant = std::make_unique<CoupledCopy>(e, experiment.constraint(), own, copySettingsFor(e));
   copy = plant.get();
   e.object.fpOffset = e.hands.at(static_cast<std::size_t>(own)).fpOffset;
-  dynamics::Scene scene;
-  scene.choice.method = "rk4";
   scene.choice.form = fmt::format("copy of station {} of {}", own + 1, e.hands.size());
   scene.choice.reason = "stations move the object together: a full copy at each, rk4, one step a tick";
-  scene.constraint = experiment.constraint();
+  scene.shared = nullptr;
   scene.plant = std::move(plant);
   return std::make_unique<haptics::TickEngine>(e, std::move(scene), options);
 }

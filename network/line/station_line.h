@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,15 +14,15 @@ namespace reachlab::network {
 
 /// How a station stands in its laboratory.
 struct StationOptions {
-  int station = 1;   // from 1: which of the experiment's hands is here
+  int station = 1;  // from 1: which of the experiment's hands is here
   int stations = 2;
   bool conductor = false;
   std::string name, device, software;
-  std::string endpoint;               // the endpoint's program
-  std::string secure;                 // folder of this station's certificates; empty: nothing is encrypted
-  std::string interface;              // of the network; empty: the system's choice
-  std::vector<std::string> peers;     // addresses beyond one network; then no multicast
-  int domain = 0;                     // stations of one domain hear each other
+  std::string endpoint;            // the endpoint's program
+  std::string secure;              // folder of this station's certificates; empty: nothing is encrypted
+  std::string interface;           // of the network; empty: the system's choice
+  std::vector<std::string> peers;  // addresses beyond one network; then no multicast
+  int domain = 0;                  // stations of one domain hear each other
 };
 
 /// What must be equal at all stations, as a number: the experiment without its file's text.
@@ -43,6 +44,12 @@ class StationLine {
   void look();
   /// False once the endpoint has ended, or has not done a round for a second.
   bool endpointAlive() const;
+  /// Since the conductor was last heard of [s]; infinite where none was.
+  double conductorSilence() const;
+  /// How the endpoint ended, in a few words, where it was not asked to; empty while it runs.
+  std::string endpointFault() const;
+  /// Asks the endpoint to end and waits for it; a sentence where it did not end in order. Idempotent, also done by the destructor.
+  std::string finish();
   /// Why a trial may not be armed: who is missing, differs, or has too poor a line; one sentence each, with the numbers. Empty: it may.
   std::vector<std::string> obstacles() const;
   /// One line a station: name, device, round trip, jitter, loss, offset.
@@ -56,6 +63,12 @@ class StationLine {
   int process_ = -1;
   std::array<StationCard, kMaxStations> cards_{};
   std::array<std::int64_t, kMaxStations> cardNs_{};
+  /// What a clock is against ours, and when it last jumped.
+  struct Offset {
+    double value = 0, jump = 0;  // [s]
+    std::int64_t sinceNs = 0, jumpNs = 0;
+  };
+  std::array<Offset, kMaxStations> offsets_{};
 };
 
 /// A peer's sample as it was given to the copy after a tick: what the log keeps of it.
@@ -70,37 +83,60 @@ struct GivenSample {
 /// nothing and waits for nothing.
 class StationSink final : public haptics::RunSink {
  public:
-  /// All outlive the sink's use. `own`: from 0.
-  StationSink(LineMemory& memory, CoupledCopy& copy, int own)
-      : memory_(memory), copy_(copy), own_(own), given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
+  /// All outlive the sink's use. `own`: from 0. Of the ticks one in `sendEvery` is sent.
+  StationSink(LineMemory& memory, CoupledCopy& copy, int own, int sendEvery = 1)
+      : memory_(memory), copy_(copy), own_(own), sendEvery_(sendEvery), places_(static_cast<std::uint32_t>(copy.placeCount())),
+        rates_(static_cast<std::uint32_t>(copy.rateCount())), given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}
 
   /// Controlling thread, now and then: what was given since, as the payload of a record; empty: nothing. Only `places` coordinates are kept.
+  /// The first says whose log it is, be anything given or not.
   std::vector<std::uint8_t> takeGiven();
+
+  /// Controlling thread, before a trial is put up: what the stations count more than this engine, which may have come later.
+  void countTrialsFrom(std::int32_t before) noexcept { trialsBefore_.store(before, std::memory_order_release); }
 
   /// The largest distance between this copy and another in the latest trial, and samples of it that were lost for want of room. Any thread.
   double mostApart() const noexcept { return mostApart_.load(std::memory_order_relaxed); }
   double rmsApart() const noexcept { return rmsApart_.load(std::memory_order_relaxed); }
+  /// Of the latest trial, over all peers: ticks at which one was held by less than its full coupling, the oldest sample in force [s], and
+  /// samples that were no newer than one before. Any thread.
+  std::uint64_t fadedTicks() const noexcept { return fadedTicks_.load(std::memory_order_relaxed); }
+  double oldest() const noexcept { return oldest_.load(std::memory_order_relaxed); }
+  std::uint64_t repeated() const noexcept { return repeated_.load(std::memory_order_relaxed); }
 
  private:
+  std::uint64_t repeatedNow() const noexcept;
+
   LineMemory& memory_;
   CoupledCopy& copy_;
-  int own_;
+  int own_, sendEvery_;
+  std::uint32_t places_, rates_;  // of the copy, which is the haptic thread's once it runs
   std::unique_ptr<SpscQueue<GivenSample, 4096>> given_;
   std::uint32_t sequence_ = 0;
   std::int32_t trial_ = 0;
   double squares_ = 0;
   std::uint64_t count_ = 0;
-  std::atomic<double> mostApart_{0}, rmsApart_{0};  // [m]
+  std::atomic<double> mostApart_{0}, rmsApart_{0}, oldest_{0};  // [m], [m], [s]
+  std::atomic<std::uint64_t> fadedTicks_{0}, repeated_{0};
+  std::uint64_t repeatedBefore_ = 0;
+  std::atomic<std::int32_t> trialsBefore_{0};
+  bool said_ = false;  // whose log it is
 };
 
 /// True for the log of a station: it has fewer hands than its experiment.
 bool isOfStation(const record::RunLog& log);
-/// A station's run again, from its own log: its hand's samples and what the others sent. Throws as record::replayRun.
-record::Replay replayStation(const record::RunLog& log);
+/// Whose log it is, from 1; 0 where it holds nothing of the other stations.
+int recordedStation(const record::RunLog& log);
+/// What the others sent, in the order in which the copy was given it.
+std::vector<GivenSample> givenSamples(const record::RunLog& log);
+/// A station's run again, from its own log: its hand's samples and what the others sent. `look` sees every tick, before what came then is
+/// taken. Throws as record::replayRun.
+using LookAtCopy = std::function<void(const haptics::TickState& state, const CoupledCopy& copy)>;
+record::Replay replayStation(const record::RunLog& log, const LookAtCopy& look = {});
 
 /// The engine of one station: its own hand on its copy of the object. `copy` becomes the engine's. Throws what CoupledCopy throws.
 std::unique_ptr<haptics::TickEngine> makeStationEngine(const experiment::CompiledExperiment& experiment, int own,
