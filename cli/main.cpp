@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/latency_command.h"
 #include "cli/exit_code.h"
+#include "cli/merge_command.h"
 #include "cli/standard_streams.h"
 #include "base/ending.h"
 #include "base/kept_memory.h"
@@ -38,7 +39,8 @@ int run(int argc, char** argv) {
   app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
   for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
                     addShowCommand, addReplayCommand, addExportCommand, addBackupCommand, addRecoverCommand, addConstraintCommand,
-                    addBenchCommand, addStationCommand, addPeersCommand, addStabilityCommand, addVelocityCommand, addLatencyCommand, addStudyCommand})
+                    addBenchCommand, addStationCommand, addMergeCommand, addPeersCommand, addStabilityCommand, addVelocityCommand,
+                    addLatencyCommand, addStudyCommand})
     add(app, exitCode);
   for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   return exitCodeOf(app, [&] {

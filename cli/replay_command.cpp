@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/success_table.h"
 #include "network/line/station_line.h"
+#include "network/merge/station_merge.h"
 #include "sim/record/replay.h"
 
 namespace reachlab::cli {
@@ -22,11 +23,20 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->callback([path, check, &exitCode] {
     const record::RunLog log = record::RunLog::open(*path);
     if (log.goodBytes() < log.fileBytes()) fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
-    const record::Replay replay = network::isOfStation(log) ? network::replayStation(log) : record::replayRun(log);
-    for (const record::RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result));
-    fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows,
-               replay.rowsThatDiffer, replay.trialsThatDiffer, replay.identical() ? "identical" : replay.firstDifference);
-    if (*check && !replay.identical()) exitCode = 1;
+    const auto tell = [&](const record::Replay& replay) {
+      for (const record::RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result));
+      fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows,
+                 replay.rowsThatDiffer, replay.trialsThatDiffer, replay.identical() ? "identical" : replay.firstDifference);
+      if (*check && !replay.identical()) exitCode = 1;
+    };
+    if (!network::isMerged(log)) {
+      tell(network::isOfStation(log) ? network::replayStation(log) : record::replayRun(log));
+      return;
+    }
+    for (const std::string& one : network::logsOfMerged(log)) {  // a copy at each station
+      fmt::print("{}:\n", one);
+      tell(network::replayStation(record::RunLog::open(one)));
+    }
   });
 }
 

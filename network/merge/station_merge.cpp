@@ -1,0 +1,383 @@
+#include "network/merge/station_merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "base/fault.h"
+#include "base/table_text.h"
+#include "base/ticks.h"
+#include "network/line/station_line.h"
+#include "sim/record/append_file.h"
+#include "sim/record/recorder.h"
+
+namespace reachlab::network {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kMethod = "stations";
+constexpr double kMostContradiction = 0.005;  // [s] of two clocks told from either side, beyond what the line's unequal ways explain
+
+/// What one copy was to one other station after a tick.
+struct LineAt {
+  double apart = 0, age = 0, fade = 0, frequency = 0, roundTrip = 0;
+};
+/// A station's log, computed again.
+struct Station {
+  record::RunLog log;
+  int number = 0;  // from 1
+  bool conductor = false;
+  std::vector<record::RecordedTick> ticks;
+  std::vector<haptics::HandState> hands;  // after each tick
+  std::vector<std::int32_t> trials;       // under way at it
+  std::vector<trial::Phase> phases;
+  std::vector<std::vector<LineAt>> lines;  // by peer of the copy
+  std::vector<double> ledger;              // [J]
+  std::vector<GivenSample> given;
+  record::Replay replay;
+
+  /// The peer's place among this station's peers.
+  int peerOf(int station) const { return station < number ? station - 1 : station - 2; }
+  int stationOf(int peer) const { return peer + 1 < number ? peer + 1 : peer + 2; }
+};
+
+[[noreturn]] void refuse(const std::string& what, const std::string& allowed, const std::string& path = {}) {
+  Fault fault{"logs", what, allowed};
+  if (!path.empty()) fault.place = FilePlace{path};
+  throw FaultError(fault);
+}
+
+bool isConductor(const record::RunLog& log) {
+  for (const record::RecordedEvent& event : log.events())
+    if (event.kind == record::EventKind::Note && event.text.starts_with("station "))
+      return event.text.find(", conductor") != std::string::npos;
+  return false;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+Station readStation(const std::string& path) {
+  Station s{record::RunLog::open(path), 0, false, {}, {}, {}, {}, {}, {}, {}, {}};
+  s.number = stationOf(s.log);
+  if (s.number == 0) refuse("is of no station", "logs of reach station", path);
+  s.conductor = isConductor(s.log);
+  s.ticks = s.log.ticks();
+  s.hands.reserve(s.ticks.size());
+  s.given = givenSamples(s.log);
+  s.replay = replayStation(s.log, [&](const haptics::TickState& state, const CoupledCopy& copy) {
+    s.lines.resize(static_cast<std::size_t>(copy.peerCount()));
+    haptics::HandState hand = state;
+    hand.work = copy.ownWork();
+    s.hands.push_back(hand);
+    s.trials.push_back(state.trial);
+    s.phases.push_back(state.phase);
+    s.ledger.push_back(copy.ledger());
+    for (int i = 0; i < copy.peerCount(); ++i) {
+      const PeerLine& line = copy.line(i);
+      s.lines[static_cast<std::size_t>(i)].push_back({line.apart, line.age, line.fade, line.frequency, line.roundTrip});
+    }
+  });
+  if (!s.replay.identical())
+    refuse("is another when its copy is computed again: " + s.replay.firstDifference, "a log as this program recorded it", path);
+  return s;
+}
+
+/// Another station's clock less this one's, from its samples' times here and in its own log; by seconds of this log, because clocks drift.
+class ClockOffset {
+ public:
+  ClockOffset(const Station& here, const Station& there) : beginNs_(here.ticks.empty() ? 0 : here.ticks.front().measuredNs) {
+    const int peer = here.peerOf(there.number);
+    std::map<std::int64_t, std::vector<double>> seconds;
+    for (const GivenSample& given : here.given) {
+      if (given.peer != peer || given.sample.sequence == 0 || given.sample.sequence > there.ticks.size()) continue;
+      const double offset = static_cast<double>(there.ticks[given.sample.sequence - 1].measuredNs) * 1e-9 - given.sample.time;
+      all_.push_back(offset);
+      seconds[static_cast<std::int64_t>(given.sample.time - static_cast<double>(beginNs_) * 1e-9)].push_back(offset);
+      if (given.roundTrip > 0) longest_ = std::max(longest_, given.roundTrip);
+    }
+    for (auto& [second, offsets] : seconds) medians_[second] = quantile(std::move(offsets), 0.5);
+  }
+  bool known() const { return !all_.empty(); }
+  double median() const { return quantile(all_, 0.5); }
+  double spread() const { return quantile(all_, 0.95) - quantile(all_, 0.05); }
+  double longestRoundTrip() const { return longest_; }
+  /// [s] at a moment of this station's clock: of the second nearest to it.
+  double at(std::int64_t ns) const {
+    const std::int64_t second = (ns - beginNs_) / 1'000'000'000;
+    auto after = medians_.lower_bound(second);
+    if (after == medians_.end()) return std::prev(after)->second;
+    if (after == medians_.begin() || after->first - second <= second - std::prev(after)->first) return after->second;
+    return std::prev(after)->second;
+  }
+
+ private:
+  std::int64_t beginNs_;
+  std::vector<double> all_;
+  std::map<std::int64_t, double> medians_;
+  double longest_ = 0;  // [s]
+};
+
+/// The tick of a station that is nearest to a moment of its clock.
+class NearestTick {
+ public:
+  explicit NearestTick(const std::vector<record::RecordedTick>& ticks) : ticks_(ticks) {}
+  std::size_t at(std::int64_t ns) {  // moments in order
+    while (at_ + 1 < ticks_.size() && std::abs(ticks_[at_ + 1].measuredNs - ns) <= std::abs(ticks_[at_].measuredNs - ns)) ++at_;
+    return at_;
+  }
+
+ private:
+  const std::vector<record::RecordedTick>& ticks_;
+  std::size_t at_ = 0;
+};
+
+std::vector<Station> readAll(const std::vector<std::string>& logs) {
+  std::vector<Station> stations;
+  for (const std::string& log : logs) stations.push_back(readStation(log));
+  std::sort(stations.begin(), stations.end(), [](const Station& a, const Station& b) { return a.number < b.number; });
+  const experiment::Experiment shared = record::recordedValues(stations.front().log.configuration());
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const Station& s = stations[i];
+    if (i > 0 && s.number == stations[i - 1].number)
+      refuse(fmt::format("two are of station {}", s.number), "one of each station", s.log.path());
+    const std::uint64_t first = sharedHash(shared), hash = sharedHash(record::recordedValues(s.log.configuration()));
+    if (hash != first)
+      refuse(fmt::format("has another experiment ({:016x}, station {} {:016x})", hash, stations.front().number, first), "logs of one run",
+             s.log.path());
+  }
+  if (stations.size() != shared.hands.size())
+    refuse(fmt::format("are {}, and the experiment has {} hands", stations.size(), shared.hands.size()), "one of each station");
+  const auto conductors = std::count_if(stations.begin(), stations.end(), [](const Station& s) { return s.conductor; });
+  if (conductors != 1) refuse(fmt::format("{} are of a conductor", conductors), "one");
+  return stations;
+}
+
+// Told from either side the two must be opposite, but for the line's unequal ways.
+void requireClocks(const ClockOffset& there, const ClockOffset& back, int station, int conductor) {
+  if (!there.known() || !back.known()) return;
+  const double contradiction = std::abs(there.median() + back.median());
+  const double allowed = 0.5 * std::max(there.longestRoundTrip(), back.longestRoundTrip()) + kMostContradiction;
+  if (contradiction > allowed)
+    refuse(fmt::format("of stations {} and {} tell clocks that differ by {:.6f} s", station, conductor, contradiction),
+           fmt::format("up to {:.6f} s: logs of one run", allowed));
+}
+
+// What came here is what the other's log says it sent: the same hand and the same work, to the bit.
+void requireSameSamples(const Station& here, const Station& there) {
+  constexpr std::uint32_t kTail = 1000;  // ticks that a log loses at most where its program was killed
+  const int peer = here.peerOf(there.number);
+  for (const GivenSample& given : here.given) {
+    if (given.peer != peer || given.sample.sequence == 0) continue;
+    const std::uint32_t sequence = given.sample.sequence;
+    const bool beyond = sequence > there.hands.size();
+    if (beyond && sequence <= there.hands.size() + kTail) continue;
+    const bool holds = !beyond && there.phases[sequence - 1] >= trial::Phase::Armed;
+    if (beyond ||
+        (holds && !(given.sample.hand == there.hands[sequence - 1].hand.position && given.sample.work == there.hands[sequence - 1].work)))
+      refuse(fmt::format("of stations {} and {} are not of one run: sample {} came otherwise than it was sent", here.number, there.number,
+                         sequence),
+             "logs of one run", there.log.path());
+  }
+}
+
+int countOtherOutcomes(const record::RunLog& log, const record::RunLog& conductors) {
+  int differing = 0;
+  for (const record::RecordedTrial& trial : log.trials())
+    for (const record::RecordedTrial& judged : conductors.trials())
+      if (judged.trial == trial.trial && (judged.result.outcome != trial.result.outcome || judged.result.reason != trial.result.reason))
+        ++differing;
+  return differing;
+}
+
+double rmsApart(const Station& s) {
+  double squares = 0;
+  std::size_t count = 0;
+  for (const std::vector<LineAt>& line : s.lines)
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (s.phases[i] == trial::Phase::Moving) squares += line[i].apart * line[i].apart, ++count;
+  return count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
+}
+
+record::RunConfiguration mergedConfiguration(const std::vector<Station>& stations, const Station& conductor,
+                                             const record::RunConfiguration& asked) {
+  record::RunConfiguration c = conductor.log.configuration();
+  c.subject = asked.subject, c.session = asked.session, c.run = c.firstRun = asked.run;
+  const record::RunConfiguration& first = stations.front().log.configuration();
+  c.device = first.device, c.deviceName = first.deviceName, c.deviceVersion = first.deviceVersion, c.deviceMaxForce = first.deviceMaxForce;
+  c.virtualHand = first.virtualHand, c.rendersForce = first.rendersForce, c.deviceContinuousForce = first.deviceContinuousForce;
+  c.deviceThermalSeconds = first.deviceThermalSeconds, c.guards = first.guards, c.deviceMapping = first.deviceMapping;
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    const record::RunConfiguration& o = stations[i].log.configuration();
+    c.device += " + " + o.device;
+    c.otherHands.push_back({o.deviceName, o.deviceVersion, o.deviceMaxForce, o.virtualHand, o.rendersForce, o.deviceContinuousForce,
+                            o.deviceThermalSeconds, o.guards, o.deviceMapping});
+  }
+  c.methodReason =
+      fmt::format("merged from the logs of {} stations, each with a copy of its own ({}); the object is the conductor's, station {}",
+                  stations.size(), c.methodReason, conductor.number);
+  c.method = kMethod;
+  const experiment::CompiledExperiment compiled = record::recordedExperiment(conductor.log.configuration());
+  c.table = record::makeChannelTable(compiled.experiment(), compiled.constraint().parameterCount(), c.rendersForce);
+  return c;
+}
+
+/// Share of a peer's samples that were not used, over the second before.
+class LossOf {
+ public:
+  LossOf(const Station& s, int peer) {
+    for (const GivenSample& given : s.given)
+      if (given.peer == peer) all_.push_back({given.tick, given.sample.sequence});
+    stride_ = 1000;
+    for (std::size_t i = 1; i < all_.size(); ++i) stride_ = std::min(stride_, all_[i].sequence - all_[i - 1].sequence);
+  }
+  double at(std::uint64_t tick) {
+    while (end_ < all_.size() && all_[end_].tick <= tick) ++end_;
+    while (begin_ < end_ && all_[begin_].tick + 1000 < tick) ++begin_;
+    if (end_ - begin_ < 2) return std::numeric_limits<double>::quiet_NaN();
+    const double sent = static_cast<double>(all_[end_ - 1].sequence - all_[begin_].sequence) / stride_;
+    return 1 - static_cast<double>(end_ - begin_ - 1) / sent;
+  }
+
+ private:
+  struct Came {
+    std::uint64_t tick;
+    std::uint32_t sequence;
+  };
+  std::vector<Came> all_;
+  std::uint32_t stride_ = 1;  // not every tick need be sent
+  std::size_t begin_ = 0, end_ = 0;
+};
+
+}  // namespace
+
+int stationOf(const record::RunLog& log) { return isOfStation(log) ? recordedStation(log) : 0; }
+
+bool isMerged(const record::RunLog& log) { return log.configuration().method == kMethod; }
+
+std::vector<std::string> logsOfMerged(const record::RunLog& log) {
+  const fs::path path(log.path());
+  const std::string stem = path.stem().string();
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path() / "stations", error))
+    if (entry.path().filename().string().starts_with(stem + "_station-")) found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  if (found.empty()) throw FaultError(Fault{{}, "the stations' logs are not beside it in the folder stations", {}, FilePlace{log.path()}});
+  return found;
+}
+
+MergeReport mergeStations(const std::vector<std::string>& logs, const record::RunConfiguration& configuration, const std::string& path,
+                          const std::string& linesPath) {
+  if (logs.size() < 2) refuse(fmt::format("are {}", logs.size()), "one of each station, two or more");
+  const std::vector<Station> stations = readAll(logs);
+  const Station& conductor = *std::find_if(stations.begin(), stations.end(), [](const Station& s) { return s.conductor; });
+  std::vector<std::optional<ClockOffset>> offsets;
+  MergeReport report;
+  for (const Station& s : stations) {
+    offsets.emplace_back(std::nullopt);
+    MergedStation told{s.log.path(),
+                       s.number,
+                       s.conductor,
+                       s.ticks.size(),
+                       s.given.size(),
+                       s.replay.identical(),
+                       s.replay.firstDifference,
+                       countOtherOutcomes(s.log, conductor.log),
+                       0,
+                       0,
+                       rmsApart(s)};
+    if (!s.conductor) {
+      offsets.back().emplace(conductor, s);
+      if (!offsets.back()->known())
+        refuse(fmt::format("of the conductor holds nothing of station {}", s.number), "logs of one run", conductor.log.path());
+      requireClocks(*offsets.back(), ClockOffset(s, conductor), s.number, conductor.number);
+      requireSameSamples(conductor, s), requireSameSamples(s, conductor);
+      told.offset = offsets.back()->median();
+      told.offsetSpread = offsets.back()->spread();
+    }
+    report.stations.push_back(told);
+  }
+
+  const record::RunConfiguration merged = mergedConfiguration(stations, conductor, configuration);
+  record::Recorder recorder(path, merged, record::RecorderOptions{.threaded = false});
+  TableText table(',', "");
+  std::vector<std::string> header{"time_s", "trial"};
+  std::vector<std::vector<LossOf>> losses(stations.size());
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    header.push_back(fmt::format("station{}_ledger_j", stations[i].number));
+    for (std::size_t peer = 0; peer + 1 < stations.size(); ++peer) {
+      losses[i].emplace_back(stations[i], static_cast<int>(peer));
+      const std::string line = fmt::format("station{}_of_{}_", stations[i].number, stations[i].stationOf(static_cast<int>(peer)));
+      for (const char* what : {"apart_m", "age_s", "fade", "synchronisation_rad_per_s", "round_trip_s", "loss"})
+        header.push_back(line + what);
+    }
+  }
+  table.row(header);
+
+  std::vector<NearestTick> nearest;
+  for (const Station& s : stations) nearest.emplace_back(s.ticks);
+  const std::vector<record::TrialSetup> setups = conductor.log.setups();
+  std::size_t number = 0, setup = 0;
+  std::vector<std::size_t> ticks(stations.size());
+  const auto state = std::make_unique<haptics::TickState>();
+  (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
+    const record::RecordedTick& tick = conductor.ticks[number];
+    haptics::copyState(own, *state);
+    state->handCount = static_cast<std::int32_t>(stations.size());
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      const Station& s = stations[i];
+      ticks[i] = s.conductor ? number : nearest[i].at(tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
+      haptics::HandState& hand = i == 0 ? static_cast<haptics::HandState&>(*state) : state->others[i - 1];
+      hand = s.hands[ticks[i]];
+    }
+    if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
+      recorder.announce(setups[setup].trial - merged.firstTrial + 1, setups[setup].planned);
+      ++setup;
+    }
+    recorder.onTick(*state, tick.command, tick.missedTicks);
+    if (own.tick % merged.sampleEveryTicks == 0) {
+      ++report.rows;
+      table.number(secondsOf(own.tick)).whole(own.trial > 0 ? own.trial + merged.firstTrial - 1 : 0);
+      for (std::size_t i = 0; i < stations.size(); ++i) {
+        table.number(stations[i].ledger[ticks[i]]);
+        for (std::size_t peer = 0; peer < stations[i].lines.size(); ++peer) {
+          const LineAt& line = stations[i].lines[peer][ticks[i]];
+          for (const double value : {line.apart, line.age, line.fade, line.frequency, line.roundTrip}) table.number(value);
+          table.number(losses[i][peer].at(stations[i].ticks[ticks[i]].tick));
+        }
+      }
+      table.endRow();
+    }
+    ++number;
+  });
+  for (const Station& s : stations)
+    for (const record::RecordedEvent& event : s.log.events())
+      if (event.kind == record::EventKind::Note) recorder.note(fmt::format("station {}: {}", s.number, event.text));
+  recorder.close();
+  report.trials = static_cast<int>(conductor.log.trials().size());
+
+  const fs::path kept = fs::path(path).parent_path() / "stations";
+  std::error_code error;
+  fs::create_directories(kept, error);
+  for (const Station& s : stations) {
+    const fs::path to = kept / fmt::format("{}_station-{}.reach", fs::path(path).stem().string(), s.number);
+    if (!fs::copy_file(s.log.path(), to, error))
+      throw ResourceError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+  }
+  fs::create_directories(fs::path(linesPath).parent_path(), error);
+  record::writeFileAtomically(linesPath, table.text());
+  return report;
+}
+
+}  // namespace reachlab::network
