@@ -100,6 +100,16 @@ void benchNetwork(const BenchOptions& options) {
     plan.seeds = 2;
     plan.setups = 0;
   }
+  if (!options.methods.empty()) plan.couplings.clear();
+  for (const std::string& name : options.methods) {
+    const auto found = std::find_if(network::kCouplings.begin(), network::kCouplings.end(), [&](network::Coupling c) { return nameOf(c) == name; });
+    if (found == network::kCouplings.end()) {
+      std::string allowed;
+      for (const network::Coupling c : network::kCouplings) allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", nameOf(c));
+      throw FaultError(Fault{"method", fmt::format("is \"{}\"", name), allowed + " with --network"});
+    }
+    plan.couplings.push_back(*found);
+  }
   const network::StudyTables tables = network::runNetworkStudy(plan, showProgress);
   std::fputs(network::formatStudy(tables).c_str(), stdout);
   if (!options.csv.empty()) writeFile(options.csv, network::studyCsv(tables));

@@ -1,5 +1,7 @@
 // Joins two network interfaces as a line with delay, jitter and loss: line_relay IFACE IFACE DELAY_MS JITTER_MS LOSS_PERCENT [SEED]
 //   or has an interface fill in checksums itself, as no card does on a virtual one: line_relay checksums IFACE
+// On standard input, a line each, while it runs: "cut MS" drops everything for so long; "twice PERCENT" sends so many frames twice; "again"
+// sends the last 4,000 frames once more.
 // Raw Ethernet, seeded; address resolution goes through at once. Needs CAP_NET_RAW.
 #include <arpa/inet.h>
 #include <linux/ethtool.h>
@@ -19,9 +21,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <queue>
 #include <random>
+#include <string>
 #include <vector>
+#include <unistd.h>
 
 namespace {
 
@@ -54,6 +59,36 @@ bool resolvesAddresses(const char* frame, ssize_t size) {
   return size > 13 && static_cast<unsigned char>(frame[12]) == 8 && static_cast<unsigned char>(frame[13]) == 6;
 }
 
+/// What can be asked for while it runs.
+struct Orders {
+  Clock::time_point cutUntil{};
+  double twice = 0;  // share
+  bool again = false;
+
+  /// False when nobody is there any more to give any.
+  bool read() {
+    char text[256];
+    const ssize_t size = ::read(0, text, sizeof text);
+    if (size <= 0) return false;
+    for (ssize_t i = 0; i < size; ++i) {
+      if (text[i] != '\n') {
+        line_ += text[i];
+        continue;
+      }
+      double number = 0;
+      if (std::sscanf(line_.c_str(), "cut %lf", &number) == 1)
+        cutUntil = Clock::now() + std::chrono::microseconds(static_cast<long>(1e3 * number));
+      if (std::sscanf(line_.c_str(), "twice %lf", &number) == 1) twice = number / 100;
+      if (line_ == "again") again = true;
+      line_.clear();
+    }
+    return true;
+  }
+
+ private:
+  std::string line_;
+};
+
 int fillChecksums(const char* name) {
   ethtool_value value{ETHTOOL_STXCSUM, 0};
   ifreq request{};
@@ -80,26 +115,41 @@ int main(int argc, char** argv) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::priority_queue<Packet> under;
   std::uint64_t number = 0;
+  constexpr std::size_t kKept = 4000;
+  std::deque<Packet> kept;
+  Orders orders;
+  int from = 0;  // standard input, until it ends
   static std::array<char, 65536> frame;
   while (true) {
     const auto wait = under.empty() ? std::chrono::nanoseconds(std::chrono::seconds(1)) : under.top().at - Clock::now();
     const auto ns = std::max<std::int64_t>(0, std::chrono::duration_cast<std::chrono::nanoseconds>(wait).count());
     const timespec patience{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
-    std::array<pollfd, 2> looks{{{ends[0], POLLIN, 0}, {ends[1], POLLIN, 0}}};
+    std::array<pollfd, 3> looks{{{ends[0], POLLIN, 0}, {ends[1], POLLIN, 0}, {from, POLLIN, 0}}};
     ::ppoll(looks.data(), looks.size(), &patience, nullptr);
+    if ((looks[2].revents & (POLLIN | POLLHUP)) != 0 && !orders.read()) from = -1;
+    if (orders.again) {
+      for (const Packet& packet : kept) (void)::send(ends[packet.to], packet.bytes.data(), packet.bytes.size(), 0);
+      std::fprintf(stderr, "%zu frames again\n", kept.size());
+      orders.again = false;
+    }
     for (std::size_t end = 0; end < 2; ++end) {
       if ((looks[end].revents & POLLIN) == 0) continue;
       const ssize_t size = ::recv(ends[end], frame.data(), frame.size(), 0);
       if (size <= 0) continue;
       const bool at_once = resolvesAddresses(frame.data(), size);
+      if (Clock::now() < orders.cutUntil) continue;
       if (!at_once && uniform(random) < loss) continue;
       const double ms = at_once ? 0 : std::max(0.0, delay + jitter * (2 * uniform(random) - 1));
       under.push({Clock::now() + std::chrono::nanoseconds(static_cast<std::int64_t>(1e6 * ms)), number++, 1 - end,
                   std::vector<char>(frame.data(), frame.data() + size)});
     }
     while (!under.empty() && under.top().at <= Clock::now()) {
-      (void)::send(ends[under.top().to], under.top().bytes.data(), under.top().bytes.size(), 0);
+      const Packet packet = under.top();
       under.pop();
+      const int times = uniform(random) < orders.twice ? 2 : 1;
+      for (int i = 0; i < times; ++i) (void)::send(ends[packet.to], packet.bytes.data(), packet.bytes.size(), 0);
+      kept.push_back(packet);
+      if (kept.size() > kKept) kept.pop_front();
     }
   }
 }

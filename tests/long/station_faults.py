@@ -1,0 +1,444 @@
+#!/usr/bin/env python3
+"""Two stations and what can happen to them and to the line between them (needs root, for network namespaces):
+  station_faults.py BUILD [CASE ...]
+Judged by what the logs hold, tick by tick: who is lost ends the trial as peer_lost within 150 ms of its last sample, with zero force from there
+on; a line that is cut for 30 ms goes on, for 90 ms fades and recovers and is marked; a clock that steps, frames that come twice or once more
+change nothing; certificates that are not right, and other versions, are refused before a trial. Every log replays to the bit. Exits 1 otherwise."""
+import csv
+import glob
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from station_log import StationLog  # noqa: E402
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SLOW = {
+    "schema_version": 1, "name": "slow", "constraint": {"name": "line", "shape": {"length_m": 0.2}},
+    "object": {"kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600]},
+    "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5}, "hands": [{"mass": 1}, {"mass": 2}],
+    "timing": {"max_missed_ticks": 100000, "max_gap_s": 10},
+    "task": {"start": [0], "target": [6.283185307179586], "duration_s": 6,
+             "tolerance": {"position_m": 0.02, "velocity_m_per_s": 0.05, "time_s": 3}}}
+SHIM = r"""
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <sys/time.h>
+#include <time.h>
+/* From CLOCK_STEP_AT on (seconds of the monotonic clock) the wall clock is CLOCK_STEP seconds off, as if somebody had set it. */
+static long step(void) {
+  static int (*real)(clockid_t, struct timespec*);
+  if (!real) real = (int (*)(clockid_t, struct timespec*))dlsym(RTLD_NEXT, "clock_gettime");
+  struct timespec now;
+  real(CLOCK_MONOTONIC, &now);
+  const char* at = getenv("CLOCK_STEP_AT");
+  return at && now.tv_sec >= atol(at) ? atol(getenv("CLOCK_STEP")) : 0;
+}
+int clock_gettime(clockid_t which, struct timespec* out) {
+  static int (*real)(clockid_t, struct timespec*);
+  if (!real) real = (int (*)(clockid_t, struct timespec*))dlsym(RTLD_NEXT, "clock_gettime");
+  const int got = real(which, out);
+  if (which == CLOCK_REALTIME) out->tv_sec += step();
+  return got;
+}
+int gettimeofday(struct timeval* restrict out, void* restrict zone) {
+  (void)zone;
+  struct timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  out->tv_sec = now.tv_sec, out->tv_usec = now.tv_nsec / 1000;
+  return 0;
+}
+/* The kernel's clock is not set: who waits until a moment of the stepped clock waits until the same moment of the kernel's. */
+int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex, const struct timespec* until) {
+  static int (*real)(pthread_cond_t*, pthread_mutex_t*, const struct timespec*);
+  if (!real) real = (int (*)(pthread_cond_t*, pthread_mutex_t*, const struct timespec*))dlvsym(RTLD_NEXT, "pthread_cond_timedwait", "GLIBC_2.3.2");
+  struct timespec at = *until;
+  at.tv_sec -= step();
+  return real(condition, mutex, &at);
+}
+time_t time(time_t* out) {
+  struct timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  if (out) *out = now.tv_sec;
+  return now.tv_sec;
+}
+"""
+problems = []
+
+
+def check(good, what):
+    print(("  ok    " if good else "  WRONG ") + what, flush=True)
+    if not good:
+        problems.append(what)
+
+
+def run(*words, **more):
+    return subprocess.run(words, check=True, **more)
+
+
+class Line:
+    """Two namespaces joined by a relay that takes orders."""
+
+    def __init__(self, work):
+        tag = os.getpid()
+        self.spaces = [f"reachA{tag}", f"reachB{tag}"]
+        self.outer = [f"rva{tag}", f"rvb{tag}"]
+        relay = os.path.join(work, "line_relay")
+        run("g++", "-std=c++20", "-O2", "-o", relay, os.path.join(HERE, "line_relay.cpp"))
+        for i in range(2):
+            run("ip", "netns", "add", self.spaces[i])
+            run("ip", "link", "add", self.outer[i], "type", "veth", "peer", "name", self.outer[i] + "n", "netns", self.spaces[i])
+            inside = ["ip", "netns", "exec", self.spaces[i]]
+            run(*inside, "ip", "addr", "add", f"10.77.0.{i + 1}/24", "dev", self.outer[i] + "n")
+            run(*inside, "ip", "link", "set", "lo", "up")
+            run(*inside, "ip", "link", "set", self.outer[i] + "n", "up")
+            run(*inside, relay, "checksums", self.outer[i] + "n")
+            run("ip", "link", "set", self.outer[i], "up")
+        self.relay = subprocess.Popen([relay, *self.outer, "1", "0.1", "0"], stdin=subprocess.PIPE, text=True, preexec_fn=urgent)
+
+    def order(self, text):
+        self.relay.stdin.write(text + "\n")
+        self.relay.stdin.flush()
+
+    def close(self):
+        self.relay.kill()
+        self.relay.wait()
+        for space in self.spaces:
+            subprocess.run(["ip", "netns", "del", space], check=False)
+
+
+def urgent():
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(30))
+    except PermissionError:
+        pass
+
+
+class Pair:
+    """One run of two stations; `left` is the conductor."""
+
+    def __init__(self, bench, name, wait=20, **stations):
+        self.folder = os.path.join(bench.work, name)
+        os.makedirs(self.folder)
+        self.bench, self.processes = bench, {}
+        for side, number in (("right", 2), ("left", 1)):
+            more = stations.get(side, {})
+            words = ["ip", "netns", "exec", bench.line.spaces[number - 1], more.get("reach", bench.reach), "station", bench.experiment,
+                     "--number", str(number), "--device", "simulated:noise=0", "--seed", str(number), "--every-tick", "--wait", str(wait),
+                     "--peers", more.get("peers", os.path.join(bench.work, side)), "--interface", bench.line.outer[number - 1] + "n",
+                     "--peer", f"10.77.0.{3 - number}", "--data", self.path(side)]
+            if side == "left":
+                words.append("--conductor")
+            self.processes[side] = subprocess.Popen(words, stdout=open(self.path(side + ".out"), "w"), stderr=open(self.path(side + ".err"), "w"),
+                                                    env={**os.environ, **more.get("environment", {})})
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def text(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
+
+    def log_path(self, side):
+        return next(iter(glob.glob(self.path(f"{side}/sourcedata/*_log.reach"))), None)
+
+    def log(self, side):
+        return StationLog(self.log_path(side))
+
+    def await_movement(self, side="left", seconds=40):
+        """Half a second after the onset."""
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            if self.processes[side].poll() is not None:
+                break
+            if self.log_path(side) and self.log(side).tick_of(4) is not None:
+                time.sleep(0.5)
+                return True
+            time.sleep(0.05)
+        return False
+
+    def end(self, seconds=60):
+        """Exit codes."""
+        codes = {}
+        for side, process in self.processes.items():
+            try:
+                codes[side] = process.wait(seconds)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                codes[side] = "did not end"
+        return codes
+
+    def kill(self, side):
+        """The station itself, not the `ip` that started it: that has become it."""
+        os.kill(self.processes[side].pid, signal.SIGKILL)
+
+    # What is asked of every log.
+    def check_logs(self, killed=()):
+        for side in ("left", "right"):
+            path = self.log_path(side)
+            if path is None:
+                check(False, f"{side}: there is a log")
+                continue
+            log = self.log(side)
+            replay = subprocess.run([self.bench.reach, "replay", path, "--check"], capture_output=True, text=True)
+            check(replay.returncode == 0, f"{side}: replays to the bit: {replay.stdout.strip().splitlines()[-1:] or replay.stderr.strip()}")
+            check(log.closed and log.whole or side in killed, f"{side}: the log lost nothing ({len(log.times)} ticks, {len(log.given)} samples of the other)")
+
+    def forces(self, side):
+        """(trial phase, device force) of every tick."""
+        name = glob.glob(self.path(f"{side}/sub-*/ses-*/motion/*_motion.tsv"))[0]
+        with open(name.replace("_motion.tsv", "_channels.tsv")) as file:
+            columns = [row["name"] for row in csv.DictReader(file, delimiter="\t")]
+        at = [columns.index(f"device_force_{axis}") for axis in "xyz"]
+        latency = columns.index("latency")
+        with open(name) as file:
+            return {round(1e3 * float(row[latency])): sum(float(row[i]) ** 2 for i in at) ** 0.5 for row in csv.reader(file, delimiter="\t")}
+
+    def check_lost(self, side):
+        check("reason=peer_lost" in self.text(side + ".out"), f"{side}: {self.text(side + '.out').strip().splitlines()[:1]}")
+        log = self.log(side)
+        end = log.tick_of(5)
+        if end is None or not log.given:
+            check(False, f"{side}: the trial ended")
+            return
+        last = max(g[0] for g in log.given if g[0] < end)
+        silence = (log.times[end] - log.times[last]) * 1e-6
+        check(silence <= 150 and end - last <= 150, f"{side}: ended {silence:.0f} ms and {end - last} ticks after the last sample")
+        forces = self.forces(side)
+        check(max(forces.values()) <= 12 and max((f for t, f in forces.items() if t >= end), default=0) == 0,
+              f"{side}: force at most {max(forces.values()):.2f} N, and zero from the end on")
+
+    def check_goes_on(self, side):
+        check("outcome=" in self.text(side + ".out") and "peer_lost" not in self.text(side + ".out"),
+              f"{side}: {self.text(side + '.out').strip().splitlines()[:1]}")
+
+    def silence(self, side):
+        """As the station's own note has it: the oldest sample [ms], ticks at less than the full coupling."""
+        for note in self.log(side).notes():
+            if found := re.search(r"up to ([\d.e-]+) s old, held by less than their full coupling for (\d+) ticks", note):
+                return 1e3 * float(found[1]), int(found[2])
+        return None, None
+
+    def discarded(self, side):
+        return next((int(found[1]) for note in self.log(side).notes() if (found := re.search(r"network: (\d+) bytes", note))), None)
+
+
+class Bench:
+    def __init__(self, build):
+        self.reach = os.path.realpath(os.path.join(build, "cli/reach"))
+        self.work = tempfile.mkdtemp(prefix="station-faults-")
+        self.experiment = os.path.join(self.work, "slow.json")
+        with open(self.experiment, "w") as file:
+            json.dump(SLOW, file)
+        self.make_peers("left", "right")
+        self.line = Line(self.work)
+
+    def make_peers(self, conductor, other):
+        left, right = (os.path.join(self.work, name) for name in (conductor, other))
+        quiet = {"stdout": subprocess.DEVNULL}
+        run(self.reach, "peers", "init", left, "--conductor", "--name", "left", **quiet)
+        run(self.reach, "peers", "init", right, "--name", "right", **quiet)
+        run(self.reach, "peers", "add", left, os.path.join(right, "request.pem"), **quiet)
+        for file in glob.glob(os.path.join(left, "for-right/*")):
+            shutil.copy(file, right)
+
+    def copy_peers(self, name):
+        to = os.path.join(self.work, name)
+        shutil.copytree(os.path.join(self.work, "right"), to)
+        return to
+
+    def close(self):
+        self.line.close()
+        if os.environ.get("KEEP"):
+            print("kept:", self.work)
+        else:
+            shutil.rmtree(self.work, ignore_errors=True)
+
+    # Cases.
+    def peer_killed(self):
+        pair = Pair(self, "peer_killed", 6)
+        check(pair.await_movement(), "they move")
+        pair.kill("right")
+        pair.end()
+        pair.check_lost("left")
+        pair.check_logs(killed=("right",))
+
+    def conductor_killed(self):
+        pair = Pair(self, "conductor_killed", 6)
+        check(pair.await_movement("right"), "they move")
+        pair.kill("left")
+        codes = pair.end()
+        pair.check_lost("right")
+        check(codes["right"] == 3 and "conductor was not heard of" in pair.text("right.err"), f"right ends and says so: exit {codes['right']}")
+        pair.check_logs(killed=("left",))
+
+    def cut(self, ms):
+        pair = Pair(self, f"cut_{ms}")
+        check(pair.await_movement(), "they move")
+        self.line.order(f"cut {ms}")
+        pair.end()
+        return pair
+
+    def cut_30(self):
+        pair = self.cut(30)
+        for side in ("left", "right"):
+            pair.check_goes_on(side)
+            oldest, faded = pair.silence(side)
+            check(oldest is not None and oldest >= 30 and faded == 0, f"{side}: a sample was {oldest} ms old, and nothing faded ({faded} ticks)")
+        pair.check_logs()
+
+    def cut_90(self):
+        pair = self.cut(90)
+        for side in ("left", "right"):
+            pair.check_goes_on(side)
+            oldest, faded = pair.silence(side)
+            check(oldest is not None and oldest >= 90 and 0 < faded < 60, f"{side}: marked: a sample was {oldest} ms old, faded for {faded} ticks")
+        pair.check_logs()
+
+    def cut_500(self):
+        pair = self.cut(500)
+        for side in ("left", "right"):
+            pair.check_lost(side)
+        pair.check_logs()
+
+    def clock_step(self):
+        shim = os.path.join(self.work, "clock_step.so")
+        with open(shim + ".c", "w") as file:
+            file.write(SHIM)
+        run("gcc", "-shared", "-fPIC", "-O2", "-o", shim, shim + ".c", "-ldl")
+        for seconds in (3600, -3600):
+            at = int(time.clock_gettime(time.CLOCK_MONOTONIC)) + 7
+            pair = Pair(self, f"clock_step_{seconds}",
+                        right={"environment": {"LD_PRELOAD": shim, "CLOCK_STEP_AT": str(at), "CLOCK_STEP": str(seconds)}})
+            moving = pair.await_movement()
+            stepped_in = time.clock_gettime(time.CLOCK_MONOTONIC) < at
+            pair.end()
+            check(moving, f"they move{', and the clock steps under way' if stepped_in else ''}")
+            for side in ("left", "right"):
+                pair.check_goes_on(side)
+            pair.check_logs()
+
+    def repeated(self, name, orders):
+        pair = Pair(self, name)
+        check(pair.await_movement(), "they move")
+        for _ in range(5):
+            for order in orders:
+                self.line.order(order)
+            time.sleep(0.3)
+        pair.end()
+        self.line.order("twice 0")
+        for side in ("left", "right"):
+            pair.check_goes_on(side)
+            log = pair.log(side)
+            order = [g[3] for g in log.given]
+            check(all(b > a for a, b in zip(order, order[1:])), f"{side}: {len(order)} samples, each newer than the one before")
+            check((pair.discarded(side) or 0) > 0, f"{side}: counted: {pair.discarded(side)} bytes dropped")
+        pair.check_logs()
+
+    def duplicates(self):
+        self.repeated("duplicates", ["twice 100"])
+
+    def replays(self):
+        self.repeated("replays", ["again"])
+
+    def refused(self, name, wait=8, **right):
+        pair = Pair(self, name, wait, right=right)
+        codes = pair.end()
+        trials = pair.log("left").trials
+        check(codes["left"] == 3 and trials == 0, f"left: exit {codes['left']}, {trials} trials: {pair.text('left.err').strip().splitlines()[-1]}")
+        check(codes["right"] in (0, 3) and pair.log("right").trials == 0,  # 0: the conductor told it to finish
+              f"right: exit {codes['right']}: {pair.text('right.err').strip().splitlines()[-1]}")
+        return pair
+
+    def wrong_certificate(self):
+        self.make_peers("lab2", "stranger")
+        pair = self.refused("wrong_certificate", peers=os.path.join(self.work, "stranger"))
+        check("station 2: is not there" in pair.text("left.err"), "left does not hear it")
+
+    def expired_certificate(self):
+        to = self.copy_peers("expired")
+        authority = os.path.join(self.work, "left/authority")
+        config = os.path.join(self.work, "ca.cnf")
+        for name in ("index.txt", "serial"):
+            with open(os.path.join(self.work, name), "w") as file:
+                file.write("" if name == "index.txt" else "1000\n")
+        with open(config, "w") as file:
+            file.write(f"[ca]\ndefault_ca=c\n[c]\ndatabase={self.work}/index.txt\nserial={self.work}/serial\nnew_certs_dir={self.work}\n"
+                       "default_md=sha256\npolicy=p\n[p]\ncommonName=supplied\n")
+        run("openssl", "ca", "-batch", "-config", config, "-in", to + "/request.pem", "-out", to + "/identity.pem", "-notext",
+            "-cert", authority + "/identity_ca.pem", "-keyfile", authority + "/identity_ca_key.pem",
+            "-startdate", "20200101000000Z", "-enddate", "20200201000000Z", stderr=subprocess.DEVNULL)
+        said = subprocess.run([self.reach, "peers", "list", to], capture_output=True, text=True)
+        check("expired" in said.stdout + said.stderr, f"reach peers list: {said.stdout.strip()}")
+        self.refused("expired_certificate", peers=to)
+
+    def self_signed_permissions(self):
+        to = self.copy_peers("selfsigned")
+        plain = os.path.join(self.work, "permissions.xml")
+        with open(to + "/permissions.p7s") as file:
+            text = file.read()
+        start = text.index("<?xml")
+        with open(plain, "w") as file:
+            file.write(text[start:text.index("</dds>") + 6].replace("\r", "").replace("reach_*", "*"))
+        os.remove(to + "/permissions.p7s")
+        run("openssl", "smime", "-sign", "-in", plain, "-text", "-out", to + "/permissions.p7s", "-signer", to + "/identity.pem",
+            "-inkey", to + "/key.pem")
+        # Its own software is not what keeps it out: it may believe its own certificate.
+        for authority in ("theirs", "its own"):
+            if authority == "its own":
+                shutil.copy(to + "/identity.pem", to + "/permissions_ca.pem")
+                governance = os.path.join(self.work, "governance.xml")
+                with open(to + "/governance.p7s") as file:
+                    text = file.read()
+                with open(governance, "w") as file:
+                    file.write(text[text.index("<?xml"):text.index("</dds>") + 6].replace("\r", ""))
+                run("openssl", "smime", "-sign", "-in", governance, "-text", "-out", to + "/governance.p7s", "-signer", to + "/identity.pem",
+                    "-inkey", to + "/key.pem")
+            pair = self.refused("selfsigned_" + authority.replace(" ", "_"), peers=to)
+            check("station 2: is not there" in pair.text("left.err"), f"left does not hear it (permissions authority: {authority})")
+
+    def other_version(self):
+        version = subprocess.run([self.reach, "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
+        other = "9" * len(version.split(".")[0]) + version[len(version.split(".")[0]):]
+        folder = os.path.join(self.work, "other-version")
+        os.makedirs(folder)
+        with open(self.reach, "rb") as file:
+            program = file.read().replace(f"reachlab {version}".encode(), f"reachlab {other}".encode())
+        with open(folder + "/reach", "wb") as file:
+            file.write(program)
+        os.chmod(folder + "/reach", 0o755)
+        shutil.copy(os.path.join(os.path.dirname(self.reach), "reachlab-endpoint"), folder)
+        pair = self.refused("other_version", reach=folder + "/reach")
+        check(f"runs reachlab {other}, and this one reachlab {version}" in pair.text("left.err"), "left says which")
+
+
+CASES = ["peer_killed", "conductor_killed", "cut_30", "cut_90", "cut_500", "clock_step", "duplicates", "replays", "wrong_certificate",
+         "expired_certificate", "self_signed_permissions", "other_version"]
+
+
+def main():
+    if len(sys.argv) < 2 or any(case not in CASES for case in sys.argv[2:]):
+        sys.exit(__doc__ + "\nCases: " + " ".join(CASES))
+    if os.geteuid() != 0:
+        sys.exit("station_faults.py: network namespaces need root")
+    bench = Bench(sys.argv[1])
+    try:
+        for case in sys.argv[2:] or CASES:
+            print(case, flush=True)
+            getattr(bench, case)()
+    finally:
+        bench.close()
+    print(f"{len(problems)} wrong")
+    sys.exit(1 if problems else 0)
+
+
+main()
