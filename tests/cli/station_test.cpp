@@ -156,8 +156,9 @@ TEST_F(Stations, DISABLED_AKilledStationIsLostWithin150MillisecondsAndNoLogLoses
   const record::SampleRows rows = log.allRows();
   for (const char* axis : {"device_force_x", "device_force_y", "device_force_z"})
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows.ticks[i] >= result.endTick)
+      if (rows.ticks[i] >= result.endTick) {
         ASSERT_EQ(rows.at(i, log.configuration().table.indexOf(axis)), 0) << axis << " at tick " << rows.ticks[i];
+      }
   EXPECT_EQ(reach("replay " + log.path() + " --check").exitCode, 0);
   // The one that was killed is whole up to its last block: the trial is there, broken off.
   const record::RunLog killed = logOf("right");

@@ -156,7 +156,9 @@ class StationsOnClocks : public testing::Test {
     double most = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       most = std::max(most, std::abs(rows.at(i, force)));
-      if (rows.ticks[i] >= resultOf(station).endTick) ASSERT_EQ(rows.at(i, force), 0) << rows.ticks[i];
+      if (rows.ticks[i] >= resultOf(station).endTick) {
+        ASSERT_EQ(rows.at(i, force), 0) << rows.ticks[i];
+      }
     }
     EXPECT_GT(most, 0.01);
     EXPECT_LE(most, 12);
