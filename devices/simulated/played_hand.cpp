@@ -4,11 +4,17 @@
 
 namespace reachlab::devices {
 
-PlayedHand::PlayedHand(haptics::DeviceInfo info, PlanReach plan) : info_(std::move(info)), plan_(std::move(plan)), playing_(plan_(0)) {
+PlayedHand::PlayedHand(haptics::DeviceInfo info, PlanReach plan) : info_(std::move(info)), plan_(std::move(plan)), prepared_(plan_(0)) {
   info_.virtualHand = true;
+  if (prepared_.position.empty()) return;
+  playing_.position.assign(1, prepared_.position.front());  // at rest there until the first trial
+  if (!prepared_.velocity.empty()) playing_.velocity.assign(1, {});
 }
 
-void PlayedHand::prepareTrial(int index) { prepared_ = plan_(index); }
+void PlayedHand::prepareTrial(int index) {
+  if (index != 0 || !firstIsThere_) prepared_ = plan_(index);
+  firstIsThere_ = false;
+}
 
 void PlayedHand::cue(haptics::Cue cue) noexcept {
   if (cue == haptics::Cue::Go) {

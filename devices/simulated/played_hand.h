@@ -2,6 +2,7 @@
 #include <functional>
 #include <vector>
 
+#include "sim/haptics/blind_hand.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
@@ -17,7 +18,7 @@ using PlanReach = std::function<PlayedReach(int trial)>;
 
 /// A virtual hand that plays one reach a trial, by tick count, so that the same reaches give the same run at any speed of the clock.
 /// Renders no force.
-class PlayedHand final : public haptics::HapticDevice {
+class PlayedHand final : public haptics::HapticDevice, public haptics::BlindHand {
  public:
   /// `plan` is called by prepareTrial, from the controlling thread; trial 0 at once, so that what cannot be planned is said at the start.
   PlayedHand(haptics::DeviceInfo info, PlanReach plan);
@@ -32,6 +33,7 @@ class PlayedHand final : public haptics::HapticDevice {
   haptics::DeviceInfo info_;
   PlanReach plan_;
   PlayedReach prepared_;  // the controlling thread's, until Cue::Place
+  bool firstIsThere_ = true;  // trial 0 as the constructor planned it
   PlayedReach playing_;
   std::size_t at_ = 0;
   bool going_ = false;

@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "base/fault.h"
+#include "base/seeded.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
 #include "devices/options.h"
 #include "devices/simulated/played_hand.h"
 #include "devices/simulated/sampled_plan.h"
 #include "devices/subject/subject_kinds.h"
-#include "base/seeded.h"
 
 namespace reachlab::devices {
 namespace {
@@ -69,10 +69,10 @@ class SmoothNoise {
 struct Frame {
   Vec3 along, across, up;
 };
-Frame frameOf(const Vec3& along) {
-  const Vec3 e = along / norm(along);
+// `e` is of unit length.
+Frame frameOf(const Vec3& e) {
   const Vec3 helper = std::abs(e.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-  const Vec3 across = cross(e, helper) / norm(cross(e, helper));
+  const Vec3 beside = cross(e, helper), across = beside / norm(beside);
   return {e, across, cross(across, e)};
 }
 
@@ -90,6 +90,7 @@ PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::u
   PlayedReach reach;
   reach.position.reserve(still + steps + 2);
   Vec3 planned = plan.at(0), hand = planned;
+  Frame frame;  // of the way here; mostly a straight one
   reach.position.assign(still, planned);
   for (std::size_t i = 1; i <= steps; ++i) {
     const double t = std::min(static_cast<double>(i) * kTickSeconds, duration);
@@ -99,7 +100,7 @@ PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::u
     if (sd > 0) {
       const double a = along.next(), b = across.next(), c = up.next();
       if (const double distance = norm(by); distance > 0) {
-        const Frame frame = frameOf(by);
+        if (const Vec3 e = by / distance; !(e == frame.along)) frame = frameOf(e);
         hand += sd * distance * (a * frame.along + b * frame.across + c * frame.up);
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/ticks.h"
 #include "sim/predict/predict.h"
@@ -53,6 +54,7 @@ FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared
       sight_(static_cast<std::size_t>(task_->object.count()) + 1) {
   prepareTrial(0);
   std::swap(playing_, prepared_);
+  firstIsThere_ = true;
   const FeedbackGains& g = playing_.gains;
   const auto sized = [](int a, int b = 1) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); };
   const int most = static_cast<int>((kLongest * task_->cost.duration + task_->cost.hold) / kControlStep) + 2;
@@ -91,6 +93,10 @@ void FeedbackHand::learnFromTrace() {
 
 void FeedbackHand::prepareTrial(int index) {
   learnFromTrace();
+  if (std::exchange(firstIsThere_, false) && index == 0) {
+    prepared_ = playing_;
+    return;
+  }
   const FeedbackSpec& person = state_->person;
   SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
   const double sigma = person.noise * person.noiseScale *
@@ -234,7 +240,9 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
 
 void FeedbackHand::write(const Vec3& force) noexcept { felt_ = force; }
 
+// Looked at where the next tick is a control step.
 void FeedbackHand::see(std::span<const dynamics::MassState> masses) noexcept {
+  if (ticks_ < playing_.reactionTicks || (ticks_ - playing_.reactionTicks) % kTicksPerStep != 0) return;
   const std::size_t count = std::min(masses.size(), sight_.size() - 1);
   for (std::size_t i = 0; i < count; ++i) sight_[i + 1] = task_->way.placeOf(masses[i]) - task_->cost.distance;
 }

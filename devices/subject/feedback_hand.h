@@ -63,6 +63,7 @@ class FeedbackHand final : public haptics::HapticDevice {
   std::uint64_t seed_;
   SteppedArm arm_;
   Reach prepared_, playing_;
+  bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
   TrialTrace trace_;  // entries below traceSteps_ stay as they are until the next Cue::Place
   std::atomic<int> traceSteps_{0};
   bool going_ = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/ticks.h"
@@ -14,6 +15,7 @@
 #include "devices/subject/subject_parameters.h"
 #include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/hand_path.h"
+#include "sim/haptics/blind_hand.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -43,7 +45,7 @@ struct ImpedanceTask {
 };
 
 /// Inverse dynamics of the object by its own scene: the plan is led through it, and what the hand must give is kept.
-MeantReach meanReach(const ImpedanceTask& task, double stretch) {
+MeantReach meanReach(const ImpedanceTask& task, dynamics::Plant& object, double stretch) {
   const ArmSpec& arm = task.spec.arm;
   const double duration = task.plan.duration() * stretch;
   const auto steps = static_cast<std::size_t>(std::ceil(duration / kTickSeconds));
@@ -56,29 +58,29 @@ MeantReach meanReach(const ImpedanceTask& task, double stretch) {
         std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(i) + by, 0, static_cast<std::ptrdiff_t>(count) - 1))];
   };
   for (std::size_t i = 0; i < count; ++i) reach.velocity.push_back((at(i, 1) - at(i, -1)) / (2 * kTickSeconds));
-  dynamics::Scene scene = dynamics::compileScene(task.known, task.constraint);
-  scene.plant->placeAtRest(task.known.task->start);
+  object.placeAtRest(task.known.task->start);
   dynamics::HandPath path;
   path.push({reach.place[0], {}, true});
   for (std::size_t i = 0; i < count; ++i) {
     const dynamics::HandSample hand{reach.place[i], reach.velocity[i], true};
-    Vec3 object;
+    Vec3 held;
     if (i > 0) path.push(hand);
-    if (i == 0 || scene.plant->step(path.segment(), kTickSeconds) == dynamics::StepStatus::Ok) object = scene.plant->couplingForce(hand);
+    if (i == 0 || object.step(path.segment(), kTickSeconds) == dynamics::StepStatus::Ok) held = object.couplingForce(hand);
     const Vec3 acceleration = (at(i, 1) - 2 * reach.place[i] + at(i, -1)) / (kTickSeconds * kTickSeconds);
-    reach.force.push_back(arm.mass * acceleration + arm.damping * reach.velocity[i] + object);
+    reach.force.push_back(arm.mass * acceleration + arm.damping * reach.velocity[i] + held);
   }
   return reach;
 }
 
-class ImpedanceHand final : public haptics::HapticDevice {
+class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindHand {
  public:
   ImpedanceHand(std::shared_ptr<const ImpedanceTask> task, std::uint64_t seed)
-      : task_(std::move(task)), seed_(seed),
+      : task_(std::move(task)), known_(dynamics::compileScene(task_->known, task_->constraint)), seed_(seed),
         arm_(stepArm({task_->spec.arm.mass, task_->spec.arm.damping, task_->spec.arm.muscle}, kTickSeconds)),
         delayTicks_(static_cast<std::size_t>(std::lround(task_->spec.delay / kTickSeconds))), before_(delayTicks_ + 1) {
     prepareTrial(0);
     std::swap(playing_, prepared_);
+    firstIsThere_ = true;
     place();
   }
 
@@ -92,12 +94,16 @@ class ImpedanceHand final : public haptics::HapticDevice {
   }
 
   void prepareTrial(int index) override {
+    if (std::exchange(firstIsThere_, false) && index == 0) {
+      prepared_ = playing_;
+      return;
+    }
     const ImpedanceSpec& spec = task_->spec;
     SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
     constexpr double kShortest = 0.2, kReactionSpread = 0.15;
     const double stretch = std::max(kShortest, 1 + spec.noise * spec.timeSd * draws.boundedNormal());
     const double reaction = spec.reaction * (1 + std::min(spec.noise, 1.0) * kReactionSpread * draws.boundedNormal());
-    prepared_.reach = meanReach(*task_, stretch);
+    prepared_.reach = meanReach(*task_, *known_.plant, stretch);
     prepared_.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));
     prepared_.draws.resize(6 * (prepared_.reach.place.size() / kDrawTicks + 1));
     for (double& draw : prepared_.draws) draw = spec.noise * draws.normal();
@@ -186,10 +192,12 @@ class ImpedanceHand final : public haptics::HapticDevice {
   }
 
   std::shared_ptr<const ImpedanceTask> task_;
+  dynamics::Scene known_;  // the controlling thread's
   std::uint64_t seed_;
   SteppedArm arm_;
   std::size_t delayTicks_;
   Reach prepared_, playing_;
+  bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
   Vec3 place_, velocity_, correction_, stage_, noiseForce_, noiseStage_, felt_;
   std::vector<Kept> before_;
   bool going_ = false;

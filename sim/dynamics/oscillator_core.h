@@ -54,7 +54,7 @@ class OscillatorCore {
     Lanes rest, period;  // period: 1/w^2 [s^2]
   };
   static constexpr int kFewestFree = 128;   // masses: fewer fit as they are
-  static constexpr int kFewestEnds = 32;    // masses: fewer are read whole for the price of two
+  static constexpr int kFewestEnds = 3;     // masses: fewer have nothing between
   static constexpr int kFreeDegree = 5;     // of the hand's polynomial
   static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
   bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;

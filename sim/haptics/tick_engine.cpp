@@ -157,10 +157,15 @@ dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) no
 
 void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {
   const std::span<const dynamics::MassState> masses{state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
-  const bool endsSuffice = ends_ != nullptr && state_.tick % massesEvery_ != 0 && ends_->observeEnds(state_.masses) &&
-                           !trial::needsEveryMass(settings_, protocol_, state_.tick, masses);
-  sawAll_ = !endsSuffice;
-  if (sawAll_) scene_.plant->observe(hand, state_.masses);
+  const auto isDue = [&](std::uint32_t every) { return every != 0 && state_.tick % every == 0; };
+  const bool looked = isDue(lookedAtEvery_), many = state_.massCount >= kManyMasses;
+  if (ends_ != nullptr && (!looked || (many && !isDue(massesEvery_))) && ends_->observeEnds(state_.masses) &&
+      !trial::needsEveryMass(settings_, protocol_, state_.tick, masses)) {
+    sawAll_ = false;
+    return;
+  }
+  scene_.plant->observe(hand, state_.masses);
+  sawAll_ = looked;
 }
 
 // At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.

@@ -52,6 +52,7 @@ class TickEngine {
  public:
   static constexpr std::uint32_t kGapTicks = 5;
   static constexpr int kReanchorTicks = 250;
+  static constexpr int kManyMasses = 32;  // fewer are observed whole at every tick that somebody may look at: it hardly costs more
 
   /// Throws FaultError without a task, or with other than a device for each hand; RefusedError from compileScene.
   TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
@@ -71,8 +72,15 @@ class TickEngine {
   /// Where observing all masses costs far more than a step (EndMasses), it is done at multiples of `ticks` alone and where the trial's
   /// verdict needs it; force, hand and verdict stay the same bits. Before the first tick.
   void setMassesEvery(std::uint32_t ticks) noexcept { massesEvery_ = ticks; }
-  /// False after a tick in which of the masses only the first and the last were observed, and no energy.
+  /// Where nobody looks, nor a hand that sees: at multiples of `ticks` alone (0: at none) all is observed, else no energy, and of the masses
+  /// what the verdict needs. Force, hand and verdict stay the same bits. Before the first tick.
+  void setLookedAtEvery(std::uint32_t ticks) noexcept { lookedAtEvery_ = ticks; }
+  /// False after a tick in which the masses between the first and the last may not have been observed, and no energy.
   bool sawAllMasses() const noexcept { return sawAll_; }
+
+  /// The scene, for another engine of the same experiment: as good as compiled anew, since an engine begins by putting its object at rest.
+  /// This engine is then of no use any more.
+  dynamics::Scene takeScene() && { return std::move(scene_); }
 
   const dynamics::MethodChoice& choice() const { return scene_.choice; }
   const constraints::Constraint& constraint() const { return scene_.constraint; }
@@ -118,7 +126,7 @@ class TickEngine {
 
   dynamics::Scene scene_;
   const dynamics::EndMasses* ends_;  // the plant, if it offers them
-  std::uint32_t massesEvery_ = 1;
+  std::uint32_t massesEvery_ = 1, lookedAtEvery_ = 1;
   bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters
   trial::ProtocolSettings settings_;

@@ -107,9 +107,10 @@ Vec3 VelocityEstimator::estimate(const DeviceSample& sample) noexcept {
   constexpr int kSize = kMaxWindowDuration + 1;
   if (kind_ == Kind::Window) window_[static_cast<std::size_t>(count_ % kSize)] = sample.position;
   count_ = count_ < 2 * kSize - 1 ? count_ + 1 : kSize;
-  const Vec3 difference = (sample.position - last_) / dt;
+  const Vec3 before = last_;
   last_ = sample.position;
   if (fromDevice_ && sample.hasVelocity) return sample.velocity;
+  const Vec3 difference = (sample.position - before) / dt;
   switch (kind_) {
     case Kind::Difference: return difference;
     case Kind::Kalman: return correct(sample.position);

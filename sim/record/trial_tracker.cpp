@@ -68,6 +68,8 @@ void TrialTracker::tellGuards(const RecordedTick& tick, const TickFacts& facts, 
     events.push_back({tick.tick, EventKind::DeviceState, facts.trial, static_cast<double>(facts.deviceState),
                       std::string(haptics::nameOf(facts.deviceState))});
   deviceState_ = facts.deviceState;
+  if (facts.interventions == 0 && !intervened_) return;
+  intervened_ = false;
   for (int bit = 0; bit < haptics::intervention::kCount; ++bit) {
     std::uint64_t& last = lastActive_[static_cast<std::size_t>(bit)];
     const auto tell = [&](double value) {
@@ -80,6 +82,7 @@ void TrialTracker::tellGuards(const RecordedTick& tick, const TickFacts& facts, 
       tell(0);
       last = 0;
     }
+    intervened_ = intervened_ || last != 0;
   }
 }
 

@@ -3,6 +3,8 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/experiment/checked_experiment.h"
+#include "sim/haptics/blind_hand.h"
 
 namespace reachlab::study {
 namespace {
@@ -16,28 +18,38 @@ std::unique_ptr<haptics::HapticDevice> checked(std::unique_ptr<haptics::HapticDe
 
 }  // namespace
 
-BlockRun::BlockRun(const experiment::CompiledExperiment& experiment, std::unique_ptr<haptics::HapticDevice> hand, bool withSamples)
-    : hand_(checked(std::move(hand))),
-      engine_(experiment.experiment(), dynamics::compileScene(experiment), haptics::engineOptions(hand_->info())),
+BlockRun::BlockRun(const experiment::CompiledExperiment& experiment, bool withSamples)
+    : experiment_(&experiment), scene_((experiment::requiredTask(experiment.experiment()), dynamics::compileScene(experiment))),
       withSamples_(withSamples) {
   if (withSamples_) table_ = record::makeChannelTable(experiment.experiment(), experiment.constraint().parameterCount(), false);
   rows_.columns = table_.size();
 }
 
+void BlockRun::begin(std::unique_ptr<haptics::HapticDevice> hand) {
+  hand_ = checked(std::move(hand));
+  if (engine_) scene_ = std::move(*engine_).takeScene();
+  engine_.emplace(experiment_->experiment(), std::move(scene_), haptics::engineOptions(hand_->info()));
+  if (dynamic_cast<const haptics::BlindHand*>(hand_.get()) != nullptr) engine_->setLookedAtEvery(withSamples_ ? kSampleEvery : 0);
+  tracker_ = record::TrialTracker();
+  seen_ = {};
+  input_ = {};
+  trial_ = 0;
+}
+
 // What the haptic loop does at one tick of the virtual clock, for a hand that no watch looks after.
-void BlockRun::tick(const haptics::TickInput& order) {
-  const haptics::TickState& state = engine_.state();
-  haptics::TickInput input = order;
-  input.device = hand_->read();
-  input.measuredNs = static_cast<std::int64_t>(state.tick) * kTickNs;
-  engine_.tick(input);
+void BlockRun::tick() {
+  haptics::TickEngine& engine = *engine_;
+  const haptics::TickState& state = engine.state();
+  input_.device = hand_->read();
+  input_.measuredNs = static_cast<std::int64_t>(state.tick) * kTickNs;
+  engine.tick(input_);
   hand_->write(state.deviceForce);
-  if (const auto cue = engine_.cue()) hand_->cue(*cue);
+  if (const auto cue = engine.cue()) hand_->cue(*cue);
   hand_->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
 
   seen_.tick = state.tick;
-  seen_.measuredNs = input.measuredNs;
-  seen_.device.valid = input.device.valid;
+  seen_.measuredNs = input_.measuredNs;
+  seen_.device.valid = input_.device.valid;
   tracker_.add(seen_, record::factsOf(state), events_);
   events_.clear();
   if (withSamples_ && state.tick % kSampleEvery == 0) keepRow(state);
@@ -55,14 +67,12 @@ const record::RecordedTrial& BlockRun::runTrial(const trial::PlannedTrial& plann
   rows_.values.clear();
   ++trial_;
   tracker_.announce({trial_, planned});
-  haptics::TickInput order;
-  order.command = trial::Command::NextTrial;
-  order.planned = planned;
-  tick(order);
-  const haptics::TickState& state = engine_.state();
-  const haptics::TickInput none;
-  while (state.phase != trial::Phase::Done) tick(none);
-  tick(none);  // one in Done, as whoever conducts a recorded run has it
+  input_.command = trial::Command::NextTrial;
+  input_.planned = planned;
+  tick();
+  input_.command = trial::Command::None;
+  while (engine_->state().phase != trial::Phase::Done) tick();
+  tick();  // one in Done, as whoever conducts a recorded run has it
   return tracker_.trial();
 }
 

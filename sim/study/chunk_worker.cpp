@@ -82,6 +82,7 @@ ChunkWorker::Kit& ChunkWorker::kitFor(const std::string& device, const PointExpe
   kit.hands = prepare_(device, *kit.experiment);
   kit.measurer = std::make_unique<Measurer>(design_, *kit.experiment);
   kits_.push_front(std::move(kit));
+  kits_.front().run = std::make_unique<BlockRun>(*kits_.front().experiment, needs_.samples);
   if (kits_.size() > kMostKits) kits_.pop_back();
   return kits_.front();
 }
@@ -106,7 +107,8 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
       const session::PlanBlock& block = task_.plan.blocks[static_cast<std::size_t>(index)];
       const std::uint64_t own = session::blockSeed(seed, ++number);
       Kit& kit = kitFor(task_.device, task_.experiments[static_cast<std::size_t>(index)]);
-      BlockRun run(*kit.experiment, kit.hands(own, day, learnt), needs_.samples);
+      BlockRun& run = *kit.run;
+      run.begin(kit.hands(own, day, learnt));
       if (ofPlan) {
         who[2] = who[3] = day;
         who[4] = number;
@@ -174,7 +176,7 @@ void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects&
     atPoint(point, [&] {
       const experiment::CompiledExperiment experiment = openPoint(one);
       std::shared_ptr<void> learnt;
-      BlockRun(experiment, prepare(task.device, experiment)(1, 0, learnt), false);
+      BlockRun(experiment, false).begin(prepare(task.device, experiment)(1, 0, learnt));
     });
   }
 }

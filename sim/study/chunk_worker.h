@@ -28,6 +28,7 @@ class ChunkWorker {
     std::optional<experiment::CompiledExperiment> experiment;
     SubjectHands hands;
     std::unique_ptr<Measurer> measurer;
+    std::unique_ptr<BlockRun> run;
   };
   Kit& kitFor(const std::string& device, const PointExperiment& experiment);
   void computeSubject(std::int64_t subject, std::vector<MeasuredTrial>& trials, std::vector<double>& identity);

@@ -33,6 +33,13 @@ Arrival judge(const ProtocolSettings& s, std::span<const dynamics::MassState> ma
           findWorst(masses, s.velocityTolerance, [](const dynamics::MassState& m) { return norm(m.v); })};
 }
 
+// judge(…).complete(), known from the first mass that is away; the last one is the last to come.
+bool haveAllArrived(const ProtocolSettings& s, std::span<const dynamics::MassState> masses) noexcept {
+  for (std::size_t i = masses.size(); i-- > 0;)
+    if (!judge(s, masses.subspan(i, 1)).complete()) return false;
+  return true;
+}
+
 void end(ProtocolState& state, std::uint64_t tick, Outcome outcome, Reason reason, Worst worst = {}) noexcept {
   const bool moved = state.phase == Phase::Moving;
   state.phase = Phase::Done;
@@ -103,14 +110,14 @@ void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolS
 void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
   const auto moved = static_cast<std::int64_t>(in.tick - state.onsetTick);
   if (moved >= s.earliestTick) state.semaphore = Semaphore::Green;
-  const Arrival arrival = judge(s, in.masses);
-  if (arrival.complete()) {
+  if (haveAllArrived(s, in.masses)) {
     if (moved < s.earliestTick)
       end(state, in.tick, Outcome::Failure, Reason::TimeShort, {0, s.earliest - static_cast<double>(moved) * kTickSeconds});
     else end(state, in.tick, Outcome::Success, Reason::None);
     return;
   }
   if (moved < s.latestTick) return;
+  const Arrival arrival = judge(s, in.masses);
   const bool away = arrival.position.mass > 0;
   end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, away ? arrival.position : arrival.velocity);
   state.semaphore = Semaphore::Red;

@@ -315,6 +315,78 @@ TEST(TickEngine, SeesEveryMassOfALongChainWhereItIsNeeded) {
   EXPECT_GT(unseen, kReach / 2);
 }
 
+// A study looks at no tick, or at those of which a recording would keep a row.
+TEST(TickEngine, JudgesTheSameWhereNobodyLooks) {
+  int successes = 0;
+  for (const char* name : {"chain-moderate", "parallel", "free-point"}) {
+    experiment::Experiment experiment = test::armedAtOnce(name);
+    experiment.task->tolerance.position = 0.02;  // so wide that it arrives
+    experiment.task->tolerance.velocity = 0.3;
+    TickEngine all(experiment, {}), seldom(experiment, {}), never(experiment, {});
+    constexpr int kEvery = 10, kReach = 1500;
+    seldom.setLookedAtEvery(kEvery);
+    never.setLookedAtEvery(0);
+    const Vec3 from = all.protocol().start, way = all.protocol().target - from;
+    TickInput input;
+    int unseen = 0;
+    for (int trial = 0; trial < 2; ++trial) {
+      for (int i = 0; i < 2 * kReach && (i == 0 || all.state().phase != trial::Phase::Done); ++i) {
+        const double x = std::min(1.0, i / double{kReach});
+        input.device = handAt(from + (x * x * x * (10 + x * (6 * x - 15))) * way);
+        input.command = i == 0 ? trial::Command::NextTrial : trial::Command::None;
+        for (TickEngine* engine : {&all, &seldom, &never}) engine->tick(input);
+        const TickState& a = all.state();
+        for (const TickEngine* engine : {&seldom, &never}) {
+          const TickState& b = engine->state();
+          ASSERT_EQ(a.phase, b.phase) << name << i;
+          ASSERT_EQ(a.couplingForce, b.couplingForce) << name << i;
+          ASSERT_EQ(a.deviceForce, b.deviceForce) << name << i;
+          for (const int m : {0, a.massCount - 1}) {
+            ASSERT_EQ(a.masses[m].r, b.masses[m].r) << name << i;
+            ASSERT_EQ(a.masses[m].v, b.masses[m].v) << name << i;
+          }
+          if (!engine->sawAllMasses()) continue;
+          ASSERT_EQ(a.energy, b.energy) << name << i;
+          for (int m = 0; m < a.massCount; ++m) ASSERT_EQ(a.masses[m].a, b.masses[m].a) << name << i;
+        }
+        if (a.tick % kEvery == 0) ASSERT_TRUE(seldom.sawAllMasses()) << "a row is due";
+        if (!never.sawAllMasses()) ++unseen;
+      }
+      if (all.state().result.outcome == trial::Outcome::Success) ++successes;
+      EXPECT_EQ(all.state().result.reason, never.state().result.reason) << name;
+      EXPECT_EQ(all.state().result.by, never.state().result.by) << name;
+      EXPECT_EQ(all.state().result.mass, never.state().result.mass) << name;
+      EXPECT_EQ(all.state().result.endTick, never.state().result.endTick) << name;
+      EXPECT_TRUE(never.sawAllMasses()) << "as a trial ended";
+    }
+    EXPECT_GT(unseen, kReach) << name;
+  }
+  EXPECT_GT(successes, 0);
+  EXPECT_LT(successes, 6) << "both verdicts are to be seen";
+}
+
+TEST(TickEngine, AnotherEngineGoesOnWithTheScene) {
+  const auto compiled = experiment::CompiledExperiment(test::armedAtOnce("chain-moderate"));
+  TickEngine fresh(compiled, {}), first(compiled, {});
+  TickInput input;
+  const auto at = [](int i) { return handAt({-0.1 + (i > 10 ? 5e-5 * (i - 10) : 0), 0, 0}); };
+  for (int i = 0; i < 900; ++i) {
+    input.device = at(i);
+    input.command = i == 1 ? trial::Command::NextTrial : trial::Command::None;
+    first.tick(input);
+  }
+  TickEngine again(compiled.experiment(), std::move(first).takeScene(), {});
+  for (int i = 0; i < 900; ++i) {
+    input.device = at(i);
+    input.command = i == 1 ? trial::Command::NextTrial : trial::Command::None;
+    fresh.tick(input);
+    again.tick(input);
+    ASSERT_EQ(fresh.state().couplingForce, again.state().couplingForce) << i;
+    ASSERT_EQ(fresh.state().masses[4].r, again.state().masses[4].r) << i;
+  }
+  EXPECT_NE(fresh.state().couplingForce, Vec3{});
+}
+
 TEST(TickEngine, TheSameInputsGiveTheSameBits) {
   const experiment::Experiment experiment = test::armedAtOnce("parallel");
   TickEngine one(experiment, {}), two(experiment, {});
