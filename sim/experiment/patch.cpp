@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "base/json_tree.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -68,6 +67,38 @@ void put(Json& node, std::span<const Step> steps, const Json& value, const std::
 }
 
 }  // namespace
+
+std::string valueText(const JsonNode& node) {
+  switch (node.kind) {
+    case JsonNode::Kind::Null: return "null";
+    case JsonNode::Kind::Boolean: return node.boolean ? "true" : "false";
+    case JsonNode::Kind::Number: return fmt::format("{}", node.number);
+    case JsonNode::Kind::String: {
+      std::string text = "\"";
+      for (const char c : node.string) {
+        if (c == '"' || c == '\\') text += '\\';
+        text += c;
+      }
+      return text + "\"";
+    }
+    case JsonNode::Kind::Array: {
+      std::string text = "[";
+      for (const JsonNode& item : node.items) text += (text.size() > 1 ? "," : "") + valueText(item);
+      return text + "]";
+    }
+    case JsonNode::Kind::Object: break;
+  }
+  std::string text = "{";
+  for (const auto& [key, value] : node.members) text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", key, valueText(value));
+  return text + "}";
+}
+
+std::vector<Patch> readPatches(const JsonNode& node, const std::string& key, FaultList& faults) {
+  std::vector<Patch> patches;
+  if (node.kind != JsonNode::Kind::Object) faults.add(node, key, "is no object", "keys of the experiment with their values");
+  for (const auto& [path, value] : node.members) patches.push_back({path, valueText(value)});
+  return patches;
+}
 
 std::string patchedText(const std::string& text, const std::string& file, std::span<const Patch> patches) {
   static_cast<void>(parseJson(text, file));  // faults with their places

@@ -1,6 +1,10 @@
 #pragma once
+#include <compare>
 #include <span>
 #include <string>
+#include <vector>
+
+#include "base/json_reader.h"
 
 namespace reachlab::experiment {
 
@@ -8,7 +12,14 @@ namespace reachlab::experiment {
 struct Patch {
   std::string path;
   std::string value;  // as JSON
+
+  friend auto operator<=>(const Patch&, const Patch&) = default;
 };
+
+/// The changes of an object { "PATH": value, … } in its order; `key` is its own. Whether they fit is seen when they are made.
+std::vector<Patch> readPatches(const JsonNode& node, const std::string& key, FaultList& faults);
+/// A node as JSON, in one line.
+std::string valueText(const JsonNode& node);
 
 /// The file's text with these changes, comments gone. A key that is not there is made, so that the file's reader judges it; an element
 /// that is not there is refused. Throws FaultError under the patch's path.

@@ -15,14 +15,15 @@ Programme checkedProgramme(const std::string& file) {
   const std::string text = readTextFile(file);
   Programme programme{parsePlan(text, file), {}};
   std::vector<Fault> elsewhere, here;
-  std::map<std::string, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: its faults are told already
+  using What = std::pair<std::string, std::vector<experiment::Patch>>;
+  std::map<What, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: its faults are told already
   for (std::size_t i = 0; i < programme.plan.blocks.size(); ++i) {
-    const std::string& name = programme.plan.blocks[i].experiment;
-    const auto [known, isNew] = opened.try_emplace(name);
+    const PlanBlock& block = programme.plan.blocks[i];
+    const auto [known, isNew] = opened.try_emplace(What{block.experiment, block.changes});
     try {
       if (isNew) {
-        const experiment::CompiledExperiment experiment = experiment::openExperiment(name);
-        trial::checkTask(experiment, name);
+        const experiment::CompiledExperiment experiment = openExperimentOf(block);
+        trial::checkTask(experiment, block.experiment);
         known->second = experiment;
       }
     } catch (const FaultError& error) {

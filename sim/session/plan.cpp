@@ -48,6 +48,8 @@ void readBlock(ObjectReader& plan, const JsonNode& node, std::size_t index, cons
     reader.text("experiment", block.experiment);
     block.experiment = besidePlan(file, block.experiment);
   }
+  if (const JsonNode* change = reader.optional("change"))
+    block.changes = experiment::readPatches(*change, reader.keyPath("change"), plan.faults());
   if (plan.node().find("trials") == nullptr) static_cast<void>(reader.required("trials", "a whole number from 1"));
   readSettings(reader, block);
   reader.text("condition", block.condition);
@@ -65,6 +67,8 @@ void readOrderSeed(ObjectReader& reader, Plan& plan) {
 
 void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Fault>& faults) {
   if (block.experiment.empty()) faults.push_back({key + ".experiment", "is empty", "a file, or the name of a shipped experiment"});
+  if (!block.changes.empty() && block.condition.empty())
+    faults.push_back({key + ".condition", "is not given where the experiment is changed", "a name that tells these trials from the others"});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
   checkNumber(key + ".pause_s", block.pauseSeconds, atLeastZero("s"), faults);
   checkNumber(key + ".rest_s", block.restSeconds, atLeastZero("s"), faults);
@@ -90,6 +94,22 @@ void addProblems(const JsonNode& root, const Plan& plan, FaultList& faults) {
 }
 
 }  // namespace
+
+experiment::CompiledExperiment openExperimentOf(const PlanBlock& block) {
+  experiment::CompiledExperiment plain = experiment::openExperiment(block.experiment);
+  if (block.changes.empty()) return plain;
+  try {
+    return experiment::openExperimentText(experiment::patchedText(plain.experiment().text, block.experiment, block.changes),
+                                          block.experiment);
+  } catch (const FaultError& error) {
+    std::vector<Fault> faults = error.faults;
+    for (Fault& fault : faults) {  // places would be those of a text that is nowhere
+      fault.key = "change." + fault.key;
+      fault.place.reset();
+    }
+    throw FaultError(std::move(faults));
+  }
+}
 
 bool isPlan(const std::string& text, const std::string& file) { return parseJson(text, file).find("blocks") != nullptr; }
 
@@ -150,6 +170,7 @@ std::string toJson(const Plan& plan) {
   Json blocks = Json::array();
   for (const PlanBlock& b : plan.blocks) {
     Json block{{"experiment", b.experiment}, {"trials", b.trials}};
+    for (const experiment::Patch& change : b.changes) block["change"][change.path] = Json::parse(change.value);
     const auto put = [&](const char* key, const auto& value, const auto& usual) {
       if (value != usual) block[key] = value;
     };

@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/patch.h"
 
 namespace reachlab::session {
 
 /// A series of trials with the same settings; recorded as one run.
 struct PlanBlock {
   std::string experiment;  // file (beside the plan) or shipped name
+  std::vector<experiment::Patch> changes;  // to that file; the condition then has a name
   int trials = 1;
   bool practice = false;                        // recorded too, left out of statistics
   double pauseSeconds = 0;                      // [s] between trials
@@ -34,6 +37,9 @@ struct Plan {
   Counterbalance counterbalance = Counterbalance::None;
   std::vector<PlanBlock> blocks;
 };
+
+/// The block's experiment with its changes. Throws FaultError; what is wrong with a change is told under `change.KEY`.
+experiment::CompiledExperiment openExperimentOf(const PlanBlock& block);
 
 /// True when the text is a plan and not an experiment: an object with a member `blocks`.
 bool isPlan(const std::string& text, const std::string& file);

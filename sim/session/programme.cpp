@@ -17,10 +17,12 @@ namespace {
 
 Programme programmeOfText(const std::string& text, const std::string& file) {
   Programme programme{parsePlan(text, file), {}};
-  std::map<std::string, experiment::CompiledExperiment> opened;  // many blocks do one experiment
+  using What = std::pair<std::string, std::vector<experiment::Patch>>;
+  std::map<What, experiment::CompiledExperiment> opened;  // many blocks do one experiment
   for (const PlanBlock& block : programme.plan.blocks) {
-    auto known = opened.find(block.experiment);
-    if (known == opened.end()) known = opened.emplace(block.experiment, experiment::openExperiment(block.experiment)).first;
+    const What what{block.experiment, block.changes};
+    auto known = opened.find(what);
+    if (known == opened.end()) known = opened.emplace(what, openExperimentOf(block)).first;
     programme.experiments.push_back(known->second);
   }
   return programme;

@@ -8,6 +8,7 @@
 
 #include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/patch.h"
 #include "sim/session/plan.h"
 #include "sim/study/columns.h"
 
@@ -17,31 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double kMostSeed = 9007199254740992.0;  // a JSON number is read as a double: whole up to 2^53
 constexpr std::int64_t kMaxValues = 1'000'000;
-
-std::string jsonOf(const JsonNode& node) {
-  switch (node.kind) {
-    case JsonNode::Kind::Null: return "null";
-    case JsonNode::Kind::Boolean: return node.boolean ? "true" : "false";
-    case JsonNode::Kind::Number: return fmt::format("{}", node.number);
-    case JsonNode::Kind::String: {
-      std::string text = "\"";
-      for (const char c : node.string) {
-        if (c == '"' || c == '\\') text += '\\';
-        text += c;
-      }
-      return text + "\"";
-    }
-    case JsonNode::Kind::Array: {
-      std::string text = "[";
-      for (const JsonNode& item : node.items) text += (text.size() > 1 ? "," : "") + jsonOf(item);
-      return text + "]";
-    }
-    case JsonNode::Kind::Object: break;
-  }
-  std::string text = "{";
-  for (const auto& [key, value] : node.members) text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", key, jsonOf(value));
-  return text + "}";
-}
 
 // What an option of the simulated device is given as: text without quotes.
 std::optional<std::string> optionText(const JsonNode& node) {
@@ -101,7 +77,7 @@ void readAxes(ObjectReader& reader, Design& design) {
     axis.path = path;
     const std::string key = "vary." + path;
     if (value.kind == JsonNode::Kind::Array) {
-      for (const JsonNode& item : value.items) axis.values.push_back(jsonOf(item));
+      for (const JsonNode& item : value.items) axis.values.push_back(experiment::valueText(item));
       if (axis.values.empty()) reader.faults().add(value, key, "is empty", "one value or more");
     } else if (value.kind == JsonNode::Kind::Object) {
       ObjectReader inner(reader.faults(), value, key);

@@ -118,9 +118,10 @@ PointTask taskOf(const Design& design, const Point& point) try {
   PointTask task;
   task.device = deviceOf(design, point);
   const std::vector<experiment::Patch> patches = patchesOf(point, "");
-  const auto experimentOf = [&](const std::string& name) {
+  const auto experimentOf = [&](const std::string& name, std::vector<experiment::Patch> changes = {}) {
+    changes.insert(changes.end(), patches.begin(), patches.end());
     return PointExperiment{
-        name, patches.empty() ? design.experimentTexts.at(name) : experiment::patchedText(design.experimentTexts.at(name), name, patches)};
+        name, changes.empty() ? design.experimentTexts.at(name) : experiment::patchedText(design.experimentTexts.at(name), name, changes)};
   };
   if (design.planText.empty()) {
     const experiment::Patch* other = findOwn(point, "experiment");
@@ -135,7 +136,7 @@ PointTask taskOf(const Design& design, const Point& point) try {
     for (const session::PlanBlock& block : task.plan.blocks) {
       if (!design.experimentTexts.contains(experimentNameOf(block)))
         throw FaultError(Fault{"plan.blocks", "names another experiment", "the plan's own experiments"});
-      task.experiments.push_back(experimentOf(experimentNameOf(block)));
+      task.experiments.push_back(experimentOf(experimentNameOf(block), block.changes));
     }
   }
   task.days = daysOf(task.plan);

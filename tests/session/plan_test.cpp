@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/fault.h"
+#include "sim/session/programme.h"
 #include "sim/session/trial_order.h"
 #include "test_paths.h"
 
@@ -247,6 +248,33 @@ TEST(Plan, TellsWhatStandsForAllBlocksOnceAndThere) {
   const std::string text = R"({ "schema_version": 1, "trials": 1,
     "catch_share": 0.9, "blocks": [ { "experiment": "chain-slow" }, { "experiment": "chain-fast" } ] })";
   EXPECT_EQ(faultsOf(text), "p.json:2:20: catch_share: is 0.9; allowed: a share from 0 to 0.5");
+}
+
+TEST(Plan, ChangesTheExperimentOfABlockByTheLanguageOfStudies) {
+  const std::string text = R"({ "schema_version": 1, "blocks": [
+      { "experiment": "chain-slow", "trials": 1 },
+      { "experiment": "chain-slow", "trials": 1, "condition": "soft", "change": { "coupling.stiffness_n_per_m": 150, "object.masses_kg[*]": 0.5 } } ] })";
+  const Plan plan = parsePlan(text, "p.json");
+  EXPECT_EQ(openExperimentOf(plan.blocks[0]).experiment().coupling->stiffness, 600);
+  const experiment::Experiment soft = openExperimentOf(plan.blocks[1]).experiment();
+  EXPECT_EQ(soft.coupling->stiffness, 150);
+  EXPECT_EQ(soft.object.masses, std::vector<double>(5, 0.5));
+  EXPECT_NE(soft.text.find("150"), std::string::npos) << "a recording tells what was done";
+  const Programme programme = programmeOf(plan, "p.json");
+  EXPECT_EQ(programme.experiments.at(1).experiment().coupling->stiffness, 150) << "written and read back";
+  EXPECT_EQ(toJson(parsePlan(toJson(plan), "p.json")), toJson(plan));
+
+  EXPECT_NE(faultsOf(R"({ "schema_version": 1, "blocks": [ { "experiment": "chain-slow", "trials": 1, "change": { "x": 1 } } ] })")
+                .find("blocks[0].condition: "),
+            std::string::npos);
+  PlanBlock bad = plan.blocks[1];
+  bad.changes = {{"coupling.stiffness_n_per_m", "-1"}};
+  try {
+    openExperimentOf(bad);
+    ADD_FAILURE();
+  } catch (const FaultError& error) {
+    EXPECT_EQ(error.faults.at(0).key, "change.coupling.stiffness_n_per_m");
+  }
 }
 
 }  // namespace
