@@ -125,6 +125,21 @@ ReachPlan planAlongCurve(const experiment::Experiment& experiment, const constra
   return planByPrediction(experiment, way->length(), criterion, handMass, [=](double s) { return way->at(s).r; });
 }
 
+// How far ahead of one mass the hand must be for the coupling to give it `forceAt`: k d + b d' = F, d = 0 before the start. With a damper that
+// is F of the last moments, weighed by exp(-s k/b): three points of Gauss and Laguerre, exact for a force of the fifth degree over them. A
+// lead that points inwards in a bend turns with it, and its damper pulls back along the way as strongly as the spring pulls on.
+template <class ForceAt>
+Vec3 leadFor(const ForceAt& forceAt, const experiment::Coupling& coupling, double t) {
+  if (coupling.damping == 0) return forceAt(t) / coupling.stiffness;
+  constexpr double kPoints[] = {0.41577455678347908, 2.2942803602790417, 6.2899450829374792},
+                   kWeights[] = {0.71109300992917302, 0.27851773356924085, 0.01038925650158614};
+  const double seconds = coupling.damping / coupling.stiffness;
+  Vec3 force;
+  for (int k = 0; k < 3; ++k)
+    if (const double before = t - kPoints[k] * seconds; before > 0) force += kWeights[k] * forceAt(before);
+  return force / coupling.stiffness;
+}
+
 // What the criterion predicts on the curve itself. Of a point on a curve the prediction is the mass, and the hand leads it by the spring's
 // extension.
 ReachPlan planByCurvePrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
@@ -134,22 +149,26 @@ ReachPlan planByCurvePrediction(const experiment::Experiment& experiment, const 
   const bool point = experiment.object.kind == experiment::ObjectKind::Point;
   if (point && (!experiment.coupling || !(experiment.coupling->stiffness > 0)))
     throw RefusedError("coupling.stiffness_n_per_m: 0; nothing joins the simulated subject to the object");
-  const double mass = experiment.object.masses.at(0), viscosity = experiment.object.viscosity,
-               stiffness = point ? experiment.coupling->stiffness : 0;
+  const double mass = experiment.object.masses.at(0), viscosity = experiment.object.viscosity;
+  const experiment::Coupling coupling = experiment.coupling.value_or(experiment::Coupling{});
   return timeForTask(task, [&](double duration) {
     predict::PredictOptions options;
     options.handMass = handMass;
     options.duration = duration;
     const std::shared_ptr<const predict::Prediction> prediction = predict::predict(experiment, constraint, criterion, options);
-    const auto handAt = [=](double t) {
+    const auto forceAt = [=](double t) {
       const predict::PredictedHand hand = prediction->handAt(t);
       const constraints::CurvePoint at = way->at(hand.position);
-      if (!point) return at.r;
       const Vec3 along = way->sense() / norm(at.rPhi) * at.rPhi;
       const Vec3 bend = (at.rPhiPhi - dot(along, at.rPhiPhi) * along) / dot(at.rPhi, at.rPhi);
       const Vec3 acceleration = hand.acceleration * along + hand.velocity * hand.velocity * bend;
-      const Vec3 lead = (mass * acceleration + viscosity * hand.velocity * along) / stiffness;
-      return isFinite(lead) ? at.r + lead : at.r;
+      return mass * acceleration + viscosity * hand.velocity * along;
+    };
+    const auto handAt = [=](double t) {
+      const Vec3 place = way->at(prediction->handAt(t).position).r;
+      if (!point) return place;
+      const Vec3 lead = leadFor(forceAt, coupling, t);
+      return isFinite(lead) ? place + lead : place;
     };
     std::vector<double> x(static_cast<std::size_t>(prediction->massCount())), v(x.size());
     const Vec3 start = handAt(0);
@@ -190,7 +209,8 @@ struct ParameterReach {
 ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
                                 const trial::ProtocolSettings& place) {
   const experiment::Task& task = *experiment.task;
-  const double mass = experiment.object.masses.at(0), stiffness = experiment.coupling->stiffness, viscosity = experiment.object.viscosity;
+  const double mass = experiment.object.masses.at(0), viscosity = experiment.object.viscosity;
+  const experiment::Coupling coupling = *experiment.coupling;
   ParameterReach reach{constraint};
   for (int k = 0; k < constraint.parameterCount(); ++k) {
     reach.from[k] = task.start[k];
@@ -198,10 +218,13 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
   }
   if (reach.by[0] == 0 && reach.by[1] == 0) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
   return timeForTask(task, [&](double duration) {
-    const auto handAt = [=](double t) {
+    const auto forceAt = [=](double t) {
       const Motion m = reach.at(t, duration);
-      const Vec3 lead = (mass * m.a + viscosity * m.v) / stiffness;
-      return isFinite(lead) ? m.r + lead : m.r;  // at a pole the parameters say nothing of the acceleration
+      return mass * m.a + viscosity * m.v;
+    };
+    const auto handAt = [=](double t) {
+      const Vec3 place = reach.at(t, duration).r, lead = leadFor(forceAt, coupling, t);
+      return isFinite(lead) ? place + lead : place;  // at a pole the parameters say nothing of the acceleration
     };
     const auto hasLeft = [&](double t) { return norm(handAt(t) - place.start) > task.onset; };
     const auto isThere = [&](double t) {

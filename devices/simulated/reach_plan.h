@@ -15,8 +15,8 @@ struct ReachPlan {
 /// The reach from start to target of this task, planned for this very object:
 ///   - on a straight line, and free in space along the chord: what the criterion predicts (nullopt: minimum hand jerk);
 ///   - on a curve: what the criterion predicts there, along the arc; of one mass the mass is to follow it, so the hand leads it by the
-///     spring's extension, r_HIP = r + (m r'' + lambda r')/k. Where that is refused and no criterion was asked for: chain or parallel masses
-///     by the prediction for a line as long as the curve, beyond whose ends the curve goes on; one mass as on a surface;
+///     coupling's extension, r_HIP = r + d, k d + b d' = m r'' + lambda r'. Where that is refused and no criterion was asked for: chain or
+///     parallel masses by the prediction for a line as long as the curve, beyond whose ends the curve goes on; one mass as on a surface;
 ///   - one mass on a surface: the mass is to follow the minimum-jerk law in the constraint's parameters.
 /// The movement takes the task's T, unless it would then be judged too short even if carried out to the letter (the parallel object
 /// creeps into a wide tolerance long before T): a subject who has practised takes longer, so that it is judged to take T.

@@ -138,7 +138,7 @@ TEST(SimulatedHand, RefusesACriterionWhereItFollowsNone) {
 
 // The hand leads one mass by the spring's extension; the mass itself follows the prediction.
 TEST(SimulatedHand, OnACurveTheObjectMovesAsTheCriterionPredicts) {
-  for (const char* bent : {"ellipse", "chain-on-ellipse"}) {
+  for (const char* bent : {"ellipse", "chain-on-ellipse", "helix"}) {
     const experiment::CompiledExperiment experiment(experiment::readExperiment(bent));
     const auto prediction = predict::predict(experiment, predict::Criterion::MinHandJerk);
     haptics::TickEngine engine(experiment.experiment(), {.virtualHand = true});
@@ -161,8 +161,10 @@ TEST(SimulatedHand, OnACurveTheObjectMovesAsTheCriterionPredicts) {
       peak = std::max(peak, predicted);
     }
     ASSERT_GT(peak, 0.1) << bent;
-    // The plan counts on the spring without the coupling's damper, which pulls along by b/k of the acceleration: 1 % here.
-    EXPECT_LT(worst, 0.02 * peak) << bent;
+    // One mass: the coupling's damper left out of the lead would make it 1 % on the ellipse and 4.7 % on the helix, where the lead turns
+    // fastest. Several masses have no lead: their plan counts on the springs alone, and the damper makes 1 %.
+    const bool one = engine.state().massCount == 1;
+    EXPECT_LT(worst, (one ? 0.005 : 0.02) * peak) << bent << " " << worst / peak;
   }
 }
 
