@@ -179,7 +179,7 @@ figure::Figure powerFigure(const StudyReport& report) {
     figure::Panel panel;
     panel.title = analyze::shortened(cell.empty() ? truth : truth + " · " + cell, 44);
     panel.x.label = "Subjects";
-    panel.y.label = "Right (%)";
+    panel.y.label = "Right (%), rules at 80 and 95";
     panel.y.from = 0.0;
     panel.y.to = 100.0;
     std::map<std::size_t, figure::Series> lines;
@@ -196,8 +196,8 @@ figure::Figure powerFigure(const StudyReport& report) {
       line.marker = figure::markerOf(i++);
       panel.series.push_back(std::move(line));
     }
-    panel.rules.push_back({80, false, "80 %"});
-    panel.rules.push_back({95, false, "95 %"});
+    panel.rules.push_back({80, false, ""});  // words beside them would lie under the legend
+    panel.rules.push_back({95, false, ""});
     panel.legend = figure::LegendPlace::Right;
     out.panels.push_back(std::move(panel));
   }
