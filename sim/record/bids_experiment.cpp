@@ -46,12 +46,12 @@ std::string experimentNameIn(const std::string& description) {
 
 std::string experimentJson(const RunConfiguration& c) {
   const std::optional<experiment::Experiment> experiment = understood(c);
-  Json j;
+  Json j = Json::object();
   j["description"] = taskDescription(c, experiment);
   const Json known = Json::parse(experiment ? experiment::toJson(*experiment) : c.experimentText, nullptr, false, true);
   j["experiment"] = known.is_discarded() ? Json() : known;
   j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);
-  Json& run = j["run"];
+  Json& run = j["run"] = Json::object();
   run["subject"] = c.subject, run["session"] = c.session, run["run"] = c.run, run["block"] = c.block, run["practice"] = c.practice;
   run["condition"] = orNull(c.condition);
   run["trials"] = c.trials.size(), run["pause_s"] = c.pauseSeconds, run["seed"] = c.seed;

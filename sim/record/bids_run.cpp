@@ -84,7 +84,7 @@ std::string motionJson(const RunLog& run, int hand) {
   std::set<std::string> points;
   for (const Channel& channel : channels)
     if (channel.trackedPoint != "n/a") points.insert(channel.trackedPoint);
-  Json j;
+  Json j = Json::object();
   j["TaskName"] = c.task;
   j["TaskDescription"] = describeTask(c);
   j["Instructions"] = "Move the object to the target in the prescribed time and bring it to rest there";
@@ -119,14 +119,13 @@ std::string channelsTsv(const RunConfiguration& c, int hand) {
 }
 
 std::string channelsJson() {
-  Json world;
+  Json world = Json::object();
   world["Description"] = "Fixed frame of the scene, right-handed: x to the subject's right, y up, z towards the subject";
   world["SpatialAxes"] = "RSP";
   world["RotationOrder"] = "ZXY";
   world["RotationRule"] = "right-hand";
-  Json j;
-  j["reference_frame"]["Description"] = "Reference frame of the channel";
-  j["reference_frame"]["Levels"]["world"] = world;
+  Json j = Json::object();
+  j["reference_frame"] = {{"Description", "Reference frame of the channel"}, {"Levels", {{"world", world}}}};
   return j.dump(2) + "\n";
 }
 
@@ -160,7 +159,7 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
 }
 
 std::string eventsJson(const RunConfiguration& c) {
-  Json j;
+  Json j = Json::object();
   j["onset"] = described("Since the first sample of the recording. " + clockStatement(c), "s");
   j["trial_type"] = described("Kind of trial");
   j["trial_type"]["Levels"] = {{"reach", "Rest-to-rest reach; onset is the start of the movement, duration ends with the trial"},

@@ -69,7 +69,7 @@ class KeptTable {
 };
 
 std::string descriptionJson(const std::string& version) {
-  Json j;
+  Json j = Json::object();
   j["Name"] = "Reaching with simulated objects";
   j["BIDSVersion"] = "1.9.0";
   j["DatasetType"] = "raw";
@@ -86,7 +86,7 @@ std::string descriptionJson(const std::string& version) {
 }
 
 std::string participantsJson() {
-  Json j;
+  Json j = Json::object();
   j["age"] = {{"Description", "Age of the participant"}, {"Units", "years"}};
   j["sex"] = {{"Description", "Sex as reported by the participant"}, {"Levels", {{"F", "female"}, {"M", "male"}, {"O", "other"}}}};
   j["handedness"] = {{"Description", "Handedness as reported by the participant"},

@@ -12,7 +12,7 @@ std::string describeDerivative(const std::string& folder, const std::string& nam
   std::error_code error;
   if (std::filesystem::exists(path, error)) return {};
   const std::size_t space = software.find(' ');
-  nlohmann::ordered_json j;
+  nlohmann::ordered_json j = nlohmann::ordered_json::object();
   j["Name"] = name;
   j["BIDSVersion"] = "1.9.0";
   j["DatasetType"] = "derivative";
