@@ -115,8 +115,9 @@ TEST_F(ReadFaults, NoMemoryEndsAnyStageWithASentence) {
     const Ended ended = reach("run dingwell --device simulated --trials 3 --fast --seed 1 --data " + data,
                               "LD_PRELOAD=" REACHLAB_BINARY_DIR "/tests/libfault_shim.so FAULT_KIND=malloc FAULT_AT=" + std::to_string(at));
     const bool file = ended.exitCode == 2 && ended.err.find("cannot be read: Cannot allocate memory") != std::string::npos;
-    EXPECT_TRUE(file || (ended.exitCode == 3 && ended.err.find("there is not enough memory") != std::string::npos))
-        << at << ": " << ended.err;
+    const bool told = ended.exitCode == 3 && ended.err.find("there is not enough memory") != std::string::npos;
+    // A library may do without the memory; then nothing is missing.
+    EXPECT_TRUE(file || told || (ended.exitCode == 0 && trialLines(ended.out).size() == 3)) << at << ": " << ended.err;
   }
 }
 

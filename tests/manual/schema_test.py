@@ -29,6 +29,7 @@ BODY = {**POINT, "constraint": {"name": "free"}, "object": {"kind": "body", "mas
 LONG = {**POINT, "object": {"kind": "chain", "masses_kg": [1] * 5, "stiffness_n_per_m": [1] * 4}, "hands": [{}, {}]}
 PAIR = {**POINT, "object": {"kind": "chain", "masses_kg": [1, 1], "stiffness_n_per_m": [1]}, "hands": [{}, {}]}
 HELD = {**BODY, "hands": [{}, {}]}
+VIEWED = {**POINT, "look": {"cameras": [{"name": "above", "position_m": [0, 0.5, 0.1], "focus_m": [0, 0, 0]}]}}
 PLAN = {"schema_version": 1, "trials": 2, "blocks": [{"experiment": "chain-moderate"}]}
 CURVE = {"schema_version": 1, "name": "x", "kind": "curve", "curve": ["a_m*cos(phi)", "a_m*sin(phi)*cos(phi)", "0"],
          "shape": {"a_m": {"default": 0.1, "min": 0.01, "max": 1}}, "domain": [0, "2*pi"], "start": [0], "target": ["pi"]}
@@ -49,8 +50,10 @@ NEIGHBOURS = {
     ("constraint.shape", None): {**POINT, "constraint": {"name": "torus"}, "task": {**POINT["task"], "start": [0, 0.5], "target": [1, 2]}},
     ("hands[].mass", None): LONG, ("hands[].stiffness_n_per_m", None): PAIR, ("hands[].damping_n_s_per_m", None): LONG,
     ("hands[].fp_offset_m", None): HELD,
+    **{(f"look.cameras[].{key}", None): VIEWED for key in ("name", "position_m", "focus_m", "up", "angle_deg", "parallel")},
     ("surface", None): SURFACE, ("domain", "[[0, \"2*pi\"], [-1, 1]]"): SURFACE, ("periodic", "[true, false]"): SURFACE,
     ("plan", None): PLANNED_STUDY,
+    ("blocks[].change", None): {**PLAN, "blocks": [{"experiment": "chain-moderate", "condition": "soft"}]},
 }
 
 
@@ -118,7 +121,7 @@ class SchemaTest(unittest.TestCase):
         for name, schema in self.schemas.items():
             for group in groups(schema):
                 place = (group.path + "." if group.path else "") + "zz"
-                base = {"object": BODY, "hands[]": HELD}.get(group.path, BASES[name]) if name == "experiment" else BASES[name]
+                base = {"object": BODY, "hands[]": HELD, "look.cameras[]": VIEWED}.get(group.path, BASES[name]) if name == "experiment" else BASES[name]
                 said = self.validate([put(base, place, 1)])[0]
                 named = re.search(r"zz: is not known here(?:; did you mean [^?]*\?)?; allowed: (.*)", said)
                 self.assertTrue(named, f"{name} {place}: {said}")
