@@ -123,6 +123,11 @@ def urgent():
         pass
 
 
+def before_others():
+    """The haptic thread and the endpoint have real-time priority; who arms and answers must not wait for a busy computer either."""
+    os.nice(-15)
+
+
 class Pair:
     """One run of two stations; `left` is the conductor."""
 
@@ -139,7 +144,7 @@ class Pair:
             if side == "left":
                 words.append("--conductor")
             self.processes[side] = subprocess.Popen(words, stdout=open(self.path(side + ".out"), "w"), stderr=open(self.path(side + ".err"), "w"),
-                                                    env={**os.environ, **more.get("environment", {})})
+                                                    env={**os.environ, **more.get("environment", {})}, preexec_fn=before_others)
 
     def path(self, name):
         return os.path.join(self.folder, name)
