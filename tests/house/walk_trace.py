@@ -15,13 +15,14 @@ ADDRESSES = [int(a, 16) for a, f, n in FUNCTIONS]
 ASKED = tuple(room + "/" for room in os.environ["WALK_ASKED"].split(";") if room)
 thread = None  # of the segment that is under way
 last = ""
+first_stack = 0  # where the segment's first function was entered: frames above it are its callers
 
 
 def asked_for():
     """Whether a function of a room that is only asked stands between the segment's first function and this one."""
     frame = gdb.newest_frame().older()
     for _ in range(60):
-        if frame is None or not frame.is_valid():
+        if frame is None or not frame.is_valid() or int(frame.read_register("rsp")) > first_stack:
             return False
         at = bisect.bisect_right(ADDRESSES, frame.pc() - offset) - 1
         if 0 <= at < len(ADDRESSES) - 1 and FUNCTIONS[at][1].startswith(ASKED):
@@ -76,6 +77,7 @@ for segment in os.environ["WALK_SEGMENTS"].split(";"):
         b.ignore_count = int(nth or 1) - 1
     gdb.execute("continue", to_string=True)
     thread = gdb.selected_thread().num
+    first_stack = int(gdb.parse_and_eval("(unsigned long)$rsp"))
     here = gdb.selected_frame().pc() - offset
     for b in begin:
         b.delete()
