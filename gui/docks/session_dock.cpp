@@ -75,7 +75,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   auto* devices = new QPushButton(QStringLiteral("…"));
   devices->setObjectName(QStringLiteral("devicesButton"));
   devices->setToolTip(QStringLiteral("which devices there are, and one of them live: place, force, calibration"));
-  devices->setMaximumWidth(28);
+  devices->setMaximumWidth(36);
   connect(devices, &QPushButton::clicked, this, [this] {
     auto* dialog = new DeviceDialog(experiment::CompiledExperiment(shown()), device_->currentText(),
                                     [this](const QString& name) { device_->setCurrentText(name); }, this);

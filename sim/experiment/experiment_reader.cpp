@@ -285,7 +285,7 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   readTiming(root, experiment);
   readVelocityEstimator(root, experiment);
   readSubjectScreen(root, experiment.subjectScreen);
-  (void)readLook(root);  // stands in the text
+  if (root.optional("look") != nullptr) (void)readLook(root);  // stands in the text
   readArm(root, experiment);
   root.finish();
 
