@@ -7,6 +7,7 @@
 #include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::experiment {
 namespace fs = std::filesystem;
@@ -28,19 +29,20 @@ namespace {
 
 constexpr const char* kTwoHands = "two-hands";
 
-std::vector<std::string> namesIn(const fs::path& folder) {
+}  // namespace
+
+std::vector<std::string> shippedNames(const std::string& kind) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::path(resourceFolder()) / kind, ignored))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-}  // namespace
+std::vector<std::string> shippedExperiments() { return shippedNames("experiments"); }
 
-std::vector<std::string> shippedExperiments() { return namesIn(fs::path(resourceFolder()) / "experiments"); }
-
-std::vector<std::string> shippedForTwoHands() { return namesIn(fs::path(resourceFolder()) / "experiments" / kTwoHands); }
+std::vector<std::string> shippedForTwoHands() { return shippedNames(std::string("experiments/") + kTwoHands); }
 
 CompiledExperiment openExperiment(const std::string& fileOrName) {
   std::error_code ignored;

@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::session {
 namespace {
@@ -122,14 +123,7 @@ std::optional<std::string> findPlan(const std::string& fileOrName) {
   return std::nullopt;
 }
 
-std::vector<std::string> shippedPlans() {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(experiment::resourceFolder()) / "plans", ignored))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+std::vector<std::string> shippedPlans() { return experiment::shippedNames("plans"); }
 
 Plan parsePlan(const std::string& text, const std::string& file) {
   const JsonNode root = parseJson(text, file);

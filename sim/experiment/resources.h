@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace reachlab::experiment {
+
+/// Names of the files that the program brings of one kind ("experiments", "plans"), in order, without their ending; none where
+/// there is no such folder. Throws ResourceError when the resources are not found.
+std::vector<std::string> shippedNames(const std::string& kind);
+
+}  // namespace reachlab::experiment
