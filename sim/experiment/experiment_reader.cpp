@@ -285,7 +285,7 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   readTiming(root, experiment);
   readVelocityEstimator(root, experiment);
   readSubjectScreen(root, experiment.subjectScreen);
-  if (root.optional("look") != nullptr) (void)readLook(root);  // stands in the text
+  if (const JsonNode* look = root.optional("look")) (void)readLook(root.faults(), *look);  // its value stands in the text
   readArm(root, experiment);
   root.finish();
 

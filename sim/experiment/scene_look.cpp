@@ -77,22 +77,20 @@ const std::vector<std::string>& colouredParts() {
   return names;
 }
 
-SceneLook readLook(ObjectReader& root) {
+SceneLook readLook(FaultList& faults, const JsonNode& node) {
   SceneLook look;
-  const JsonNode* node = root.optional("look");
-  if (node == nullptr) return look;
-  ObjectReader reader(root.faults(), *node, "look");
+  ObjectReader reader(faults, node, "look");
   reader.number("surface_opacity", {0, 1, true, "0 to 1"}, look.surfaceOpacity);
   reader.choice("depth_cue", {"none", "grid", "shadow"}, look.depthCue, false);
   reader.boolean("trace", look.trace);
   reader.boolean("force_arrow", look.forceArrow);
   reader.text("scene_file", look.sceneFile);
-  if (const JsonNode* colours = reader.optional("colours")) readColours(root.faults(), *colours, look.colours);
+  if (const JsonNode* colours = reader.optional("colours")) readColours(faults, *colours, look.colours);
   if (const JsonNode* cameras = reader.optional("cameras")) {
     if (cameras->kind != JsonNode::Kind::Array)
-      root.faults().add(*cameras, "look.cameras", "is no list", "[ { \"name\": …, \"position_m\": …, \"focus_m\": … } ]");
+      faults.add(*cameras, "look.cameras", "is no list", "[ { \"name\": …, \"position_m\": …, \"focus_m\": … } ]");
     for (std::size_t i = 0; i < cameras->items.size(); ++i) {
-      ObjectReader inner(root.faults(), cameras->items[i], fmt::format("look.cameras[{}]", i));
+      ObjectReader inner(faults, cameras->items[i], fmt::format("look.cameras[{}]", i));
       look.cameras.push_back(readCamera(inner));
     }
   }
@@ -105,8 +103,8 @@ SceneLook lookOf(const Experiment& experiment) {
   try {
     FaultList faults("look");
     const JsonNode tree = parseJson(experiment.text, "look");
-    ObjectReader root(faults, tree, "");
-    SceneLook look = readLook(root);
+    const JsonNode* node = tree.find("look");
+    const SceneLook look = node != nullptr ? readLook(faults, *node) : SceneLook{};
     return faults.empty() ? look : SceneLook{};
   } catch (const FaultError&) {  // no experiment's text: nobody has read it
     return {};

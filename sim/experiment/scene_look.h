@@ -6,7 +6,8 @@
 #include "base/vec3.h"
 
 namespace reachlab {
-class ObjectReader;
+class FaultList;
+struct JsonNode;
 }
 
 namespace reachlab::experiment {
@@ -37,8 +38,8 @@ struct SceneLook {
 /// Parts of the scene whose colour can be chosen.
 const std::vector<std::string>& colouredParts();
 
-/// Reads `look`; faults go to the reader's list.
-SceneLook readLook(ObjectReader& root);
+/// What stands under the key `look`; what is wrong with it goes to the list.
+SceneLook readLook(FaultList& faults, const JsonNode& node);
 /// What the experiment's text says of it; the default where it says nothing.
 SceneLook lookOf(const Experiment& experiment);
 /// The same experiment with this look in its text.
