@@ -16,11 +16,16 @@ std::unique_ptr<haptics::HapticDevice> checked(std::unique_ptr<haptics::HapticDe
   return hand;
 }
 
+// A scene moves without a task, a trial does not.
+dynamics::Scene compileWithTask(const experiment::CompiledExperiment& experiment) {
+  (void)experiment::requiredTask(experiment.experiment());
+  return dynamics::compileScene(experiment);
+}
+
 }  // namespace
 
 BlockRun::BlockRun(const experiment::CompiledExperiment& experiment, bool withSamples)
-    : experiment_(&experiment), scene_((experiment::requiredTask(experiment.experiment()), dynamics::compileScene(experiment))),
-      withSamples_(withSamples) {
+    : experiment_(&experiment), scene_(compileWithTask(experiment)), withSamples_(withSamples) {
   if (withSamples_) table_ = record::makeChannelTable(experiment.experiment(), experiment.constraint().parameterCount(), false);
   rows_.columns = table_.size();
 }
