@@ -4,7 +4,9 @@ target_compile_options(reachlab_warnings INTERFACE -Wall -Wextra -Wshadow -Wconv
   -Wno-maybe-uninitialized)  # g++ 12 reports its own AVX-512 intrinsics (GCC bug 105593)
 # A product and a sum are two roundings wherever the code writes two operations: the compiler fuses none on its own, so that results do not
 # hang on what it found to fuse (docs/adr/0020-fused-operations-are-written-out.md).
-add_compile_options(-ffp-contract=off)
+# Nor are operations that stand side by side put into one vector by itself: g++ 12 fuses a product with an alternating sum there (vfmaddsub)
+# even so. Loops over lanes are another pass.
+add_compile_options(-ffp-contract=off -fno-tree-slp-vectorize)
 set(REACHLAB_LEVEL_NUMBER 1)
 if(REACHLAB_LEVEL MATCHES "^x86-64-v([234])$")
   set(REACHLAB_LEVEL_NUMBER ${CMAKE_MATCH_1})

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/elementary.h"
 #include "constraints/program.h"
 #include "constraints/sincos.h"
 
@@ -59,17 +60,17 @@ void execute(const Program& program, Register* r) noexcept {
       case Code::Square:
       case Code::TwoSquare: put([&](int k) { return a[k] * a[k]; }); break;
       case Code::SinCos: sinCosInLanes(a, r[i->b], r[i->c]); break;
-      case Code::Pow: put([&](int k) { return std::pow(a[k], b[k]); }); break;
-      case Code::Tan: put([&](int k) { return std::tan(a[k]); }); break;
-      case Code::Asin: put([&](int k) { return std::asin(a[k]); }); break;
-      case Code::Acos: put([&](int k) { return std::acos(a[k]); }); break;
-      case Code::Atan: put([&](int k) { return std::atan(a[k]); }); break;
-      case Code::Atan2: put([&](int k) { return std::atan2(a[k], b[k]); }); break;
-      case Code::Sinh: put([&](int k) { return std::sinh(a[k]); }); break;
-      case Code::Cosh: put([&](int k) { return std::cosh(a[k]); }); break;
-      case Code::Tanh: put([&](int k) { return std::tanh(a[k]); }); break;
-      case Code::Exp: put([&](int k) { return std::exp(a[k]); }); break;
-      case Code::Log: put([&](int k) { return std::log(a[k]); }); break;
+      case Code::Pow: put([&](int k) { return elementary::pow(a[k], b[k]); }); break;
+      case Code::Tan: put([&](int k) { return elementary::tan(a[k]); }); break;
+      case Code::Asin: put([&](int k) { return elementary::asin(a[k]); }); break;
+      case Code::Acos: put([&](int k) { return elementary::acos(a[k]); }); break;
+      case Code::Atan: put([&](int k) { return elementary::atan(a[k]); }); break;
+      case Code::Atan2: put([&](int k) { return elementary::atan2(a[k], b[k]); }); break;
+      case Code::Sinh: put([&](int k) { return elementary::sinh(a[k]); }); break;
+      case Code::Cosh: put([&](int k) { return elementary::cosh(a[k]); }); break;
+      case Code::Tanh: put([&](int k) { return elementary::tanh(a[k]); }); break;
+      case Code::Exp: put([&](int k) { return elementary::exp(a[k]); }); break;
+      case Code::Log: put([&](int k) { return elementary::log(a[k]); }); break;
       case Code::Sqrt: put([&](int k) { return std::sqrt(a[k]); }); break;
       case Code::Abs: put([&](int k) { return std::abs(a[k]); }); break;
       case Code::Sign: put([&](int k) { return signOf(a[k]); }); break;

@@ -156,11 +156,12 @@ CppWriter::Text CppWriter::operation(int id) const {
 
 std::string CppWriter::function(const ExpressionNode& n) const {
   const std::string a = print(n.a).text;
+  const std::string from = names_.sinCos.empty() || n.op == Op::Sqrt || n.op == Op::Abs ? "std::" : "elementary::";
   switch (n.op) {
-    case Op::Pow: return "std::pow(" + a + ", " + print(n.b).text + ")";
-    case Op::Atan2: return "std::atan2(" + a + ", " + print(n.b).text + ")";
+    case Op::Pow: return from + "pow(" + a + ", " + print(n.b).text + ")";
+    case Op::Atan2: return from + "atan2(" + a + ", " + print(n.b).text + ")";
     case Op::Sign: return "signOf(" + a + ")";
-    default: return std::string("std::") + nameOf(n.op) + "(" + a + ")";
+    default: return from + nameOf(n.op) + "(" + a + ")";
   }
 }
 

@@ -13,7 +13,7 @@ class CppWriter {
  public:
   struct Names {
     std::vector<std::string> variables, parameters;  // C++ identifiers
-    std::string sinCos;                              // call for both at once, of sincos.h; empty: std::sin and std::cos
+    std::string sinCos;                              // call for both at once, of sincos.h; empty: code that stands alone, with std::sin and its like
   };
   /// `roots` will be asked for by expression(). Integer powers become products in `graph`.
   CppWriter(ExpressionGraph& graph, const std::vector<int>& roots, Names names);

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/elementary.h"
 #include "base/fault.h"
 #include "constraints/sincos.h"
 
 namespace reachlab::constraints {
 namespace {
 
-constexpr int kMaxIntegerExponent = 64;  // larger ones go through std::pow
+constexpr int kMaxIntegerExponent = 64;  // larger ones go through pow
 
 constexpr const char* kOpNames[] = {"constant", "variable", "parameter", "+",   "-",    "*",    "/",    "-",     "^",
                                     "^",        "sin",      "cos",       "tan", "asin", "acos", "atan", "atan2", "sinh",
@@ -56,19 +57,19 @@ double applyOp(Op op, double a, double b) noexcept {
     case Op::Div: return a / b;
     case Op::Neg: return -a;
     case Op::PowInt: return powInteger(a, static_cast<int>(b));
-    case Op::Pow: return std::pow(a, b);
+    case Op::Pow: return elementary::pow(a, b);
     case Op::Sin: return sine(a);
     case Op::Cos: return cosine(a);
-    case Op::Tan: return std::tan(a);
-    case Op::Asin: return std::asin(a);
-    case Op::Acos: return std::acos(a);
-    case Op::Atan: return std::atan(a);
-    case Op::Atan2: return std::atan2(a, b);
-    case Op::Sinh: return std::sinh(a);
-    case Op::Cosh: return std::cosh(a);
-    case Op::Tanh: return std::tanh(a);
-    case Op::Exp: return std::exp(a);
-    case Op::Log: return std::log(a);
+    case Op::Tan: return elementary::tan(a);
+    case Op::Asin: return elementary::asin(a);
+    case Op::Acos: return elementary::acos(a);
+    case Op::Atan: return elementary::atan(a);
+    case Op::Atan2: return elementary::atan2(a, b);
+    case Op::Sinh: return elementary::sinh(a);
+    case Op::Cosh: return elementary::cosh(a);
+    case Op::Tanh: return elementary::tanh(a);
+    case Op::Exp: return elementary::exp(a);
+    case Op::Log: return elementary::log(a);
     case Op::Sqrt: return std::sqrt(a);
     case Op::Abs: return std::abs(a);
     case Op::Sign: return signOf(a);
@@ -228,7 +229,7 @@ int ExpressionGraph::pow(int a, int b) {
     const double exponent = node(b).value;
     if (std::abs(exponent) <= kMaxIntegerExponent && exponent == std::floor(exponent)) return powInt(a, static_cast<int>(exponent));
     if (exponent == 0.5) return apply(Op::Sqrt, a);
-    if (isConstant(a)) return constant(std::pow(node(a).value, exponent));
+    if (isConstant(a)) return constant(elementary::pow(node(a).value, exponent));
   }
   return intern({Op::Pow, a, b, 0});
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/elementary.h"
 #include "constraints/program.h"
 #include "constraints/sincos.h"
 
@@ -78,37 +79,37 @@ sinCosine:
   sinCos(r[i->a], r[i->b], r[i->c]);
   NEXT;
 pow:
-  r[i->out] = std::pow(r[i->a], r[i->b]);
+  r[i->out] = elementary::pow(r[i->a], r[i->b]);
   NEXT;
 tan:
-  r[i->out] = std::tan(r[i->a]);
+  r[i->out] = elementary::tan(r[i->a]);
   NEXT;
 asin:
-  r[i->out] = std::asin(r[i->a]);
+  r[i->out] = elementary::asin(r[i->a]);
   NEXT;
 acos:
-  r[i->out] = std::acos(r[i->a]);
+  r[i->out] = elementary::acos(r[i->a]);
   NEXT;
 atan:
-  r[i->out] = std::atan(r[i->a]);
+  r[i->out] = elementary::atan(r[i->a]);
   NEXT;
 atan2:
-  r[i->out] = std::atan2(r[i->a], r[i->b]);
+  r[i->out] = elementary::atan2(r[i->a], r[i->b]);
   NEXT;
 sinh:
-  r[i->out] = std::sinh(r[i->a]);
+  r[i->out] = elementary::sinh(r[i->a]);
   NEXT;
 cosh:
-  r[i->out] = std::cosh(r[i->a]);
+  r[i->out] = elementary::cosh(r[i->a]);
   NEXT;
 tanh:
-  r[i->out] = std::tanh(r[i->a]);
+  r[i->out] = elementary::tanh(r[i->a]);
   NEXT;
 exp:
-  r[i->out] = std::exp(r[i->a]);
+  r[i->out] = elementary::exp(r[i->a]);
   NEXT;
 log:
-  r[i->out] = std::log(r[i->a]);
+  r[i->out] = elementary::log(r[i->a]);
   NEXT;
 sqrt:
   r[i->out] = std::sqrt(r[i->a]);

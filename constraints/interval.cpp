@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/elementary.h"
+
+
 namespace reachlab::constraints {
 namespace {
 
@@ -22,7 +25,7 @@ bool contains(Interval a, double x) { return a.lo <= x && x <= a.hi; }
 
 // Powers of an interval with a whole exponent > 0.
 Interval wholePower(Interval a, double n) {
-  const double lo = std::pow(a.lo, n), hi = std::pow(a.hi, n);
+  const double lo = elementary::pow(a.lo, n), hi = elementary::pow(a.hi, n);
   if (std::fmod(n, 2) != 0) return {lo, hi};
   return {contains(a, 0) ? 0.0 : std::min(lo, hi), std::max(lo, hi)};
 }
@@ -39,7 +42,7 @@ Interval waveOver(double (*f)(double), double crest, Interval a) {
 // Where the box meets neither the cut nor 0, the angle grows and falls along its sides.
 Interval angleOver(Interval y, Interval x) {
   if (!(x.lo > 0 || y.lo > 0 || y.hi < 0)) return {-std::numbers::pi, std::numbers::pi};
-  return hull({std::atan2(y.lo, x.lo), std::atan2(y.lo, x.hi), std::atan2(y.hi, x.lo), std::atan2(y.hi, x.hi)});
+  return hull({elementary::atan2(y.lo, x.lo), elementary::atan2(y.lo, x.hi), elementary::atan2(y.hi, x.lo), elementary::atan2(y.hi, x.hi)});
 }
 
 }  // namespace
@@ -81,34 +84,34 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
     case Op::Pow: {
       const bool whole = b.lo == b.hi && b.lo == std::floor(b.lo);
       if (a.lo > 0) {
-        r = hull({std::pow(a.lo, b.lo), std::pow(a.lo, b.hi), std::pow(a.hi, b.lo), std::pow(a.hi, b.hi)});
+        r = hull({elementary::pow(a.lo, b.lo), elementary::pow(a.lo, b.hi), elementary::pow(a.hi, b.lo), elementary::pow(a.hi, b.hi)});
       } else if (whole && b.lo == 0) {
         r = {1, 1};
       } else if (whole && b.lo > 0) {
         r = wholePower(a, b.lo);
       } else if (whole && a.hi < 0) {
-        r = hull({std::pow(a.lo, b.lo), std::pow(a.hi, b.lo)});
+        r = hull({elementary::pow(a.lo, b.lo), elementary::pow(a.hi, b.lo)});
       } else if (!whole && a.hi < 0) {
         raise(Finiteness::Nowhere);
         r = kEverything;
       } else if (!whole && b.lo > 0) {
         raise(a.lo < 0 ? Finiteness::Touching : Finiteness::Finite);
-        r = {0, std::max({1.0, std::pow(std::max(a.hi, 0.0), b.lo), std::pow(std::max(a.hi, 0.0), b.hi)})};
+        r = {0, std::max({1.0, elementary::pow(std::max(a.hi, 0.0), b.lo), elementary::pow(std::max(a.hi, 0.0), b.hi)})};
       } else {
         raise(a.lo == 0 && a.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
         r = kEverything;
       }
       break;
     }
-    case Op::Sin: r = waveOver(std::sin, std::numbers::pi / 2, a); break;
-    case Op::Cos: r = waveOver(std::cos, 0, a); break;
+    case Op::Sin: r = waveOver(elementary::sin, std::numbers::pi / 2, a); break;
+    case Op::Cos: r = waveOver(elementary::cos, 0, a); break;
     case Op::Tan: {
       const double k = std::floor(a.lo / std::numbers::pi + 0.5);
       if (k != std::floor(a.hi / std::numbers::pi + 0.5)) {
         raise(Finiteness::Unknown);
         r = kEverything;
       } else {
-        r = monotone(std::tan);
+        r = monotone(elementary::tan);
       }
       break;
     }
@@ -117,21 +120,21 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
       if (a.lo > 1 || a.hi < -1) raise(Finiteness::Nowhere);
       else if (a.lo < -1 || a.hi > 1) raise(Finiteness::Touching);
       const double lo = std::clamp(a.lo, -1.0, 1.0), hi = std::clamp(a.hi, -1.0, 1.0);
-      r = n.op == Op::Asin ? Interval{std::asin(lo), std::asin(hi)} : Interval{std::acos(hi), std::acos(lo)};
+      r = n.op == Op::Asin ? Interval{elementary::asin(lo), elementary::asin(hi)} : Interval{elementary::acos(hi), elementary::acos(lo)};
       break;
     }
-    case Op::Atan: r = monotone(std::atan); break;
+    case Op::Atan: r = monotone(elementary::atan); break;
     case Op::Atan2: r = angleOver(a, b); break;
-    case Op::Sinh: r = monotone(std::sinh); break;
+    case Op::Sinh: r = monotone(elementary::sinh); break;
     case Op::Cosh:
-      r = {contains(a, 0) ? 1.0 : std::min(std::cosh(a.lo), std::cosh(a.hi)), std::max(std::cosh(a.lo), std::cosh(a.hi))};
+      r = {contains(a, 0) ? 1.0 : std::min(elementary::cosh(a.lo), elementary::cosh(a.hi)), std::max(elementary::cosh(a.lo), elementary::cosh(a.hi))};
       break;
-    case Op::Tanh: r = monotone(std::tanh); break;
-    case Op::Exp: r = monotone(std::exp); break;
+    case Op::Tanh: r = monotone(elementary::tanh); break;
+    case Op::Exp: r = monotone(elementary::exp); break;
     case Op::Log:
       if (a.hi <= 0) raise(Finiteness::Nowhere);
       else if (a.lo <= 0) raise(Finiteness::Unknown);
-      r = a.lo > 0 ? monotone(std::log) : kEverything;
+      r = a.lo > 0 ? monotone(elementary::log) : kEverything;
       break;
     case Op::Sqrt:
       if (a.hi < 0) raise(Finiteness::Nowhere);

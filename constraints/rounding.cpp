@@ -8,7 +8,8 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kUnit = 0x1p-53;  // of a result, by one operation
+constexpr double kUnit = 0x1p-53;              // of a result, by one operation
+constexpr double kUnitOfFunctions = 2 * kUnit;  // of sincos.h and elementary.h
 
 struct Value {
   double value = 0, off = 0;
@@ -76,7 +77,7 @@ double computeRounding(const Constraint& constraint, double first, double second
     out.value = applyOp(n.op, a.value, n.op == Op::PowInt ? n.b : b.value);
     const double off = a.off > 0 || b.off > 0 ? handedOn(n.op, a, b, n.b, out.value) : 0;
     const bool exact = n.op == Op::Neg || n.op == Op::Abs || n.op == Op::Sign;
-    out.off = off + (exact ? 0 : kUnit * std::abs(out.value));
+    out.off = off + (exact ? 0 : (n.op >= Op::Pow && n.op <= Op::Log ? kUnitOfFunctions : kUnit) * std::abs(out.value));
   }
   double most = 0;
   for (const int root : roots) most = std::max(most, values[static_cast<std::size_t>(root)].off);

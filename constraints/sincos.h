@@ -3,12 +3,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/elementary.h"
 #include "base/fused.h"
 
 namespace reachlab::constraints {
 
 /// Sine and cosine together, inlined; every fused operation is written out, so that generated code and typed formulas give the same
-/// bits, in every build. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; libm beyond (and for what is not finite).
+/// bits, in every build. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; elementary.h beyond (and for what is not finite).
 /// Reduction to |y| <= pi/4 after Cody and Waite (Software Manual for the Elementary Functions, 1980, ch. 8): pi/2 in three parts, the
 /// first two short enough that their products with the quadrant number are exact. Polynomials: minimax fits on [0, (pi/4)^2],
 /// `constraints/generate/sincos_coefficients.py` prints them.
@@ -51,8 +52,8 @@ inline constexpr double kCos[6] = {0x1.555555555554cp-5,   -0x1.6c16c16c1524bp-1
 
 [[gnu::always_inline]] inline void sinCos(double x, double& sine, double& cosine) noexcept {
   if (!(std::abs(x) <= kSinCosLimit)) [[unlikely]] {
-    sine = std::sin(x);
-    cosine = std::cos(x);
+    sine = elementary::sin(x);
+    cosine = elementary::cos(x);
     return;
   }
   sinCosNear(x, sine, cosine);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace reachlab::constraints {
 namespace {
 
@@ -48,7 +50,7 @@ Taylor compose(const Series& f, const Taylor& x, int degree) {
 // The p-th power of a series that does not begin with 0, from w t' = p w' t (Knuth, The Art of Computer Programming, 4.7).
 Series powerOf(const Series& w, double p) {
   Series t{};
-  t[0] = std::pow(w[0], p);
+  t[0] = elementary::pow(w[0], p);
   for (int k = 1; k < kCount; ++k) {
     for (int i = 1; i <= k; ++i) t[k] += (p * i - (k - i)) * w[i] * t[k - i];
     t[k] /= k * w[0];
@@ -90,7 +92,7 @@ Series alternating(double f, double g, double s) {
 Series binomial(double x0, double p) {
   Series t{};
   double choose = 1;
-  for (int k = 0; k < kCount && choose != 0; choose *= (p - k) / (k + 1.0), ++k) t[k] = choose * std::pow(x0, p - k);
+  for (int k = 0; k < kCount && choose != 0; choose *= (p - k) / (k + 1.0), ++k) t[k] = choose * elementary::pow(x0, p - k);
   return t;
 }
 
@@ -103,7 +105,7 @@ Taylor angleOf(const Taylor& y, const Taylor& x, int degree) {
   const double x0 = x.c[0], y0 = y.c[0];
   const Taylor across = sum(scaled(y, x0), scaled(x, y0), -1), along = sum(scaled(x, x0), scaled(y, y0), 1);
   Taylor t = compose(integralOf(powerOf({1, 0, 1}, -1), 0, 1), quotient(across, along, degree), degree);
-  t.c[0] = std::atan2(y0, x0);
+  t.c[0] = elementary::atan2(y0, x0);
   return t;
 }
 
@@ -115,17 +117,17 @@ Taylor raise(const Taylor& x, const Taylor& y, int degree) {
 
 Series seriesOf(Op op, double x) {
   switch (op) {
-    case Op::Sin: return alternating(std::sin(x), std::cos(x), -1);
-    case Op::Cos: return alternating(std::cos(x), -std::sin(x), -1);
-    case Op::Sinh: return alternating(std::sinh(x), std::cosh(x), 1);
-    case Op::Cosh: return alternating(std::cosh(x), std::sinh(x), 1);
-    case Op::Exp: return alternating(std::exp(x), std::exp(x), 1);
-    case Op::Tan: return riccati(std::tan(x), 1, 1);
-    case Op::Tanh: return riccati(std::tanh(x), 1, -1);
-    case Op::Asin: return integralOf(powerOf({1 - x * x, -2 * x, -1}, -0.5), std::asin(x), 1);
-    case Op::Acos: return integralOf(powerOf({1 - x * x, -2 * x, -1}, -0.5), std::acos(x), -1);
-    case Op::Atan: return integralOf(powerOf({1 + x * x, 2 * x, 1}, -1), std::atan(x), 1);
-    case Op::Log: return integralOf(powerOf({x, 1}, -1), std::log(x), 1);
+    case Op::Sin: return alternating(elementary::sin(x), elementary::cos(x), -1);
+    case Op::Cos: return alternating(elementary::cos(x), -elementary::sin(x), -1);
+    case Op::Sinh: return alternating(elementary::sinh(x), elementary::cosh(x), 1);
+    case Op::Cosh: return alternating(elementary::cosh(x), elementary::sinh(x), 1);
+    case Op::Exp: return alternating(elementary::exp(x), elementary::exp(x), 1);
+    case Op::Tan: return riccati(elementary::tan(x), 1, 1);
+    case Op::Tanh: return riccati(elementary::tanh(x), 1, -1);
+    case Op::Asin: return integralOf(powerOf({1 - x * x, -2 * x, -1}, -0.5), elementary::asin(x), 1);
+    case Op::Acos: return integralOf(powerOf({1 - x * x, -2 * x, -1}, -0.5), elementary::acos(x), -1);
+    case Op::Atan: return integralOf(powerOf({1 + x * x, 2 * x, 1}, -1), elementary::atan(x), 1);
+    case Op::Log: return integralOf(powerOf({x, 1}, -1), elementary::log(x), 1);
     case Op::Sqrt: return powerOf({x, 1}, 0.5);
     default: return {};
   }

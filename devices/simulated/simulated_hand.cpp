@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/elementary.h"
 #include "base/fault.h"
 #include "base/seeded.h"
 #include "base/ticks.h"
@@ -26,8 +27,8 @@ class TrialRandom {
   double uniform() { return seededFraction(state_, count_++); }
   // Box and Muller 1958; bounded, so that no trial is out of the human range.
   double normal() {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    return std::clamp(radius * std::cos(2 * std::numbers::pi * uniform()), -kMostSigmas, kMostSigmas);
+    const double radius = std::sqrt(-2 * elementary::log(1 - uniform()));
+    return std::clamp(radius * elementary::cos(2 * std::numbers::pi * uniform()), -kMostSigmas, kMostSigmas);
   }
 
  private:
@@ -42,7 +43,7 @@ class SmoothNoise {
     for (Wave& w : waves_) {
       const double omega = 2 * std::numbers::pi * (kLowest + (kHighest - kLowest) * random.uniform());
       const double phase = 2 * std::numbers::pi * random.uniform();
-      w = {std::sin(phase), std::cos(phase), std::sin(omega * kTickSeconds), std::cos(omega * kTickSeconds)};
+      w = {elementary::sin(phase), elementary::cos(phase), elementary::sin(omega * kTickSeconds), elementary::cos(omega * kTickSeconds)};
     }
   }
   /// At the next tick; the first is one tick after time 0.

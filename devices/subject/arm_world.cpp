@@ -3,6 +3,8 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/elementary.h"
+
 namespace reachlab::devices {
 namespace {
 
@@ -17,8 +19,8 @@ Eigen::MatrixXd heldStep(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, dou
 }  // namespace
 
 ArmWorld makeArmWorld(const ArmSpec& arm, predict::LineObject object, const ModelError& error) {
-  for (double& k : object.springs) k *= std::exp(error.stiffness);
-  for (double& m : object.masses) m *= std::exp(error.mass);
+  for (double& k : object.springs) k *= elementary::exp(error.stiffness);
+  for (double& m : object.masses) m *= elementary::exp(error.mass);
   ArmWorld world;
   world.masses = object.count();
   const int n = world.states();

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/elementary.h"
 #include "base/ticks.h"
 #include "sim/predict/predict.h"
 
@@ -100,7 +101,7 @@ void FeedbackHand::prepareTrial(int index) {
   const FeedbackSpec& person = state_->person;
   SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
   const double sigma = person.noise * person.noiseScale *
-                       (1 + person.practice * std::exp(-static_cast<double>(state_->model.trials) / person.practiceTrials));
+                       (1 + person.practice * elementary::exp(-static_cast<double>(state_->model.trials) / person.practiceTrials));
   const ModelError mean = state_->model.current();
   Reach& reach = prepared_;
   reach.used.stiffness = mean.stiffness + sigma * person.planSd.stiffness * draws.boundedNormal();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/fault.h"
 #include "devices/options.h"
 #include "devices/subject/feedback_hand.h"
@@ -44,8 +45,8 @@ FeedbackSpec scaled(FeedbackSpec spec) {
 Person drawPerson(std::uint64_t seed) {
   constexpr std::uint64_t kPersonStream = 0x706572736f6e;
   SubjectDraws draws(seed ^ kPersonStream, 0);
-  return {kStiffnessSd * draws.boundedNormal(), kMassSd * draws.boundedNormal(), std::exp(kNoiseSd * draws.boundedNormal()),
-          std::exp(kGainSd * draws.boundedNormal())};
+  return {kStiffnessSd * draws.boundedNormal(), kMassSd * draws.boundedNormal(), elementary::exp(kNoiseSd * draws.boundedNormal()),
+          elementary::exp(kGainSd * draws.boundedNormal())};
 }
 
 }  // namespace

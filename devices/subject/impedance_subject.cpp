@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/elementary.h"
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "devices/options.h"
@@ -30,9 +31,9 @@ struct MeantReach {
 
 /// The object as the subject knows it.
 experiment::Experiment knownTo(const ImpedanceSpec& spec, experiment::Experiment experiment) {
-  for (double& k : experiment.object.stiffness) k *= std::exp(spec.model.stiffness);
-  if (experiment.coupling) experiment.coupling->stiffness *= std::exp(spec.model.stiffness);
-  for (double& m : experiment.object.masses) m *= std::exp(spec.model.mass);
+  for (double& k : experiment.object.stiffness) k *= elementary::exp(spec.model.stiffness);
+  if (experiment.coupling) experiment.coupling->stiffness *= elementary::exp(spec.model.stiffness);
+  for (double& m : experiment.object.masses) m *= elementary::exp(spec.model.mass);
   return experiment;
 }
 
@@ -171,7 +172,7 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
     const Vec3 noisy{spec.motorNoise * planned.x * a.x, spec.motorNoise * planned.y * a.y, spec.motorNoise * planned.z * a.z};
     const double size = norm(planned);
     const Vec3 additive = size > 0 ? spec.forceNoise * b.x / size * planned : Vec3{};
-    const double keep = std::exp(-kTickSeconds / spec.arm.muscle);
+    const double keep = elementary::exp(-kTickSeconds / spec.arm.muscle);
     const auto throughMuscle = [&](const Vec3& command, Vec3& stage, Vec3& force) {
       stage = keep * stage + (1 - keep) * command;
       force = keep * force + (1 - keep) * stage;

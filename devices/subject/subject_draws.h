@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "base/elementary.h"
 #include "base/seeded.h"
 
 namespace reachlab::devices {
@@ -15,8 +16,8 @@ class SubjectDraws {
   double uniform() { return seededFraction(state_, count_++); }
   /// Box and Muller 1958.
   double normal() {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
+    const double radius = std::sqrt(-2 * elementary::log(1 - uniform()));
+    return radius * elementary::cos(2 * std::numbers::pi * uniform());
   }
   /// The same within 3 SD, so that no trial is out of the human range.
   double boundedNormal() { return std::clamp(normal(), -3.0, 3.0); }

@@ -1,11 +1,12 @@
 #include "devices/virtual/loop_stability.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/butterworth.h"
+#include "base/matrix.h"
+// Not before it.
+#include <unsupported/Eigen/MatrixFunctions>
 
 namespace reachlab::devices {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
@@ -59,7 +60,7 @@ void VirtualDevice::advanceTick(const Vec3& from, const Vec3& to) noexcept {
   const HandImpedance& hand = options_.hand;
   const double mass = model_.mass + hand.mass;
   const Vec3 speed = (to - from) / kTickSeconds, push = mass / kTickSeconds * (speed - meantSpeed_);  // m p''
-  const auto friction = [&](double v) { return model_.viscosity * v + model_.friction * std::tanh(v / kCreep); };
+  const auto friction = [&](double v) { return model_.viscosity * v + model_.friction * elementary::tanh(v / kCreep); };
   for (int i = 1; i <= kSubsteps; ++i) {
     const Vec3 meant = from + (static_cast<double>(i) / kSubsteps) * (to - from);
     const Vec3 drag{friction(speed_.x), friction(speed_.y), friction(speed_.z)};

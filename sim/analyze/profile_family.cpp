@@ -1,9 +1,10 @@
 #include "sim/analyze/profile_family.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "base/matrix.h"
 
 namespace reachlab::analyze {
 namespace {

@@ -1,8 +1,8 @@
 #include "sim/dynamics/chain_modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "base/matrix.h"
 #include "sim/dynamics/oscillator_core.h"
 
 namespace reachlab::dynamics {

@@ -1,7 +1,7 @@
 #pragma once
-#include <Eigen/Core>
 #include <vector>
 
+#include "base/matrix.h"
 #include "sim/dynamics/object_model.h"
 
 namespace reachlab::dynamics {

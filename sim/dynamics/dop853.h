@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/elementary.h"
 #include "sim/dynamics/numbers.h"
 
 namespace reachlab::dynamics {
@@ -131,7 +132,7 @@ double attempt(const Rate& rate, const Unit& unit, double t, double h, const Num
 /// The next step's size over this one's, for an estimated error of order 8.
 inline double growth(double error, double most) noexcept {
   if (!std::isfinite(error)) return 0.1;
-  return std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.125), 0.2, most);
+  return std::clamp(0.9 * elementary::pow(std::max(error, 1e-12), -0.125), 0.2, most);
 }
 }  // namespace dop853
 

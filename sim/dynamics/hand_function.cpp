@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/elementary.h"
+
 namespace reachlab::dynamics {
 namespace {
 
@@ -19,7 +21,7 @@ Nodes computeNodes() {
   Nodes nodes;
   std::array<long double, kPoints> s{};
   for (int j = 0; j < kPoints; ++j) {
-    nodes.s[j] = 0.5 - 0.5 * std::cos(std::numbers::pi * j / (kPoints - 1));
+    nodes.s[j] = 0.5 - 0.5 * elementary::cos(std::numbers::pi * j / (kPoints - 1));
     s[j] = nodes.s[j];
   }
   for (int j = 0; j < kPoints; ++j) {

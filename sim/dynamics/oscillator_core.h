@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Core>
 #include <array>
 #include <span>
 #include <vector>
 
 #include "base/lanes.h"
+#include "base/matrix.h"
 #include "sim/dynamics/dense_core.h"
 
 namespace reachlab::dynamics {

@@ -2,15 +2,17 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace reachlab::dynamics {
 
 std::array<double, 2> PolarChart::toLocal(double u, double v) const noexcept {
   const double angle = fixed == 1 ? u : v, radius = side * ((fixed == 1 ? v : u) - pole);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  return {radius * elementary::cos(angle), radius * elementary::sin(angle)};
 }
 
 std::array<double, 2> PolarChart::toBase(double xi, double eta) const noexcept {
-  const double angle = std::atan2(eta, xi), across = pole + side * std::hypot(xi, eta);
+  const double angle = elementary::atan2(eta, xi), across = pole + side * std::hypot(xi, eta);
   return fixed == 1 ? std::array{angle, across} : std::array{across, angle};
 }
 
@@ -20,10 +22,10 @@ void PolarChart::evaluateChart(const void* chart, const double*, double xi, doub
   const double x0 = xi, y0 = eta;
   const bool close = rho < c.nearest;
   if (close) {
-    const double angle = std::atan2(eta, xi);
+    const double angle = elementary::atan2(eta, xi);
     rho = c.nearest;
-    xi = rho * std::cos(angle);
-    eta = rho * std::sin(angle);
+    xi = rho * elementary::cos(angle);
+    eta = rho * elementary::sin(angle);
   }
   const std::array<double, 2> q = c.toBase(xi, eta);
   constraints::SurfacePoint p = constraints::evaluate(c.base, q[0], q[1]);

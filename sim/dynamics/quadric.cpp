@@ -1,9 +1,9 @@
 #include "sim/dynamics/quadric.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <vector>
 
+#include "base/matrix.h"
 #include "constraints/formula.h"
 #include "constraints/polynomial.h"
 
@@ -39,7 +39,8 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
   for (const Vec3& r : points) size = std::max(size, norm(r - centre));
   if (!(size > 0)) return std::nullopt;
 
-  Eigen::Matrix<double, Eigen::Dynamic, 10> monomials(points.size(), 10);
+  // In long double, which Eigen never computes in lanes: the same law, to the bit, on every processor.
+  Eigen::Matrix<long double, Eigen::Dynamic, 10> monomials(points.size(), 10);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 d = (points[i] - centre) / size;
     monomials.row(static_cast<Eigen::Index>(i)) << d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z, d.x, d.y, d.z, 1;
@@ -47,7 +48,7 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
   const Eigen::JacobiSVD<decltype(monomials)> svd(monomials, Eigen::ComputeFullV);
   const auto& sigma = svd.singularValues();
   if (sigma(9) > kVanishes * sigma(0) || sigma(8) < kUnique * sigma(0)) return std::nullopt;
-  const Eigen::Matrix<double, 10, 1> f = svd.matrixV().col(9);
+  const Eigen::Matrix<double, 10, 1> f = svd.matrixV().col(9).cast<double>();
 
   Quadric q;
   q.centre = centre;

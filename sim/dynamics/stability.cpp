@@ -1,9 +1,11 @@
 #include "sim/dynamics/stability.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/elementary.h"
+#include "base/matrix.h"
 
 namespace reachlab::dynamics {
 
@@ -67,8 +69,8 @@ double predictRk4Error(const std::vector<std::complex<double>>& eigenvalues, dou
   for (const auto& value : eigenvalues) {
     const double w = std::abs(value), z = w * step;
     if (w == 0) continue;
-    const double amplitude = length * std::min(1.0, 60 / std::pow(w * duration, 3));
-    error += amplitude * std::min(1.0, std::pow(z, 5) / 120 * duration / step);
+    const double amplitude = length * std::min(1.0, 60 / elementary::pow(w * duration, 3));
+    error += amplitude * std::min(1.0, elementary::pow(z, 5) / 120 * duration / step);
   }
   return error;
 }

@@ -1,11 +1,12 @@
 #pragma once
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "base/elementary.h"
+#include "base/matrix.h"
 #include "sim/dynamics/hand_segment.h"
 #include "sim/dynamics/numbers.h"
 #include "sim/dynamics/step_report.h"
@@ -45,7 +46,7 @@ class Stiff {
         }
         error = std::sqrt(sum / n_);
       }
-      const double factor = std::isfinite(error) ? std::clamp(0.9 * std::pow(std::max(error, 1e-10), -1.0 / 6), 0.2, 4.0) : 0.25;
+      const double factor = std::isfinite(error) ? std::clamp(0.9 * elementary::pow(std::max(error, 1e-10), -1.0 / 6), 0.2, 4.0) : 0.25;
       if (error <= 1) {
         report.error += tolerance_ * error;
         t = lastPart ? dt : t + h;

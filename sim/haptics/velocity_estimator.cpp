@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/elementary.h"
 #include "base/ticks.h"
 
 namespace reachlab::haptics {
@@ -18,7 +19,7 @@ VelocityEstimator::VelocityEstimator(const experiment::VelocityEstimatorSpec& sp
   if (spec.kind == "difference") {
     kind_ = Kind::Difference;
   } else if (spec.kind == "low-pass") {  // 1/(s + 1), bilinear with its cut-off pre-warped
-    const double w = std::tan(std::numbers::pi * spec.cutoff * dt), b0 = w / (1 + w);
+    const double w = elementary::tan(std::numbers::pi * spec.cutoff * dt), b0 = w / (1 + w);
     filter_ = {{b0, b0, 0}, {1, (w - 1) / (1 + w), 0}};
   } else if (spec.kind == "kalman") {
     kind_ = Kind::Kalman;
@@ -33,13 +34,13 @@ VelocityEstimator::VelocityEstimator(const experiment::VelocityEstimatorSpec& sp
 
 // The Riccati recursion to its fixed point. Measured place with density r = 1, white jerk of density q = (2 pi fc)^6.
 void VelocityEstimator::designKalman(double cutoff) {
-  const double omega = 2 * std::numbers::pi * cutoff, q = std::pow(omega, 6), r = 1 / dt;
+  const double omega = 2 * std::numbers::pi * cutoff, q = elementary::pow(omega, 6), r = 1 / dt;
   using Matrix = std::array<std::array<double, 3>, 3>;
   const Matrix f{{{1, dt, dt * dt / 2}, {0, 1, dt}, {0, 0, 1}}};
-  const Matrix noise{{{q * std::pow(dt, 5) / 20, q * std::pow(dt, 4) / 8, q * std::pow(dt, 3) / 6},
-                      {q * std::pow(dt, 4) / 8, q * std::pow(dt, 3) / 3, q * dt * dt / 2},
-                      {q * std::pow(dt, 3) / 6, q * dt * dt / 2, q * dt}}};
-  Matrix p{{{r, 0, 0}, {0, r * omega * omega, 0}, {0, 0, r * std::pow(omega, 4)}}};
+  const Matrix noise{{{q * elementary::pow(dt, 5) / 20, q * elementary::pow(dt, 4) / 8, q * elementary::pow(dt, 3) / 6},
+                      {q * elementary::pow(dt, 4) / 8, q * elementary::pow(dt, 3) / 3, q * dt * dt / 2},
+                      {q * elementary::pow(dt, 3) / 6, q * dt * dt / 2, q * dt}}};
+  Matrix p{{{r, 0, 0}, {0, r * omega * omega, 0}, {0, 0, r * elementary::pow(omega, 4)}}};
   constexpr int kMost = 200'000;
   constexpr double kSettled = 1e-13;
   for (int i = 0; i < kMost; ++i) {

@@ -20,8 +20,8 @@ struct Replay {
   bool identical() const { return rowsThatDiffer == 0 && trialsThatDiffer == 0; }
 };
 
-/// Feeds every recorded tick to a fresh engine of the recorded experiment. Bit-identical with the program that recorded; another
-/// processor or compiler may round differently. Throws FaultError when ticks are missing in the log (dropped while recording),
+/// Feeds every recorded tick to a fresh engine of the recorded experiment. Bit-identical with the program that recorded, on
+/// every level of processor; another compiler or version may round differently. Throws FaultError when ticks are missing in the log (dropped while recording),
 /// and what the engine's construction throws.
 Replay replayRun(const RunLog& log);
 

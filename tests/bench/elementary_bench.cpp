@@ -2,6 +2,7 @@
 #include <sleef.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "base/elementary.h"
 #include "constraints/sincos.h"
 #include "sim/bench/measure.h"
 #include "sim/bench/quad.h"
@@ -17,6 +19,7 @@
 // elementary_bench: sine and cosine together, one angle at a time and eight: the C library, constraints/sincos.h, and the forms of SLEEF
 // that give the same bits at every width (cinz without fused operations, finz with). Nanoseconds of processor time an angle, median of
 // rounds; the largest error against 34 digits, absolute and in units of the last place; what an angle costs that waits for the one before.
+// Then the other functions of formulas: the C library's, and those of base/elementary.h, with their errors against 50 digits.
 namespace {
 
 using reachlab::bench::Quad;
@@ -105,6 +108,42 @@ void ownEight(Data& d) {
   }
 }
 
+using Real = boost::multiprecision::cpp_bin_float_50;
+
+// ns a call, median of rounds, and the largest error in units of the last place.
+template <class Function, class Exact>
+std::pair<double, double> priceAndError(const std::vector<double>& places, const Function& function, const Exact& exact) {
+  std::vector<double> times;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::int64_t before = threadTimeNs();
+    for (int i = 0; i < kRepeats; ++i)
+      for (const double x : places) {
+        const double y = function(x);
+        asm volatile("" : : "x"(y));
+      }
+    times.push_back(static_cast<double>(threadTimeNs() - before) / static_cast<double>(kRepeats * places.size()));
+  }
+  std::nth_element(times.begin(), times.begin() + kRounds / 2, times.end());
+  double ulps = 0;
+  for (const double x : places) {
+    const Real right = exact(Real(x));
+    const double size = std::abs(static_cast<double>(right));
+    ulps = std::max(ulps, std::abs(static_cast<double>((Real(function(x)) - right) / (std::nextafter(size, INFINITY) - size))));
+  }
+  return {times[kRounds / 2], ulps};
+}
+
+template <class Theirs, class Ours, class Exact>
+void reportFunction(const char* name, double lo, double hi, const Theirs& theirs, const Ours& ours, const Exact& exact) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(lo, hi);
+  std::vector<double> places(kAngles);
+  for (double& x : places) x = uniform(random);
+  const auto [before, wrong] = priceAndError(places, theirs, exact);
+  const auto [now, off] = priceAndError(places, ours, exact);
+  std::printf("  %-10s %6.1f ns %5.2f ulp %10.1f ns %5.2f ulp\n", name, before, wrong, now, off);
+}
+
 }  // namespace
 
 int main() {
@@ -147,4 +186,21 @@ int main() {
   reportLatency("sincos.h", kOwn);
   reportLatency("SLEEF finz", kFinz);
   reportLatency("SLEEF cinz", kCinz);
+  std::printf("functions of formulas      C library       base/elementary.h\n");
+#define REPORT(name, lo, hi)                                                                                        \
+  reportFunction(                                                                                                   \
+      #name, lo, hi, [](double x) { return std::name(x); }, [](double x) { return reachlab::elementary::name(x); }, \
+      [](const Real& x) { return Real(name(x)); })
+  REPORT(exp, -3, 3);
+  REPORT(log, 0.1, 10);
+  REPORT(tan, -3, 3);
+  REPORT(asin, -1, 1);
+  REPORT(acos, -1, 1);
+  REPORT(atan, -3, 3);
+  REPORT(sinh, -3, 3);
+  REPORT(cosh, -3, 3);
+  REPORT(tanh, -3, 3);
+  reportFunction(
+      "x^1.7", 0.1, 10, [](double x) { return std::pow(x, 1.7); }, [](double x) { return reachlab::elementary::pow(x, 1.7); },
+      [](const Real& x) { return Real(pow(x, Real(1.7))); });
 }

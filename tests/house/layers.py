@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The house's layers, read from the sources: exits 1 with a line for every arrow that CMake does not know, that no include needs, that
-runs back up, or for a file whose namespace is not its folder's.
+runs back up, for a file whose namespace is not its folder's, or that takes Eigen from elsewhere than base/matrix.h.
 
   tests/house/layers.py          checks
   tests/house/layers.py --show   prints the arrows
@@ -63,6 +63,8 @@ def main():
         wrong = [n for n in re.findall(r"^namespace (reachlab[\w:]*) {", text, re.M)
                  if n != namespace_of(here) and not n.startswith(namespace_of(here) + "::")]
         faults += [f"{file}: namespace {n}, expected {namespace_of(here)}" for n in wrong]
+        if "<Eigen/" in text and file != Path("base/matrix.h"):
+            faults.append(f"{file}: includes Eigen itself; base/matrix.h has it, with the same bits on every processor")
 
     for folder, used in arrows.items():
         declared = declared_arrows(folder, target_folder)

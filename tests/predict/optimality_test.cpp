@@ -1,10 +1,10 @@
 // No admissible motion costs less, and the predicted hand takes the object to rest in the program's own simulator.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
+#include "base/matrix.h"
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
 #include "sim/predict/line/flat_output.h"

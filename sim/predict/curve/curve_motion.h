@@ -1,7 +1,7 @@
 #pragma once
-#include <Eigen/Dense>
 #include <vector>
 
+#include "base/matrix.h"
 #include "sim/predict/curve/curve_object.h"
 #include "sim/predict/numerics/piecewise_series.h"
 

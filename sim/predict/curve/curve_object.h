@@ -1,7 +1,7 @@
 #pragma once
-#include <Eigen/Dense>
 #include <vector>
 
+#include "base/matrix.h"
 #include "constraints/geometry/arc_curve.h"
 #include "sim/predict/line/line_object.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Dense>
+#include "base/matrix.h"
 
 namespace reachlab::predict {
 

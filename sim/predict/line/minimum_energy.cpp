@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/matrix.h"
 #include "sim/predict/condition.h"
 #include "sim/predict/line/sparse_rows.h"
 #include "sim/predict/numerics/lane_matrix.h"

@@ -1,6 +1,6 @@
 #pragma once
-#include <Eigen/Dense>
 
+#include "base/matrix.h"
 #include "sim/predict/line/line_object.h"
 
 namespace reachlab::predict {

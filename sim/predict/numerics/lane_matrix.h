@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "base/matrix.h"
 #include "sim/predict/numerics/wide_lanes.h"
 
 namespace reachlab::predict {

@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Dense>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "base/gauss_legendre.h"
+#include "base/matrix.h"
 #include "sim/predict/numerics/work_limit.h"
 #include "sim/predict/transcription/rest_to_rest_basis.h"
 

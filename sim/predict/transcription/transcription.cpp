@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/matrix.h"
 
 namespace reachlab::predict {
 namespace {
