@@ -1,5 +1,5 @@
-# What is installed beside the programs, and the Debian packages: reachlab-cli (no Qt, no VTK), reachlab (the window), reachlab-doc (the manual).
-# `packaging/deb` builds them.
+# What is installed beside the programs, and the Debian packages: reachlab-cli (no Qt, no VTK), reachlab (the window), reachlab-mpi (studies over
+# the ranks of an MPI job), reachlab-doc (the manual). `packaging/deb` builds them out of one build tree for each level of processor.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(share ${CMAKE_INSTALL_DATADIR})
 
@@ -22,12 +22,28 @@ if(NOT REACHLAB_PACKAGES)
   return()
 endif()
 
-# Man pages and completions, out of the programs' own --help.
-set(pages ${PROJECT_BINARY_DIR}/command-pages)
 set(programs reach)
 if(REACHLAB_GUI)
   list(APPEND programs reachlab)
 endif()
+if(TARGET reach-mpi)
+  list(APPEND programs reach-mpi)
+endif()
+set(component_of_reach cli)
+set(component_of_reachlab gui)
+set(component_of_reach-mpi mpi)
+
+# On the path: what picks the level.
+file(RELATIVE_PATH libexec ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/reachlab)
+foreach(program ${programs})
+  add_executable(level-${program} cli/level/main.cpp)
+  target_compile_definitions(level-${program} PRIVATE REACHLAB_PROGRAM="${program}" REACHLAB_LIBEXEC_FROM_BIN="${libexec}")
+  target_compile_options(level-${program} PRIVATE -march=x86-64 -mtune=generic)
+  install(PROGRAMS $<TARGET_FILE:level-${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${program} COMPONENT ${component_of_${program}})
+endforeach()
+
+# Man pages and completions, out of the programs' own --help.
+set(pages ${PROJECT_BINARY_DIR}/command-pages)
 foreach(program ${programs})
   list(APPEND program_files $<TARGET_FILE:${program}>)
 endforeach()
@@ -39,10 +55,7 @@ add_custom_command(OUTPUT ${pages}/made
   DEPENDS ${programs} ${packaging}/manual/command_pages.py ${packaging}/manual/command_line.py ${packaging}/manual/completions.py VERBATIM)
 add_custom_target(command_pages ALL DEPENDS ${pages}/made)
 foreach(program ${programs})
-  set(component cli)
-  if(program STREQUAL reachlab)
-    set(component gui)
-  endif()
+  set(component ${component_of_${program}})
   install(FILES ${pages}/bash/${program} DESTINATION ${share}/bash-completion/completions COMPONENT ${component})
   install(FILES ${pages}/zsh/_${program} DESTINATION ${share}/zsh/vendor-completions COMPONENT ${component})
   install(FILES ${pages}/fish/${program}.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT ${component})
@@ -61,7 +74,7 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${share}/doc/reachla
 # Debian's own files in each package.
 configure_file(${packaging}/debian/changelog.in ${PROJECT_BINARY_DIR}/debian/changelog @ONLY)
 execute_process(COMMAND gzip -9nfk ${PROJECT_BINARY_DIR}/debian/changelog COMMAND_ERROR_IS_FATAL ANY)
-foreach(pair cli=reachlab-cli gui=reachlab doc=reachlab-doc)
+foreach(pair cli=reachlab-cli gui=reachlab mpi=reachlab-mpi doc=reachlab-doc)
   string(REGEX MATCH "(.*)=(.*)" _ ${pair})
   install(FILES ${packaging}/debian/copyright ${PROJECT_BINARY_DIR}/debian/changelog.gz DESTINATION ${share}/doc/${CMAKE_MATCH_2} COMPONENT ${CMAKE_MATCH_1})
 endforeach()
@@ -78,6 +91,13 @@ set(CPACK_COMPONENTS_ALL cli doc)
 if(REACHLAB_GUI)
   list(APPEND CPACK_COMPONENTS_ALL gui)
 endif()
+if(TARGET reach-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+endif()
+set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};reachlab;ALL;/")
+foreach(tree ${REACHLAB_LEVEL_TREES})
+  list(APPEND CPACK_INSTALL_CMAKE_PROJECTS ${tree} reachlab ALL /)
+endforeach()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -94,8 +114,15 @@ set(CPACK_DEBIAN_CLI_DESCRIPTION "laboratory for reaching movements: command lin
  every job of the window of package reachlab: sessions with a force device or a
  simulated subject, datasets in Motion-BIDS and CSV, tables, figures.
  .
- For processors of level x86-64-v3 (AVX2 and FMA, most since 2013); an older one
- is refused in words.")
+ For processors of level x86-64-v2 (most since 2009) and newer: the programs are
+ there for levels v2, v3 and v4, with the same results to the bit, and the
+ quickest that the processor runs is started.")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME reachlab-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), openmpi-bin")
+set(CPACK_DEBIAN_MPI_DESCRIPTION "laboratory for reaching movements: studies on clusters
+ The program reach-mpi spreads a study of virtual subjects over the ranks of an
+ OpenMPI job; its bytes are those of reach study on one computer.")
 set(CPACK_DEBIAN_GUI_PACKAGE_NAME reachlab)
 set(CPACK_DEBIAN_GUI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), libqt5svg5, libgl1-mesa-dri, fonts-dejavu-core")

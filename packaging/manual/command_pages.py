@@ -20,6 +20,9 @@ or in ~/.local/share.
 .TP
 .B $REACHLAB_RESOURCES
 Folder of the shipped experiments, plans and reaches, where it is not the installed one.
+.TP
+.B $REACHLAB_LEVEL
+x86\\-64\\-v2, x86\\-64\\-v3 or x86\\-64\\-v4: the program for this level of processor, in place of the highest that this processor has. All compute the same bits.
 """
 
 
