@@ -83,7 +83,7 @@ PlanLook plannedLook(const experiment::Experiment& experiment) {
   using namespace widgets::colours;
   const experiment::SceneLook look = experiment::lookOf(experiment);
   PlanLook plan;
-  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven, kMiddle, kLast, kHand, kSpring, kCoupling, kRed, kHand};
+  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven, kMiddle, kLast, kHand, kSpring, kCoupling, kRed, kTrace};
   for (const std::string& part : experiment::colouredParts()) {
     widgets::Colour* colour = partNamed(plan.colours, part);
     if (colour == nullptr) continue;

@@ -15,6 +15,7 @@ inline constexpr Colour kSurface{0.30, 0.55, 0.78}, kSurfaceLine{0.72, 0.84, 0.9
 inline constexpr Colour kStart{0.60, 0.66, 0.74}, kTarget{0.98, 0.86, 0.30};
 inline constexpr Colour kDriven{0.24, 0.60, 0.96}, kMiddle{0.70, 0.74, 0.80}, kLast{0.96, 0.52, 0.13};
 inline constexpr Colour kHand{0.97, 0.98, 1.00}, kHandLost{0.85, 0.25, 0.25};
+inline constexpr Colour kTrace{1.00, 0.47, 0.76};
 inline constexpr Colour kSpring{0.80, 0.84, 0.90}, kCoupling{0.55, 0.80, 0.98};
 inline constexpr Colour kNeutral{0.42, 0.46, 0.52}, kGreen{0.20, 0.82, 0.42}, kRed{0.94, 0.26, 0.24};
 // The semaphore's lamps: at least 3 : 1 in luminance between green and red, for deuteranopes too, and against the background.

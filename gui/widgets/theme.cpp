@@ -33,7 +33,8 @@ Colour themed(const Colour& colour) {
       {kCoupling, {0.10, 0.42, 0.62}},   {kNeutral, {0.42, 0.46, 0.52}},      {kGreen, {0.02, 0.45, 0.18}},
       {kRed, {0.75, 0.12, 0.10}},        {kText, {0.07, 0.09, 0.12}},         {kFaintText, {0.28, 0.32, 0.38}},
       {kWindow, {0.925, 0.935, 0.95}},   {kBase, {0.985, 0.988, 0.995}},      {kButton, {0.86, 0.88, 0.91}},
-      {kAccent, {0.08, 0.38, 0.72}},     {kLampNeutral, {0.42, 0.46, 0.52}},  {kLampGreen, {0.02, 0.52, 0.20}}};
+      {kAccent, {0.08, 0.38, 0.72}},     {kLampNeutral, {0.42, 0.46, 0.52}},  {kLampGreen, {0.02, 0.52, 0.20}},
+      {kTrace, {0.70, 0.08, 0.44}}};
   for (const auto& [dark, light] : kLight)
     if (same(dark, colour)) return light;
   return colour;
