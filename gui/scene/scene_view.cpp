@@ -179,9 +179,12 @@ struct SceneView::Impl {
     drawn = false;
     if (!widget->isVisible()) return;
     const bool rough = moving && inSoftware();
+    const bool stereo = window->GetStereoRender() != 0;  // VTK's own pass alone moves the camera from eye to eye
+    if (stereo) renderer->SetPass(nullptr);
     if (inSoftware()) {
-      if (rough) adapt(), renderer->SetPass(plain);
-      else renderer->SetPass(smooth);
+      if (rough) adapt();
+      if (!stereo && rough) renderer->SetPass(plain);
+      if (!stereo && !rough) renderer->SetPass(smooth);
       setScale(rough ? kScales[coarse] : 1);
     }
     if (rough) resting->start();

@@ -65,6 +65,27 @@ TEST_F(Looks, GridShadowArrowAndColoursAreSeen) {
   EXPECT_GT(differing(without, picture(plan, &frame)), 100) << "6 N, three tenths of the reach";
 }
 
+// In a scene without colours red is the left eye's picture and blue the right one's.
+TEST_F(Looks, StereoShowsEachEyeAPictureOfItsOwn) {
+  experiment::SceneLook look;
+  look.depthCue = "grid";
+  for (const char* part : {"background_top", "background_bottom"}) look.colours[part] = "#202020";
+  for (const char* part : {"rail", "surface", "surface_line", "start", "target", "driven", "middle", "last", "hand", "spring", "coupling"})
+    look.colours[part] = "#d0d0d0";
+  const ScenePlan plan = planWith(look, "torus");
+  const auto coloured = [](const QImage& image) {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += std::abs(qRed(image.pixel(x, y)) - qBlue(image.pixel(x, y))) > 40;
+    return count;
+  };
+  const int flat = coloured(picture(plan));
+  view_.setStereo(true);
+  EXPECT_GT(coloured(picture(plan)), flat + 500);
+  view_.setStereo(false);
+  EXPECT_EQ(coloured(picture(plan)), flat);
+}
+
 TEST(Trace, IsOfOneTrialAndItsMemoryIsBounded) {
   vtkNew<vtkRenderer> renderer;
   experiment::SceneLook look;
