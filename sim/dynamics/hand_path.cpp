@@ -30,24 +30,25 @@ bool HandPath::push(const HandSample& sample) noexcept {
     broken_ = false;
     return false;
   }
-  const bool jumped = count_ > 0 && norm(sample.position - last_[0].position) > jump_;
+  const bool jumped = count_ > 0 && norm(sample.position - position_[0]) > jump_;
   if (broken_) count_ = 1;  // nothing from before the jump
-  std::copy_backward(last_.begin(), last_.end() - 1, last_.end());
-  last_[0] = sample;
+  for (std::size_t i = 3; i > 0; --i) {
+    position_[i] = position_[i - 1];
+    velocity_[i] = velocity_[i - 1];
+  }
+  position_[0] = sample.position;
+  velocity_[0] = sample.velocity;
   count_ = std::min({count_ + 1, most_, jumped ? 2 : 4});
   broken_ = jumped;
   return !jumped;
 }
 
-HandSegment HandPath::segment() const noexcept {
+HandSegment HandPath::segment(bool withVelocity) const noexcept {
   HandSegment segment;
   if (count_ == 0) return segment;
   segment.degree = count_ - 1;
-  std::array<Vec3, 4> p;
-  for (int i = 0; i < 4; ++i) p[i] = last_[i].position;
-  interpolate(p, count_, segment.position);
-  for (int i = 0; i < 4; ++i) p[i] = last_[i].velocity;
-  interpolate(p, count_, segment.velocity);
+  interpolate(position_, count_, segment.position);
+  if (withVelocity) interpolate(velocity_, count_, segment.velocity);
   return segment;
 }
 

@@ -20,8 +20,9 @@ class HandPath {
   /// line to the new place, older samples are forgotten, and multistep methods must restart. An invalid or non-finite sample is not
   /// taken: the path ends (`reset`) and holds the last good place.
   bool push(const HandSample& sample) noexcept;
-  /// The hand over the tick that ends at the newest sample.
-  HandSegment segment() const noexcept;
+  /// The hand over the tick that ends at the newest sample. `withVelocity` false: zero velocity, for who does not look at it
+  /// (Plant::needsHandVelocity).
+  HandSegment segment(bool withVelocity = true) const noexcept;
   /// Samples that the segment goes through.
   int samples() const noexcept { return count_; }
 
@@ -30,7 +31,7 @@ class HandPath {
   double jump_;
   int count_ = 0;
   bool broken_ = false;
-  std::array<HandSample, 4> last_{};  // newest first
+  std::array<Vec3, 4> position_{}, velocity_{};  // newest first
 };
 
 }  // namespace reachlab::dynamics

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -80,6 +81,9 @@ class LinearPlant final : public PlantBase, public EndMasses {
     if (bounded_ && leaves()) return StepStatus::AtEnd;
     now_ = 1 - now_;  // swapped vectors would be read wider than they were written, and waited for
     return StepStatus::Ok;
+  }
+  bool needsHandVelocity() const noexcept override {
+    return std::any_of(model_.handDamping.begin(), model_.handDamping.end(), [](double damping) { return damping != 0; });
   }
   void restart() noexcept override {}
 

@@ -50,6 +50,8 @@ class Plant {
   /// Advances by dt [s] while the hand follows `hand`. On anything but Ok the state stays as it was (AtEnd, NoContinuation: the state is
   /// the last one on the constraint).
   [[nodiscard]] virtual StepStatus step(const HandSegment& hand, double dt) noexcept = 0;
+  /// False where a step looks at the hand's position alone: its velocity need not be interpolated.
+  virtual bool needsHandVelocity() const noexcept { return true; }
   /// How much of the last step's dt went by: less than 1 only after AtEnd and NoContinuation.
   virtual double lastStepFraction() const noexcept { return 1; }
   /// The hand's motion has broken (a jump, a gap): multistep methods start anew. State unchanged.

@@ -63,7 +63,8 @@ TickEngine::Port::Port(const experiment::Experiment& experiment, const EngineOpt
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),
-      start_(experiment::requiredTask(experiment).start), settings_(trial::makeProtocolSettings(experiment, scene_.constraint)), port_(experiment, options) {
+      needsVelocity_(scene_.plant->needsHandVelocity()), start_(experiment::requiredTask(experiment).start),
+      settings_(trial::makeProtocolSettings(experiment, scene_.constraint)), port_(experiment, options) {
   if (scene_.shared != nullptr || !options.others.empty()) requireHands(experiment, options);
   for (const EngineOptions& other : options.others) others_.emplace_back(experiment, other);
   state_.massCount = scene_.plant->massCount();
@@ -152,7 +153,7 @@ dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) no
   if (!others_.empty()) tellOthers();
   if (!allValid(hand)) return dynamics::StepStatus::HandLost;
   if (!continuous) scene_.plant->restart();
-  return scene_.plant->step(port_.path.segment(), kTickSeconds);
+  return scene_.plant->step(port_.path.segment(needsVelocity_), kTickSeconds);
 }
 
 void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {

@@ -126,6 +126,7 @@ class TickEngine {
 
   dynamics::Scene scene_;
   const dynamics::EndMasses* ends_;  // the plant, if it offers them
+  bool needsVelocity_;               // the plant, of the hand
   std::uint32_t massesEvery_ = 1, lookedAtEvery_ = 1;
   bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters

@@ -64,6 +64,30 @@ TEST(HandPath, ANumberThatIsNoneIsNotTaken) {
   EXPECT_EQ(sampleAt(path.segment(), 1).position.x, 0.01);
 }
 
+// Chains by their propagator (two masses) and in their modes (five), a mass on a circle by a method that needs the velocity in any case.
+TEST(HandPath, APlantThatNeedsNoVelocityMovesTheSameToTheBitWithoutIt) {
+  for (const double damping : {0.0, 3.0})
+    for (const int count : {2, 5, 1}) {
+      experiment::Experiment experiment = makeChain(count, 0.6, 600, {600, damping});
+      if (count == 1) experiment = onCurve(experiment, "0.1*cos(phi)", "0.1*sin(phi)", "0");
+      const Scene with = compileScene(experiment), asNeeded = compileScene(experiment);
+      for (const Scene* scene : {&with, &asNeeded}) scene->plant->placeAtRest(std::array{0.0});
+      const bool needed = asNeeded.plant->needsHandVelocity();
+      EXPECT_EQ(needed, damping != 0 || count == 1);
+      HandPath path;
+      for (int i = 0; i < 500; ++i) {
+        path.push(reachAt(i * 1e-3));
+        ASSERT_EQ(with.plant->step(path.segment(), 1e-3), StepStatus::Ok);
+        ASSERT_EQ(asNeeded.plant->step(path.segment(needed), 1e-3), StepStatus::Ok);
+      }
+      const auto a = observed(*with.plant), b = observed(*asNeeded.plant);
+      for (int m = 0; m < count; ++m) {
+        EXPECT_EQ(a[m].r, b[m].r) << count << " masses, " << damping << " N s/m";
+        EXPECT_EQ(a[m].v, b[m].v) << count << " masses, " << damping << " N s/m";
+      }
+    }
+}
+
 TEST(HandSegment, PartIsTheSamePolynomial) {
   const HandSegment whole = makeSegment(reachAt, 0.5, 0.01), later = part(whole, 0.25, 0.75);
   for (const double s : {0.0, 0.3, 1.0})
