@@ -1,9 +1,15 @@
 #pragma once
+#include <array>
 #include <span>
 
 #include "sim/dynamics/plant.h"
 
 namespace reachlab::dynamics {
+
+/// One axis of the first and of the last mass.
+struct EndPlaces {
+  std::array<double, 2> x{}, v{};  // [m], [m/s]
+};
 
 /// A plant whose masses cost far more to observe than a step (N^2 numbers from a chain's modes): its first and its last mass alone.
 class EndMasses {

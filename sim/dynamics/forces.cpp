@@ -2,11 +2,6 @@
 
 namespace reachlab::dynamics {
 
-Vec3 handForce(const ObjectModel& model, const Surroundings& around, const MassState& mass, int i) noexcept {
-  if (!around.coupled) return {};
-  return model.handStiffness[i] * (around.hand.position - mass.r) + model.handDamping[i] * (around.hand.velocity - mass.v);
-}
-
 Vec3 netForce(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses, int i) noexcept {
   const MassState& mass = masses[i];
   Vec3 force = model.mass[i] * model.gravity - model.viscosity * mass.v + handForce(model, around, mass, i);

@@ -14,7 +14,10 @@ struct Surroundings {
 };
 
 /// Force of the hand on mass i, Eq. (8) [N].
-Vec3 handForce(const ObjectModel& model, const Surroundings& around, const MassState& mass, int i) noexcept;
+inline Vec3 handForce(const ObjectModel& model, const Surroundings& around, const MassState& mass, int i) noexcept {
+  if (!around.coupled) return {};
+  return model.handStiffness[i] * (around.hand.position - mass.r) + model.handDamping[i] * (around.hand.velocity - mass.v);
+}
 /// Sum of all forces on mass i but the constraint's own [N].
 Vec3 netForce(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses, int i) noexcept;
 /// Kinetic + elastic (springs and coupling) + gravity energy [J], without a body's rotation.

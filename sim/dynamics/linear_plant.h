@@ -42,7 +42,7 @@ class LinearPlant final : public PlantBase, public EndMasses {
       core().place(state()[a], x_, v_);
     }
     fraction_ = 1;
-    fresh_ = false;
+    fresh_ = freshEnds_ = false;
   }
   void setExtraForce(const Vec3& force) noexcept override { extra_ = force; }
   void setCoupled(bool coupled) noexcept override {
@@ -52,13 +52,13 @@ class LinearPlant final : public PlantBase, public EndMasses {
       (coupled ? current_->coupled : current_->alone).place(state()[a], x_, v_);
     }
     coupled_ = coupled;
-    fresh_ = false;
+    fresh_ = freshEnds_ = false;
   }
 
   StepStatus step(const HandSegment& hand, double dt) noexcept override {
     if (dt != current_->dt) selectStep(dt);
     fraction_ = 1;
-    fresh_ = false;
+    fresh_ = freshEnds_ = false;
     const Core& core = this->core();
     for (int a = 0; a < Axes; ++a) {
       AxisHand axisHand;
@@ -98,11 +98,9 @@ class LinearPlant final : public PlantBase, public EndMasses {
     if (!readsEnds()) return false;
     MassState *first = &masses[0], *last = &masses[static_cast<std::size_t>(model_.count()) - 1];
     for (int a = 0; a < Axes; ++a) {
-      if constexpr (requires { core().readEnds(state()[a]); }) {
-        const auto ends = core().readEnds(state()[a]);
-        put(a, ends.x[0], ends.v[0], *first);
-        put(a, ends.x[1], ends.v[1], *last);
-      }
+      const EndPlaces& ends = endsAlong(a);
+      put(a, ends.x[0], ends.v[0], *first);
+      put(a, ends.x[1], ends.v[1], *last);
     }
     return true;
   }
@@ -158,15 +156,18 @@ class LinearPlant final : public PlantBase, public EndMasses {
     if constexpr (requires { core().hasEnds(); }) return !fresh_ && core().hasEnds();
     return false;
   }
-  void locate(std::span<MassState> masses) const noexcept override {
+  /// Of masses 1 and N now, read once a step; only where readsEnds().
+  const EndPlaces& endsAlong(int a) const noexcept {
     if constexpr (requires { core().readEnds(state()[0]); })
-      if (masses.size() == 1 && readsEnds()) {
-        for (int a = 0; a < Axes; ++a) {
-          const auto ends = core().readEnds(state()[a]);
-          put(a, ends.x[0], ends.v[0], masses[0]);
-        }
-        return;
-      }
+      for (int b = 0; b < Axes && !freshEnds_; ++b) ends_[b] = core().readEnds(state()[b]);
+    freshEnds_ = true;
+    return ends_[a];
+  }
+  void locate(std::span<MassState> masses) const noexcept override {
+    if (masses.size() == 1 && readsEnds()) {
+      for (int a = 0; a < Axes; ++a) put(a, endsAlong(a).x[0], endsAlong(a).v[0], masses[0]);
+      return;
+    }
     for (int a = 0; a < Axes; ++a) {
       if (!fresh_) core().read(state()[a], x_, v_);
       fresh_ = Axes == 1;
@@ -223,6 +224,8 @@ class LinearPlant final : public PlantBase, public EndMasses {
   int now_ = 0;
   mutable std::vector<double> x_, v_;  // scratch
   mutable bool fresh_ = false;         // one axis: the masses' places now, read once a step (N^2 from modes)
+  mutable std::array<EndPlaces, Axes> ends_{};
+  mutable bool freshEnds_ = false;  // `ends_` is of now
 };
 
 }  // namespace reachlab::dynamics

@@ -121,8 +121,8 @@ void OscillatorCore::read(const State& state, std::span<double> x, std::span<dou
   }
 }
 
-OscillatorCore::Ends OscillatorCore::readEnds(const State& state) const noexcept {
-  Ends ends;
+EndPlaces OscillatorCore::readEnds(const State& state) const noexcept {
+  EndPlaces ends;
   for (int j = 0; j < n_; ++j) {
     const double e = state.x[j / kLanes][j % kLanes], de = state.v[j / kLanes][j % kLanes];
     for (std::size_t end = 0; end < 2; ++end) {

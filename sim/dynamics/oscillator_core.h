@@ -6,6 +6,7 @@
 #include "base/lanes.h"
 #include "base/matrix.h"
 #include "sim/dynamics/dense_core.h"
+#include "sim/dynamics/end_masses.h"
 
 namespace reachlab::dynamics {
 
@@ -26,11 +27,8 @@ class OscillatorCore {
   void place(State& state, std::span<const double> x, std::span<const double> v) const noexcept;
   void read(const State& state, std::span<double> x, std::span<double> v) const noexcept;
   /// Masses 1 and N alone, in the bits of read(), by O(N); only where hasEnds().
-  struct Ends {
-    std::array<double, 2> x{}, v{};
-  };
   bool hasEnds() const noexcept { return !endShapes_.empty(); }
-  Ends readEnds(const State& state) const noexcept;
+  EndPlaces readEnds(const State& state) const noexcept;
   /// `next` must not be `state`. False if the result is not finite.
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
 
