@@ -101,28 +101,31 @@ void TickEngine::putUp() noexcept {
 }
 
 dynamics::HandSample TickEngine::takeHand(Port& port, const DeviceSample& device, std::uint32_t missedTicks) noexcept {
+  dynamics::HandSample hand{port.lastSeen, {}, false};
   const bool finite = isFinite(device.position) && (!device.hasVelocity || isFinite(device.velocity));
   if (!finite) port.broken = true;
   if (!device.valid || port.broken) {
     port.lost = true;
-    return {port.lastSeen, {}, false};
+    return hand;
   }
   const bool anew = port.lost || (missedTicks > kGapTicks && !port.virtualHand);
   if (anew || norm(device.position - port.lastRaw) > kJump) port.estimator.reset();
   port.lastRaw = device.position;
-  dynamics::HandSample hand{device.position - port.fpOffset, port.estimator.estimate(device), true};
+  Vec3 place = device.position - port.fpOffset;
+  hand.velocity = port.estimator.estimate(device);
+  hand.valid = true;
   if (anew && trial::isEngaged(protocol_.phase)) {
-    port.anchor = port.lastSeen - hand.position;
+    port.anchor = port.lastSeen - place;
     port.anchorTicks = kReanchorTicks;
   }
   port.lost = false;
   if (port.anchorTicks > 0) {
     const Blend blend = fadeOut(1 - static_cast<double>(port.anchorTicks) / kReanchorTicks);
-    hand.position += blend.value * port.anchor;
+    place += blend.value * port.anchor;
     hand.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * port.anchor;
     --port.anchorTicks;
   }
-  port.lastSeen = hand.position;
+  hand.position = port.lastSeen = place;
   return hand;
 }
 
@@ -214,7 +217,6 @@ void TickEngine::tick(const TickInput& input) noexcept {
   dynamics::Plant& plant = *scene_.plant;
   ++state_.tick;
   state_.measuredNs = input.measuredNs;
-  state_.device = input.device;
   state_.faults.missedTicks += input.missedTicks;
   cue_.reset();
   sawAll_ = true;
@@ -245,11 +247,12 @@ void TickEngine::tick(const TickInput& input) noexcept {
   }
   if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
 
+  state_.device = input.device;  // no sooner: what was just written in parts is waited for when it is copied as a whole
+  state_.hand = hand;
   exertForces(hand, status, input.missedTicks);
   state_.deviceState = deviceState(port_, input.device, input.deviceFault);
   for (std::size_t i = 0; i < others_.size(); ++i)
     state_.others[i].deviceState = deviceState(others_[i], state_.others[i].device, input.deviceFault);
-  state_.hand = hand;
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
   state_.gone = protocol_.gone;

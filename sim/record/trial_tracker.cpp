@@ -36,11 +36,11 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
 }
 
 
-void TrialTracker::begin(const RecordedTick& tick, const TickFacts& facts) {
+void TrialTracker::begin(const RecordedTick& tick, std::int32_t number) {
   trial_ = {};
-  trial_.trial = facts.trial;
-  trial_.planned.index = facts.trial - 1;
-  const auto setup = std::find_if(setups_.rbegin(), setups_.rend(), [&](const TrialSetup& s) { return s.trial == facts.trial; });
+  trial_.trial = number;
+  trial_.planned.index = number - 1;
+  const auto setup = std::find_if(setups_.rbegin(), setups_.rend(), [&](const TrialSetup& s) { return s.trial == number; });
   if (setup != setups_.rend()) trial_.planned = setup->planned;
   setups_.clear();
   trial_.startTick = trial_.lastTick = tick.tick;
@@ -62,10 +62,10 @@ void TrialTracker::measure(const TickFacts& facts) {
 }
 
 // An intervention that comes and goes from tick to tick is one, until it has stayed away for kQuietTicks.
-void TrialTracker::tellGuards(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
+void TrialTracker::tellGuards(const RecordedTick& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events) {
   constexpr std::uint64_t kQuietTicks = 100;
   if (facts.deviceState != deviceState_)
-    events.push_back({tick.tick, EventKind::DeviceState, facts.trial, static_cast<double>(facts.deviceState),
+    events.push_back({tick.tick, EventKind::DeviceState, number, static_cast<double>(facts.deviceState),
                       std::string(haptics::nameOf(facts.deviceState))});
   deviceState_ = facts.deviceState;
   if (facts.interventions == 0 && !intervened_) return;
@@ -73,7 +73,7 @@ void TrialTracker::tellGuards(const RecordedTick& tick, const TickFacts& facts, 
   for (int bit = 0; bit < haptics::intervention::kCount; ++bit) {
     std::uint64_t& last = lastActive_[static_cast<std::size_t>(bit)];
     const auto tell = [&](double value) {
-      events.push_back({tick.tick, EventKind::Intervention, facts.trial, value, std::string(haptics::intervention::nameOf(bit))});
+      events.push_back({tick.tick, EventKind::Intervention, number, value, std::string(haptics::intervention::nameOf(bit))});
     };
     if ((facts.interventions >> bit & 1) != 0) {
       if (last == 0) tell(1);
@@ -86,20 +86,20 @@ void TrialTracker::tellGuards(const RecordedTick& tick, const TickFacts& facts, 
   }
 }
 
-TrialTracker::Step TrialTracker::add(const RecordedTick& tick, TickFacts facts, std::vector<RecordedEvent>& events) {
+TrialTracker::Step TrialTracker::add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
   Step step;
-  if (facts.trial > 0) facts.trial += firstTrial_ - 1;
-  const auto tell = [&](EventKind kind, double value = 0) { events.push_back({tick.tick, kind, facts.trial, value, {}}); };
-  const bool inTrial = facts.phase != trial::Phase::Idle && facts.trial > 0;
-  if (inTrial && facts.trial != trial_.trial) {
-    begin(tick, facts);
+  const std::int32_t number = facts.trial > 0 ? facts.trial + firstTrial_ - 1 : facts.trial;
+  const auto tell = [&](EventKind kind, double value = 0) { events.push_back({tick.tick, kind, number, value, {}}); };
+  const bool inTrial = facts.phase != trial::Phase::Idle && number > 0;
+  if (inTrial && number != trial_.trial) {
+    begin(tick, number);
     step.started = true;
     tell(EventKind::TrialStart, trial_.planned.index);
   }
   if (tick.missedTicks > 0) tell(EventKind::TicksMissed, tick.missedTicks);
   if (tick.device.valid != valid_) tell(tick.device.valid ? EventKind::DeviceBack : EventKind::DeviceLost);
   valid_ = tick.device.valid;
-  tellGuards(tick, facts, events);
+  tellGuards(tick, number, facts, events);
   if (facts.clamped != clamped_) tell(facts.clamped ? EventKind::ClampBegin : EventKind::ClampEnd);
   clamped_ = facts.clamped;
   if (facts.status != status_ && facts.status != dynamics::StepStatus::Ok) tell(EventKind::StepFault, static_cast<double>(facts.status));

@@ -34,7 +34,7 @@ class TrialTracker {
     bool finished = false;  // `trial()` is complete
   };
   /// Appends to `events` what happened at this tick.
-  Step add(const RecordedTick& tick, TickFacts facts, std::vector<RecordedEvent>& events);
+  Step add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
   /// The trial under way or just finished; trial number 0 before the first.
   const RecordedTrial& trial() const { return trial_; }
@@ -44,9 +44,9 @@ class TrialTracker {
   RecordedTrial brokenOff() const;
 
  private:
-  void begin(const RecordedTick& tick, const TickFacts& facts);
+  void begin(const RecordedTick& tick, std::int32_t number);
   void measure(const TickFacts& facts);
-  void tellGuards(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
+  void tellGuards(const RecordedTick& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
   int firstTrial_;
   std::vector<TrialSetup> setups_;

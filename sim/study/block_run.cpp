@@ -37,24 +37,24 @@ void BlockRun::begin(std::unique_ptr<haptics::HapticDevice> hand) {
   if (dynamic_cast<const haptics::BlindHand*>(hand_.get()) != nullptr) engine_->setLookedAtEvery(withSamples_ ? kSampleEvery : 0);
   tracker_ = record::TrialTracker();
   seen_ = {};
-  input_ = {};
   trial_ = 0;
 }
 
 // What the haptic loop does at one tick of the virtual clock, for a hand that no watch looks after.
-void BlockRun::tick() {
+void BlockRun::tick(trial::Command command, const trial::PlannedTrial& planned) {
   haptics::TickEngine& engine = *engine_;
   const haptics::TickState& state = engine.state();
-  input_.device = hand_->read();
-  input_.measuredNs = static_cast<std::int64_t>(state.tick) * kTickNs;
-  engine.tick(input_);
+  const std::int64_t now = static_cast<std::int64_t>(state.tick) * kTickNs;
+  // Read into its place: a copy of what was just written in parts is waited for.
+  const haptics::TickInput input{.device = hand_->read(), .command = command, .planned = planned, .measuredNs = now};
+  engine.tick(input);
   hand_->write(state.deviceForce);
   if (const auto cue = engine.cue()) hand_->cue(*cue);
   hand_->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
 
   seen_.tick = state.tick;
-  seen_.measuredNs = input_.measuredNs;
-  seen_.device.valid = input_.device.valid;
+  seen_.measuredNs = now;
+  seen_.device.valid = input.device.valid;
   tracker_.add(seen_, record::factsOf(state), events_);
   events_.clear();
   if (withSamples_ && state.tick % kSampleEvery == 0) keepRow(state);
@@ -72,12 +72,9 @@ const record::RecordedTrial& BlockRun::runTrial(const trial::PlannedTrial& plann
   rows_.values.clear();
   ++trial_;
   tracker_.announce({trial_, planned});
-  input_.command = trial::Command::NextTrial;
-  input_.planned = planned;
-  tick();
-  input_.command = trial::Command::None;
-  while (engine_->state().phase != trial::Phase::Done) tick();
-  tick();  // one in Done, as whoever conducts a recorded run has it
+  tick(trial::Command::NextTrial, planned);
+  while (engine_->state().phase != trial::Phase::Done) tick(trial::Command::None, planned);
+  tick(trial::Command::None, planned);  // one in Done, as whoever conducts a recorded run has it
   return tracker_.trial();
 }
 

@@ -29,14 +29,13 @@ class BlockRun {
   record::SampleRows rowsBetween(std::uint64_t first, std::uint64_t last) const;
 
  private:
-  void tick();
+  void tick(trial::Command command, const trial::PlannedTrial& planned);
   void keepRow(const haptics::TickState& state);
 
   const experiment::CompiledExperiment* experiment_;
   dynamics::Scene scene_;  // until the first block begins; then the engine has it
   std::unique_ptr<haptics::HapticDevice> hand_;
   std::optional<haptics::TickEngine> engine_;
-  haptics::TickInput input_;
   record::TrialTracker tracker_;
   record::RecordedTick seen_;
   std::vector<record::RecordedEvent> events_;
