@@ -25,7 +25,6 @@ Worst findWorst(std::span<const dynamics::MassState> masses, double tolerance, M
 
 struct Arrival {
   Worst position, velocity;
-  bool complete() const noexcept { return position.mass == 0 && velocity.mass == 0; }
 };
 
 Arrival judge(const ProtocolSettings& s, std::span<const dynamics::MassState> masses) noexcept {
@@ -33,10 +32,14 @@ Arrival judge(const ProtocolSettings& s, std::span<const dynamics::MassState> ma
           findWorst(masses, s.velocityTolerance, [](const dynamics::MassState& m) { return norm(m.v); })};
 }
 
-// judge(…).complete(), known from the first mass that is away; the last one is the last to come.
+bool hasArrived(const ProtocolSettings& s, const dynamics::MassState& mass) noexcept {
+  return norm(mass.r - s.target) - s.positionTolerance <= 0 && norm(mass.v) - s.velocityTolerance <= 0;
+}
+
+// Nobody of judge(…) is away, known from the first mass that is away; the last one is the last to come.
 bool haveAllArrived(const ProtocolSettings& s, std::span<const dynamics::MassState> masses) noexcept {
   for (std::size_t i = masses.size(); i-- > 0;)
-    if (!judge(s, masses.subspan(i, 1)).complete()) return false;
+    if (!hasArrived(s, masses[i])) return false;
   return true;
 }
 
@@ -171,7 +174,7 @@ bool needsEveryMass(const ProtocolSettings& settings, const ProtocolState& state
                     std::span<const dynamics::MassState> masses) noexcept {
   if (state.phase != Phase::Moving || masses.empty()) return false;
   if (static_cast<std::int64_t>(tick - state.onsetTick) >= settings.latestTick) return true;
-  return judge(settings, masses.first(1)).complete() && judge(settings, masses.last(1)).complete();
+  return hasArrived(settings, masses.back()) && hasArrived(settings, masses.front());
 }
 
 }  // namespace reachlab::trial
