@@ -4,8 +4,9 @@
     tests/long/study_speed.py build/release                                          # some minutes
     tests/long/study_speed.py build/release --trials 1000,10000,100000,1000000 --figure docs/images/study-scaling.svg
 
-Processor time is what the process and its threads used; ways of dividing the work are timed in turn, several rounds of the same study, and
-compared within a round. Exit 1 when two ways give other bytes; no time is judged.
+Processor time is what the process, its threads and its ranks used; ways of dividing the work are timed in turn, rounds of the same study, and
+compared within a round. Ranks are timed with their start, which is measured by itself on a study that is done: --ways has to be many times
+that long. Exit 1 when two ways give other bytes; no time is judged.
 """
 import argparse
 import json
@@ -37,7 +38,7 @@ def start(*command):
 
 
 def finish(process):
-    """Processor seconds and largest memory [kB]."""
+    """Processor seconds, with those of processes that it waited for, and largest memory [kB]."""
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
@@ -68,7 +69,7 @@ def costs(reach, folder, counts, told):
 
 def ways(reach, folder, trials, rounds, mpiexec):
     """Wall seconds of the same study divided in different ways, round by round."""
-    file = study(folder, "ways", trials, KINDS["plan"], chunk=max(100, trials // 40))
+    file = study(folder, "ways", trials, KINDS["plan"], chunk=max(100, trials // 100))  # whoever ends last has a hundredth left, no more
     mpi = reach.parent / "reach-mpi"
     out = folder / "ways"
 
@@ -82,25 +83,31 @@ def ways(reach, folder, trials, rounds, mpiexec):
              "two independent processes": shares(2)}
     if mpi.exists() and shutil.which(mpiexec):
         table["two ranks"] = [ranks(2)]
-    seconds, bytes_of = {name: [] for name in table}, {}
+    seconds, used, starts, bytes_of = {name: [] for name in table}, {name: [] for name in table}, [], {}
     for _ in range(rounds):
         for name, commands in table.items():
             begin = time.monotonic()
-            for process in [start(*command) for command in commands]:
-                finish(process)
+            used[name].append(sum(finish(process)[0] for process in [start(*command) for command in commands]))
             seconds[name].append(time.monotonic() - begin)
             finish(start(reach, "study", file, "--out", out, "--resume"))  # tables, where two ended at once
+            if name == "two ranks":
+                begin = time.monotonic()
+                finish(start(*commands[0], "--resume"))
+                starts.append(time.monotonic() - begin)
             bytes_of[name] = (out / "trials.csv.gz").read_bytes() + (out / "trials.h5").read_bytes()
             shutil.rmtree(out)
     if len(set(bytes_of.values())) != 1:
         sys.exit("two ways give other bytes")
-    one = seconds["one process"]
-    print(f"\n{trials:,} trials, {rounds} rounds on {os.cpu_count()} processors:\n\n| way | wall time [s], median | times one process, median (least to most) |\n|---|---|---|")
+    print(f"\n{trials:,} trials, {rounds} rounds on {os.cpu_count()} processors, medians (least to most):\n\n"
+          "| way | wall time [s] | processor time [s] | times one process | times two independent processes |\n|---|---|---|---|---|")
+    told = lambda values: f"{statistics.median(values):.2f} ({min(values):.2f} to {max(values):.2f})"
     speed = {}
     for name, times in seconds.items():
-        ratios = [a / b for a, b in zip(one, times)]
+        ratios, beside = ([a / b for a, b in zip(seconds[other], times)] for other in ("one process", "two independent processes"))
         speed[name] = statistics.median(ratios)
-        print(f"| {name} | {statistics.median(times):.1f} | {speed[name]:.2f} ({min(ratios):.2f} to {max(ratios):.2f}) |", flush=True)
+        print(f"| {name} | {statistics.median(times):.1f} | {statistics.median(used[name]):.1f} | {told(ratios)} | {told(beside)} |", flush=True)
+    if starts:
+        print(f"\nstart and end of two ranks with nothing to do: {statistics.median(starts):.2f} s")
     return speed
 
 
@@ -156,7 +163,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--trials", default="1000,10000")
-    parser.add_argument("--ways", type=int, default=10_000, help="trials of the study that is divided; 0: none is")
+    parser.add_argument("--ways", type=int, default=60_000, help="trials of the study that is divided; 0: none is")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--figure")
