@@ -104,6 +104,14 @@ class LinearPlant final : public PlantBase, public EndMasses {
     }
     return true;
   }
+  Vec3 couplingForce(const HandSample& hand) const noexcept override {
+    if (model_.kind == experiment::ObjectKind::Parallel || !readsEnds()) return PlantBase::couplingForce(hand);
+    MassState first;
+    for (int a = 0; a < Axes; ++a) put(a, endsAlong(a).x[0], endsAlong(a).v[0], first);
+    Vec3 force;
+    force += handForce(model_, {hand, coupled_, extra_}, first, 0);  // as the sum over many, for the sign of -0
+    return force;
+  }
   std::string stopReason() const override { return fraction_ < 1 ? "a mass reached the end of the line's domain" : std::string(); }
 
  private:
@@ -164,10 +172,6 @@ class LinearPlant final : public PlantBase, public EndMasses {
     return ends_[a];
   }
   void locate(std::span<MassState> masses) const noexcept override {
-    if (masses.size() == 1 && readsEnds()) {
-      for (int a = 0; a < Axes; ++a) put(a, endsAlong(a).x[0], endsAlong(a).v[0], masses[0]);
-      return;
-    }
     for (int a = 0; a < Axes; ++a) {
       if (!fresh_) core().read(state()[a], x_, v_);
       fresh_ = Axes == 1;
