@@ -66,12 +66,19 @@ struct CurveSystem : CurvePlaces<N, N, Tangential> {
       const double w = y[n() + i];
       const double drive = mulAdd(springs.inverseMass[i], fusedDot(tangent[i], force[i]), fusedDot(tangent[i], springs.gravity));
       const double drag = springs.inverseMass[i] * springs.viscosity * w;
+      double phiRate, slope;
       if constexpr (Tangential) {
-        dy[i] = w * measure[i];
-        dy[n() + i] = drive - drag;
+        phiRate = w * measure[i];
+        slope = drive - drag;
       } else {
-        dy[i] = w;
-        dy[n() + i] = mulAdd(measure[i], mulAdd(-bend[i], w * w, drive), -drag);
+        phiRate = w;
+        slope = mulAdd(measure[i], mulAdd(-bend[i], w * w, drive), -drag);
+      }
+      if constexpr (N == 1) {
+        dy.assign(phiRate, slope);
+      } else {
+        dy[i] = phiRate;
+        dy[n() + i] = slope;
       }
     }
   }

@@ -39,7 +39,7 @@ struct QuadricSystem {
     const Vec3 f = mulAdd(springs.inverseMass[0], mulAdd(-springs.viscosity, v, force), springs.gravity);
     const Vec3 n = quadric.gradient(r);
     const Vec3 a = mulAdd(-(mulAdd(2, fusedDot(v, quadric.times(v)), fusedDot(n, f)) / fusedDot(n, n)), n, f);
-    dy.values = {v.x, v.y, v.z, a.x, a.y, a.z};
+    dy.assign(v.x, v.y, v.z, a.x, a.y, a.z);
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
 
@@ -56,7 +56,7 @@ struct QuadricSystem {
     const double square = 1 / fusedDot(nBefore, nBefore);
     r = mulAdd(-(quadric.value(r) * square), n, r);
     v = mulAdd(-(fusedDot(n, v) * square), n, v);
-    y.values = {r.x, r.y, r.z, v.x, v.y, v.z};
+    y.assign(r.x, r.y, r.z, v.x, v.y, v.z);
     return Settled::Same;
   }
   /// Beside a place without a normal (the gradient is of order one elsewhere).
