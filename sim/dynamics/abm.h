@@ -69,7 +69,7 @@ class AbmWith {
   using State = typename System::State;
   AbmWith(const System& system, double tolerance)
       : fallback_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 2),
-        rows_(static_cast<std::size_t>(Rows::count(system.states()))) {
+        maxCorrection_(limit_ / adams::kCorrectorError), rows_(static_cast<std::size_t>(Rows::count(system.states()))) {
     State scale(system.states());
     for (int i = 0; i < system.states(); ++i) scale[i] = system.scale(i);
     for (int c = 0; c < rowCount(); ++c) rows_[c].scale = Rows::load(scale, c);
@@ -99,7 +99,7 @@ class AbmWith {
     for (int c = 0; c < rowCount(); ++c) {
       deviation[c] = Rows::load(f, c) - rows_[c].sums[0];
       const Lanes correction = dt * deviation[c];
-      const Lanes most = limit_ / adams::kCorrectorError * (rows_[c].scale + magnitude(Rows::load(y, c)));
+      const Lanes most = maxCorrection_ * (rows_[c].scale + magnitude(Rows::load(y, c)));
       Rows::store(mulAdd(adams::kGamma[adams::kHistory], correction, Rows::load(predicted, c)), next, c);
       noticeable |= adams::beyond<Lanes>(correction, adams::kSparedShare * most);
       bad |= adams::beyond<Lanes>(correction, most);
@@ -204,7 +204,7 @@ class AbmWith {
   }
 
   Fallback<System> fallback_;
-  double limit_;
+  double limit_, maxCorrection_;  // of the scale and the state
   double dt_ = 0;
   int count_ = 0;
   std::vector<Row> rows_;
