@@ -103,7 +103,7 @@ bool SurfaceSystem::onBranch(const State& y) const noexcept {
     const double inwards = lines[k].value * where.side[k];
     if (!(inwards >= margin[k])) return false;
     if (inwards == 0 && !hasLimit(q, static_cast<int>(k), lines[k].u, lines[k].v)) return false;
-    besideEnd = besideEnd || (!branches->lines[k].passable && inwards < kBeside * (std::abs(lines[k].u) + std::abs(lines[k].v)));
+    met.besideEnd = met.besideEnd || (!branches->lines[k].passable && inwards < kBeside * (std::abs(lines[k].u) + std::abs(lines[k].v)));
   }
   return true;
 }

@@ -20,7 +20,8 @@ struct SurfaceSystem {
       "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   /// Squared sine of the angle between r_u and r_v below which the rates' tolerance, and their rounding, would show in the speed.
   static constexpr double kOblique = 1e-3, kParallel = 1e-6;
-  static constexpr double kLong = 1;        // [m^2] |r_u|^2, likewise
+  static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2
+  static constexpr double kLong = 1;           // [m^2] |r_u|^2, likewise
   static constexpr double kShows = 5e-11;
   using State = Numbers<4>;
   using Hand = HandSample;
@@ -42,11 +43,16 @@ struct SurfaceSystem {
     std::array<signed char, constraints::SurfaceBranches::kMaxGuards> side{};  // sign of each line's argument - level
   };
   Where where;
-  int metLine = -1;                                          // that stopped the mass
-  mutable double leastDeterminant = 1e300;                   // [m^4] of G in this step
-  mutable double awayFromOblique = 1, awayFromParallel = 1;  // [m^4] negative: in this step r_u and r_v came that near to each other
-  mutable double longest = 0;                                // [m^2] the largest |r_u|^2, |r_v|^2 in this step
-  mutable bool besideEnd = false;                            // in this step a line at which the formula ends was near
+  int metLine = -1;  // that stopped the mass
+  /// What the right-hand sides of this step met.
+  struct Met {
+    bool flat = false;     // r_u and r_v spanned next to no plane
+    bool oblique = false;  // they came near to each other, see kOblique and kParallel
+    bool parallel = false;
+    bool longRate = false;   // |r_u|^2 or |r_v|^2 was above kLong
+    bool besideEnd = false;  // a line at which the formula ends was near
+  };
+  mutable Met met;
   /// Where the parameter lines are oblique the rates nearly cancel in the velocity; where r_u is long a parameter's error is one of many
   /// metres; beside an end r_u grows without bound: there parameters and rates are needed more exactly.
   bool careful = false;
@@ -73,20 +79,22 @@ struct SurfaceSystem {
     const double e = fusedDot(p.rU, p.rU), f = fusedDot(p.rU, p.rV), g = fusedDot(p.rV, p.rV);
     const double determinant = mulAdd(e, g, -(f * f));
     const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
-    leastDeterminant = std::fmin(leastDeterminant, determinant);
-    longest = std::fmax(longest, std::fmax(e, g));
-    awayFromOblique = std::fmin(awayFromOblique, mulAdd(-kOblique * e, g, determinant));
-    awayFromParallel = std::fmin(awayFromParallel, mulAdd(-kParallel * e, g, determinant));
-    dy[0] = du;
-    dy[1] = dv;
-    dy[2] = mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du));
-    dy[3] = mulAdd(mulAdd(e, b, -(f * a)), inverse, -(drag * dv));
-    if (!careful) return;
-    // The same by vectors at right angles to r_v and r_u: e g - f^2 would lose twice the digits.
-    const Vec3 area = cross(p.rU, p.rV);
-    const double whole = dot(area, area);
-    dy[2] = dot(drive, cross(p.rV, area)) / whole - drag * du;
-    dy[3] = dot(drive, cross(area, p.rU)) / whole - drag * dv;
+    // Whoever is not oblique by more than what is flat is neither flat nor parallel: one comparison tells it of nearly all.
+    const double awayFromOblique = mulAdd(-kOblique * e, g, determinant), flatBelow = kDegenerate * largestArea;
+    if (!(awayFromOblique > flatBelow && std::max(e, g) <= kLong)) [[unlikely]] {
+      met.flat |= determinant < flatBelow;
+      met.oblique |= awayFromOblique < 0;
+      met.parallel |= mulAdd(-kParallel * e, g, determinant) < 0;
+      met.longRate |= e > kLong || g > kLong;
+    }
+    if (careful) [[unlikely]] {
+      // By vectors at right angles to r_v and r_u: e g - f^2 would lose twice the digits.
+      const Vec3 area = cross(p.rU, p.rV);
+      const double whole = dot(area, area);
+      dy.assign(du, dv, dot(drive, cross(p.rV, area)) / whole - drag * du, dot(drive, cross(area, p.rU)) / whole - drag * dv);
+      return;
+    }
+    dy.assign(du, dv, mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du)), mulAdd(mulAdd(e, b, -(f * a)), inverse, -(drag * dv)));
   }
   double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
 
@@ -94,10 +102,8 @@ struct SurfaceSystem {
     y.values = {q[0], q[1], qRate[0], qRate[1]};
     inPolar = false;
     metLine = -1;
-    leastDeterminant = 1e300;
-    awayFromOblique = awayFromParallel = 1;
-    longest = 0;
-    besideEnd = careful = false;
+    met = {};
+    careful = false;
     if (branches != nullptr) findBranch(q, qRate);
     active = surface;
     ticks = waiting = 0;
@@ -117,13 +123,9 @@ struct SurfaceSystem {
   /// Every few ticks: is a pole near, or has it been left?
   Settled settle(const State&, State& y) noexcept {
     // Across a place where r_u and r_v span no plane the parameters carry no velocity: what comes out of such a step is nothing.
-    constexpr double kDegenerate = 1e-7;
-    const bool degenerate = leastDeterminant < kDegenerate * largestArea || awayFromParallel < 0;
-    careful = awayFromOblique < 0 || longest > kLong || besideEnd;
-    leastDeterminant = 1e300;
-    awayFromOblique = awayFromParallel = 1;
-    longest = 0;
-    besideEnd = false;
+    const bool degenerate = met.flat || met.parallel;
+    careful = met.oblique || met.longRate || met.besideEnd;
+    met = {};
     if (degenerate || (careful && roundingShows(y))) return Settled::Lost;
     constexpr int kLookEvery = 4;
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
