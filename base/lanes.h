@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
-#ifdef __FMA__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 
@@ -105,6 +105,9 @@ bool anyLane(Marks marks) noexcept {
 /// True for a sum of `x * 0.0` when nothing in it was infinite or not a number.
 template <lanesDetail::Lanes L>
 bool allZero(const L& x) noexcept {
+#ifdef __AVX__
+  if constexpr (sizeof(L) == 32) return _mm256_movemask_pd(_mm256_cmp_pd(__m256d(x), _mm256_setzero_pd(), _CMP_NEQ_UQ)) == 0;
+#endif
   double sum = 0;
   for (std::size_t i = 0; i < sizeof(L) / sizeof(double); ++i) sum += x[i];
   return sum == 0;

@@ -44,7 +44,10 @@ class LinearPlant final : public PlantBase, public EndMasses {
     fraction_ = 1;
     fresh_ = freshEnds_ = false;
   }
-  void setExtraForce(const Vec3& force) noexcept override { extra_ = force; }
+  void setExtraForce(const Vec3& force) noexcept override {
+    extra_ = force;
+    for (int a = 0; a < Axes; ++a) extraAlong_[a] = along(force, a);
+  }
   void setCoupled(bool coupled) noexcept override {
     if (coupled == coupled_) return;
     for (int a = 0; a < Axes; ++a) {
@@ -62,19 +65,18 @@ class LinearPlant final : public PlantBase, public EndMasses {
     const Core& core = this->core();
     for (int a = 0; a < Axes; ++a) {
       AxisHand axisHand;
-      std::array<double, 2 * AxisHand::kStride * kForceTerms> projected;
       if (coupled_) {
         axisHand.degree = hand.degree;
         if (Axes == 3 || alongX_) {  // the usual line needs no products
           axisHand.position = component(hand.position, a);
           axisHand.velocity = component(hand.velocity, a);
         } else {
-          axisHand.position = project(hand.position, hand.degree, projected.data());
-          axisHand.velocity = project(hand.velocity, hand.degree, projected.data() + AxisHand::kStride * kForceTerms);
+          axisHand.position = project(hand.position, hand.degree, projected_[0].data());
+          axisHand.velocity = project(hand.velocity, hand.degree, projected_[1].data());
         }
         axisHand.origin = axisHand.r(0) - origin_[a];
       }
-      axisHand.extraForce = along(extra_, a);
+      axisHand.extraForce = extraAlong_[a];
       axisHand.gravity = gravity_[a];
       if (!core.advance(state()[a], axisHand, next()[a])) return StepStatus::NotFinite;
     }
@@ -132,12 +134,13 @@ class LinearPlant final : public PlantBase, public EndMasses {
   }
   using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
   static const double* component(const Coefficients& c, int a) noexcept { return a == 0 ? &c[0].x : a == 1 ? &c[0].y : &c[0].z; }
-  const double* project(const Coefficients& c, int degree, double* out) const noexcept {
+  // This and selectStep are calls, so that the usual step needs neither their registers nor their room on the stack.
+  [[gnu::noinline]] const double* project(const Coefficients& c, int degree, double* out) const noexcept {
     for (int k = 0; k <= degree; ++k) out[k * AxisHand::kStride] = dot(c[k], axis_);
     return out;
   }
   /// Another step than the compiled one (the last row of a simulation): computed once and kept. Allocates; a haptic loop never does it.
-  void selectStep(double dt) noexcept {
+  [[gnu::noinline]] void selectStep(double dt) noexcept {
     for (const auto& cores : cores_)
       if (cores->dt == dt) {
         current_ = cores.get();
@@ -221,7 +224,8 @@ class LinearPlant final : public PlantBase, public EndMasses {
   double length_;  // [m] |r_phi|
   Vec3 axis_;
   bool bounded_ = false, alongX_ = false;
-  std::array<double, Axes> origin_{}, gravity_{};  // [m], [m/s^2] along the axes
+  std::array<double, Axes> origin_{}, gravity_{}, extraAlong_{};                    // [m], [m/s^2], [N] along the axes
+  std::array<std::array<double, AxisHand::kStride * kForceTerms>, 2> projected_{};  // scratch: the hand along a slanted line
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
   std::array<std::vector<typename Core::State>, 2> states_;  // now and after the step, by turns; one an axis

@@ -140,7 +140,7 @@ template <int Degree, bool Full>
   const Group* group = groups_.data();
   const Lanes *x = state.x.data(), *v = state.v.data();
   Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
-  const std::size_t count = groups_.size();
+  const std::size_t count = state.x.size();  // of groups: cheaper to take from the smaller elements
   for (std::size_t i = 0; i < count; ++i) {
     const Group& g = group[i];
     // What comes from outside does not wait for the state.
@@ -163,7 +163,7 @@ template <int Degree, bool Full>
     const Lanes newV = rate + mulAdd(g.vx, e, mulAdd(g.vv, rate, pushV));
     nextX[i] = newX;
     nextV[i] = newV;
-    check += (newX + newV) * 0.0;
+    check = mulAdd(0.0, newX + newV, check);
   }
   return allZero(check);
 }
