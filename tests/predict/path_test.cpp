@@ -238,6 +238,19 @@ TEST(SurfaceJerk, IsRefusedAcrossAKinkThatNoSampleSees) {
   EXPECT_NE(refusal.find("abs("), std::string::npos) << refusal;
 }
 
+// A short ridge across the way that lies between two of the movement's nodes: smooth, and on no parameter line through the start. Interval
+// arithmetic round the way finds it, and lets a broad one pass.
+TEST(SurfaceJerk, IsRefusedOverABumpThatNoNodeSees) {
+  const auto over = [](const std::string& width) {
+    const std::string ridge = "0.02*" + width + "*exp(-((u - 0.0111)/" + width + ")^2 - ((v - 0.0165)/0.003)^2)";
+    return makeSurfaceExperiment({"u", "v", "0.1*u*v + " + ridge}, {-0.1, 0}, {0.1, 0.03}, 1);
+  };
+  const std::string refusal = refusalOf(over("1e-9"));
+  EXPECT_NE(refusal.find("a bump too narrow to be resolved at u = 0.0111"), std::string::npos) << refusal;
+  const auto broad = predict(over("0.03"), Criterion::MinHandJerk);
+  for (const std::string& warning : broad->warnings) EXPECT_EQ(warning.find("too narrow"), std::string::npos) << warning;
+}
+
 // Finite differences of a fixed step were wrong by 6e-5 of the cost where parameters are metres, and refused narrow hills.
 TEST(SurfaceJerk, DoesNotDependOnTheUnitOfTheParameters) {
   const auto hill = [](const std::string& unit, double scale, double width) {

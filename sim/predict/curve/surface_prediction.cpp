@@ -6,9 +6,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "base/error.h"
 #include "constraints/geometry/surface_expansion.h"
+#include "constraints/hidden_bend.h"
 #include "constraints/surface_branches.h"
 #include "sim/predict/numerics/hyper_dual.h"
 #include "sim/predict/transcription/transcription.h"
@@ -67,6 +70,23 @@ void refuseAtLines(const constraints::Constraint& surface, const std::function<s
     }
     before = after;
   }
+}
+
+/// What no node of the movement sees: a bump between two of them. Words where it can be neither found nor ruled out.
+std::optional<std::string> refuseHiddenBend(const constraints::Constraint& surface, const TranscribedMotion& motion) {
+  constexpr double kLeast = 1e-3;  // of the movement's mean jerk: what is below changes its cost by less than the nodes' distance squared
+  const double least = kLeast * std::sqrt(motion.cost / motion.duration);
+  const auto way = [&](double share) {
+    const std::array u = motion.at(0, share * motion.duration), v = motion.at(1, share * motion.duration);
+    return constraints::WayPoint{{u[0], v[0]}, {u[1], v[1]}, {u[2], v[2]}};
+  };
+  const std::optional<constraints::HiddenBend> bend = constraints::findHiddenBend(surface, way, least);
+  if (!bend) return std::nullopt;
+  const std::string place = fmt::format("u = {:.6g}, v = {:.6g}", bend->at[0], bend->at[1]);
+  if (bend->found)
+    throw RefusedError(
+        fmt::format("the way has a bump too narrow to be resolved at {}; allowed: a start and a target with none between them", place));
+  return fmt::format("near {} nothing shows that the surface has no bump too narrow to be seen", place);
 }
 
 }  // namespace
@@ -134,8 +154,10 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const constraints::Constra
         return norm(valueAt(du, x) * p.rU + valueAt(dv, x) * p.rV);
       },
       motion.basis.columns(), duration);
+  const std::optional<std::string> unseen = refuseHiddenBend(surface, motion);
   auto prediction = makeLegendrePrediction(hand, std::vector<MotionSeries>(massCount, hand), duration);
   describeMotion(motion, *prediction);
+  if (unseen) prediction->warnings.push_back(*unseen);
   prediction->distance = valueAt(hand.position, 1.0);
   prediction->warnings.emplace_back(kMovesAsOne);
   return prediction;
