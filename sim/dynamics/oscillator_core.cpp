@@ -141,6 +141,10 @@ template <int Degree, bool Full>
   const Lanes *x = state.x.data(), *v = state.v.data();
   Lanes* __restrict nextX = next.x.data(), * __restrict nextV = next.v.data();
   const std::size_t count = state.x.size();  // of groups: cheaper to take from the smaller elements
+  // In registers, as the compiler can't know that what is stored is not the hand.
+  const Lanes back = broadcast<Lanes>(-hand.origin);
+  std::array<Lanes, Degree + 1> moves{};
+  for (int k = 1; k <= Degree; ++k) moves[k] = broadcast<Lanes>(hand.r(k));
   for (std::size_t i = 0; i < count; ++i) {
     const Group& g = group[i];
     // What comes from outside does not wait for the state.
@@ -155,10 +159,10 @@ template <int Degree, bool Full>
         }
     }
     for (int k = 1; k <= Degree; ++k) {
-      pushX = mulAdd(hand.r(k), g.handX[k], pushX);
-      pushV = mulAdd(hand.r(k), g.handV[k], pushV);
+      pushX = mulAdd(moves[k], g.handX[k], pushX);
+      pushV = mulAdd(moves[k], g.handV[k], pushV);
     }
-    const Lanes e = mulAdd(-hand.origin, g.rest, x[i]), rate = v[i];
+    const Lanes e = mulAdd(back, g.rest, x[i]), rate = v[i];
     const Lanes newX = x[i] + mulAdd(g.xx, e, mulAdd(g.xv, rate, pushX));
     const Lanes newV = rate + mulAdd(g.vx, e, mulAdd(g.vv, rate, pushV));
     nextX[i] = newX;
