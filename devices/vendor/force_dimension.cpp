@@ -24,15 +24,15 @@ constexpr int kMostErrors = 20;  // in a row, before it counts as lost: some 10 
 Vec3 toWorld(const Vec3& v) { return {v.y, v.z, v.x}; }
 Vec3 toDevice(const Vec3& v) { return {v.z, v.x, v.y}; }
 
-// Data sheets: peak force where the library does not tell it [N], radius of the workspace [m].
+// Peak force where the library does not tell it [N], radius of the workspace [m]: those that CHAI3D drives each model with
+// (chai3d/chai3d:src/devices/CDeltaDevices.cpp, read).
 struct Model {
   int type;
   double maxForce, radius;
 };
-constexpr Model kModels[] = {{63, 20, 0.20},  {33, 12, 0.08},   {34, 12, 0.08},   {36, 12, 0.08},   {35, 12, 0.08},
-                             {37, 12, 0.08},  {206, 20, 0.095}, {104, 20, 0.095}, {105, 20, 0.095}, {203, 20, 0.12},
-                             {108, 20, 0.12}, {109, 20, 0.12},  {60, 9, 0.05}};
-constexpr double kUnknownForce = 8, kUnknownRadius = 0.05;
+constexpr Model kModels[] = {{63, 20, 0.15},  {33, 12, 0.075},  {34, 12, 0.075},  {36, 12, 0.075}, {35, 12, 0.075},
+                             {37, 12, 0.075}, {104, 12, 0.075}, {105, 12, 0.075}, {60, 8, 0.04}};
+constexpr double kUnknownForce = 8, kUnknownRadius = 0.04;  // of the others, whatever they are: the least of these
 
 class ForceDimension final : public Transport {
  public:

@@ -46,7 +46,7 @@ TEST_F(ForceDimension, IsListedByTheNameThatOpensIt) {
   for (const FoundDevice& found : findDriver("forcedimension")->find(*findDriver("forcedimension"))) {
     EXPECT_TRUE(found.present) << found.whyNot;
     EXPECT_EQ(found.name, "forcedimension:0");
-    EXPECT_EQ(found.maxForce, 12) << "data sheet of omega.3: the library did not tell";
+    EXPECT_EQ(found.maxForce, 12) << "CHAI3D's number for an omega.3: the library did not tell";
     EXPECT_NO_THROW(open(found.name));
   }
   EXPECT_FALSE(fakeDhd().open) << "left as it was";

@@ -114,8 +114,8 @@ TEST(Preflight, AStiffnessBeyondTheStableOneIsWarnedAbout) {
 TEST(Preflight, AReachBeyondTheWorkspaceNamesTheScale) {
   const auto experiment = experiment::readExperiment("chain-slow");
   const PreflightLine line = lineOf(check(experiment, infoOf("virtual:omega3", experiment)), "workspace");
-  EXPECT_EQ(line.verdict, Verdict::Warning) << "0.1 m on a radius of 0.08 m";
-  EXPECT_NE(line.remedy.find("scale 1.25"), std::string::npos) << line.remedy;
+  EXPECT_EQ(line.verdict, Verdict::Warning) << "0.1 m on a radius of 0.075 m";
+  EXPECT_NE(line.remedy.find("scale 1.33"), std::string::npos) << line.remedy;
 }
 
 TEST(Preflight, EveryShippedExperimentIsJudged) {
