@@ -91,7 +91,7 @@ void addStabilityCommand(CLI::App& app, int&) {
       ->check(CLI::Range(0.0, 1000.0));
   command->add_option("--damping", r->settings.mostDamping, "Coupling damping b_h from 0 to this [20 N s/m]")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--step", r->settings.dampingStep, "Step of b_h [1 N s/m]")->check(CLI::Range(0.01, 1000.0));
+  command->add_option("--step", r->settings.dampingStep, "Step of b_h [0.25 N s/m]")->check(CLI::Range(0.01, 1000.0));
   command->add_option("--delay-ms", r->settings.delayTicks, "Delay of the device beyond the tick's own [0 ms]")->check(CLI::Range(0, 31));
   command->add_option("--out", r->out, "Folder for the table and the figure; default: the table to stdout");
   command->footer(

@@ -9,7 +9,7 @@ namespace reachlab::devices {
 struct StabilityMapSettings {
   double handMass = 0.3;                            // [kg] that moves with the handle
   std::vector<double> handDampings{0.5, 1, 3, 10};  // [N s/m]
-  double mostDamping = 20, dampingStep = 1;         // [N s/m] of b_h, from 0
+  double mostDamping = 20, dampingStep = 0.25;      // [N s/m] of b_h, from 0
   int delayTicks = 0;
   experiment::VelocityEstimatorSpec estimator;
 };

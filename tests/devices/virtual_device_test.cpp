@@ -7,6 +7,7 @@
 #include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/virtual/loop_stability.h"
+#include "devices/virtual/stability_map.h"
 #include "sim/haptics/run_conductor.h"
 
 namespace reachlab::devices {
@@ -168,6 +169,16 @@ TEST(LoopStability, ThePapersCouplingIsStableOnAHeldPremium) {
   s.friction = 0.2;
   s.stiffness = 600;
   EXPECT_LT(passivityMargin(s), 0) << "let go, 600 N/m is not passive: 0.3 N s/m are needed";
+}
+
+// "Realistic … sensations are achieved when stiffness coefficients k_h exceed 500 N/m", and the paper's experiments have 600 N/m without damping.
+TEST(StabilityMap, ThePapersStiffnessIsAmongTheStableOnesOnEachPremium) {
+  for (const char* name : {"premium15", "premium60", "highforce"}) {
+    const auto map = computeStabilityMap(*findDeviceModel(name), {});
+    ASSERT_FALSE(map.empty());
+    for (const StabilityPoint& p : map) EXPECT_GE(p.largestStable, 600) << name << ", hand " << p.handDamping << ", b_h " << p.damping;
+    EXPECT_GE(map.front().largestPassive, 600) << name << ": without coupling damping it is passive even in the lightest of the hands";
+  }
 }
 
 }  // namespace
