@@ -22,7 +22,8 @@ std::string preflightJson(const std::vector<PreflightLine>& lines) {
   using Json = nlohmann::ordered_json;
   Json rows = Json::array();
   for (const PreflightLine& line : lines)
-    rows.push_back({{"name", line.name},
+    rows.push_back({{"hand", std::max(line.hand, 1)},
+                    {"name", line.name},
                     {"verdict", devices::nameOf(line.verdict)},
                     {"asked", line.asked},
                     {"limit", line.limit ? Json(*line.limit) : Json(nullptr)},
@@ -30,13 +31,6 @@ std::string preflightJson(const std::vector<PreflightLine>& lines) {
                     {"sentence", line.sentence},
                     {"remedy", line.remedy.empty() ? Json(nullptr) : Json(line.remedy)}});
   return rows.dump(2) + "\n";
-}
-
-std::string preflightWarnings(const std::vector<PreflightLine>& lines) {
-  std::string text;
-  for (const PreflightLine& line : lines)
-    if (line.verdict == Verdict::Warning) text += fmt::format("warning: {}\n", describe(line));
-  return text;
 }
 
 }  // namespace reachlab::cli

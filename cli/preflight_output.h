@@ -8,9 +8,7 @@ namespace reachlab::cli {
 
 /// A line each, warnings first.
 std::string preflightText(const std::vector<devices::PreflightLine>& lines);
-/// `[{name, verdict, asked, limit, unit, sentence, remedy}]`.
+/// `[{hand, name, verdict, asked, limit, unit, sentence, remedy}]`.
 std::string preflightJson(const std::vector<devices::PreflightLine>& lines);
-/// What is to be said before a run: the warnings alone, a line each; empty when there are none.
-std::string preflightWarnings(const std::vector<devices::PreflightLine>& lines);
 
 }  // namespace reachlab::cli

@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "cli/preflight_output.h"
 #include "base/stop_signals.h"
 #include "cli/success_table.h"
 #include "devices/instruments/instruments.h"
 #include "devices/make_device.h"
+#include "devices/preflight/preflight.h"
 #include "sim/session/backup_worker.h"
 #include "sim/session/recorded_session.h"
 #include "sim/trial/task_places.h"
@@ -33,12 +33,7 @@ void printRun(const session::RecordedRun& run) {
 std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                          std::uint64_t seed) {
   auto device = devices::makeDevice(spec, experiment, seed);
-  const auto warn = [&](const haptics::DeviceInfo& info) {
-    if (info.rendersForce && experiment.experiment().task)
-      fmt::print(stderr, "{}", preflightWarnings(devices::checkBeforeBlock(experiment, info)));
-  };
-  warn(device->info());
-  for (const haptics::HapticDevice* other : device->otherHands()) warn(other->info());
+  for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) fmt::print(stderr, "warning: {}\n", sentence);
   return device;
 }
 

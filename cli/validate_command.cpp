@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -13,6 +12,7 @@
 #include "base/json_reader.h"
 #include "devices/make_device.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/session/checked_programme.h"
 #include "sim/trial/task_check.h"
 #include "sim/trial/task_places.h"
@@ -28,9 +28,8 @@ std::string fileOf(const std::string& fileOrName) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (fs::is_directory(fileOrName, error)) throw FaultError(Fault{{}, "is a folder", kExpected, FilePlace{fileOrName}});
-  const std::vector<std::string> experiments = experiment::shippedExperiments();
-  if (!fs::exists(fileOrName, error) && std::find(experiments.begin(), experiments.end(), fileOrName) != experiments.end())
-    return fmt::format("{}/experiments/{}.json", experiment::resourceFolder(), fileOrName);
+  if (!fs::exists(fileOrName, error))
+    if (const auto shipped = experiment::shippedExperimentFile(fileOrName)) return *shipped;
   return session::findPlan(fileOrName).value_or(fileOrName);
 }
 
@@ -83,9 +82,11 @@ struct Request {
 void checkOnDevice(const Request& r, const session::Programme& programme) {
   for (const experiment::CompiledExperiment& block : programme.experiments) {
     const auto device = devices::makeDevice(r.device, block, 0);
-    const auto lines = devices::checkBeforeBlock(block, device->info());
+    const auto lines = devices::checkBeforeBlock(block, *device);
+    std::string names = device->info().name;
+    for (const haptics::HapticDevice* other : device->otherHands()) names += " + " + other->info().name;
     if (r.json) fmt::print("{}", preflightJson(lines));
-    else fmt::print("{} on {}:\n{}", block.experiment().name, device->info().name, preflightText(lines));
+    else fmt::print("{} on {}:\n{}", block.experiment().name, names, preflightText(lines));
   }
 }
 
@@ -98,7 +99,7 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
       ->required();
   CLI::Option* device = command->add_option(
       "--device", r->device, "checks also what the experiment asks of this device: forces, stability, workspace; as for reach run");
-  command->add_flag("--json", r->json, "with --device: an array of {name, verdict, asked, limit, unit, sentence, remedy}")->needs(device);
+  command->add_flag("--json", r->json, "with --device: an array of {hand, name, verdict, asked, limit, unit, sentence, remedy}")->needs(device);
   command->footer(
       "Examples:\n  reach validate my-experiment.json\n  reach validate *.json\n  reach validate chain-fast --device virtual:omni");
   command->callback([r, &exitCode] {

@@ -21,11 +21,11 @@ using experiment::CompiledExperiment;
 using experiment::Experiment;
 
 // What the hand feels of the springs that it holds: those of parallel masses act together.
-experiment::Coupling feltCoupling(const Experiment& experiment) {
+experiment::Coupling feltCoupling(const Experiment& experiment, std::size_t hand) {
+  const auto together = [](const std::vector<double>& springs) { return std::accumulate(springs.begin(), springs.end(), 0.0); };
+  if (hand < experiment.hands.size()) return {together(experiment.hands[hand].stiffness), together(experiment.hands[hand].damping)};
   if (experiment.coupling) return *experiment.coupling;
-  const experiment::Object& object = experiment.object;
-  return {std::accumulate(object.stiffness.begin(), object.stiffness.end(), 0.0),
-          std::accumulate(object.damping.begin(), object.damping.end(), 0.0)};
+  return {together(experiment.object.stiffness), together(experiment.object.damping)};
 }
 
 // The shortest T whose force keeps below `limit`, to 2 %: force falls about as 1/T^2, and each guess is computed again.
@@ -92,8 +92,7 @@ LoopSettings heldLoop(const experiment::Coupling& coupling, const haptics::Devic
   return loop;
 }
 
-PreflightLine passivity(const Experiment& experiment, const haptics::DeviceInfo& device) {
-  const experiment::Coupling coupling = feltCoupling(experiment);
+PreflightLine passivity(const Experiment& experiment, const experiment::Coupling& coupling, const haptics::DeviceInfo& device) {
   const LoopSettings loop = heldLoop(coupling, device, experiment);
   const double margin = passivityMargin(loop), asked = loop.friction - margin;
   PreflightLine line{"passivity", Verdict::Fine, asked, device.viscosity, "N s/m", {}, {}};
@@ -119,8 +118,7 @@ PreflightLine passivity(const Experiment& experiment, const haptics::DeviceInfo&
   return line;
 }
 
-PreflightLine stability(const Experiment& experiment, const haptics::DeviceInfo& device) {
-  const experiment::Coupling coupling = feltCoupling(experiment);
+PreflightLine stability(const Experiment& experiment, const experiment::Coupling& coupling, const haptics::DeviceInfo& device) {
   PreflightLine line{"stability", Verdict::Unknown, coupling.stiffness, std::nullopt, "N/m", {}, {}};
   if (!(device.apparentMass > 0)) {
     line.sentence = fmt::format("the apparent mass of {} is not known, so how stiff a coupling it renders cannot be told", device.name);
@@ -148,7 +146,7 @@ PreflightLine workspace(const haptics::DeviceInfo& device, const ReachDemand& de
   line.verdict = demand.farthest <= *line.limit * (1 + kRounding) ? Verdict::Fine : Verdict::Warning;
   line.sentence = fmt::format("the hand goes {:.3g} m from its middle; {} reaches {:.3g} m", demand.farthest, device.name, *line.limit);
   if (line.verdict == Verdict::Warning)
-    line.remedy = fmt::format("a mapping of scale {:.3g} or more, or another offset", demand.farthest / *line.limit);
+    line.remedy = fmt::format("a scale {:.3g} times as large (a mapping), or another offset", demand.farthest / *line.limit);
   return line;
 }
 
@@ -164,23 +162,61 @@ std::string_view nameOf(Verdict verdict) {
   return "unknown";
 }
 
-std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, const haptics::DeviceInfo& device) {
+std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, std::size_t hand) {
+  const experiment::Coupling coupling = feltCoupling(experiment.experiment(), hand);
   const ReachDemand demand = computeReachDemand(experiment, std::nullopt, device.workspaceCentre);
   std::vector<PreflightLine> lines;
   if (device.rendersForce) {
     lines.push_back(peakForce(experiment, device, demand));
     lines.push_back(continuousForce(experiment, device, demand));
-    lines.push_back(passivity(experiment.experiment(), device));
-    lines.push_back(stability(experiment.experiment(), device));
+    lines.push_back(passivity(experiment.experiment(), coupling, device));
+    lines.push_back(stability(experiment.experiment(), coupling, device));
   }
   lines.push_back(workspace(device, demand));
   return lines;
 }
 
+namespace {
+
+std::vector<haptics::DeviceInfo> handsOf(const haptics::HapticDevice& device) {
+  std::vector<haptics::DeviceInfo> hands{device.info()};
+  for (const haptics::HapticDevice* other : device.otherHands()) hands.push_back(other->info());
+  return hands;
+}
+
+std::vector<PreflightLine> linesOf(const CompiledExperiment& experiment, const std::vector<haptics::DeviceInfo>& hands, std::size_t hand) {
+  std::vector<PreflightLine> lines = checkBeforeBlock(experiment, hands[hand], hand);
+  for (PreflightLine& line : lines) line.hand = hands.size() > 1 ? static_cast<int>(hand) + 1 : 0;
+  return lines;
+}
+
+}  // namespace
+
+std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, const haptics::HapticDevice& device) {
+  const auto hands = handsOf(device);
+  std::vector<PreflightLine> all;
+  for (std::size_t i = 0; i < hands.size(); ++i)
+    for (PreflightLine& line : linesOf(experiment, hands, i)) all.push_back(std::move(line));
+  return all;
+}
+
 std::string describe(const PreflightLine& line) {
   std::string name = line.name;
   std::replace(name.begin(), name.end(), '_', ' ');
-  return fmt::format("{}: {}{}", name, line.sentence, line.remedy.empty() ? "" : "; what helps: " + line.remedy);
+  return fmt::format("{}{}: {}{}", line.hand > 0 ? fmt::format("hand {}: ", line.hand) : "", name, line.sentence,
+                     line.remedy.empty() ? "" : "; what helps: " + line.remedy);
+}
+
+std::vector<std::string> warningsBeforeBlock(const CompiledExperiment& experiment, const haptics::HapticDevice& device) {
+  std::vector<std::string> warnings;
+  if (!experiment.experiment().task) return warnings;
+  const auto hands = handsOf(device);
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    if (!hands[i].rendersForce) continue;
+    for (const PreflightLine& line : linesOf(experiment, hands, i))
+      if (line.verdict == Verdict::Warning) warnings.push_back(describe(line));
+  }
+  return warnings;
 }
 
 }  // namespace reachlab::devices

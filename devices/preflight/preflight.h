@@ -26,6 +26,7 @@ struct PreflightLine {
   std::string unit;             // "N", "N s/m", "N/m", "m"
   std::string sentence;         // numbers in words
   std::string remedy;           // empty where nothing is to be done
+  int hand = 0;                 // that it is of, from 1; 0: there is only one
 };
 
 /// What a block of this experiment will meet on this device:
@@ -37,9 +38,15 @@ struct PreflightLine {
 ///   workspace         farthest place of the hand against the device's radius
 /// A device without force is asked for its workspace only. Takes some milliseconds, on a curve up to seconds. Throws FaultError (no task),
 /// RefusedError (the scene cannot be computed).
-std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::DeviceInfo& device);
+/// `hand`: which of the experiment's hands holds it, from 0.
+std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::DeviceInfo& device,
+                                            std::size_t hand = 0);
+/// Of every hand of a device, one after another.
+std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::HapticDevice& device);
 
-/// One sentence of a line that is not fine, with its remedy: "peak force: …; …".
+/// One sentence of a line that is not fine, with its remedy: "peak force: …; …", "hand 2: peak force: …; …".
 std::string describe(const PreflightLine& line);
+/// What is said before a run, a sentence each: the warnings of those hands that feel a force. Nothing without a task.
+std::vector<std::string> warningsBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::HapticDevice& device);
 
 }  // namespace reachlab::devices

@@ -95,9 +95,7 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
   mouse_ = nullptr;
   if (spec != "mouse") {
     auto device = devices::makeDevice(spec, experiment, seed);
-    if (const haptics::DeviceInfo info = device->info(); info.rendersForce)
-      for (const devices::PreflightLine& line : devices::checkBeforeBlock(experiment, info))
-        if (line.verdict == devices::Verdict::Warning) Q_EMIT told(QString::fromStdString(describe(line)));
+    for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) onOpening_ << QString::fromStdString(sentence);
     return device;
   }
   auto mouse = std::make_unique<devices::MouseDevice>(trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start);
@@ -107,6 +105,7 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
 
 void SessionController::openRun(const session::SessionRequest& request) {
   const std::scoped_lock lock(changing_);
+  onOpening_.clear();
   if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) {
     session::SessionRequest asked = request;
     asked.resume = resume_;
@@ -120,9 +119,11 @@ void SessionController::openRun(const session::SessionRequest& request) {
     recorded_ = std::move(planned);
     asked_ = request;
     resume_ = false;
-    if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) Q_EMIT told(words);
+    if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) onOpening_ << words;
   }
-  if (!recorded_->openNext()) return;
+  const bool opened = recorded_->openNext();
+  if (!onOpening_.isEmpty()) Q_EMIT told(onOpening_.join(QLatin1Char('\n')));
+  if (!opened) return;
   stop_.emplace();
   timingTold_ = false;
   numberUsed_ = true;

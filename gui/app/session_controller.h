@@ -1,6 +1,7 @@
 #pragma once
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -85,7 +86,7 @@ class SessionController : public QObject {
   void trialEnded();
   /// One sentence for the experimenter: the disk, the device, the computation. Finished trials are safe.
   void failed(const QString& sentence);
-  /// Worth a word, and no fault.
+  /// Worth a word, and no fault; sentences, a line each.
   void told(const QString& sentence);
 
  private:
@@ -107,6 +108,7 @@ class SessionController : public QObject {
   bool endAfterTrial_ = false, resume_ = false;
   bool timingTold_ = false;                // of the run that is open
   std::optional<StopRequest> stop_;        // while a run is open a signal ends its trial first; at other times the program, at once
+  QStringList onOpening_;                  // what is to be said of the run that is being opened, all at once
   bool numberUsed_ = false;                // the run number that was asked for holds for one run
   session::SessionRequest asked_;          // what `recorded_` was planned for
   devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open

@@ -44,17 +44,20 @@ std::vector<std::string> shippedExperiments() { return shippedNames("experiments
 
 std::vector<std::string> shippedForTwoHands() { return shippedNames(std::string("experiments/") + kTwoHands); }
 
+std::optional<std::string> shippedExperimentFile(const std::string& name) {
+  const fs::path folder = fs::path(resourceFolder()) / "experiments";
+  const auto has = [&](const std::vector<std::string>& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (has(shippedExperiments())) return (folder / (name + ".json")).string();
+  if (has(shippedForTwoHands())) return (folder / kTwoHands / (name + ".json")).string();
+  return std::nullopt;
+}
+
 CompiledExperiment openExperiment(const std::string& fileOrName) {
   std::error_code ignored;
   if (fs::is_regular_file(fileOrName, ignored)) return openExperimentText(readTextFile(fileOrName), fileOrName);
   const bool looksLikeFile = fileOrName.find('/') != std::string::npos || fs::path(fileOrName).has_extension();
   const std::vector<std::string> names = shippedExperiments();
-  if (std::find(names.begin(), names.end(), fileOrName) != names.end()) {
-    const std::string file = (fs::path(resourceFolder()) / "experiments" / (fileOrName + ".json")).string();
-    return openExperimentText(readTextFile(file), file);
-  }
-  const fs::path twoHands = fs::path(resourceFolder()) / "experiments" / kTwoHands / (fileOrName + ".json");
-  if (!looksLikeFile && fs::is_regular_file(twoHands, ignored)) return openExperimentText(readTextFile(twoHands.string()), twoHands.string());
+  if (const auto file = shippedExperimentFile(fileOrName)) return openExperimentText(readTextFile(*file), *file);
   if (fs::is_directory(fileOrName, ignored)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
   if (looksLikeFile) throw FaultError(Fault{fileOrName, "there is no such file", "an experiment file, or one of " + listOf(names)});
   const std::string nearest = nearestName(fileOrName, names);

@@ -115,7 +115,32 @@ TEST(Preflight, AReachBeyondTheWorkspaceNamesTheScale) {
   const auto experiment = experiment::readExperiment("chain-slow");
   const PreflightLine line = lineOf(check(experiment, infoOf("virtual:omega3", experiment)), "workspace");
   EXPECT_EQ(line.verdict, Verdict::Warning) << "0.1 m on a radius of 0.075 m";
-  EXPECT_NE(line.remedy.find("scale 1.33"), std::string::npos) << line.remedy;
+  EXPECT_NE(line.remedy.find("a scale 1.33 times as large"), std::string::npos) << line.remedy;
+}
+
+TEST(Preflight, EachOfTwoHandsIsHeldAgainstItsOwnDevice) {
+  const experiment::CompiledExperiment both(experiment::readExperiment("chain-two-hands"));
+  const auto device = makeDevice("virtual:highforce + virtual:omni", both, 1);
+  const auto lines = checkBeforeBlock(both, *device);
+  ASSERT_EQ(lines.size(), 10u);
+  EXPECT_EQ(lines[0].hand, 1);
+  EXPECT_EQ(lines[0].limit, 37.5);
+  EXPECT_EQ(lines[5].hand, 2);
+  EXPECT_EQ(lines[5].limit, 3.3);
+  const std::vector<std::string> weak = warningsBeforeBlock(both, *makeDevice("virtual:highforce + virtual:omni,arm-mass=1", both, 1));
+  ASSERT_FALSE(weak.empty());
+  for (const std::string& sentence : weak) EXPECT_TRUE(sentence.starts_with("hand 2: ")) << sentence;
+  EXPECT_TRUE(warningsBeforeBlock(both, *makeDevice("simulated + simulated", both, 1)).empty()) << "they feel nothing";
+}
+
+// In parallel-two-hands the second hand's springs are the first one's the other way round, here made ten times stiffer.
+TEST(Preflight, TheSecondHandIsAskedForItsOwnSprings) {
+  experiment::Experiment springs = experiment::readExperiment("parallel-two-hands");
+  for (double& stiffness : springs.hands.at(1).stiffness) stiffness *= 10;
+  const experiment::CompiledExperiment both(springs);
+  const auto lines = checkBeforeBlock(both, *makeDevice("virtual:highforce + virtual:highforce", both, 1));
+  EXPECT_EQ(lineOf({lines.begin(), lines.begin() + 5}, "stability").asked, 300);
+  EXPECT_EQ(lineOf({lines.begin() + 5, lines.end()}, "stability").asked, 3000);
 }
 
 TEST(Preflight, EveryShippedExperimentIsJudged) {
