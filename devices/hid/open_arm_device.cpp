@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "devices/drivers.h"
+#include "devices/hid/report_descriptor.h"
 #include "devices/options.h"
 
 namespace reachlab::devices {
@@ -20,11 +22,21 @@ Vec3 toArm(const Vec3& v) { return {v.z, v.x, v.y}; }
 
 }  // namespace
 
+std::string firmwareFault(std::size_t reportBytes) {
+  if (reportBytes >= kArmPayloadBytes) return {};
+  return fmt::format(
+      "its firmware is too old: it sends reports of {} bytes, and {} are needed; put a newer one on it (github.com/forsslund/haptikfabrikenapi, "
+      "folder firmware)",
+      reportBytes, kArmPayloadBytes);
+}
+
 OpenArm::OpenArm(const Options& options, const std::string& serial, OpenPort open)
     : options_(options), serial_(serial), open_(std::move(open)), port_(open_()) {
   options_.reportBytes = std::min(options_.reportBytes, bytes_.size());
   if (options_.calibrateAtStart) setEncoders();
 }
+
+std::string OpenArm::lossText() const { return whole_ || shortReport_ == 0 ? std::string() : firmwareFault(shortReport_); }
 
 haptics::DeviceInfo OpenArm::info() const {
   haptics::DeviceInfo info;
@@ -62,8 +74,10 @@ int OpenArm::readNewest() {
     if (got == 0) break;
     if (static_cast<std::size_t>(got) != options_.reportBytes) {
       ++garbled_;
+      shortReport_ = static_cast<std::size_t>(got);
       continue;
     }
+    whole_ = true;
     std::copy_n(waiting.begin(), got, bytes_.begin());
     newest = got;
   }
@@ -132,6 +146,17 @@ std::vector<HidInterface> findArms() {
   return found;
 }
 
+// By its report descriptor, so that nothing is opened for it; empty: nothing is wrong, or it is not known.
+std::string firmwareFaultOf(const HidInterface& arm) {
+  try {
+    const HidLayout layout = parseReportDescriptor(readSystemDescriptor(arm.path));
+    const std::size_t bytes = layout.bytesOf(HidReportKind::Input, 0);
+    return bytes > 0 ? firmwareFault(bytes) : std::string();
+  } catch (const FaultError&) {  // the first reports will tell
+    return {};
+  }
+}
+
 HidInterface chooseArm(const std::string& key, const std::string& words) {
   const std::vector<HidInterface> arms = findArms();
   if (arms.empty()) throw ResourceError(fmt::format("{}: no WoodenHaptics or Polhem arm (USB 16c0:0486 or 1234:0006) is connected", words));
@@ -158,6 +183,7 @@ std::unique_ptr<haptics::HapticDevice> makeArm(const DeviceRequest& request) {
   const bool calibrate = options.word("calibrate", {"no", "start"}) == "start";
   options.done();
   const HidInterface arm = chooseArm(options.plain(), request.words());
+  if (const std::string fault = firmwareFaultOf(arm); !fault.empty()) throw ResourceError(fmt::format("{}: {}", request.words(), fault));
   OpenArm::Options chosen = optionsFor(arm);
   chosen.model = findArmModel(model);
   chosen.maxCurrent = maxCurrent;
@@ -175,7 +201,7 @@ std::unique_ptr<haptics::HapticDevice> makeArm(const DeviceRequest& request) {
 std::vector<FoundDevice> findArmDevices(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
   for (const HidInterface& arm : findArms()) {
-    const std::string name = self.name + ":" + arm.key(), why = whyNotOpen(arm);
+    const std::string name = self.name + ":" + arm.key(), closed = whyNotOpen(arm), why = closed.empty() ? firmwareFaultOf(arm) : closed;
     haptics::DeviceInfo info;
     info.name = arm.title.empty() ? self.description : arm.maker + (arm.maker.empty() ? "" : " ") + arm.title;
     info.maxForce = optionsFor(arm).model->maxForce;

@@ -34,6 +34,7 @@ class OpenArm final : public Transport {
   void close() noexcept override;
   std::string calibrationHint() const override;
   std::string calibrate() override;
+  std::string lossText() const override;
 
   /// Reports that were too short, so far.
   std::uint64_t garbled() const { return garbled_; }
@@ -51,6 +52,11 @@ class OpenArm final : public Transport {
   std::array<std::uint8_t, 64> bytes_{};
   std::array<double, 3> angles_{};
   std::uint64_t garbled_ = 0;
+  std::size_t shortReport_ = 0;  // [bytes] of the last that was not whole
+  bool whole_ = false;           // one was
 };
+
+/// Why an arm that sends reports of so many bytes cannot be driven, and what to do; empty: it can.
+std::string firmwareFault(std::size_t reportBytes);
 
 }  // namespace reachlab::devices

@@ -141,8 +141,11 @@ PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
   lock.unlock();
   if (came) return;
   shared_->stopping = true;
-  if (!thread_.join(kPatience)) thread_.leave();
-  throw ResourceError(fmt::format("device {}: it was opened, but no report came within {} ms", info_.name, patienceMs));
+  std::string why;
+  if (thread_.join(kPatience)) why = shared_->transport->lossText();
+  else thread_.leave();
+  throw ResourceError(fmt::format("device {}: it was opened, but no report came within {} ms{}{}", info_.name, patienceMs,
+                                  why.empty() ? "" : ": ", why));
 }
 
 PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, std::int64_t (*now)())

@@ -44,7 +44,7 @@ class Transport {
   virtual bool tellZero() noexcept { return true; }
   /// After Lost: tries to have it again. Not called more often than every 200 ms.
   virtual bool reopen() { return false; }
-  /// I/O thread, after Lost: why, in the device's or the system's words; empty: nothing is known.
+  /// I/O thread, after Lost, or of a device that gave no report: why, in the device's or the system's words; empty: nothing is known.
   virtual std::string lossText() const { return {}; }
   /// Any thread; must not wait for `exchange`.
   virtual bool stopForce() noexcept { return false; }

@@ -205,5 +205,26 @@ TEST_F(OpenArmOverAPort, NoFaultOfTheWireGivesACurrentBeyondTheLimit) {
   }
 }
 
+TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
+  Wish wish;
+  haptics::DeviceSample sample;
+  line->waiting.push_back(Report(8, 1));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  EXPECT_NE(arm->lossText().find("too old: it sends reports of 8 bytes, and 14 are needed"), std::string::npos) << arm->lossText();
+  line->waiting.push_back(reportAt({0, 0, 6000}));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(arm->lossText(), "") << "a short one among whole ones is a fault of the line";
+}
+
+TEST_F(OpenArmOverAPort, AnArmThatGivesOldReportsOnlyIsRefusedInWords) {
+  for (int i = 0; i < 1000; ++i) line->waiting.push_back(Report(8, 1));
+  try {
+    PolledDevice device(std::shared_ptr<Transport>(std::move(arm)), 100);
+    FAIL() << "it was opened";
+  } catch (const ResourceError& error) {
+    EXPECT_NE(std::string(error.what()).find("firmware is too old"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace reachlab::devices

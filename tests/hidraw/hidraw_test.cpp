@@ -49,6 +49,26 @@ TEST_F(ArmOverHidraw, IsListedByTheNameThatOpensIt) {
   EXPECT_NE(listed.out.find("hid:SN0001"), std::string::npos);
 }
 
+// The same vendor page with 8 bytes in and out: the protocol before that of 14.
+TEST(OldArmOverHidraw, IsListedWithWhatToDoAndRefusedBeforeItIsOpened) {
+  test::HidrawBed bed(0x16C0, 0x0486, "SN0000", "Old arm",
+                      {0x06, 0xAB, 0xFF, 0x0A, 0x00, 0x02, 0xA1, 0x01, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75,
+                       0x08, 0x95, 0x08, 0x09, 0x01, 0x81, 0x02, 0x09, 0x02, 0x95, 0x08, 0x91, 0x02, 0xC0});
+  const test::Ended listed = test::reach("list devices");
+  EXPECT_EQ(listed.exitCode, 0) << listed.err;
+  const std::size_t row = listed.out.find("hid:SN0000");
+  ASSERT_NE(row, std::string::npos) << listed.out;
+  const std::string line = listed.out.substr(row, listed.out.find('\n', row) - row);
+  EXPECT_NE(line.find("not there: its firmware is too old: it sends reports of 8 bytes, and 14 are needed; put a newer one on it"),
+            std::string::npos)
+      << line;
+  const test::Folder folder;
+  const test::Ended run = test::reach("run chain-slow --device hid:SN0000 --data " + folder.string());
+  EXPECT_EQ(run.exitCode, 3) << run.out;
+  EXPECT_NE(run.err.find("its firmware is too old"), std::string::npos) << run.err;
+  EXPECT_EQ(bed.opened(), 0);
+}
+
 TEST_F(ArmOverHidraw, PluggedOutAndInIsNoticed) {
   const std::uint64_t before = pluggedFingerprint();
   ASSERT_EQ(findPlugged().size(), 1u);
