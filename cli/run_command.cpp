@@ -1,36 +1,32 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "base/fault.h"
 #include "cli/commands.h"
 #include "cli/seed_option.h"
 #include "cli/session_runner.h"
 #include "devices/hands/several_hands.h"
+#include "devices/kept_mapping.h"
 #include "devices/make_device.h"
 #include "sim/record/run_configuration.h"
 
 namespace reachlab::cli {
 namespace {
 
-// A device as it was asked for, with the mapping that is kept for this subject where none was asked for.
-std::string withKeptMapping(const std::string& device, const session::SessionRequest& request, bool save) {
-  const devices::HandOptions hand = devices::handOptionsOf(device);
-  const std::string kind = device.substr(0, device.find_first_of(":,"));
+// The device as it was asked for, with the mappings that are kept for this subject where none was asked for.
+std::string withMappings(const std::string& device, const session::SessionRequest& request, bool save) {
   const std::string& subject = request.place.subject;
   if (record::labelFault(subject, "subject")) return device;  // refused by the run, in its own words
-  const std::string file = devices::mappingFile(request.place.data, subject, kind);
   if (save) {
-    if (!hand.mapped)
+    const auto kept = devices::keepMappings(device, request.place.data, subject);
+    if (kept.empty())
       throw FaultError(
           Fault{"--save-mapping", "the device has no mapping", "a device with scale=, offset=, rotation=, mirror= or mapping="});
-    devices::saveMapping(hand.mapping, file);
-    fmt::print(stderr, "mapping kept in {}\n", file);
+    for (const std::string& file : kept) fmt::print(stderr, "mapping kept in {}\n", file);
   }
-  std::error_code error;
-  if (hand.mapped || kind == "replay" || !std::filesystem::exists(file, error)) return device;
-  fmt::print(stderr, "mapping of {}\n", file);
-  return device + (device.size() == kind.size() ? "," : device.back() == ':' ? "" : ",") + "mapping=" + file;
+  std::vector<std::string> taken;
+  std::string mapped = devices::withKeptMappings(device, request.place.data, subject, taken);
+  for (const std::string& file : taken) fmt::print(stderr, "mapping of {}\n", file);
+  return mapped;
 }
 
 }  // namespace
@@ -89,8 +85,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       "  reach run paper --device simulated --subject 03 --session 01 --age 24 --sex F --handedness R --fast");
   command->callback([r, hands, saveMapping, &exitCode] {
     r->trialsOnOffer = devices::trialsOnOffer(devices::joinHands(*hands));
-    for (std::string& hand : *hands) hand = withKeptMapping(hand, *r, *saveMapping);
-    r->device = devices::joinHands(*hands);
+    r->device = withMappings(devices::joinHands(*hands), *r, *saveMapping);
     exitCode = runSession(*r);
   });
 }

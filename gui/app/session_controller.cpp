@@ -12,6 +12,7 @@
 #include "devices/instruments/instruments.h"
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
+#include "devices/kept_mapping.h"
 #include "devices/preflight/preflight.h"
 #include "sim/trial/protocol.h"
 
@@ -110,6 +111,9 @@ void SessionController::openRun(const session::SessionRequest& request) {
     session::SessionRequest asked = request;
     asked.resume = resume_;
     if (numberUsed_) asked.run.reset();
+    std::vector<std::string> mappings;
+    asked.device = devices::withKeptMappings(asked.device, asked.place.data, asked.place.subject, mappings);
+    for (const std::string& file : mappings) onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
     if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
     auto planned = std::make_unique<session::RecordedSession>(
         programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },

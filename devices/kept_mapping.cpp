@@ -1,0 +1,54 @@
+#include "devices/kept_mapping.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "devices/hands/several_hands.h"
+#include "devices/make_device.h"
+#include "devices/mapping/mapping.h"
+
+namespace reachlab::devices {
+namespace {
+
+std::string kindOf(const std::string& hand) { return hand.substr(0, hand.find_first_of(":,")); }
+
+// "phantom"; of several hands "phantom-Left".
+std::string fileOf(const std::string& hand, bool several, const std::string& data, const std::string& subject) {
+  std::string name = kindOf(hand);
+  if (several && hand.size() > name.size() && hand[name.size()] == ':') {
+    std::string own = hand.substr(name.size() + 1, hand.find(',') - name.size() - 1);
+    std::erase_if(own, [](unsigned char c) { return std::isalnum(c) == 0; });
+    if (!own.empty()) name += "-" + own;
+  }
+  return mappingFile(data, subject, name);
+}
+
+}  // namespace
+
+std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject, std::vector<std::string>& taken) {
+  std::vector<std::string> hands = splitHands(device);
+  const bool several = hands.size() > 1;
+  for (std::string& hand : hands) {
+    const std::string kind = kindOf(hand), file = fileOf(hand, several, data, subject);
+    std::error_code error;
+    if (kind == "replay" || handOptionsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
+    taken.push_back(file);
+    hand += (hand.size() == kind.size() ? "," : hand.back() == ':' ? "" : ",") + ("mapping=" + file);
+  }
+  return joinHands(hands);
+}
+
+std::vector<std::string> keepMappings(const std::string& device, const std::string& data, const std::string& subject) {
+  const std::vector<std::string> hands = splitHands(device);
+  std::vector<std::string> kept;
+  for (const std::string& hand : hands) {
+    const HandOptions options = handOptionsOf(hand);
+    if (!options.mapped) continue;
+    kept.push_back(fileOf(hand, hands.size() > 1, data, subject));
+    saveMapping(options.mapping, kept.back());
+  }
+  return kept;
+}
+
+}  // namespace reachlab::devices
