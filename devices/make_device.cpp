@@ -1,10 +1,13 @@
 #include "devices/make_device.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/fault.h"
 #include "base/seeded.h"
 #include "devices/hands/several_hands.h"
+#include "devices/options.h"
 #include "devices/registry.h"
 #include "devices/replay/reach_source.h"
 
@@ -52,12 +55,29 @@ std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const e
   throw FaultError(Fault{"device", "is " + spec + ", which is unknown", known});
 }
 
+// Before anything is opened: two threads would tell one device two forces.
+void requireTheirOwn(const std::vector<std::string>& hands) {
+  const auto nameOf = [](const Spec& asked) { return DeviceOptions(asked.argument, "device " + asked.name).plain(); };
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const Spec one = parse(hands[i]);
+    const DeviceDriver* driver = findDriver(one.name);
+    if (driver == nullptr || driver->isMade) continue;
+    for (std::size_t j = i + 1; j < hands.size(); ++j) {
+      const Spec other = parse(hands[j]);
+      if (other.name != one.name || (!nameOf(one).empty() && !nameOf(other).empty() && nameOf(one) != nameOf(other))) continue;
+      throw FaultError(Fault{"device", fmt::format("is {}, which may be one device twice", joinHands(hands)),
+                             fmt::format("each {} by a name of its own, as `reach list devices` has them", one.name)});
+    }
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed) {
   const std::vector<std::string> hands = splitHands(spec);
   if (hands.size() == 1) return makeHand(spec, experiment, seed, true);
+  requireTheirOwn(hands);
   std::vector<std::unique_ptr<haptics::HapticDevice>> all;
   // Two subjects of one seed would move alike.
   for (std::size_t i = 0; i < hands.size(); ++i)

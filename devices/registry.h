@@ -43,6 +43,7 @@ struct DeviceDriver {
   std::vector<FoundDevice> (*find)(const DeviceDriver& self);
   /// Throws FaultError (a wrong argument), ResourceError (it cannot be had).
   std::unique_ptr<haptics::HapticDevice> (*make)(const DeviceRequest& request);
+  bool isMade = false;  // by this program: there are as many as are asked for
 };
 
 /// Every driver of this program, in the order of lists.

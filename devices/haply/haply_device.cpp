@@ -38,7 +38,7 @@ std::string HaplyInverse3::firstMessage() {
 void HaplyInverse3::connect() {
   link_ = open_();
   const std::string first = firstMessage();
-  switch (readHaplyMessage(first, options_.id, state_)) {
+  switch (readHaplyMessage(first, options_.id, state_, options_.grip)) {
     case HaplyAnswer::State: break;
     case HaplyAnswer::NotJson: throw ResourceError("what answers is no Inverse service (its first message is none of its protocol)");
     case HaplyAnswer::OtherVersion:
@@ -50,6 +50,9 @@ void HaplyInverse3::connect() {
     }
   }
   there_ = haplyDevices(first);
+  if (const auto grips = haplyGrips(first); !options_.grip.empty() && std::find(grips.begin(), grips.end(), options_.grip) == grips.end())
+    throw ResourceError(fmt::format("the Inverse service has no VerseGrip {}; there is: {}", options_.grip,
+                                    grips.empty() ? "none" : fmt::format("{}", fmt::join(grips, ", "))));
   const DeviceModel& model = *findDeviceModel("inverse3");
   info_.name = "Haply Inverse3 " + state_.id;
   const std::string settings = haplySettings(first, state_.id);
@@ -73,7 +76,7 @@ Exchange HaplyInverse3::lose(std::string why) {
 }
 
 Exchange HaplyInverse3::take(const std::string& message, haptics::DeviceSample& sample) {
-  switch (readHaplyMessage(message, options_.id, state_)) {
+  switch (readHaplyMessage(message, options_.id, state_, options_.grip)) {
     case HaplyAnswer::State: break;
     case HaplyAnswer::NoDevice: return lose(fmt::format("the service has no Inverse3 {} any more", options_.id));
     case HaplyAnswer::NotJson:
@@ -144,6 +147,7 @@ std::unique_ptr<haptics::HapticDevice> makeHaply(const DeviceRequest& request) {
   DeviceOptions options(request.argument, request.words());
   HaplyInverse3::Options chosen;
   chosen.id = options.plain();
+  chosen.grip = options.take("grip").value_or("");
   chosen.maxForce = options.number("max-force", findDeviceModel("inverse3")->maxForce, 0.01, findDeviceModel("inverse3")->maxForce);
   chosen.deviceVelocity = options.word("velocity", {"estimated", "device"}) == "device";
   const auto port = static_cast<std::uint16_t>(options.number("port", kPort, 1, 65535));
@@ -170,7 +174,7 @@ std::vector<FoundDevice> findHaply(const DeviceDriver& self) {
 
 DeviceDriver haplyDriver() {
   return {"haply",
-          "haply[:ID][,max-force=N,velocity=device,port=N]",
+          "haply[:ID][,max-force=N,grip=ID,velocity=device,port=N]",
           "Haply Inverse3 by its service on this machine (ws://127.0.0.1:10001)",
           false,
           findHaply,

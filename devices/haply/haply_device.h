@@ -16,6 +16,7 @@ class HaplyInverse3 final : public Transport {
  public:
   struct Options {
     std::string id;               // empty: the first that the service has
+    std::string grip;             // of the VerseGrip held with it; empty: the only one
     double maxForce = 0;          // [N] 0: the data sheet's
     bool deviceVelocity = false;  // the service's own velocity instead of our estimator's
   };

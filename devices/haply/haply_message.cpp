@@ -64,27 +64,34 @@ bool isKnownState(const Json* state) {
                      [&](const auto& item) { return std::find(std::begin(known), std::end(known), item.key()) != std::end(known); });
 }
 
-// The wireless grip, or the one on a cable.
-void readGrip(const Json& message, HaplyState& state) {
-  for (const char* kind : {"wireless_verse_grip", "verse_grip"}) {
-    const Json* grips = find(&message, kind);
-    if (grips == nullptr || !grips->is_array() || grips->empty()) continue;
-    const Json* grip = find(&grips->front(), "state");
-    state.orientation = quaternionOf(find(grip, "orientation"));
-    const Json* buttons = find(grip, "buttons");
-    int bit = 0;
-    for (const char* name : {"a", "b", "c"}) {
-      const Json* button = find(buttons, name);
-      if (button != nullptr && button->is_boolean() && button->get<bool>()) state.buttons |= 1u << bit;
-      ++bit;
-    }
-    return;
+// Wireless grips, and those on a cable.
+std::vector<const Json*> gripsIn(const Json& message) {
+  std::vector<const Json*> grips;
+  for (const char* kind : {"wireless_verse_grip", "verse_grip"})
+    if (const Json* list = find(&message, kind); list != nullptr && list->is_array())
+      for (const Json& grip : *list)
+        if (grip.is_object()) grips.push_back(&grip);
+  return grips;
+}
+
+void readGrip(const Json& message, const std::string& asked, HaplyState& state) {
+  std::vector<const Json*> grips = gripsIn(message);
+  if (!asked.empty()) std::erase_if(grips, [&](const Json* grip) { return idOf(*grip) != asked; });
+  if (grips.size() != 1) return;
+  const Json* grip = find(grips.front(), "state");
+  state.orientation = quaternionOf(find(grip, "orientation"));
+  const Json* buttons = find(grip, "buttons");
+  int bit = 0;
+  for (const char* name : {"a", "b", "c"}) {
+    const Json* button = find(buttons, name);
+    if (button != nullptr && button->is_boolean() && button->get<bool>()) state.buttons |= 1u << bit;
+    ++bit;
   }
 }
 
 }  // namespace
 
-HaplyAnswer readHaplyMessage(std::string_view text, const std::string& id, HaplyState& state) {
+HaplyAnswer readHaplyMessage(std::string_view text, const std::string& id, HaplyState& state, const std::string& grip) {
   const Json message = parsed(text);
   if (!message.is_object()) return HaplyAnswer::NotJson;
   const Json* list = find(&message, "inverse3");
@@ -103,7 +110,7 @@ HaplyAnswer readHaplyMessage(std::string_view text, const std::string& id, Haply
   state.id = idOf(*device);
   state.position = *position;
   state.velocity = vectorOf(find(told, "cursor_velocity"));
-  readGrip(message, state);
+  readGrip(message, grip, state);
   return HaplyAnswer::State;
 }
 
@@ -114,6 +121,13 @@ std::vector<std::string> haplyDevices(std::string_view text) {
   if (list == nullptr || !list->is_array()) return ids;
   for (const Json& device : *list)
     if (device.is_object() && !idOf(device).empty()) ids.push_back(idOf(device));
+  return ids;
+}
+
+std::vector<std::string> haplyGrips(std::string_view text) {
+  const Json message = parsed(text);
+  std::vector<std::string> ids;
+  for (const Json* grip : gripsIn(message)) ids.push_back(idOf(*grip));
   return ids;
 }
 

@@ -28,10 +28,12 @@ enum class HaplyAnswer : std::uint8_t {
 };
 
 /// Reads one message; `id`: of the device that is asked for, empty: the first. A coordinate that is not there is zero, as the service leaves
-/// out what equals its identity.
-HaplyAnswer readHaplyMessage(std::string_view message, const std::string& id, HaplyState& state);
-/// Names of all Inverse3 in a message.
+/// out what equals its identity. `grip`: of the VerseGrip that is held with it; empty: the only one, and none where there are several, as
+/// the service does not tell which is at which device.
+HaplyAnswer readHaplyMessage(std::string_view message, const std::string& id, HaplyState& state, const std::string& grip = {});
+/// Names of all Inverse3, and of all grips, in a message.
 std::vector<std::string> haplyDevices(std::string_view message);
+std::vector<std::string> haplyGrips(std::string_view message);
 /// What of the device's configuration changes what is felt (gravity compensation, filters), in the service's own words; empty: not told.
 std::string haplySettings(std::string_view message, const std::string& id);
 

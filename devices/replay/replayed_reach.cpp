@@ -90,7 +90,8 @@ DeviceDriver replayDriver() {
           "replay:FILE|FOLDER, recorded reaches (CSV, BIDS motion, C3D) laid onto start and target, one a trial",
           false,
           alwaysThere,
-          makeReplay};
+          makeReplay,
+          true};
 }
 
 }  // namespace reachlab::devices

@@ -125,7 +125,8 @@ DeviceDriver partnerDriver() {
             spec.reaction = options.number("reaction", spec.reaction, 0.001, 5);
             options.done();
             return makePartnerHand(r.experiment, spec, nullptr);
-          }};
+          },
+          true};
 }
 
 }  // namespace reachlab::devices

@@ -187,7 +187,8 @@ DeviceDriver simulatedDriver() {
           [](const DeviceRequest& r) {
             std::shared_ptr<void> learnt;
             return prepareSubjects(r.experiment, r.argument.empty() ? "simulated" : "simulated:" + r.argument)(r.seed, 0, learnt);
-          }};
+          },
+          true};
 }
 
 }  // namespace reachlab::devices

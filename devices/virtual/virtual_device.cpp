@@ -134,7 +134,8 @@ DeviceDriver virtualDriver() {
           "a force device as a simulated body, held by a simulated hand",
           false,
           findVirtual,
-          makeVirtual};
+          makeVirtual,
+          true};
 }
 
 }  // namespace reachlab::devices

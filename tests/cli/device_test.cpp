@@ -1,9 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
 
 #include "tests/cli/program.h"
+#include "tests/devices/fakes/fake_haply.h"
 
 /// The unmodified program and vendors' libraries that it finds as the loader does: stand-ins with the public signatures.
 namespace reachlab::test {
@@ -77,6 +84,22 @@ TEST(Devices, ValidateSaysBeforehandWhatADeviceCannotGive) {
   EXPECT_GT(rows[0]["asked"], 3.3);
 }
 
+TEST(Devices, BothOfTwoHandsAreCheckedBeforehand) {
+  const std::string hands = "chain-two-hands --device \"virtual:highforce + virtual:omni,scale=0.5\"";
+  const Ended checked = reach("validate " + hands);
+  EXPECT_EQ(checked.exitCode, 0) << checked.err;
+  EXPECT_NE(checked.out.find("fine     hand 1: peak force"), std::string::npos) << checked.out;
+  EXPECT_NE(checked.out.find("warning  hand 2: workspace"), std::string::npos) << checked.out;
+  EXPECT_NE(checked.out.find("High Force + virtual PHANToM Omni"), std::string::npos) << checked.out;
+  const Json rows = Json::parse(reach("validate " + hands + " --json").out);
+  EXPECT_EQ(rows.front()["hand"], 1);
+  EXPECT_EQ(rows.back()["hand"], 2);
+  const Folder folder;
+  const Ended run = reach("run " + hands + " --trials 1 --seed 1 --fast --data " + folder.string());
+  EXPECT_NE(run.err.find("warning: hand 2: workspace"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("warning: hand 1"), std::string::npos) << run.err;
+}
+
 TEST(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
   const Folder folder;
   const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.string();
@@ -110,6 +133,21 @@ TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
   EXPECT_NE(felt.find("engaged"), std::string::npos);
 }
 
+TEST(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
+  const Folder folder;
+  const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder.string();
+  const Ended first = reach("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  EXPECT_EQ(Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-premium15.json"))["scale"], 1.25);
+  EXPECT_EQ(Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-omni.json"))["mirror_x"], true);
+  const Ended again = reach("run chain-two-hands --device virtual:premium15 --device virtual:omni" + rest);
+  EXPECT_NE(again.err.find("sub-03_virtual-premium15.json"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("sub-03_virtual-omni.json"), std::string::npos) << again.err;
+  const std::string log = contentOf(folder.string() + "/sourcedata/sub-03_ses-01_task-chaintwohands_run-02_log.reach");
+  EXPECT_NE(log.find("\\\"scale\\\":1.25"), std::string::npos);
+  EXPECT_NE(log.find("\\\"scale\\\":0.5"), std::string::npos);
+}
+
 // A scheduler that never calls, calls twice, or stands still for 30 ms each second: the run is done, or is given up in words.
 TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
   for (const char* fault : {"NEVER", "TWICE", "LATE"}) {
@@ -132,6 +170,92 @@ TEST(Devices, TwoPhantomsAreTwoHandsOfOneExperiment) {
                           kFakes + " FAKE_HD_DEVICES=Left,Right timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
   EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
+}
+
+// What each of the stand-in's omegas felt: the largest norm, and what was left when it was closed. [N]
+std::map<int, std::pair<double, double>> diaryOf(const std::filesystem::path& file) {
+  std::map<int, std::pair<double, double>> felt;
+  std::ifstream in(file);
+  int id = 0;
+  double most = 0, last = 0;
+  while (in >> id >> most >> last) felt[id] = {most, last};
+  return felt;
+}
+
+TEST(Devices, TwoOmegasAreTwoHandsOfOneExperiment) {
+  const Folder folder;
+  const std::string diary = folder / "diary";
+  const Ended run = reach("run chain-two-hands --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " +
+                              folder.string(),
+                          kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
+  EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
+  EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
+  const auto felt = diaryOf(diary);
+  ASSERT_EQ(felt.size(), 2u);
+  for (const auto& [id, force] : felt) {
+    EXPECT_GT(force.first, 0) << id;
+    EXPECT_LE(force.first, 12 + 1e-9) << id;
+    EXPECT_EQ(force.second, 0) << id;
+  }
+}
+
+// A stand-in's handle moves from 1.5 s to 2.85 s after it was opened; with its supply gone in the middle of that, the run is given up in words.
+void expectLost(const Ended& run, const std::string& device) {
+  EXPECT_EQ(run.exitCode, 3) << run.out << run.err;
+  EXPECT_NE(run.out.find("outcome=interrupted reason=device_lost"), std::string::npos) << run.out << run.err;
+  EXPECT_NE(run.err.find(device), std::string::npos) << run.err;
+}
+
+TEST(Devices, APhantomLostInMidTrialInterruptsIt) {
+  const Folder folder;
+  expectLost(reach("run chain-slow --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                   kFakes + " FAKE_HD_LOST_AFTER=2.2 timeout -s INT 30"),
+             "PHANToM");
+}
+
+TEST(Devices, OneOfTwoOmegasLostInMidTrialInterruptsItAndTakesTheForceFromBoth) {
+  const Folder folder;
+  const std::string diary = folder / "diary";
+  expectLost(reach("run chain-two-hands --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                   kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_LOST_AFTER=2.2 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30"),
+             "device omega.3 4712 is lost");
+  EXPECT_EQ(diaryOf(diary)[0].second, 0) << "the one that is still there";
+}
+
+// To the right and back, as the other stand-ins.
+Vec3 reachAgainAndAgain(double seconds) {
+  const double t = std::fmod(seconds, 4.0) - 1.5, s = std::clamp(t / 1.35, 0.0, 1.0);
+  return {t > 2.2 ? 0.1 - 0.2 * (t - 2.2) / 0.3 : -0.1 + 0.2 * s * s * s * (10 + s * (6 * s - 15)), 0, 0};
+}
+
+TEST(Devices, AnInverse3WhoseServiceEndsInMidTrialInterruptsIt) {
+  FakeHaply service;
+  service.moveBy(reachAgainAndAgain);
+  std::jthread ending([&](const std::stop_token& over) {
+    while (!over.stop_requested() && !(service.largestForce() > 0)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    service.end();
+  });
+  const Folder folder;
+  expectLost(reach("run chain-slow --device haply:port=" + std::to_string(service.port()) + " --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                   "timeout -s INT 30"),
+             "Haply Inverse3");
+}
+
+TEST(Devices, TwoInverse3AtOneServiceAreTwoHandsOfOneExperiment) {
+  FakeHaply service(FakeHaply::Speaks::AnswersOnly, {"049D", "06A1"});
+  service.moveBy(reachAgainAndAgain);
+  const Folder folder;
+  const std::string port = std::to_string(service.port());
+  const Ended run = reach("run chain-two-hands --device \"haply:049D,port=" + port + " + haply:06A1,port=" + port +
+                              "\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                          "timeout -s INT 30");
+  EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
+  EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
+  for (const char* id : {"049D", "06A1"}) {
+    EXPECT_GT(service.largestForce(id), 0) << id;
+    EXPECT_LE(service.largestForce(id), 10 + 1e-9) << id;
+    EXPECT_EQ(norm(service.lastForce(id)), 0) << id;
+  }
 }
 
 TEST(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {

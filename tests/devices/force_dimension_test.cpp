@@ -53,7 +53,7 @@ TEST_F(ForceDimension, IsListedByTheNameThatOpensIt) {
 }
 
 TEST_F(ForceDimension, NoneThereIsSaidInTheLibrarysWords) {
-  fakeDhd().count = 0;
+  test::fakeDhdCount() = 0;
   const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].present);
@@ -123,6 +123,57 @@ TEST_F(ForceDimension, ClosingLeavesNoForce) {
   EXPECT_EQ(fakeDhd().force[1], 0);
   EXPECT_FALSE(fakeDhd().open);
   EXPECT_FALSE(fakeDhd().forceOn);
+}
+
+class TwoForceDimensions : public ForceDimension {
+ protected:
+  TwoForceDimensions() { test::fakeDhdCount() = 2; }
+};
+
+TEST_F(TwoForceDimensions, AreListedEachByItsName) {
+  const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].name, "forcedimension:0");
+  EXPECT_EQ(rows[1].name, "forcedimension:1");
+  EXPECT_NE(rows[0].description, rows[1].description) << "by their serial numbers";
+}
+
+TEST_F(TwoForceDimensions, AreTwoHandsEachWithItsPlaceAndForce) {
+  experiment = experiment::readExperiment("chain-two-hands");
+  fakeDhd(0).position[1] = 0.01, fakeDhd(1).position[1] = 0.02;
+  const auto left = open("forcedimension:0 + forcedimension:1");
+  ASSERT_EQ(left->otherHands().size(), 1u);
+  haptics::HapticDevice& right = *left->otherHands()[0];
+  ASSERT_TRUE(until([&] {
+    left->write({1, 0, 0});
+    right.write({2, 0, 0});
+    return left->read().position.x == 0.01 && right.read().position.x == 0.02 && fakeDhd(0).force[1] == 1 && fakeDhd(1).force[1] == 2;
+  }));
+}
+
+TEST_F(TwoForceDimensions, OneThatIsLostLeavesTheOtherToBeTold) {
+  experiment = experiment::readExperiment("chain-two-hands");
+  auto left = open("forcedimension:0 + forcedimension:1");
+  fakeDhd(1).error = 2;
+  ASSERT_TRUE(until([&] { return left->health() == haptics::DeviceHealth::Lost; }));
+  EXPECT_NE(left->healthText().find("4712"), std::string::npos) << "by its serial number: " << left->healthText();
+  EXPECT_TRUE(newest(*left).valid);
+  ASSERT_TRUE(until([&] {
+    left->write({1, 0, 0});
+    return fakeDhd(0).force[1] == 1;
+  }));
+  left.reset();
+  EXPECT_EQ(fakeDhd(0).force[1], 0);
+  EXPECT_FALSE(fakeDhd(0).open);
+  EXPECT_FALSE(fakeDhd(1).open);
+}
+
+TEST_F(TwoForceDimensions, OneTwiceIsRefusedBeforeItIsOpened) {
+  experiment = experiment::readExperiment("chain-two-hands");
+  for (const char* twice : {"forcedimension:1 + forcedimension:1", "forcedimension + forcedimension:1", "hid + hid", "haply:A,port=1 + haply:A"})
+    EXPECT_THROW(open(twice), FaultError) << twice;
+  EXPECT_EQ(fakeDhd(1).forces, 0);
+  EXPECT_NO_THROW(open("virtual:omni + virtual:omni")) << "there are as many as are asked for";
 }
 
 TEST_F(ForceDimension, AWrongIndexIsAWrongArgument) {

@@ -113,10 +113,10 @@ TEST(Haply, AnUnpluggedDeviceIsLostThoughItsServiceAnswersAndComesBack) {
   FakeHaply service;
   const auto device = open(service);
   ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  service.unplugged = true;
+  service.setPlugged(false);
   ASSERT_TRUE(until([&] { return !device->read().valid; }));
   EXPECT_NE(device->healthText().find("049D"), std::string::npos) << device->healthText();
-  service.unplugged = false;
+  service.setPlugged(true);
   EXPECT_TRUE(until([&] { return device->read().valid; }));
 }
 
@@ -141,6 +141,39 @@ TEST(Haply, AServiceThatFallsSilentGivesNoNewReportAndHoldsNothingUp) {
   EXPECT_LE(device->read().reports, reports + 1);
   service.silent = false;
   EXPECT_TRUE(until([&] { return device->read().reports > reports + 5; }));
+}
+
+TEST(Haply, TwoAtOneServiceAreTwoHandsEachWithItsPlaceForceAndGrip) {
+  FakeHaply service(FakeHaply::Speaks::AnswersOnly, {"049D", "06A1"});
+  service.moveTo({0.01, 0, 0});
+  service.moveTo({0.02, 0, 0}, "06A1");
+  const auto left = makeDevice(fmt::format("haply:049D,grip=61548,port={0} + haply:06A1,grip=61549,port={0}", service.port()),
+                               experiment::readExperiment("chain-two-hands"), 1);
+  ASSERT_EQ(left->otherHands().size(), 1u);
+  haptics::HapticDevice& right = *left->otherHands()[0];
+  ASSERT_TRUE(until([&] {
+    left->write({1, 0, 0});
+    right.write({2, 0, 0});
+    return left->read().position.x == 0.01 && right.read().position.x == 0.02 && service.lastForce() == Vec3{1, 0, 0} &&
+           service.lastForce("06A1") == Vec3{2, 0, 0};
+  }));
+  EXPECT_EQ(left->read().buttons, 0b101u);
+  EXPECT_EQ(right.read().buttons, 0b010u) << "of its own grip";
+  service.setPlugged(false, "06A1");
+  ASSERT_TRUE(until([&] { return !right.read().valid; }));
+  EXPECT_TRUE(left->read().valid);
+  EXPECT_EQ(left->health(), haptics::DeviceHealth::Lost) << "the worst of them";
+  EXPECT_NE(left->healthText().find("06A1"), std::string::npos) << left->healthText();
+  EXPECT_TRUE(until([&] { return service.lastForce("06A1") == Vec3{}; })) << "it is told zero though it is not in the list";
+}
+
+TEST(Haply, OfSeveralGripsOnlyTheOneThatIsNamedIsTaken) {
+  FakeHaply service(FakeHaply::Speaks::AnswersOnly, {"049D", "06A1"});
+  const auto device = open(service, "049D");
+  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
+  EXPECT_EQ(device->read().buttons, 0u) << "a dead-man's button of the other hand would be none";
+  EXPECT_FALSE(device->read().hasOrientation);
+  EXPECT_NE(refusal(service, "049D,grip=1").find("there is: 61548, 61549"), std::string::npos) << refusal(service, "049D,grip=1");
 }
 
 TEST(Haply, WhatCannotBeHadIsRefusedInWords) {

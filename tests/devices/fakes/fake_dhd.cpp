@@ -1,34 +1,65 @@
 #include "tests/devices/fakes/fake_dhd.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <thread>
 
 namespace reachlab::test {
 namespace {
 
-FakeDhd state;
-std::atomic<int> last{0};
+constexpr int kMost = 4;
+FakeDhd devices[kMost];
+thread_local int last = 0;  // as documented: of the thread that asks
 
-int answer() {
-  if (state.callsUntilFailure >= 0 && state.callsUntilFailure-- == 0) return last = 2, -1;
-  if (const int once = state.failOnce.exchange(0); once != 0) return last = once, -1;
-  if (const int error = state.error; error != 0) return last = error, -1;
+int countAtTheStart() {
+  const char* count = std::getenv("FAKE_DHD_DEVICES");
+  return count != nullptr ? std::atoi(count) : 1;
+}
+std::atomic<int> connected{countAtTheStart()};
+
+double secondsSinceTheStart() {
+  static const auto begin = std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+bool isTakenAway(int id) {
+  const char* after = std::getenv("FAKE_DHD_LOST_AFTER");
+  return after != nullptr && id == connected - 1 && secondsSinceTheStart() > std::atof(after);
+}
+
+int answer(int id) {
+  if (id < 0 || id >= connected) return last = 5, -1;
+  FakeDhd& device = devices[id];
+  if (device.callsUntilFailure >= 0 && device.callsUntilFailure-- == 0) return last = 2, -1;
+  if (const int once = device.failOnce.exchange(0); once != 0) return last = once, -1;
+  if (const int error = device.error; error != 0) return last = error, -1;
+  if (isTakenAway(id)) return last = 2, -1;
   return 0;
+}
+
+// Along the world's x (its own y) from -0.1 m to 0.1 m by a minimum-jerk law of 1.35 s, again and again.
+void moveAlone(FakeDhd& device) {
+  const double t = std::fmod(secondsSinceTheStart(), 4.0) - 1.5, s = t <= 0 ? 0 : t >= 1.35 ? 1 : t / 1.35;
+  device.position[1] = t > 2.2 ? 0.1 - 0.2 * (t - 2.2) / 0.3 : -0.1 + 0.2 * s * s * s * (10 + s * (6 * s - 15));
 }
 
 }  // namespace
 
-FakeDhd& fakeDhd() { return state; }
+FakeDhd& fakeDhd(int id) { return devices[id]; }
+std::atomic<int>& fakeDhdCount() { return connected; }
 
 void resetFakeDhd() {
-  state.count = 1;
-  for (int i = 0; i < 3; ++i) state.position[i] = 0, state.force[i] = 0;
-  state.open = state.forceOn = state.hangs = false;
-  state.callsUntilFailure = -1;
-  state.positions = state.forces = state.error = state.failOnce = 0;
+  connected = 1;
+  for (FakeDhd& device : devices) {
+    for (int i = 0; i < 3; ++i) device.position[i] = 0, device.force[i] = 0;
+    device.open = device.forceOn = device.hangs = false;
+    device.callsUntilFailure = -1;
+    device.positions = device.forces = device.error = device.failOnce = 0;
+    device.most = 0;
+  }
 }
 
 }  // namespace reachlab::test
@@ -37,45 +68,53 @@ using namespace reachlab::test;
 
 extern "C" {
 
-int dhdGetDeviceCount() { return fakeDhd().count; }
+int dhdGetDeviceCount() { return fakeDhdCount(); }
 int dhdOpenID(char id) {
-  if (id < 0 || id >= fakeDhd().count) return last = 5, -1;
-  if (answer() < 0) return -1;
-  fakeDhd().open = true;
+  if (answer(id) < 0) return -1;
+  fakeDhd(id).open = true;
   return id;
 }
-int dhdClose(char) {
-  fakeDhd().open = false;
+int dhdClose(char id) {
+  FakeDhd& device = fakeDhd(id);
+  device.open = false;
+  if (const char* diary = std::getenv("FAKE_DHD_DIARY")) {
+    const double now = std::hypot(device.force[0].load(), device.force[1].load(), device.force[2].load());
+    std::ofstream(diary, std::ios::app) << int{id} << ' ' << device.most << ' ' << now << '\n';
+  }
   return 0;
 }
-int dhdStop(char) {
-  fakeDhd().forceOn = false;
+int dhdStop(char id) {
+  fakeDhd(id).forceOn = false;
   return 0;
 }
-int dhdEnableForce(unsigned char on, char) {
-  if (answer() < 0) return -1;
-  fakeDhd().forceOn = on != 0;
+int dhdEnableForce(unsigned char on, char id) {
+  if (answer(id) < 0) return -1;
+  fakeDhd(id).forceOn = on != 0;
   return 0;
 }
-int dhdGetPosition(double* x, double* y, double* z, char) {
-  while (fakeDhd().hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (answer() < 0) return -1;
-  ++fakeDhd().positions;
-  *x = fakeDhd().position[0], *y = fakeDhd().position[1], *z = fakeDhd().position[2];
+int dhdGetPosition(double* x, double* y, double* z, char id) {
+  FakeDhd& device = fakeDhd(id);
+  while (device.hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (answer(id) < 0) return -1;
+  if (std::getenv("FAKE_DHD_ALONE") != nullptr) moveAlone(device);
+  ++device.positions;
+  *x = device.position[0], *y = device.position[1], *z = device.position[2];
   return 0;
 }
-int dhdSetForce(double x, double y, double z, char) {
-  if (answer() < 0) return -1;
-  ++fakeDhd().forces;
-  fakeDhd().force[0] = x, fakeDhd().force[1] = y, fakeDhd().force[2] = z;
+int dhdSetForce(double x, double y, double z, char id) {
+  if (answer(id) < 0) return -1;
+  FakeDhd& device = fakeDhd(id);
+  ++device.forces;
+  device.force[0] = x, device.force[1] = y, device.force[2] = z;
+  if (const double size = std::hypot(x, y, z); size > device.most) device.most = size;
   return 2;  // "motor saturated": told, and no error
 }
 int dhdErrorGetLast() { return last; }
 const char* dhdErrorGetLastStr() { return last == 5 ? "no device found" : last == 2 ? "communication error" : "other"; }
 int dhdGetSystemType(char) { return 33; }
 const char* dhdGetSystemName(char) { return "omega.3"; }
-int dhdGetSerialNumber(std::uint16_t* serial, char) {
-  *serial = 4711;
+int dhdGetSerialNumber(std::uint16_t* serial, char id) {
+  *serial = static_cast<std::uint16_t>(4711 + id);
   return 0;
 }
 std::uint32_t dhdGetButtonMask(char) { return 1; }

@@ -1,14 +1,15 @@
 #pragma once
 #include <atomic>
-#include <string>
 
-/// A stand-in for the vendor's libdrd.so with the public signatures of its DHD calls. Linked into tests, and loadable by the program.
+/// A stand-in for the vendor's libdrd.so with the public signatures of its DHD calls. Linked into tests, and loadable by the program: there
+/// FAKE_DHD_DEVICES says how many there are, FAKE_DHD_ALONE=1 moves their handles, FAKE_DHD_LOST_AFTER takes the last of them away after so
+/// many seconds, and each tells FAKE_DHD_DIARY, a file, what it felt when it is closed.
 namespace reachlab::test {
 
 struct FakeDhd {
-  std::atomic<int> count{1};
   std::atomic<double> position[3]{};  // [m], the device's axes
   std::atomic<double> force[3]{};     // [N] last set
+  std::atomic<double> most{0};        // [N] of its norm so far
   std::atomic<bool> open{false}, forceOn{false};
   std::atomic<int> positions{0}, forces{0};
   std::atomic<int> error{0};               // != 0: every call from now on fails with it
@@ -16,7 +17,9 @@ struct FakeDhd {
   std::atomic<int> callsUntilFailure{-1};  // how many calls succeed before one fails with a communication error; -1: none fails
   std::atomic<bool> hangs{false};          // dhdGetPosition does not return while it is set
 };
-FakeDhd& fakeDhd();
+FakeDhd& fakeDhd(int id = 0);  // 0 to 3
+/// How many of them are connected.
+std::atomic<int>& fakeDhdCount();
 void resetFakeDhd();
 
 }  // namespace reachlab::test

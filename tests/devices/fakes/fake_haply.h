@@ -1,17 +1,24 @@
 #pragma once
 #include <atomic>
+#include <boost/asio/ip/tcp.hpp>
+#include <chrono>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/vec3.h"
 
 namespace reachlab::test {
 
-/// Haply's Inverse service, played: a websocket on 127.0.0.1 that keeps the published protocol (one state for each message, the first one
-/// with the configuration), with a device whose cursor the test moves. What it hears is kept.
+/// Haply's Inverse service, played: a websocket on 127.0.0.1 that keeps the published protocol (one state of every device for each message,
+/// the first one with the configuration; any number of clients), with devices whose cursors the test moves, and a grip for each. What it
+/// hears is kept.
 class FakeHaply {
  public:
   enum class Speaks {
@@ -23,7 +30,8 @@ class FakeHaply {
     NoWebsocket,  // something else listens on the port
     ClosesAtOnce,
   };
-  explicit FakeHaply(Speaks speaks = Speaks::AnswersOnly);
+  static constexpr const char* kFirst = "049D";
+  explicit FakeHaply(Speaks speaks = Speaks::AnswersOnly, const std::vector<std::string>& ids = {kFirst});
   ~FakeHaply();
   FakeHaply(const FakeHaply&) = delete;
   FakeHaply& operator=(const FakeHaply&) = delete;
@@ -31,33 +39,48 @@ class FakeHaply {
   std::uint16_t port() const { return port_; }
 
   // Its own axes: x right, y away from the user, z up.
-  void moveTo(const Vec3& cursor);
-  Vec3 lastForce() const;
-  std::uint64_t forces() const { return forces_; }
-  double largestForce() const { return largest_; }
+  void moveTo(const Vec3& cursor, const std::string& id = kFirst);
+  /// Every cursor goes by this law of the time since the service began [s], from now on.
+  void moveBy(std::function<Vec3(double)> law);
+  Vec3 lastForce(const std::string& id = kFirst) const;
+  std::uint64_t forces(const std::string& id = kFirst) const;
+  double largestForce(const std::string& id = kFirst) const;
   /// Named in the messages in the order heard, for the protocol's sake.
   std::vector<std::string> firstMessages() const;
 
-  std::atomic<bool> unplugged{false};  // the device leaves the service's list
+  /// Whether the device is in the service's list.
+  void setPlugged(bool plugged, const std::string& id = kFirst);
   std::atomic<bool> garbles{false};    // answers are no JSON from here on
   std::atomic<bool> silent{false};     // answers no more
   /// The service ends: its connection is closed without a word.
   void end();
 
  private:
-  void run();
+  struct Device {
+    std::string id, grip;
+    Vec3 cursor, force;
+    bool plugged = true;
+    std::uint64_t forces = 0;
+    double largest = 0;
+  };
+  void run(std::atomic<bool>& listening);
+  void serve(std::shared_ptr<boost::asio::ip::tcp::socket> socket);
   void hear(const std::string& message);
   std::string state(bool first) const;
+  const Device& deviceOf(const std::string& id) const;
+  Device& deviceOf(const std::string& id) { return const_cast<Device&>(std::as_const(*this).deviceOf(id)); }
 
   Speaks speaks_;
   std::uint16_t port_ = 0;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   mutable std::mutex mutex_;
-  Vec3 cursor_, force_;
+  std::vector<Device> devices_;
+  std::function<Vec3(double)> law_;
   std::vector<std::string> heard_;
-  std::atomic<std::uint64_t> forces_{0};
-  std::atomic<double> largest_{0};
   std::atomic<bool> ending_{false};
-  std::atomic<int> listener_{-1}, connection_{-1};
+  std::atomic<int> listener_{-1};
+  std::set<int> connections_;
+  std::vector<std::thread> clients_;
   std::thread thread_;
 };
 
