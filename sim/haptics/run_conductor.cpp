@@ -105,9 +105,11 @@ std::optional<ConductedTrial> RunConductor::runTrial(const std::atomic<bool>& st
 
 std::optional<std::string> RunConductor::fault() const {
   if (!loop_) return std::nullopt;
-  const std::string device = device_->info().name;
-  const DeviceHealth health = device_->health();
-  const std::string said = device_->healthText();
+  const DeviceHealth health = device_->health();  // of several hands, the worst
+  const HapticDevice* worst = device_.get();
+  for (const HapticDevice* other : device_->otherHands())
+    if (health != DeviceHealth::Ready && other->health() == health) worst = other;
+  const std::string device = worst->info().name, said = worst->healthText();
   if (health == DeviceHealth::Lost) return fmt::format("device {} is lost{}", device, said.empty() ? "" : ": " + said);
   if (const DeviceFault fault = loop_->fault(); fault != DeviceFault::None)
     return describe(fault, device) + (said.empty() ? "" : ": " + said);
