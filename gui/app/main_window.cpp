@@ -30,6 +30,7 @@
 #include "gui/app/trial_marking.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/constraint_dock.h"
+#include "gui/docks/device_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/docks/signal_dock.h"
@@ -116,7 +117,16 @@ void MainWindow::wireDocks() {
   connect(dock, &docks::SessionDock::repeatRequested, this, &MainWindow::repeatTrial);
   connect(dock, &docks::SessionDock::endRequested, this, &MainWindow::endRun);
   connect(dock, &docks::SessionDock::noteWritten, this, [this](const QString& text) { session_.note(text); });
-  connect(dock, &docks::SessionDock::deviceChanged, this, &MainWindow::showOverlay);
+  connect(dock, &docks::SessionDock::deviceChanged, this, [this] {
+    docks_.devices->setHand(QString::fromStdString(docks_.session->device()));
+    showOverlay();
+  });
+  connect(dock, &docks::SessionDock::devicesRequested, this, [this] {
+    docks_.devices->show();
+    docks_.devices->raise();
+  });
+  connect(docks_.devices, &docks::DeviceDock::taken, dock, &docks::SessionDock::setDevice);
+  docks_.devices->setHand(QString::fromStdString(dock->device()));
   connect(docks_.trials, &docks::TrialsDock::noteRequested, this,
           [this](int number) { docks_.session->beginNote(QStringLiteral("trial %1: ").arg(number)); });
   wireMarking(*docks_.trials, session_, *message_);
@@ -198,6 +208,7 @@ void MainWindow::showStage() {
                       : session_.blocksLeft() > 0 ? Stage::BlockDone
                                                   : Stage::Finished;
   docks_.session->setStage(stage);
+  docks_.devices->setBusy(stage != Stage::Closed);
   // The keys do what the buttons do: a key that went astray begins no new run where one is over, or while a recording is looked at.
   actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && !inspecting());
   actions_.abort->setEnabled(stage == Stage::UnderWay);

@@ -11,7 +11,7 @@ namespace reachlab::gui::app {
 namespace {
 
 constexpr int kThreeColumns = 1200;  // pixels, as the scale has them: docks left and right of a scene that is still seen
-constexpr int kLayoutVersion = 4;  // another set of docks is another layout
+constexpr int kLayoutVersion = 5;  // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
 

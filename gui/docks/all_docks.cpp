@@ -4,6 +4,7 @@
 
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/coupling_dock.h"
+#include "gui/docks/device_dock.h"
 #include "gui/docks/object_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
@@ -31,7 +32,9 @@ Docks makeDocks(QMainWindow& window) {
   docks.constraint = add(new ConstraintDock(&window), Qt::LeftDockWidgetArea);
   docks.predictions = add(new PredictionDock(&window), Qt::LeftDockWidgetArea);
   docks.trials = add(new TrialsDock(&window), Qt::LeftDockWidgetArea);
+  docks.devices = add(new DeviceDock(&window), Qt::LeftDockWidgetArea);
   window.tabifyDockWidget(docks.predictions, docks.trials);
+  window.tabifyDockWidget(docks.trials, docks.devices);
   docks.predictions->raise();
   Dock* object = add(new ObjectDock(&window), Qt::RightDockWidgetArea);
   add(new CouplingDock(&window), Qt::RightDockWidgetArea);

@@ -6,6 +6,7 @@ class QMainWindow;
 namespace reachlab::gui::docks {
 
 class ConstraintDock;
+class DeviceDock;
 class Dock;
 class PredictionDock;
 class SessionDock;
@@ -20,6 +21,7 @@ struct Docks {
   PredictionDock* predictions = nullptr;
   VelocityDock* velocity = nullptr;
   TrialsDock* trials = nullptr;
+  DeviceDock* devices = nullptr;
   SignalDock* signal = nullptr;
   std::vector<Dock*> all;  // these and those that need nothing but the experiment
 };

@@ -1,35 +1,22 @@
 #include "gui/docks/device_dialog.h"
 
-#include <QApplication>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTimer>
-#include <QTreeWidget>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "base/error.h"
-#include "devices/hot_plug.h"
 #include "devices/registry.h"
 #include "gui/docks/device_view.h"
-#include "gui/widgets/theme.h"
+#include "gui/widgets/wait_cursor.h"
 
 namespace reachlab::gui::docks {
 namespace {
 
 constexpr int kLookMs = 33;
-enum Column { kName, kWhat, kWhyNot };
-
-class WaitCursor {
- public:
-  WaitCursor() { QApplication::setOverrideCursor(Qt::WaitCursor); }
-  ~WaitCursor() { QApplication::restoreOverrideCursor(); }
-  WaitCursor(const WaitCursor&) = delete;
-  WaitCursor& operator=(const WaitCursor&) = delete;
-};
 
 QString millimetres(double metres) { return QStringLiteral("%1").arg(1e3 * metres, 7, 'f', 2); }
 
@@ -43,19 +30,10 @@ bool inWindowOnly(const QString& name) {
 DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, const QString& chosen,
                            std::function<void(const QString& name)> take, QWidget* parent)
     : QDialog(parent), experiment_(experiment), taken_(std::move(take)) {
-  setObjectName(QStringLiteral("devices"));
-  setWindowTitle(tr("Devices"));
-  resize(900, 620);
+  setObjectName(QStringLiteral("device"));
+  setWindowTitle(tr("Device"));
+  resize(860, 390);
   auto* layout = new QVBoxLayout(this);
-  rows_ = new QTreeWidget;
-  rows_->setObjectName(QStringLiteral("deviceRows"));
-  rows_->setHeaderLabels({tr("Device"), tr("What it is"), tr("Why it is not there")});
-  rows_->setRootIsDecorated(false);
-  rows_->setWordWrap(true);
-  rows_->header()->setSectionResizeMode(kName, QHeaderView::ResizeToContents);
-  rows_->header()->resizeSection(kWhat, 250);
-  layout->addWidget(rows_, 1);
-
   auto* line = new QHBoxLayout;
   name_ = new QLineEdit(chosen);
   name_->setObjectName(QStringLiteral("deviceName"));
@@ -64,11 +42,10 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   open_->setObjectName(QStringLiteral("deviceOpen"));
   calibrate_ = new QPushButton(tr("Calibrate"));
   calibrate_->setObjectName(QStringLiteral("deviceCalibrate"));
-  auto* again = new QPushButton(tr("Look for devices again"));
   take_ = new QPushButton(tr("Use it"));
   take_->setObjectName(QStringLiteral("deviceTake"));
   line->addWidget(name_, 1);
-  for (QPushButton* button : {open_, calibrate_, take_, again}) {
+  for (QPushButton* button : {open_, calibrate_, take_}) {
     button->setAutoDefault(false);
     line->addWidget(button);
   }
@@ -85,45 +62,19 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
 
   timer_ = new QTimer(this);
   connect(timer_, &QTimer::timeout, this, &DeviceDialog::look);
-  auto* plugs = new QTimer(this);
-  connect(plugs, &QTimer::timeout, this, [this] {
-    if (!device_ && devices::pluggedFingerprint() != plugged_) list();
-  });
-  plugs->start(1000);
-  connect(rows_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* row) {
-    if (row == nullptr || device_) return;
-    name_->setText(row->text(kName));
-    tell(row->text(kWhyNot), false);
-  });
   connect(name_, &QLineEdit::textChanged, this, &DeviceDialog::showButtons);
   connect(open_, &QPushButton::clicked, this, &DeviceDialog::openOrLetGo);
   connect(calibrate_, &QPushButton::clicked, this, &DeviceDialog::calibrate);
-  connect(again, &QPushButton::clicked, this, &DeviceDialog::list);
   connect(take_, &QPushButton::clicked, this, [this] {
+    timer_->stop();
+    device_.reset();  // the run is to have it
     taken_(name_->text().trimmed());
     accept();
   });
-  list();
+  showButtons();
 }
 
 DeviceDialog::~DeviceDialog() = default;
-
-void DeviceDialog::list() {
-  if (device_) return;  // it is open: asking would disturb it
-  const WaitCursor wait;
-  const QString typed = name_->text();
-  plugged_ = devices::pluggedFingerprint();
-  rows_->clear();
-  for (const devices::FoundDevice& found : devices::findDevices()) {
-    auto* row = new QTreeWidgetItem(rows_, {QString::fromStdString(found.name), QString::fromStdString(found.description),
-                                            QString::fromStdString(found.whyNot)});
-    for (const int column : {kWhat, kWhyNot}) row->setToolTip(column, row->text(column));
-    if (found.present) continue;
-    for (const int column : {kName, kWhat, kWhyNot}) row->setForeground(column, widgets::toQColor(widgets::colours::kFaintText));
-  }
-  name_->setText(typed);
-  showButtons();
-}
 
 void DeviceDialog::showButtons() {
   const QString name = name_->text().trimmed();
@@ -131,7 +82,7 @@ void DeviceDialog::showButtons() {
   open_->setEnabled(device_ != nullptr || (!name.isEmpty() && !inWindowOnly(name)));
   open_->setToolTip(inWindowOnly(name) ? tr("it is seen in the window itself") : QString());
   calibrate_->setEnabled(device_ != nullptr && !device_->calibrationHint().empty());
-  take_->setEnabled(!device_ && !name.isEmpty());
+  take_->setEnabled(!name.isEmpty());
   name_->setEnabled(!device_);
 }
 
@@ -151,7 +102,7 @@ void DeviceDialog::openOrLetGo() {
     return;
   }
   try {
-    const WaitCursor wait;
+    const widgets::WaitCursor wait;
     device_ = std::make_unique<devices::LiveDevice>(name_->text().trimmed().toStdString(), experiment_);
     const haptics::DeviceInfo info = device_->info();
     reach_ = info.workspaceRadius > 0 ? info.workspaceRadius : 0.15;
@@ -185,7 +136,7 @@ void DeviceDialog::look() {
 
 void DeviceDialog::calibrate() {
   try {
-    const WaitCursor wait;
+    const widgets::WaitCursor wait;
     device_->calibrate();
     tell(tr("calibrated: this is its calibration place now"), false);
   } catch (const Error& fault) {

@@ -9,14 +9,12 @@ class QLabel;
 class QLineEdit;
 class QPushButton;
 class QTimer;
-class QTreeWidget;
 
 namespace reachlab::gui::docks {
 
 class DeviceView;
 
-/// Which devices there are, what could be there and why it is not; and one of them live: its place, the force on it, how regularly it
-/// reports, and its calibration. Nothing is put up on it.
+/// A device live: its place, the force on it, how regularly it reports, and its calibration. Nothing is put up on it.
 class DeviceDialog : public QDialog {
  public:
   /// `take`: is told the device that is to be the hand.
@@ -24,8 +22,6 @@ class DeviceDialog : public QDialog {
                QWidget* parent);
   ~DeviceDialog() override;
 
-  /// Asks every driver anew what is there.
-  void list();
   /// Opens what is named, or lets it go.
   void openOrLetGo();
   QString words() const;  // the line under the pictures
@@ -38,13 +34,11 @@ class DeviceDialog : public QDialog {
 
   experiment::CompiledExperiment experiment_;
   std::function<void(const QString& name)> taken_;
-  QTreeWidget* rows_;
   QLineEdit* name_;
   QPushButton *open_, *calibrate_, *take_;
   DeviceView* view_;
   QLabel *numbers_, *hint_;
   QTimer* timer_;
-  std::uint64_t plugged_ = 0;
   std::unique_ptr<devices::LiveDevice> device_;
   double reach_ = 0.1, force_ = 1;
 };

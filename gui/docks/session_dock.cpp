@@ -17,7 +17,6 @@
 #include "base/error.h"
 #include "devices/hot_plug.h"
 #include "devices/registry.h"
-#include "gui/docks/device_dialog.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/scene/trial_texts.h"
@@ -74,14 +73,9 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   hands->addWidget(device_, 1);
   auto* devices = new QPushButton(QStringLiteral("…"));
   devices->setObjectName(QStringLiteral("devicesButton"));
-  devices->setToolTip(QStringLiteral("which devices there are, and one of them live: place, force, calibration"));
-  devices->setMaximumWidth(36);
-  connect(devices, &QPushButton::clicked, this, [this] {
-    auto* dialog = new DeviceDialog(experiment::CompiledExperiment(shown()), device_->currentText(),
-                                    [this](const QString& name) { device_->setCurrentText(name); }, this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->open();
-  });
+  devices->setToolTip(QStringLiteral("the dock Devices: which there are, why others are not, and one of them live"));
+  devices->setMaximumWidth(48);
+  connect(devices, &QPushButton::clicked, this, &SessionDock::devicesRequested);
   hands->addWidget(devices);
   hands->addWidget(new QLabel(QStringLiteral("trials")));
   hands->addWidget(trials_);
@@ -225,6 +219,7 @@ session::SessionRequest SessionDock::request() const {
 }
 
 std::string SessionDock::device() const { return device_->currentText().trimmed().toStdString(); }
+void SessionDock::setDevice(const QString& name) { device_->setCurrentText(name); }
 bool SessionDock::repeatsByItself() const { return automatic_->isChecked(); }
 double SessionDock::pauseSeconds() const { return pause_->value(); }
 

@@ -32,6 +32,7 @@ class SessionDock : public Dock {
   /// What is wrong with the fields, a line each, as it stands under them; empty: nothing.
   QString fault() const;
   std::string device() const;
+  void setDevice(const QString& name);
   bool repeatsByItself() const;  // next trial without a key
   double pauseSeconds() const;   // [s] before it
 
@@ -53,6 +54,8 @@ class SessionDock : public Dock {
   void endRequested();
   void noteWritten(const QString& text);
   void deviceChanged();
+  /// Which devices there are is to be seen.
+  void devicesRequested();
 
  protected:
   /// A plan has its own numbers of trials.

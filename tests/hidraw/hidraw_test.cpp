@@ -80,6 +80,22 @@ TEST_F(ArmOverHidraw, PluggedOutAndInIsNoticed) {
   EXPECT_EQ(findPlugged()[0].name, "hid:SN0001");
 }
 
+// An omega: a USB device that the vendor's library drives, and no HID.
+TEST(HotPlug, WhatOnlyAVendorsLibraryDrivesIsNoticedToo) {
+  UMockdevTestbed* bed = umockdev_testbed_new();
+  const std::uint64_t before = pluggedFingerprint();
+  umockdev_testbed_add_from_string(bed,
+                                   "P: /devices/usb1/1-2\nN: bus/usb/001/009\nE: DEVNAME=/dev/bus/usb/001/009\nE: DEVTYPE=usb_device\n"
+                                   "E: SUBSYSTEM=usb\nA: idVendor=1451\\n\nA: idProduct=0402\\n\n\n",
+                                   nullptr);
+  const std::uint64_t plugged = pluggedFingerprint();
+  EXPECT_NE(plugged, before);
+  EXPECT_EQ(pluggedFingerprint(), plugged) << "looking changes nothing";
+  umockdev_testbed_clear(bed);
+  EXPECT_EQ(pluggedFingerprint(), before);
+  g_object_unref(bed);
+}
+
 TEST_F(ArmOverHidraw, GivesItsPlaceAndGetsItsForce) {
   ArmFirmware firmware(bed.wire());
   firmware.moves = false;

@@ -9,16 +9,19 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSet>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTreeWidget>
 #include <QUndoStack>
 #include <cmath>
 #include <fstream>
 #include <regex>
 #include <set>
 
+#include "devices/mapping/mapping.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/scene_overlay.h"
@@ -68,7 +71,7 @@ TEST_F(Window, StartsWithItsDocksAndAPicture) {
         << dock->windowTitle().toStdString();
     titles.insert(dock->windowTitle());
   }
-  EXPECT_EQ(titles.size(), 9u);
+  EXPECT_EQ(titles.size(), 10u);
   const QImage picture = window.view().grabScene();
   QSet<QRgb> inks;
   for (int y = 0; y < picture.height(); y += 3)
@@ -372,6 +375,48 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   EXPECT_FALSE(table->item(0, 2)->text().isEmpty());
   EXPECT_LT(jerk, 1e-3) << "a hand without noise is on its plan";
   EXPECT_LT(jerk, forceChange);
+}
+
+TEST_F(Window, WhatAnyHandsDeviceCannotGiveIsSaidWhenARunBegins) {
+  request_.what = "chain-two-hands";
+  request_.device = "virtual:highforce + virtual:omni,scale=0.5";
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains(QStringLiteral("hand 2: workspace"))) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains(QStringLiteral("hand 2: continuous force"))) << "all of them: " << window.message().toStdString();
+  EXPECT_FALSE(window.message().contains(QStringLiteral("hand 1"))) << window.message().toStdString();
+}
+
+TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
+  request_.device = "virtual:premium15";
+  request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
+  const QString file = folder_.path() + QStringLiteral("/data/sourcedata/mappings/sub-01_virtual.json");
+  devices::Mapping kept;
+  kept.scale = 1.5;
+  devices::saveMapping(kept, file.toStdString());
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains(file)) << window.message().toStdString();
+  EXPECT_NE(window.session().run()->configuration().deviceMapping.find("1.5"), std::string::npos);
+}
+
+TEST_F(Window, ADeviceThatIsChosenInItsDockIsTheHandUntilARunHasIt) {
+  MainWindow& window = open();
+  find<QPushButton>("devicesButton")->click();
+  auto* rows = find<QTreeWidget>("deviceRows");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows->isVisible() && rows->topLevelItemCount() > 0; }, 5000));
+  const auto omni = rows->findItems(QStringLiteral("virtual:omni"), Qt::MatchExactly | Qt::MatchRecursive, 0);
+  ASSERT_EQ(omni.size(), 1);
+  rows->setCurrentItem(omni.front());
+  find<QPushButton>("deviceUse")->click();
+  EXPECT_EQ(window.sessionDock().device(), "virtual:omni");
+  window.nextTrial();
+  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  EXPECT_FALSE(find<QPushButton>("deviceUse")->isEnabled());
+  window.endRun();
+  EXPECT_TRUE(find<QPushButton>("deviceUse")->isEnabled());
 }
 
 TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {

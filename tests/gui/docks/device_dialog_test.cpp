@@ -6,19 +6,12 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
-#include <QTreeWidget>
 #include <numeric>
 
 namespace reachlab::gui::docks {
 namespace {
 
 experiment::CompiledExperiment chain() { return experiment::openExperiment("chain-slow"); }
-
-QTreeWidgetItem* rowOf(const QTreeWidget& rows, const QString& name) {
-  for (int i = 0; i < rows.topLevelItemCount(); ++i)
-    if (rows.topLevelItem(i)->text(0) == name) return rows.topLevelItem(i);
-  return nullptr;
-}
 
 // The times between reports that were counted are those of every report but the first.
 TEST(LiveDevice, CountsTheTimesBetweenItsReports) {
@@ -32,15 +25,9 @@ TEST(LiveDevice, CountsTheTimesBetweenItsReports) {
   EXPECT_TRUE(view.fault.empty()) << view.fault;
 }
 
-TEST(DeviceDialog, SaysWhatIsThereWhatIsNotAndWhy) {
+TEST(DeviceDialog, TheMouseIsSeenInTheWindowItself) {
   DeviceDialog dialog(chain(), QStringLiteral("mouse"), [](const QString&) {}, nullptr);
-  const auto* rows = dialog.findChild<QTreeWidget*>(QStringLiteral("deviceRows"));
-  const QTreeWidgetItem* phantom = rowOf(*rows, QStringLiteral("phantom"));
-  ASSERT_NE(phantom, nullptr);
-  EXPECT_TRUE(phantom->text(2).contains(QStringLiteral("libHD.so"))) << phantom->text(2).toStdString();
-  ASSERT_NE(rowOf(*rows, QStringLiteral("simulated")), nullptr);
-  EXPECT_TRUE(rowOf(*rows, QStringLiteral("simulated"))->text(2).isEmpty());
-  EXPECT_FALSE(dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"))->isEnabled()) << "the mouse is seen in the window";
+  EXPECT_FALSE(dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"))->isEnabled());
 }
 
 TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
@@ -53,7 +40,7 @@ TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return dialog.words().contains(QStringLiteral("reports/s")) && !dialog.words().contains(QStringLiteral(" 0.0 reports/s")); }, 20000));
   EXPECT_FALSE(dialog.findChild<QLineEdit*>(QStringLiteral("deviceName"))->isEnabled());
   QTest::qWait(1500);
-  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty()) dialog.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/devices.png"));
+  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty()) dialog.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/device.png"));
   QTest::mouseClick(button, Qt::LeftButton);
   EXPECT_TRUE(dialog.words().isEmpty());
   QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("deviceTake")), Qt::LeftButton);

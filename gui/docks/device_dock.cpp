@@ -1,0 +1,157 @@
+#include "gui/docks/device_dock.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QTimer>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "devices/hands/several_hands.h"
+#include "gui/docks/device_dialog.h"
+#include "gui/widgets/theme.h"
+#include "gui/widgets/wait_cursor.h"
+
+namespace reachlab::gui::docks {
+namespace {
+
+constexpr int kLookMs = 1000;
+enum Column { kName, kWords };
+
+bool isInWindowOnly(const QTreeWidgetItem& row) {
+  const devices::DeviceDriver* driver = devices::findDriver(row.text(kName).section(QLatin1Char(':'), 0, 0).toStdString());
+  return driver != nullptr && driver->inWindowOnly;
+}
+
+bool isPresent(const QTreeWidgetItem& row) { return row.data(kName, Qt::UserRole).toBool(); }
+
+// A heading over the rows below it.
+QTreeWidgetItem* addGroup(QTreeWidget& rows, const QString& title) {
+  auto* group = new QTreeWidgetItem(&rows, {title});
+  group->setFlags(Qt::ItemIsEnabled);
+  group->setFirstColumnSpanned(true);
+  group->setExpanded(true);
+  QFont bold = rows.font();
+  bold.setBold(true);
+  group->setFont(kName, bold);
+  return group;
+}
+
+}  // namespace
+
+DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
+    : Dock(tr("Devices"), QStringLiteral("deviceDock"), parent), finding_(finding) {
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  rows_ = new QTreeWidget;
+  rows_->setObjectName(QStringLiteral("deviceRows"));
+  rows_->setColumnCount(2);
+  rows_->setHeaderHidden(true);
+  rows_->setRootIsDecorated(false);
+  rows_->setItemsExpandable(false);
+  rows_->setIndentation(8);
+  rows_->header()->setSectionResizeMode(kName, QHeaderView::ResizeToContents);
+  rows_->header()->setSectionResizeMode(kWords, QHeaderView::Stretch);
+  rows_->setMinimumSize(180, 90);
+  layout->addWidget(rows_, 1);
+  hint_ = new QLabel;
+  hint_->setObjectName(QStringLiteral("deviceHint"));
+  hint_->setTextFormat(Qt::PlainText);
+  hint_->setTextInteractionFlags(Qt::TextSelectableByMouse);  // a command or a place is copied from it
+  hint_->setWordWrap(true);
+  hint_->setContentsMargins(4, 2, 4, 2);
+  layout->addWidget(hint_);
+  auto* line = new QHBoxLayout;
+  const auto button = [&](const QString& text, const char* name, const QString& tip) {
+    auto* made = new QPushButton(text);
+    made->setObjectName(QLatin1String(name));
+    made->setToolTip(tip);
+    line->addWidget(made);
+    return made;
+  };
+  take_ = button(tr("Use it"), "deviceUse", tr("the chosen device is the hand of the next run"));
+  look_ = button(tr("Look at it…"), "deviceLook", tr("live: place, force, times between reports, calibration"));
+  again_ = button(tr("Look again"), "deviceAgain", tr("asks every driver anew, vendors' libraries too"));
+  layout->addLayout(line);
+  setBody(body, false);
+
+  connect(rows_, &QTreeWidget::currentItemChanged, this, &DeviceDock::showButtons);
+  connect(rows_, &QTreeWidget::itemDoubleClicked, take_, &QPushButton::click);
+  connect(take_, &QPushButton::clicked, this, [this] { Q_EMIT taken(withOptions(chosen())); });
+  connect(look_, &QPushButton::clicked, this, &DeviceDock::lookAt);
+  connect(again_, &QPushButton::clicked, this, &DeviceDock::list);
+  auto* plugs = new QTimer(this);
+  connect(plugs, &QTimer::timeout, this, [this] {
+    if (rows_->isVisible() && mayAsk() && finding_.fingerprint() != plugged_) list();
+  });
+  plugs->start(kLookMs);
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) {
+    if (seen && !plugged_ && mayAsk()) list();
+  });
+  showButtons();
+}
+
+bool DeviceDock::mayAsk() const { return !busy_ && dialog_ == nullptr; }
+
+void DeviceDock::setBusy(bool busy) {
+  busy_ = busy;
+  showButtons();
+}
+
+QString DeviceDock::chosen() const {
+  const QTreeWidgetItem* row = rows_->currentItem();
+  return row == nullptr || row->parent() == nullptr ? QString() : row->text(kName);
+}
+
+QString DeviceDock::withOptions(const QString& name) const {
+  for (const std::string& hand : devices::splitHands(hand_.toStdString()))
+    if (const QString spec = QString::fromStdString(hand); spec.startsWith(name + QLatin1Char(','))) return spec;
+  return name;
+}
+
+void DeviceDock::list() {
+  if (!mayAsk()) return;
+  const widgets::WaitCursor wait;
+  const QString before = chosen();
+  plugged_ = finding_.fingerprint();
+  rows_->clear();
+  auto* there = addGroup(*rows_, tr("Connected"));
+  auto* absent = addGroup(*rows_, tr("Not there, and why"));
+  auto* made = addGroup(*rows_, tr("Hands without a device"));
+  for (const devices::FoundDevice& found : finding_.all()) {
+    const devices::DeviceDriver* driver = devices::findDriver(found.kind);
+    const bool needsNone = driver != nullptr && driver->isMade;
+    auto* row = new QTreeWidgetItem(needsNone ? made : found.present ? there : absent,
+                                    {QString::fromStdString(found.name), QString::fromStdString(found.present ? found.description : found.whyNot)});
+    row->setData(kName, Qt::UserRole, found.present);
+    row->setToolTip(kName, driver != nullptr ? QString::fromStdString(driver->usage) : QString());
+    row->setToolTip(kWords, QString::fromStdString(found.description));
+    if (!found.present)
+      for (const int column : {kName, kWords}) row->setForeground(column, widgets::toQColor(widgets::colours::kFaintText));
+    if (row->text(kName) == before) rows_->setCurrentItem(row);
+  }
+  for (auto* group : {there, absent, made}) group->setHidden(group->childCount() == 0);
+  showButtons();
+}
+
+void DeviceDock::showButtons() {
+  const QTreeWidgetItem* row = rows_->currentItem();
+  const bool usable = !busy_ && !chosen().isEmpty() && isPresent(*row);
+  take_->setEnabled(usable);
+  look_->setEnabled(usable && !isInWindowOnly(*row));
+  again_->setEnabled(!busy_);
+  hint_->setText(busy_ ? tr("A run has its devices; they are asked again when it has ended.") : chosen().isEmpty() ? QString() : row->text(kWords));
+  hint_->setVisible(!hint_->text().isEmpty());
+}
+
+void DeviceDock::lookAt() {
+  dialog_ = new DeviceDialog(experiment::CompiledExperiment(shown()), withOptions(chosen()), [this](const QString& name) { Q_EMIT taken(name); }, this);
+  dialog_->setAttribute(Qt::WA_DeleteOnClose);
+  dialog_->open();
+  dialog_->openOrLetGo();
+}
+
+}  // namespace reachlab::gui::docks

@@ -1,0 +1,63 @@
+#pragma once
+#include <QPointer>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "devices/hot_plug.h"
+#include "devices/registry.h"
+#include "gui/docks/dock.h"
+
+class QLabel;
+class QPushButton;
+class QTreeWidget;
+
+namespace reachlab::gui::docks {
+
+class DeviceDialog;
+
+/// Which devices there are, what could be there and why it is not. What is plugged in or out shows by itself while the dock is seen and no
+/// run has the devices: drivers are asked in the window's thread, and asking some of them opens a device for a moment.
+class DeviceDock : public Dock {
+  Q_OBJECT
+ public:
+  /// How devices are found.
+  struct Finding {
+    std::uint64_t (*fingerprint)() = devices::pluggedFingerprint;
+    std::vector<devices::FoundDevice> (*all)() = devices::findDevices;
+  };
+  explicit DeviceDock(QWidget* parent = nullptr) : DeviceDock(Finding{}, parent) {}
+  DeviceDock(const Finding& finding, QWidget* parent);
+
+  /// A run has its devices: nobody asks for them, and none is opened.
+  void setBusy(bool busy);
+  /// What is the hand now: its options stay when its device is looked at or chosen again.
+  void setHand(const QString& hand) { hand_ = hand; }
+  /// Asks every driver anew.
+  void list();
+  QString chosen() const;  // the name that opens it; empty: no row
+
+ Q_SIGNALS:
+  /// It is to be the hand.
+  void taken(const QString& name);
+
+ protected:
+  void display(const experiment::CompiledExperiment&, bool) override {}
+
+ private:
+  bool mayAsk() const;
+  QString withOptions(const QString& name) const;
+  void showButtons();
+  void lookAt();
+
+  Finding finding_;
+  QTreeWidget* rows_;
+  QLabel* hint_;
+  QPushButton *take_, *look_, *again_;
+  QPointer<DeviceDialog> dialog_;
+  QString hand_;
+  std::optional<std::uint64_t> plugged_;  // fingerprint of what the list is of; none: it was never asked for
+  bool busy_ = false;
+};
+
+}  // namespace reachlab::gui::docks
