@@ -19,13 +19,14 @@ inline bool vendorWrite(double fx, double fy, double fz) {
   return !vendorUnplugged;
 }
 
-// Its calls may wait, so they are made by the I/O thread of PolledDevice.
+// Its calls may wait, so they are made by the I/O thread of PolledDevice. A serial line, or anything else that looks like a terminal, is opened
+// and read line by line by `openSerial` (devices/serial/serial_port.h); what came in part, or not in time, is Exchange::Nothing.
 class SpringHandle final : public Transport {
  public:
   haptics::DeviceInfo info() const override {
     haptics::DeviceInfo info;
     info.name = "Spring Handle";
-    info.maxForce = 4;  // [N]; better asked of the device
+    info.maxForce = 4;  // [N]; better asked of the device. These three are left out where it renders no force
     info.maxContinuousForce = 1;
     info.rendersForce = true;  // the watch and the watchdog look after it from here on
     return info;
@@ -43,6 +44,8 @@ class SpringHandle final : public Transport {
 };
 
 // One line in registry.cpp makes it known to `reach list devices`, to `--device`, and to the window.
+// What stands behind the name, as in springhandle:PATH,gain=2, is the request's argument; DeviceOptions (devices/options.h) takes it apart. What
+// is wrong there throws FaultError (base/fault.h), what cannot be had ResourceError.
 inline DeviceDriver springHandleDriver() {
   return {"springhandle",
           "springhandle",
@@ -52,6 +55,8 @@ inline DeviceDriver springHandleDriver() {
             if (vendorUnplugged) return {absentDevice(self, "no Spring Handle is connected")};
             return {presentDevice(self, self.name, SpringHandle().info())};
           },
+          // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (devices/options.h) takes it apart. What is
+          // wrong there throws FaultError (base/fault.h), what cannot be had ResourceError.
           [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
             return std::make_unique<PolledDevice>(std::make_shared<SpringHandle>());
           }};
