@@ -140,6 +140,15 @@ double computeCondition(const std::vector<std::vector<Real>>& l) {
   return largest(factor) * largest(inverse);
 }
 
+// Of the triangle of W, from W's own eigenvalues: up to the condition at which a double is enough they have ten digits.
+double computeCondition(const LaneMatrix<double>& w) {
+  Eigen::MatrixXd m(w.rows(), w.rows());
+  for (int i = 0; i < w.rows(); ++i)
+    for (int j = 0; j < w.rows(); ++j) m(i, j) = w.at(i, j);
+  const Eigen::VectorXd sizes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
+  return sizes[0] > 0 ? std::sqrt(sizes[sizes.size() - 1] / sizes[0]) : std::numeric_limits<double>::infinity();
+}
+
 // W factorised in the object's modes, its diagonal scaled to one.
 template <class Real>
 class Gramian {
@@ -154,7 +163,8 @@ class Gramian {
     for (int i = 0; i < m_; ++i)
       for (int j = 0; j < m_; ++j) turned.set(i, j, Real(unit_[i]) * turned.at(i, j) * unit_[j]);
     l_ = factoriseCholesky(turned);
-    condition_ = computeCondition(l_);
+    if constexpr (std::is_same_v<Real, double>) condition_ = computeCondition(turned);
+    else condition_ = computeCondition(l_);
   }
 
   double condition() const { return condition_; }
