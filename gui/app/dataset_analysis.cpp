@@ -44,13 +44,13 @@ void DatasetAnalysis::begin(const QString& dataset) {
     return;
   }
   dataset_ = dataset;
-  Q_EMIT said(tr("%1 is being analysed").arg(dataset_));
+  Q_EMIT told(tr("%1 is being analysed").arg(dataset_));
   process_.start(program_, {QStringLiteral("analyze"), dataset_});
 }
 
 void DatasetAnalysis::end(bool good) {
   if (good) {
-    Q_EMIT said(tr("The report is %1").arg(reportOf(dataset_)));
+    Q_EMIT told(tr("The report is %1").arg(reportOf(dataset_)));
     Q_EMIT reported(reportOf(dataset_));
     return;
   }

@@ -17,8 +17,10 @@ class DatasetAnalysis : public QObject {
   void begin(const QString& dataset);
 
  Q_SIGNALS:
-  /// One sentence: it has begun, cannot be had, or what `reach` said when it failed.
+  /// One sentence: why it cannot be had, or what `reach` said when it failed.
   void said(const QString& sentence);
+  /// It has begun, or the report is written.
+  void told(const QString& sentence);
   /// The report is written.
   void reported(const QString& page);
 

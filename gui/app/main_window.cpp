@@ -171,6 +171,7 @@ void MainWindow::wireSession() {
   timer_->setTimerType(Qt::PreciseTimer);
   connect(timer_, &QTimer::timeout, this, &MainWindow::oneFrame);
   connect(&analysis_, &DatasetAnalysis::said, this, [this](const QString& words) { message_->say(words); });
+  connect(&analysis_, &DatasetAnalysis::told, this, [this](const QString& words) { message_->tell(words); });
   connect(&analysis_, &DatasetAnalysis::reported, this, [](const QString& page) { QDesktopServices::openUrl(QUrl::fromLocalFile(page)); });
   timer_->start(kFrameMs);
   auto* slowTimer = new QTimer(this);
@@ -314,12 +315,12 @@ void MainWindow::nextTrial() {
 void MainWindow::beginNext() {
   pacing_.cancel();
   if (session_.restLeft() > 0)
-    return message_->say(tr("The plan rests %1 s more before its next block; Ctrl+E ends this block's run and the rest.")
-                             .arg(std::ceil(session_.restLeft())));
+    return message_->tell(tr("The plan rests %1 s more before its next block; Ctrl+E ends this block's run and the rest.")
+                              .arg(std::ceil(session_.restLeft())));
   if (session_.run() == nullptr && !docks_.session->fault().isEmpty()) return message_->say(docks_.session->fault());
   try {
     message_->say({});
-    if (!session_.next(docks_.session->request()) && session_.run() == nullptr) message_->say(QStringLiteral("The session is complete."));
+    if (!session_.next(docks_.session->request()) && session_.run() == nullptr) message_->tell(QStringLiteral("The session is complete."));
   } catch (const std::exception& e) {
     message_->say(QString::fromStdString(endingOf(e).sentence));
   }
@@ -362,6 +363,7 @@ inspector::InspectorPage& MainWindow::inspector() {
     pages_->widget(1)->layout()->addWidget(inspector_);
     connect(inspector_, &inspector::InspectorPage::reported, this, [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
     connect(inspector_, &inspector::InspectorPage::said, this, [this](const QString& words) { message_->say(words); });
+    connect(inspector_, &inspector::InspectorPage::told, this, [this](const QString& words) { message_->tell(words); });
   }
   return *inspector_;
 }
@@ -475,7 +477,8 @@ void MainWindow::savePicture() {
   QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), QStringLiteral("scene.png"), tr("PNG (*.png)"));
   if (file.isEmpty()) return;
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
-  message_->say(picture.save(file) ? tr("Written: %1").arg(file) : tr("%1 cannot be written.").arg(file));
+  if (picture.save(file)) message_->tell(tr("Written: %1").arg(file));
+  else message_->say(tr("%1 cannot be written.").arg(file));
 }
 
 void MainWindow::analyse(const QString& dataset) { analysis_.begin(dataset); }

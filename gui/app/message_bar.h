@@ -8,15 +8,21 @@ class MessageBar : public QLabel {
  public:
   MessageBar() {
     setObjectName(QStringLiteral("message"));
-    setStyleSheet(QStringLiteral("background: #6b2b25; color: white; padding: 8px 12px; font-weight: 600;"));
     setWordWrap(true);
     hide();
   }
-  void say(const QString& sentence) {
+  /// What is wrong, or must be known: red.
+  void say(const QString& sentence) { put(sentence, QStringLiteral("#6b2b25")); }
+  /// News of what went as it was asked for.
+  void tell(const QString& sentence) { put(sentence, QStringLiteral("#24506b")); }
+  QString sentence() const { return isHidden() ? QString() : text(); }
+
+ private:
+  void put(const QString& sentence, const QString& background) {
+    setStyleSheet(QStringLiteral("background: %1; color: white; padding: 8px 12px; font-weight: 600;").arg(background));
     setText(sentence);
     setVisible(!sentence.isEmpty());
   }
-  QString sentence() const { return isHidden() ? QString() : text(); }
 };
 
 }  // namespace reachlab::gui::app

@@ -144,7 +144,7 @@ void InspectorPage::wire() {
   });
   connect(&inspector_, &Inspector::failed, this, &InspectorPage::said);
   connect(&inspector_, &Inspector::reported, this, [this](const QString& file) {
-    Q_EMIT said(tr("The report is %1").arg(file));
+    Q_EMIT told(tr("The report is %1").arg(file));
     Q_EMIT reported(file);
   });
 }

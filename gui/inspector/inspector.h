@@ -54,6 +54,8 @@ class InspectorPage : public QWidget {
  Q_SIGNALS:
   /// One sentence for whoever looks; empty takes it away.
   void said(const QString& sentence);
+  /// News of what went well.
+  void told(const QString& sentence);
   /// A report that was asked for is written, and to be shown.
   void reported(const QString& file);
 

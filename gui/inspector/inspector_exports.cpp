@@ -35,7 +35,7 @@ void InspectorPage::saveFigure() {
   if (file.isEmpty()) return;
   try {
     exportTo(file);
-    Q_EMIT said(tr("Written: %1").arg(file));
+    Q_EMIT told(tr("Written: %1").arg(file));
   } catch (const std::exception& e) {
     Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
   }
@@ -47,7 +47,7 @@ void InspectorPage::saveTable() {
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".csv");
   try {
     exportTable(file);
-    Q_EMIT said(tr("Written: %1").arg(file));
+    Q_EMIT told(tr("Written: %1").arg(file));
   } catch (const std::exception& e) {
     Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
   }
