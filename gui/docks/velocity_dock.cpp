@@ -1,5 +1,7 @@
 #include "gui/docks/velocity_dock.h"
 
+#include <utility>
+
 namespace reachlab::gui::docks {
 
 VelocityDock::VelocityDock(QWidget* parent)
@@ -9,6 +11,7 @@ VelocityDock::VelocityDock(QWidget* parent)
 
 void VelocityDock::display(const experiment::CompiledExperiment& experiment, bool) {
   const experiment::Task task = experiment.experiment().task.value_or(experiment::Task{});
+  if (std::exchange(name_, experiment.experiment().name) != name_) plot_->forgetTrials();
   plot_->setTask(task.duration, task.tolerance.time);
 }
 

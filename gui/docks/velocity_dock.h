@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "gui/docks/dock.h"
 #include "gui/plot/velocity_plot.h"
 
@@ -16,6 +18,7 @@ class VelocityDock : public Dock {
 
  private:
   plot::VelocityPlot* plot_;
+  std::string name_;  // of the experiment whose trials are drawn
 };
 
 }  // namespace reachlab::gui::docks

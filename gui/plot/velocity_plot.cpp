@@ -163,6 +163,12 @@ void VelocityPlot::beginTrial() {
   d.changed = true;
 }
 
+void VelocityPlot::forgetTrials() {
+  beginTrial();
+  impl_->handBefore->setSamples(QVector<double>(), QVector<double>());
+  impl_->lastBefore->setSamples(QVector<double>(), QVector<double>());
+}
+
 void VelocityPlot::add(double time, double hand, double last) {
   if (!std::isfinite(time) || !std::isfinite(hand) || !std::isfinite(last)) return;
   impl_->times.push_back(time);

@@ -21,6 +21,8 @@ class VelocityPlot : public QWidget {
   void setTask(double duration, double tolerance);
   /// A new trial: the curves of the one before stay as thin lines.
   void beginTrial();
+  /// Another experiment: its trials are not to be compared with those before.
+  void forgetTrials();
   /// Appends; drawn at the next `refresh`.
   void add(double time, double hand, double last);
   void refresh();
