@@ -26,7 +26,9 @@ double meanDuration(const Inspection& inspection) {
   return count > 0 ? sum / count : 1;
 }
 
-/// The whole record from the onset on, or its movement laid over the mean duration.
+constexpr double kShownBeforeOnset = 0.5;  // [s]
+
+/// The whole record about the onset, or its movement laid over the mean duration.
 ProfilePlot::Line lineOf(const analyze::TrialData& trial, const analyze::TrialSignals& signals, Signal which, double scaledTo) {
   const std::vector<double>& velocity = which == Signal::Hand ? signals.handVelocity : signals.objectVelocity;
   const analyze::Movement& move = signals.movement;
@@ -102,6 +104,7 @@ figure::Figure figureOf(const Inspection& inspection, std::size_t condition, Tim
     panel.x.label = "Time from onset (s)";
     panel.y.label = signal == Signal::Hand ? "Hand velocity (m/s)" : "Object velocity (m/s)";
     panel.legend = figure::LegendPlace::Below;
+    if (axis == TimeAxis::AsMoved) panel.x.from = -kShownBeforeOnset;  // a hand may have waited for seconds
     const auto take = [](const QVector<double>& values) { return std::vector<double>(values.begin(), values.end()); };
     const std::vector<ProfilePlot::Line> lines = linesOf(inspection, signal, axis);
     for (const ProfilePlot::Line& line : lines) {
