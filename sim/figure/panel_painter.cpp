@@ -145,6 +145,9 @@ void PanelPainter::measure() {
     if (rule.vertical) margins_.top = std::max(margins_.top, (panel_.title.empty() ? 0 : kTitleFont + 4) + kTickFont + 4);
     else margins_.right = std::max(margins_.right, canvas_.textWidth(rule.label) + 2 * kGap);
   }
+  canvas_.setFont(kLabelFont);
+  const double labelBeyond = (canvas_.textWidth(panel_.x.label) - width_) / 2;  // at either end
+  for (double* side : {&margins_.left, &margins_.right}) *side = std::max(*side, labelBeyond + kGap);
   if (place_ == LegendPlace::Below) {
     margins_.bottom += legendHeight_ + 2;
     for (double* side : {&margins_.left, &margins_.right}) *side = std::max(*side, (legendWidth_ - width_) / 2);
@@ -170,12 +173,30 @@ void PanelPainter::draw(double left, double top, double topMargin) {
     canvas_.setColor(word.color);
     canvas_.text(left_ + xAt(word.x), top_ + yAt(word.y) + 0.36 * kTickFont, word.text, Align::Centre);
   }
+  drawRuleLabels();
+  drawLegend();
+}
+
+void PanelPainter::drawRuleLabels() {
+  std::vector<std::pair<double, const Rule*>> beside;
+  for (const Rule& rule : panel_.rules)
+    if (!rule.vertical && !rule.label.empty()) beside.emplace_back(yAt(rule.at), &rule);
+  // Rules that lie close keep their order, and their labels a line each.
+  std::sort(beside.begin(), beside.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 1; i < beside.size(); ++i) {
+    const double overlap = beside[i - 1].first + kTickFont - beside[i].first;
+    if (overlap <= 0) continue;
+    beside[i - 1].first -= overlap / 2;
+    beside[i].first += overlap / 2;
+  }
+  for (const auto& [y, rule] : beside) {
+    canvas_.setColor(rule->color);
+    canvas_.text(left_ + width_ + kGap, top_ + y + 0.35 * kTickFont, rule->label);
+  }
   for (const Rule& rule : panel_.rules) {
     canvas_.setColor(rule.color);
     if (rule.vertical) canvas_.text(left_ + xAt(rule.at), top_ - 3, rule.label, Align::Centre);
-    else canvas_.text(left_ + width_ + kGap, top_ + yAt(rule.at) + 0.35 * kTickFont, rule.label);
   }
-  drawLegend();
 }
 
 void PanelPainter::drawAxes(double topMargin) {

@@ -35,6 +35,7 @@ class PanelPainter {
   void drawBand(const Band& band);
   void drawSeries(const Series& series);
   void drawRule(const Rule& rule);
+  void drawRuleLabels();
   void drawLegend();
   void drawEntry(const Entry& entry, double x, double baseline);
 

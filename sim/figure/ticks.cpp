@@ -73,7 +73,7 @@ AxisTicks logTicks(const Axis& axis, double low, double high, double length) {
       if (digit == 1 && (e - first) % every == 0)
         out.major.emplace_back(at, fewDecades && std::abs(e) <= 3 ? fmt::format("{:g}", at) : "10" + superscript(e));
       else if (fewDecades && (digit == 2 || digit == 5)) out.major.emplace_back(at, fmt::format("{:g}", at));
-      else if (every == 1 || digit == 1) out.minor.push_back(at);
+      else if (every == 1 || (digit == 1 && length > 4.0 * (last - first))) out.minor.push_back(at);
     }
   }
   return out;

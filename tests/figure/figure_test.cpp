@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
+#include <regex>
 #include <sstream>
 
 #include "base/error.h"
@@ -104,6 +106,8 @@ TEST(ChooseTicks, CoverTheDataAndKeepGivenEnds) {
   EXPECT_LE(decades.from, 3e-13);
   EXPECT_GE(decades.to, 0.2);
   EXPECT_EQ(decades.major.front().second.substr(0, 2), "10");
+  EXPECT_GT(decades.minor.size(), 5u) << "a tick a decade";
+  EXPECT_EQ(chooseTicks(log, 1e4, 1e140, 150).minor.size(), 0u) << "a tick a point would be a bar";
 }
 
 TEST(ChooseTicks, OfNoDataOrOneValueAreStillAnAxis) {
@@ -165,6 +169,38 @@ TEST(Figure, BearsHolesEmptySeriesAndHugeValues) {
 }
 
 // The last row of subjects may be shorter than the others: no axes from -1 to 1 stand there.
+TEST(Figure, LeavesRoomForALabelThatIsLongerThanItsAxis) {
+  const auto widthOf = [](const std::string& label) {
+    Figure figure;
+    figure.panelWidth = 30;
+    figure.panels.resize(1);
+    figure.panels[0].x.label = label;
+    const std::string svg = renderSvg(figure);
+    return std::stod(svg.substr(svg.find("width=\"") + 7));
+  };
+  EXPECT_EQ(widthOf("Time (s)"), widthOf(""));
+  EXPECT_GT(widthOf("Number of masses, the total mass kept, springs like the first"), widthOf("") + 50);
+}
+
+TEST(Figure, WritesLabelsOfRulesThatLieTogetherBelowEachOther) {
+  Figure figure;
+  Panel panel;
+  panel.y.from = 0, panel.y.to = 1;
+  panel.rules = {{0.5, false, "lll"}, {0.501, false, "lll"}};
+  figure.panels = {panel};
+  const std::string svg = renderSvg(figure);
+  std::vector<std::pair<double, double>> letters;  // x, y
+  const std::regex letter(R"re(<use xlink:href="#[^"]*" x="([^"]*)" y="([^"]*)")re");
+  for (std::sregex_iterator at(svg.begin(), svg.end(), letter), end; at != end; ++at)
+    letters.emplace_back(std::stod((*at)[1].str()), std::stod((*at)[2].str()));
+  ASSERT_GE(letters.size(), 6u);
+  std::sort(letters.begin(), letters.end());
+  std::vector<double> rows;
+  for (std::size_t i = letters.size() - 6; i < letters.size(); ++i) rows.push_back(letters[i].second);
+  std::sort(rows.begin(), rows.end());
+  EXPECT_GT(rows.back() - rows.front(), 6.5) << "[pt], a line";
+}
+
 TEST(Figure, LeavesThePlaceOfAnEmptyPanelWhite) {
   Figure figure = exampleFigure();
   const auto strokes = [&] {
