@@ -298,6 +298,9 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
 CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition) {
   FaultList faults(file);
   const JsonNode tree = parseJson(text, file);
+  if (tree.find("blocks") != nullptr)
+    throw FaultError(
+        Fault{file, "is a session plan, and an experiment is needed here", "an experiment file or name, such as the plan's blocks have"});
   Experiment experiment = readTree(tree, text, file, definition, faults);
   CheckedExperiment checked = check(experiment);
   addProblems(tree, checked.faults, faults);

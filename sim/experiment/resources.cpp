@@ -60,6 +60,10 @@ CompiledExperiment openExperiment(const std::string& fileOrName) {
   if (const auto file = shippedExperimentFile(fileOrName)) return openExperimentText(readTextFile(*file), *file);
   if (fs::is_directory(fileOrName, ignored)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
   if (looksLikeFile) throw FaultError(Fault{fileOrName, "there is no such file", "an experiment file, or one of " + listOf(names)});
+  if (const std::vector<std::string> plans = shippedNames("plans"); std::find(plans.begin(), plans.end(), fileOrName) != plans.end()) {
+    const std::string file = (fs::path(resourceFolder()) / "plans" / (fileOrName + ".json")).string();
+    return openExperimentText(readTextFile(file), file);  // which refuses a plan
+  }
   const std::string nearest = nearestName(fileOrName, names);
   throw FaultError(Fault{
       fileOrName, "is neither a file nor a shipped experiment" + (nearest.empty() ? std::string() : "; did you mean " + nearest + "?"),
