@@ -43,7 +43,6 @@ int runSession(const session::SessionRequest& request) {
   const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
   session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice, nullptr, instruments.get());
   printNotice(session.notice());
-  if (session.notice().seedDrawn) fmt::print("seed={}\n", session.seed());
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
   SuccessTable table;
@@ -53,7 +52,10 @@ int runSession(const session::SessionRequest& request) {
     fmt::print("rest: {:g} s before the block {}\n", next.restSeconds, next.configuration.condition);
     std::fflush(stdout);
   };
+  bool seedTold = !session.notice().seedDrawn;
   words.opened = [&](const session::RecordedRun& run) {
+    if (!seedTold) fmt::print("seed={}\n", session.seed());
+    seedTold = true;
     printRun(run);
     if (!run.instructions().empty()) fmt::print("{}\n", run.instructions());
     stop.emplace();  // from here on a signal ends the trial, not the program
