@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/fault.h"
+#include "base/names.h"
 #include "base/seeded.h"
 #include "devices/hands/several_hands.h"
 #include "devices/options.h"
@@ -49,10 +50,20 @@ Spec sampled(const Spec& asked) {
 std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                 std::uint64_t seed, bool first) {
   const Spec asked = parse(spec);
-  if (const DeviceDriver* driver = findDriver(asked.name)) return makeBy(*driver, first ? asked : sampled(asked), experiment, seed);
-  std::string known;
-  for (const DeviceDriver& driver : deviceDrivers()) known += (known.empty() ? "" : ", ") + driver.usage;
-  throw FaultError(Fault{"device", "is " + spec + ", which is unknown", known});
+  if (const DeviceDriver* driver = findDriver(asked.name)) {
+    const std::string words = "device " + asked.name;
+    try {
+      return makeBy(*driver, first ? asked : sampled(asked), experiment, seed);
+    } catch (const ResourceError& error) {  // a loader's or a system's own words do not say what was asked for
+      if (std::string_view(error.what()).starts_with(words)) throw;
+      throw ResourceError(words + ": " + error.what());
+    }
+  }
+  std::vector<std::string> known;
+  for (const DeviceDriver& driver : deviceDrivers()) known.push_back(driver.name);
+  const std::string nearest = nearestName(asked.name, known);
+  throw FaultError(
+      Fault{"device", "is " + spec + ", which is unknown" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"), listOf(known)});
 }
 
 // Before anything is opened: two threads would tell one device two forces.

@@ -103,7 +103,9 @@ std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request)
   DeviceOptions options(request.argument, request.words());
   const DeviceModel* model = findDeviceModel(options.plain());
   if (model == nullptr)
-    throw FaultError(Fault{"device", "is " + request.words(), fmt::format("virtual:MODEL with MODEL one of {}", modelNames())});
+    throw FaultError(
+        Fault{"device", options.plain().empty() ? "is virtual, without a model" : "is virtual:" + options.plain() + ", which is no model",
+              fmt::format("virtual:MODEL with MODEL one of {}", modelNames())});
   VirtualDevice::Options chosen;
   chosen.hand.mass = options.number("arm-mass", chosen.hand.mass, 0, 50);
   chosen.hand.stiffness = options.number("arm-stiffness", chosen.hand.stiffness, 0, 1e5);

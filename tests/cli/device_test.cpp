@@ -52,7 +52,7 @@ TEST(Devices, ADeviceThatCannotBeHadIsExitThreeWithItsNameAndTheLoadersWords) {
   const Folder folder;
   const Ended run = reach("run chain-slow --device phantom --data " + folder.string(), "LD_LIBRARY_PATH=");
   EXPECT_EQ(run.exitCode, 3);
-  EXPECT_NE(run.err.find("libHD.so"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("device phantom: libHD.so"), std::string::npos) << run.err;
   const Ended none = reach("run chain-slow --device phantom:Nowhere --data " + folder.string(), kFakes);
   EXPECT_EQ(none.exitCode, 3);
   EXPECT_NE(none.err.find("phantom:Nowhere"), std::string::npos) << none.err;
