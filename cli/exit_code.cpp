@@ -27,7 +27,10 @@ std::string missing(const CLI::App& app) {
       return command.get_name() + ": " + option->get_name() + " is missing: " + option->get_description();
   std::string words;
   for (const CLI::App* word : command.get_subcommands({})) words += (words.empty() ? "" : ", ") + word->get_name();
-  return (&command == &app ? std::string() : command.get_name() + ": ") + "a command is missing: " + words + "; --help tells what they do";
+  const std::vector<std::string> given = app.remaining(true);
+  const std::string what =
+      given.empty() || given.front().starts_with('-') ? "a command is missing: " : given.front() + " is not a command; commands are ";
+  return (&command == &app ? std::string() : command.get_name() + ": ") + what + words + "; --help tells what they do";
 }
 
 /// "; --sede: did you mean --seed?" for the first word that no command knows; empty when nothing is near.
@@ -56,6 +59,11 @@ int exitCodeOf(CLI::App& app, const std::function<int()>& work) {
     return app.exit(e);
   } catch (const CLI::RequiredError&) {
     std::fprintf(stderr, "reach: %s%s\n", missing(app).c_str(), proposal(app).c_str());
+    return 2;
+  } catch (const CLI::ExtrasError&) {
+    std::string words;
+    for (const std::string& word : app.remaining(true)) words += (words.empty() ? "" : " ") + word;
+    std::fprintf(stderr, "reach: not known here: %s%s\n", words.c_str(), proposal(app).c_str());
     return 2;
   } catch (const CLI::ParseError& e) {
     std::fprintf(stderr, "reach: %s%s\n", e.what(), proposal(app).c_str());

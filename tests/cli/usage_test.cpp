@@ -41,17 +41,25 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
   for (const Mistake& m :
        {Mistake{"run dingwell --devise simulated", "did you mean --device?"},
         Mistake{"run dingwell --device simulated --tirals=3", "did you mean --trials?"},
-        Mistake{"simulat dingwell", "did you mean simulate?"},
-        Mistake{"", "a command is missing: list, validate, run"},
+        Mistake{"run dingwell --device simulated --trial 3", "reach: not known here: --trial 3; --trial: did you mean --trials?"},
+        Mistake{"simulat dingwell", "reach: simulat is not a command; commands are list"},
+        Mistake{"simulat dingwell", "did you mean simulate?"}, Mistake{"", "a command is missing: list, validate, run"},
         Mistake{"constraint", "constraint: a command is missing: list, show"},
         Mistake{"list", "list: what is missing: experiments, plans, constraints"},
         Mistake{"run dingwell", "run: --device is missing: simulated"},
+        Mistake{"predict paper --criterion min-hand-jerk", "paper.json: is a session plan, and an experiment is needed here"},
+        Mistake{"run dingwell --device phantm",
+                "--device: is phantm, which is unknown; did you mean phantom?; allowed: simulated, partner, replay"},
+        Mistake{"run dingwell --device virtual:omi",
+                "--device: is virtual:omi, which is no model; allowed: virtual:MODEL with MODEL one of omni"},
+        Mistake{"run dingwell --device polhem:/dev/none", "device polhem:/dev/none: /dev/none: No such file", 3},
         Mistake{"predict chain-slow --criterion 1", "(1) min-hand-jerk, (2) min-torque-change"},
         Mistake{"constraint check " + experiment, "is an experiment file, no constraint definition; `reach validate` checks it"},
         Mistake{"run dingwell --device simulated --fast --seed 1 --data " + table + "/data", "--data: ", 3}}) {
     const Ended ended = reach(m.arguments);
     EXPECT_EQ(ended.exitCode, m.exitCode) << m.arguments;
     EXPECT_NE(ended.err.find(m.answer), std::string::npos) << m.arguments << "\n" << ended.err;
+    EXPECT_EQ(ended.out, "") << m.arguments << ": nothing was begun";
   }
 }
 
