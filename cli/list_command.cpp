@@ -108,9 +108,9 @@ std::string describeDevice(const Json& row) {
   const std::string what = row["description"];
   if (!row["present"]) return fmt::format("{}: not there: {}", what, row["why_not"].get<std::string>());
   if (!row["max_force_n"].is_number() || row["max_force_n"] == 0) return what;
-  const std::string forever =
-      row["continuous_force_n"].is_number() ? fmt::format(", {} N for ever", row["continuous_force_n"].get<double>()) : "";
-  return fmt::format("{} ({} N{})", what, row["max_force_n"].get<double>(), forever);
+  const std::string continuous =
+      row["continuous_force_n"].is_number() ? fmt::format(", {} N continuously", row["continuous_force_n"].get<double>()) : "";
+  return fmt::format("{} ({} N{})", what, row["max_force_n"].get<double>(), continuous);
 }
 
 }  // namespace
