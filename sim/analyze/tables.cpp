@@ -289,7 +289,8 @@ void successTableText(const StudyResult& study, const TableWriter& write) {
   for (const SuccessCell& cell : study.success) {
     table.cell(cell.subject).whole(cell.day).cell(study.conditions[cell.condition].name);
     count(table, cell.successes);
-    count(table, cell.trials).number(100.0 * cell.share()).number(100 * cell.interval.low).number(100 * cell.interval.high);
+    count(table, cell.trials).number(100.0 * static_cast<double>(cell.successes) / static_cast<double>(cell.trials));
+    table.number(100 * cell.interval.low).number(100 * cell.interval.high);
     sheet.endRow();
   }
   sheet.flush();
