@@ -413,8 +413,8 @@ MinimumEnergyMotion solveMinimumEnergy(const ControlProblem& system, double dura
   const SparseRows a(system);
   if (const double fastest = a.norm(); !(fastest * duration <= kFastestTimesDuration))
     throw RefusedError(
-        fmt::format("the object's fastest rate, {:.3g} 1/s, is too stiff for a movement of {:.4g} s: less damping or "
-                    "heavier masses",
+        fmt::format("the object's fastest rate, {:.3g} 1/s, is too stiff for a movement of {:.4g} s: less damping, "
+                    "heavier masses or a shorter time",
                     fastest, duration));
   if (std::optional<MinimumEnergyMotion> motion = solveIn<double>(system, a, duration)) return *std::move(motion);
   return *solveIn<DoubleDouble>(system, a, duration);
