@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstring>
 
 #include "base/error.h"
 
@@ -70,6 +71,28 @@ TEST(C3dFile, ReadsScaledIntegers) {
   EXPECT_FLOAT_EQ(back.places[1], -2.0f);
   EXPECT_FLOAT_EQ(back.places[2], 3000.0f);
   EXPECT_EQ(back.seen, (std::vector<char>{1, 0, 1}));
+}
+
+// A number may be a byte, a word or a float; other systems choose differently.
+TEST(C3dFile, ReadsNumbersOfEveryWidth) {
+  const std::string good = c3dBytes(made(2, 1, 4));
+  const std::size_t rate = good.find("RATE") + 4 + 2;  // type, rank, four bytes, no description
+  ASSERT_EQ(good[rate], 4);
+  for (const auto& [type, size] : {std::pair{2, 2}, {1, 1}}) {
+    std::string bytes = good;
+    bytes[rate] = static_cast<char>(type);
+    bytes[rate + 2] = 100, bytes[rate + 3] = 0;
+    EXPECT_EQ(readC3d(bytes, "made.c3d").rate, 100) << size << " bytes";
+  }
+}
+
+// What other programs need to turn what is stored into volts: a common scale, and a scale and an offset a channel.
+TEST(C3dFile, SaysHowItsSignalsAreScaled) {
+  const std::string bytes = c3dBytes(made(1, 300, 2));
+  for (const char* name : {"GEN_SCALE", "SCALE", "SCALE2", "OFFSET", "OFFSET2"}) {
+    const std::string record = std::string(1, static_cast<char>(std::strlen(name))) + '\x02' + name;  // of the second group
+    EXPECT_NE(bytes.find(record), std::string::npos) << name;
+  }
 }
 
 // Two frames of one point by a processor that has its bytes in another order; no parameters, so that the header alone says how they are.
