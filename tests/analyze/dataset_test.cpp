@@ -142,6 +142,13 @@ TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {
   EXPECT_NE(mixed.notes[0].find("(replay, simulated)"), std::string::npos) << mixed.notes[0];
 }
 
+TEST(FileName, OfAConditionHasLettersNumbersAndSingleHyphens) {
+  EXPECT_EQ(fileNameOf("slow, light"), "slow-light");
+  EXPECT_EQ(fileNameOf("Pace 2 -- (far)"), "Pace-2-far");
+  EXPECT_EQ(fileNameOf(" /../x"), "x");
+  EXPECT_EQ(fileNameOf("???"), "condition");
+}
+
 TEST(Dataset, ThatIsNoneIsRefusedInOneSentence) {
   const TemporaryFolder folder;
   EXPECT_THROW(openDataset(folder.path()), FaultError);

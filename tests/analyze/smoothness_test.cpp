@@ -70,6 +70,12 @@ TEST(Smoothness, IsNotANumberWhereItIsNotDefined) {
   EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>(50, 0.0), 100)));
 }
 
+TEST(CountPeaks, NeedsThreeSamplesAndNoMore) {
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1, 0}), 1u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1}), 0u);
+  EXPECT_EQ(countPeaks(std::vector<double>{}), 0u);
+}
+
 TEST(CountPeaks, IgnoresRipplesBelowTheProminence) {
   std::vector<double> v = minimumJerk(1, 100);
   EXPECT_EQ(countPeaks(v), 1u);
