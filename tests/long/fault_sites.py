@@ -215,6 +215,8 @@ def write(text, bare, begin, end, sites):
 
 
 def may_compute_both(bare, region, site):
+    if site.new == "/":  # of whole numbers, by 0: ends the program though the fault is not in force
+        return False
     if site.kind not in ("comparison", "sign") or site.new.endswith("=") and site.new not in ("<=", ">=", "==", "!="):
         return False
     code = CALLS_WITHOUT_EFFECT.sub("", bare[region[0]:region[1]])
