@@ -168,7 +168,7 @@ Json jsonOf(const analyze::StudyResult& study, const analyze::Effect& e) {
 
 std::string summaryJson(const analyze::StudyResult& study, const analyze::DatasetIndex& dataset, const analyze::AnalysisFiles& files,
                         const std::optional<analyze::Recovery>& recovery) {
-  Json j;
+  Json j = Json::object();
   j["report"] = files.report;
   j["tables"] = files.tables;
   j["figures"] = files.figures;

@@ -29,7 +29,7 @@ const char* nameOf(AtEnd atEnd) { return atEnd == AtEnd::Bounce ? "bounce" : "st
 
 std::string toJson(const Definition& d) {
   const bool curve = d.kind == ConstraintKind::Curve;
-  Json j;
+  Json j = Json::object();
   j["schema_version"] = 1;
   j["name"] = d.name;
   j["kind"] = curve ? "curve" : "surface";

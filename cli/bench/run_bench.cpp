@@ -42,7 +42,7 @@ void writeFile(const std::string& path, const std::string& text) {
 std::string toJson(const std::vector<bench::Row>& rows) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const bench::Row& row : rows) {
-    nlohmann::ordered_json o;
+    nlohmann::ordered_json o = nlohmann::ordered_json::object();
     o["scene"] = row.scene;
     o["method"] = row.method;
     o["step_s"] = row.step;

@@ -23,7 +23,7 @@ const char* nameOf(ObjectKind kind) {
 Json toArray(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json constraintJson(const constraints::ConstraintSpec& spec) {
-  Json json;
+  Json json = Json::object();
   if (!spec.curve.empty()) {
     json["curve"] = spec.curve;
   } else if (!spec.surface.empty()) {
@@ -36,7 +36,7 @@ Json constraintJson(const constraints::ConstraintSpec& spec) {
 }
 
 Json objectJson(const Object& object) {
-  Json json;
+  Json json = Json::object();
   json["kind"] = nameOf(object.kind);
   json["masses_kg"] = object.masses;
   json["stiffness_n_per_m"] = object.stiffness;
@@ -51,7 +51,7 @@ Json objectJson(const Object& object) {
 }
 
 Json handJson(const Hand& hand, bool body) {
-  Json json;
+  Json json = Json::object();
   if (hand.mass > 0) {
     json["mass"] = hand.mass;
     json["stiffness_n_per_m"] = hand.stiffness.at(0);
@@ -80,13 +80,14 @@ Json taskJson(const Task& task) {
 }  // namespace
 
 std::string toJson(const Experiment& experiment) {
-  Json json;
+  Json json = Json::object();
   json["schema_version"] = experiment.schemaVersion;
   json["name"] = experiment.name;
   json["constraint"] = constraintJson(experiment.constraint);
   json["object"] = objectJson(experiment.object);
   if (experiment.coupling)
     json["coupling"] = {{"stiffness_n_per_m", experiment.coupling->stiffness}, {"damping_n_s_per_m", experiment.coupling->damping}};
+  if (!experiment.hands.empty()) json["hands"] = Json::array();
   for (const Hand& hand : experiment.hands) json["hands"].push_back(handJson(hand, experiment.object.kind == ObjectKind::Body));
   if (experiment.task) json["task"] = taskJson(*experiment.task);
   json["method"] = experiment.method;

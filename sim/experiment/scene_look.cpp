@@ -59,6 +59,7 @@ Json lookJson(const SceneLook& look) {
   Json json = {{"surface_opacity", look.surfaceOpacity}, {"depth_cue", look.depthCue}, {"trace", look.trace}, {"force_arrow", look.forceArrow}};
   if (!look.sceneFile.empty()) json["scene_file"] = look.sceneFile;
   if (!look.colours.empty()) json["colours"] = look.colours;
+  if (!look.cameras.empty()) json["cameras"] = Json::array();
   for (const NamedCamera& camera : look.cameras)
     json["cameras"].push_back({{"name", camera.name},
                                {"position_m", array(camera.position)},

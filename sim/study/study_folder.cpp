@@ -28,7 +28,7 @@ std::string designPath(const std::string& folder) { return folder + "/study.json
 // All that the design was made of, so that it is the same wherever the folder is taken.
 std::string textOf(const StudyFolder& folder) {
   const Design& design = folder.design;
-  Json json;
+  Json json = Json::object();
   json["schema_version"] = 1;
   json["program"] = "reachlab " REACHLAB_VERSION;
   json["fingerprint"] = fmt::format("{:016x}", folder.fingerprint);
