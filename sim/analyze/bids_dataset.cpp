@@ -148,6 +148,10 @@ RunSource readRun(const fs::path& motion) {
   const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
   const auto has = [&](const char* key) { return std::find(events.columns.begin(), events.columns.end(), key) != events.columns.end(); };
   const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
+  // Asked for before the first row too: what is no table of events at all would else be a run of no trials.
+  for (const char* key : {"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by",
+                          "movement_time", "go", "peak_force"})
+    column(key);
   // Events count from the first row, as BIDS asks; those written before arming was a column count from the run's own clock.
   run.armedFromRows = !has("armed");
   const double begin = run.armedFromRows || rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());

@@ -131,6 +131,21 @@ TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
   EXPECT_EQ(tables[0], tables[1]);
 }
 
+TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
+  const TemporaryFolder folder;
+  std::vector<record::RunLog> runs;
+  runs.push_back(record::RunLog::open(recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2})));
+  record::writeBids(runs, folder.path());
+  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  ASSERT_EQ(analyzeStudy(openDataset(folder.path()).input, quick()).trials.size(), 2u);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+    if (entry.path().filename().string().ends_with("_events.tsv"))
+      for (const std::string& text : {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
+        std::ofstream(entry.path(), std::ios::binary) << text;
+        EXPECT_THROW(analyzeStudy(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
+      }
+}
+
 TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
