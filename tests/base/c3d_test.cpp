@@ -84,6 +84,10 @@ TEST(C3dFile, ReadsNumbersOfEveryWidth) {
     bytes[rate + 2] = 100, bytes[rate + 3] = 0;
     EXPECT_EQ(readC3d(bytes, "made.c3d").rate, 100) << size << " bytes";
   }
+  std::string bytes = good;
+  const auto bits = std::bit_cast<std::uint32_t>(125.0f);
+  for (std::size_t k = 0; k < 4; ++k) bytes[rate + 2 + k] = static_cast<char>(bits >> (8 * k));
+  EXPECT_EQ(readC3d(bytes, "made.c3d").rate, 125) << "not the header's";
 }
 
 // What other programs need to turn what is stored into volts: a common scale, and a scale and an offset a channel.
