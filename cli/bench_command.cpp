@@ -9,7 +9,7 @@
 
 #include "cli/bench/bench_options.h"
 #include "cli/commands.h"
-#include "cli/helper_program.h"
+#include "base/helper_program.h"
 #include "base/error.h"
 
 namespace reachlab::cli {
@@ -33,7 +33,7 @@ void addBenchCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("bench", kBenchSummary);
   addBenchOptions(*command, *options);
   command->callback([options, command] {
-    const std::string program = findHelperProgram(kBenchProgram, "bench", "the program that measures");
+    const std::string program = findHelperProgram(kBenchProgram, "reach bench", "the program that measures");
     std::vector<std::string> words = wordsOf(*command);
     std::vector<char*> arguments{const_cast<char*>(program.c_str())};
     for (std::string& word : words) arguments.push_back(word.data());

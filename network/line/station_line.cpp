@@ -34,8 +34,6 @@ constexpr double kMostJump = 0.005;                 // [s] of a clock against ou
 constexpr std::int64_t kSettledNs = 1'000'000'000;  // until then the fastest exchange is still looked for
 constexpr std::int64_t kJumpNs = 1'000'000'000;     // for so long a jump stands in the way
 
-std::string textOf(const char* text) { return text; }
-
 template <std::size_t N>
 void put(const std::string& from, std::array<char, N>& to, const char* key) {
   if (from.size() >= N) throw FaultError(Fault{key, fmt::format("is {} characters long", from.size()), fmt::format("up to {}", N - 1)});
@@ -203,37 +201,63 @@ std::vector<std::string> StationLine::obstacles() const {
   std::vector<std::string> found;
   if (const std::string fault = endpointFault(); !fault.empty()) found.push_back(fault);
   else if (!endpointAlive()) found.push_back("this station's endpoint has not done a round for a second");
-  const std::int64_t now = os::now();
-  for (int i = 0; i < options_.stations; ++i) {
-    if (i + 1 == options_.station) continue;
-    const auto index = static_cast<std::size_t>(i);
-    const StationCard& card = cards_[index];
-    const LineStatus& line = memory_->status[index];
-    const auto say = [&](const std::string& what) { found.push_back(fmt::format("station {}: {}", i + 1, what)); };
-    if (cardNs_[index] == 0 || now - cardNs_[index] > kPresentNs) {
-      say("is not there");
-      continue;
-    }
-    if (card.version != LineMemory::kVersion)
-      say(fmt::format("speaks version {} of the messages, and this one {}", card.version, LineMemory::kVersion));
-    if (options_.software != card.software.data())
-      say(fmt::format("runs {}, and this one {}", textOf(card.software.data()), options_.software));
-    if (card.experiment != experiment_) say(fmt::format("has another experiment ({:016x}, here {:016x})", card.experiment, experiment_));
-    if (card.conductor && options_.conductor) say("is a conductor too");
-    if (now - line.heardNs.load() > kHeardNs || line.roundTrip.load() < 0) {
-      say("sends nothing");
-      continue;
-    }
-    if (line.roundTrip.load() > kMostRoundTrip)
-      say(fmt::format("a round trip takes {:.0f} ms; allowed: up to {:.0f}", 1e3 * line.roundTrip.load(), 1e3 * kMostRoundTrip));
-    // Overtaken samples are dropped by design, so their share says nothing; how long nothing comes does.
-    if (line.gap.load() > kMostGap)
-      say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * line.gap.load(), 1e3 * kMostGap));
-    if (offsets_[index].jumpNs != 0 && now - offsets_[index].jumpNs < kJumpNs)
-      say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump,
-                      1e3 * kMostJump));
-  }
+  for (const StationStanding& other : standings())
+    for (const std::string& what : other.obstacles) found.push_back(fmt::format("station {}: {}", other.station, what));
   return found;
+}
+
+std::vector<StationStanding> StationLine::standings() const {
+  std::vector<StationStanding> all;
+  for (int station = 1; station <= options_.stations; ++station)
+    if (station != options_.station) all.push_back(standingOf(station));
+  return all;
+}
+
+StationStanding StationLine::standingOf(int station) const {
+  using Light = StationStanding::Light;
+  const std::int64_t now = os::now();
+  const auto index = static_cast<std::size_t>(station - 1);
+  const StationCard& card = cards_[index];
+  const LineStatus& line = memory_->status[index];
+  StationStanding s;
+  s.station = station;
+  if (cardNs_[index] != 0)
+    s.name = card.name.data(), s.software = card.software.data(), s.device = card.device.data(), s.conductor = card.conductor;
+  if (cardNs_[index] == 0 || now - cardNs_[index] > kPresentNs) {
+    s.obstacles.push_back("is not there");
+    return s;
+  }
+  const auto say = [&](const std::string& what) { s.obstacles.push_back(what); };
+  if (card.version != LineMemory::kVersion)
+    say(fmt::format("speaks version {} of the messages, and this one {}", card.version, LineMemory::kVersion));
+  if (options_.software != s.software) say(fmt::format("runs {}, and this one {}", s.software, options_.software));
+  if (card.experiment != experiment_) say(fmt::format("has another experiment ({:016x}, here {:016x})", card.experiment, experiment_));
+  if (card.conductor && options_.conductor) say("is a conductor too");
+  s.roundTrip = line.roundTrip.load(), s.jitter = line.jitter.load(), s.loss = line.loss.load(), s.offset = line.offset.load();
+  const std::int64_t silentNs = now - line.heardNs.load();
+  const double gap = line.gap.load();
+  s.heard = silentNs <= kHeardNs && s.roundTrip >= 0;
+  s.age = static_cast<double>(silentNs) * 1e-9;
+  if (!s.heard) {
+    say("sends nothing");
+    s.light = Light::Stop;
+    return s;
+  }
+  if (s.roundTrip > kMostRoundTrip)
+    say(fmt::format("a round trip takes {:.0f} ms; allowed: up to {:.0f}", 1e3 * s.roundTrip, 1e3 * kMostRoundTrip));
+  // Overtaken samples are dropped by design, so their share says nothing; how long nothing comes does.
+  if (gap > kMostGap) say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * gap, 1e3 * kMostGap));
+  if (offsets_[index].jumpNs != 0 && now - offsets_[index].jumpNs < kJumpNs)
+    say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump, 1e3 * kMostJump));
+  s.light = !s.obstacles.empty()                                             ? Light::Stop
+            : s.roundTrip > 0.5 * kMostRoundTrip || gap > 0.5 * kMostGap ? Light::Fair
+                                                                             : Light::Good;
+  return s;
+}
+
+std::optional<bool> StationLine::isConductor(std::uint32_t station) const {
+  if (station < 1 || station > kMaxStations || cardNs_[station - 1] == 0) return std::nullopt;
+  return cards_[station - 1].conductor;
 }
 
 std::string StationLine::describe() const {
@@ -285,15 +309,19 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
   copy_.beginTick(next);
   HeardState heard;
   int peer = 0;
+  bool came = false;
   for (int station = 0; station < kMaxStations && peer < copy_.peerCount(); ++station) {
     if (station == own_) continue;
     while (memory_.in[static_cast<std::size_t>(station)].tryPop(heard)) {
+      seen_.place[static_cast<std::size_t>(station)] = heard.sample.hand;
+      seen_.known[static_cast<std::size_t>(station)] = came = true;
       if (heard.trial != trial || trial < 1) continue;
       copy_.take(peer, heard.sample, heard.roundTrip);
       if (!given_->tryPush({state.tick, peer, heard.roundTrip, heard.sample})) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
     }
     ++peer;
   }
+  if (came) hands_.publish(seen_);
   OwnState own;
   own.timeNs = state.measuredNs;
   own.trial = trial;

@@ -1,9 +1,11 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/triple_buffer.h"
 #include "network/line/line_memory.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_sink.h"
@@ -23,6 +25,21 @@ struct StationOptions {
   std::string interface;           // of the network; empty: the system's choice
   std::vector<std::string> peers;  // addresses beyond one network; then no multicast
   int domain = 0;                  // stations of one domain hear each other
+};
+
+/// How another station stands to this one.
+struct StationStanding {
+  enum class Light { Absent, Stop, Fair, Good };  // Fair: more than half of what is allowed
+  int station = 0;                                // from 1
+  Light light = Light::Absent;
+  bool conductor = false;
+  std::string name, software, device;  // empty: never heard of
+  bool heard = false;                  // it sends, and what follows is known
+  double roundTrip = 0, jitter = 0;    // [s]
+  double loss = 0;                     // share of a second's samples
+  double offset = 0;                   // [s] its clock less ours
+  double age = 0;                      // [s] since its newest sample came
+  std::vector<std::string> obstacles;  // why no trial may be armed with it, with the numbers
 };
 
 /// What must be equal at all stations, as a number: the experiment without its file's text.
@@ -54,8 +71,14 @@ class StationLine {
   std::vector<std::string> obstacles() const;
   /// One line a station: name, device, round trip, jitter, loss, offset.
   std::string describe() const;
+  /// Every other station, as it stands now.
+  std::vector<StationStanding> standings() const;
+  /// Whether that station, from 1, says that it conducts; nullopt while it has not said who it is.
+  std::optional<bool> isConductor(std::uint32_t station) const;
 
  private:
+  StationStanding standingOf(int station) const;
+
   StationOptions options_;
   std::uint64_t experiment_;
   std::string memoryName_;
@@ -79,6 +102,12 @@ struct GivenSample {
   CopySample sample;
 };
 
+/// Where the other stations' hands were by their newest samples.
+struct OtherHands {
+  std::array<Vec3, kMaxStations> place{};  // [m] by station, from 0
+  std::array<bool, kMaxStations> known{};
+};
+
 /// Between the haptic thread and the rings: sends this station's state every tick, and hands what came to the copy before the next. It allocates
 /// nothing and waits for nothing.
 class StationSink final : public haptics::RunSink {
@@ -95,6 +124,9 @@ class StationSink final : public haptics::RunSink {
   /// Controlling thread, now and then: what was given since, as the payload of a record; empty: nothing. Only `places` coordinates are kept.
   /// The first says whose log it is, be anything given or not.
   std::vector<std::uint8_t> takeGiven();
+
+  /// Controlling thread: the other hands as they are now, in a trial or not; null: nothing has come since.
+  const OtherHands* takeOtherHands() noexcept { return hands_.takeLatest(); }
 
   /// Controlling thread, before a trial is put up: what the stations count more than this engine, which may have come later.
   void countTrialsFrom(std::int32_t before) noexcept { trialsBefore_.store(before, std::memory_order_release); }
@@ -125,6 +157,8 @@ class StationSink final : public haptics::RunSink {
   std::uint64_t repeatedBefore_ = 0;
   std::atomic<std::int32_t> trialsBefore_{0};
   bool said_ = false;  // whose log it is
+  OtherHands seen_;    // the haptic thread's
+  TripleBuffer<OtherHands> hands_;
 };
 
 /// True for the log of a station: it has fewer hands than its experiment.

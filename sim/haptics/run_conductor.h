@@ -53,6 +53,7 @@ class RunConductor {
   /// Takes the last trial off again that was appended and is still to come. False when there is none.
   bool takeBackAppended();
   std::size_t trialsLeft() const { return trials_.size() - next_; }
+  const trial::PlannedTrial* nextPlanned() const { return next_ < trials_.size() ? &trials_[next_] : nullptr; }
   bool underWay() const { return underWay_; }
 
   /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Does not wait for the trial,

@@ -149,8 +149,7 @@ void RecordedRun::repeatIfAborted(const haptics::ConductedTrial& trial) {
 
 void RecordedRun::start() {
   if (std::exchange(started_, true)) return;
-  std::vector<haptics::RunSink*> watchers;
-  if (options_.watcher != nullptr) watchers.push_back(options_.watcher);
+  std::vector<haptics::RunSink*> watchers = options_.watchers;
   if (options_.instruments != nullptr) {
     options_.instruments->begin(block_.configuration);
     watchers.push_back(options_.instruments);

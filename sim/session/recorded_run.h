@@ -28,7 +28,7 @@ struct RecordedRunOptions {
   std::shared_ptr<haptics::LoopClock> clock;  // LoopOptions::clock
   /// Makes the engine where it is none of one experiment on its own (a station's copy); empty: the experiment's.
   std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
-  haptics::RunSink* watcher = nullptr;        // sees every tick as well (a plot), may lose them, outlives the run
+  std::vector<haptics::RunSink*> watchers;    // see every tick as well (a plot), may lose them, outlive the run
   record::InstrumentLink* instruments = nullptr;  // beside the haptic device; outlive the run
 };
 
@@ -81,6 +81,8 @@ class RecordedRun {
 
   bool underWay() const { return awaited_ || conductor_->underWay(); }
   std::size_t trialsLeft() const { return conductor_->trialsLeft(); }
+  /// What `putUpNext` would put up; null when nothing is left.
+  const trial::PlannedTrial* nextPlanned() const { return conductor_->nextPlanned(); }
   std::size_t trialCount() const { return trialCount_; }  // with repeats
   const haptics::TickState& latest() const { return conductor_->latest(); }
   haptics::LoopReport report() const { return conductor_->report(); }

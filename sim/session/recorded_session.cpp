@@ -47,7 +47,7 @@ bool RecordedSession::openNext() {
   options.virtualClock = request_.fast;
   options.diskReserve = request_.diskReserve;
   options.timingCheckSeconds = request_.timingCheckSeconds;
-  options.watcher = watcher_;
+  if (watcher_ != nullptr) options.watchers.push_back(watcher_);
   options.instruments = instruments_;
   run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.experiment, block.configuration.seed), options);
   blocks_.pop_front();

@@ -230,7 +230,7 @@ TEST_F(Recorded, ATrialIsRepeatedByHandUnderItsOwnIndex) {
 TEST_F(Recorded, WhoWatchesSeesEveryTickAndCannotLoseOneForTheRecord) {
   MemorySink watcher(500);  // soon full
   RecordedRunOptions watched = options();
-  watched.watcher = &watcher;
+  watched.watchers = {&watcher};
   RecordedRun run(block(), goodHand(), watched);
   while (run.runTrial(kNeverStop)) {}
   run.finish();
@@ -334,7 +334,7 @@ class InRealTime : public Recorded {
   RecordedRunOptions options(const std::shared_ptr<Stalls>& stalls, double checkSeconds = 0) const {
     RecordedRunOptions options = Recorded::options();
     options.clock = stalls;
-    options.watcher = stalls.get();
+    options.watchers = {stalls.get()};
     options.timingCheckSeconds = checkSeconds;
     return options;
   }

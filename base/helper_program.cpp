@@ -1,0 +1,24 @@
+#include "base/helper_program.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "base/error.h"
+
+namespace reachlab {
+namespace fs = std::filesystem;
+
+std::string findHelperProgram(const std::string& name, const std::string& program, const std::string& what) {
+  std::error_code error;
+  const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const std::vector<fs::path> places{own / name, own / REACHLAB_LIBEXEC_FROM_BIN / name, own.parent_path() / "cli" / name};
+  for (const fs::path& place : places)
+    if (access(place.c_str(), X_OK) == 0) return place.string();
+  throw ResourceError(fmt::format("{}: {}, {}, is neither {} nor {}; install Reachlab whole, or build it: cmake --build BUILD --target {}", program,
+                                  name, what, places[0].lexically_normal().string(), places[1].lexically_normal().string(), name));
+}
+
+}  // namespace reachlab

@@ -1,0 +1,45 @@
+#include "network/station/station_options.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "base/fault.h"
+#include "base/helper_program.h"
+
+namespace reachlab::network {
+namespace {
+
+std::string hostName() {
+  char name[65] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "station";
+}
+
+}  // namespace
+
+void addStationOptions(CLI::App& command, StationSetup& setup) {
+  StationOptions& line = setup.line;
+  command.add_flag("--conductor", line.conductor, "Arms the trials and judges them for all; one station");
+  auto* peers = command.add_option("--peers", line.secure, "Folder of this station's certificates (reach peers)");
+  command.add_flag("--insecure", setup.insecure, "Without certificates and encryption: on a network of one's own")->excludes(peers);
+  command.add_option("--name", line.name, "Name that the others see [the computer's]");
+  command.add_option("--interface", line.interface, "Network interface [the system's choice]");
+  command.add_option("--peer", line.peers, "Address of another station beyond this network; several times. No multicast then")
+      ->allow_extra_args(false);
+  command.add_option("--domain", line.domain, "Stations of one domain hear each other")->check(CLI::Range(0, 230))->capture_default_str();
+  command.add_option("--wait", setup.wait, "Seconds to wait for the others")->check(CLI::Range(1.0, 86400.0))->capture_default_str();
+  command.add_option("--rate", setup.rate, "How often a second this station's state is sent; less where the line or the computer is slow")
+      ->check(CLI::IsMember({1000, 500, 250, 125}))
+      ->capture_default_str();
+}
+
+void completeStationSetup(StationSetup& setup, const std::string& device, const std::string& program) {
+  if (!setup.insecure && setup.line.secure.empty())
+    throw FaultError(Fault{"peers", "are not told", "--peers DIR with this station's certificates, or --insecure"});
+  if (setup.line.name.empty()) setup.line.name = hostName();
+  setup.line.device = device;
+  setup.line.software = "reachlab " REACHLAB_VERSION;
+  setup.line.endpoint = findHelperProgram("reachlab-endpoint", program, "the program that speaks to the network");
+}
+
+}  // namespace reachlab::network

@@ -1,0 +1,123 @@
+#pragma once
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "network/line/station_line.h"
+#include "sim/session/recorded_run.h"
+
+namespace reachlab::network {
+
+/// What is asked of a station, by whatever front end.
+struct StationSetup {
+  StationOptions line;
+  bool insecure = false;  // in so many words
+  double wait = 60;       // [s] for the other stations
+  int rate = 1000;        // [1/s] at which its state is sent
+};
+
+/// What has happened since the last look.
+struct StationNews {
+  std::vector<std::string> words;                // for the experimenter, a line each
+  bool begun = false;                            // a trial was put up
+  std::optional<haptics::ConductedTrial> ended;  // and is safe on the disk
+  std::string problem;                           // in vain: nobody came, nobody arms, the endpoint has ended. Again after another `wait`
+  bool finished = false;                         // no more trials: the conductor said so, or this one stopped
+};
+
+/// The trials of one station, from its first word to its last. The conductor arms trial after trial, when it is told to and every line is
+/// good; the others put up what it arms. Never waits; `poll` it often. Every call from one thread at a time.
+///
+///   StationRun station(setup, block.experiment);
+///   station.prepare(options);
+///   RecordedRun run(block, device, options);
+///   station.begin(run);
+///   for (…) { station.armNext(); station.poll() … }
+///   station.close();
+class StationRun {
+ public:
+  /// Starts the endpoint. Throws FaultError: an experiment without a hand for each station, or not for this one; ResourceError.
+  StationRun(const StationSetup& setup, const experiment::CompiledExperiment& experiment);
+  StationRun(const StationRun&) = delete;
+  StationRun& operator=(const StationRun&) = delete;
+
+  /// A run made with these has this station's copy for its engine, and its ticks go to the line.
+  void prepare(session::RecordedRunOptions& options);
+  /// The run that was made so; its loop begins, and with it the line. It is closed, or gone, before this is.
+  void begin(session::RecordedRun& run);
+  /// Of the hand here, from one seed for all of them.
+  std::uint64_t seedHere(std::uint64_t seed) const;
+
+  bool isConductor() const { return setup_.line.conductor; }
+  int station() const { return setup_.line.station; }
+  /// The conductor: the next trial, as soon as every line is good.
+  void armNext();
+  /// It is to be armed and has not been yet.
+  bool isArming() const { return stage_ == Stage::Lines || stage_ == Stage::Settling || stage_ == Stage::LinesAgain; }
+  /// The conductor is between two trials.
+  bool isIdle() const { return stage_ == Stage::Idle; }
+  /// Ends the trial under way, the conductor at every station; or no longer wants one to be armed.
+  void abort();
+  /// The same, and then no more trials.
+  void stop();
+
+  StationNews poll();
+  /// What came from the others is kept in the log; between two looks, where they are far apart.
+  void keep();
+
+  /// Ends the line and closes the run's log. What is to be said of the line, a line each. Idempotent.
+  std::string close();
+
+  StationLine& line() { return *line_; }
+  /// Where the other hands are, by station from 0; known once something came.
+  const OtherHands& otherHands() const { return others_; }
+  /// How this run's trial is going against the others; before `prepare`d run is made: null.
+  const StationSink* sink() const { return sink_.get(); }
+
+ private:
+  enum class Stage { Idle, Lines, Settling, LinesAgain, UnderWay, Others, Over };
+  /// The run asks for its watcher before the engine, and with it the sink, is made.
+  struct Watcher final : haptics::RunSink {
+    haptics::RunSink* sink = nullptr;
+    bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missed) noexcept override {
+      return sink->onTick(state, command, missed);
+    }
+    void announce(std::int32_t, const trial::PlannedTrial&) override {}
+    void awaitTrial(std::int32_t) override {}
+    void close() override {}
+  };
+
+  void awaitLines(StationNews& news);
+  void putUp(StationNews& news);
+  void lead(StationNews& news);
+  void follow(StationNews& news);
+  void tellEnd(const haptics::ConductedTrial& trial);
+  void tell(EventKind kind);
+  void takeEvents(StationNews& news);
+  bool obey(const LineEvent& event, StationNews& news);
+  void noteEnd(const LineEvent& event, StationNews& news);
+  std::string silentOnes() const;
+  void inVain(const std::string& what, StationNews& news);
+
+  StationSetup setup_;
+  int own_;  // from 0
+  std::unique_ptr<StationLine> line_;
+  std::unique_ptr<StationSink> sink_;
+  Watcher watcher_;
+  session::RecordedRun* run_ = nullptr;
+  OtherHands others_;
+  Stage stage_ = Stage::Idle;
+  double until_ = 0;   // [s] that this stage may take
+  double settled_ = 0;  // [s] when what was told before this station came is known to hold; 0: nothing was told
+  std::string said_;
+  std::deque<LineEvent> heard_;  // of stations that have not said yet who they are
+  std::int32_t armed_ = 0, armAsked_ = 0, putUp_ = 0, trialsBefore_ = 0;
+  trial::PlannedTrial planned_;
+  bool begun_ = false, finished_ = false, stopping_ = false, aborted_ = false, finishTold_ = false, closed_ = false;
+  std::array<std::int32_t, kMaxStations> endedTrial_{};
+};
+
+}  // namespace reachlab::network
