@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constraints/geometry/task_path.h"
+#include "gui/scene/hand_colours.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/scene_look.h"
 
@@ -41,6 +42,25 @@ bool isSideBySide(const experiment::Object& object, ViewOptions::SideBySide wish
   return wish == ViewOptions::SideBySide::Always || object.kind == experiment::ObjectKind::Parallel;
 }
 
+// What each hand holds.
+void planHands(const experiment::Experiment& experiment, int masses, ScenePlan& plan) {
+  const bool parallel = experiment.object.kind == experiment::ObjectKind::Parallel;
+  const auto toAll = [&](int hand) {
+    for (int i = 0; i < masses; ++i) plan.springs.push_back({-1, i, hand, false});
+  };
+  if (experiment.hands.empty()) {
+    if (parallel) toAll(0);
+    else if (experiment.coupling) plan.springs.push_back({-1, 0, 0, true});
+    return;
+  }
+  for (std::size_t hand = 0; hand < experiment.hands.size(); ++hand) {
+    plan.hands.push_back({widgets::themed(handColour(hand))});
+    const int mass = experiment.hands[hand].mass;
+    if (parallel && mass == 0) toAll(static_cast<int>(hand));
+    else plan.springs.push_back({-1, std::clamp(mass - 1, 0, masses - 1), static_cast<int>(hand), true});
+  }
+}
+
 void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
   const experiment::Object& object = experiment.object;
   const std::size_t count = object.masses.size();
@@ -62,11 +82,9 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
     for (std::size_t i = 0; i < count; ++i) plan.massShift[i] = ((static_cast<double>(i) - middle) * step) * across;
   }
   const int last = static_cast<int>(count);
-  if (object.kind == experiment::ObjectKind::Parallel)
-    for (int i = 0; i < last; ++i) plan.springs.push_back({-1, i, false});
-  else if (experiment.coupling) plan.springs.push_back({-1, 0, true});
+  planHands(experiment, last, plan);
   if (object.kind == experiment::ObjectKind::Chain)
-    for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, false});
+    for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, 0, false});
 }
 
 widgets::Colour* partNamed(PartColours& c, const std::string& name) {
@@ -157,6 +175,9 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
   planMasses(experiment, options.sideBySide, plan);
   plan.look = plannedLook(experiment);
+  plan.ownHand = std::clamp(options.ownHand, 0, std::max(static_cast<int>(plan.hands.size()) - 1, 0));
+  if (!plan.hands.empty() && !experiment::lookOf(experiment).colours.contains("hand"))
+    plan.look.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand)).colour;
   plan.box = box;
   plan.floor = box.low.y - 0.12 * plan.size;
   plan.seen = pointsSeen(plan);
@@ -178,12 +199,16 @@ SceneFrame restingFrame(const ScenePlan& plan) {
   SceneFrame frame;
   frame.hand = plan.start;
   frame.masses.assign(plan.massRadius.size(), plan.start);
+  for (int hand = 0; hand < static_cast<int>(plan.hands.size()); ++hand)
+    if (hand != plan.ownHand) frame.others.push_back({hand, plan.start});
   return frame;
 }
 
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
   frame.hand = state.hand.position;
   frame.handValid = state.hand.valid;
+  frame.others.clear();
+  for (int hand = 1; hand < state.handCount; ++hand) frame.others.push_back({hand, handOf(state, hand).hand.position});
   frame.force = state.feedbackForce;
   frame.trial = state.trial;
   frame.traced = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving;
@@ -195,6 +220,9 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
   const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
   if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || apart(from.hand, to.hand)) return true;
+  if (from.others.size() != to.others.size()) return true;
+  for (std::size_t i = 0; i < from.others.size(); ++i)
+    if (apart(from.others[i].place, to.others[i].place)) return true;
   for (std::size_t i = 0; i < from.masses.size(); ++i)
     if (apart(from.masses[i], to.masses[i])) return true;
   if (!(norm(from.force - to.force) <= 0.05)) return true;

@@ -15,7 +15,8 @@ namespace reachlab::gui::scene {
 enum class MassRole { Driven, Middle, Last };
 
 struct SpringPlan {
-  int from = -1, to = 0;  // masses from 0; -1: the hand
+  int from = -1, to = 0;  // masses from 0; -1: a hand
+  int hand = 0;           // which, from 0
   bool coupling = false;  // the coupling (8): drawn thinner than the object's own springs
 };
 
@@ -31,6 +32,11 @@ struct PlanLook {
   double surfaceOpacity = 0.42;
   bool grid = false, shadow = false;     // at the height `floor`
   bool trace = false, forceArrow = false;
+};
+
+/// One of several hands on one object.
+struct HandPlan {
+  widgets::Colour colour;
 };
 
 struct ScenePlan {
@@ -51,6 +57,8 @@ struct ScenePlan {
   std::vector<MassRole> massRole;
   std::vector<Vec3> massShift;  // [m] added for the eye only
   std::vector<SpringPlan> springs;
+  std::vector<HandPlan> hands;  // empty: one hand
+  int ownHand = 0;              // which of them the frame's own hand is
   bool body = false;                                      // drawn as a box that turns
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
   PlanLook look;
@@ -62,6 +70,7 @@ struct ScenePlan {
 struct ViewOptions {
   enum class SideBySide { Auto, Always, Never };
   SideBySide sideBySide = SideBySide::Auto;  // Auto: parallel masses only, as in the paper's Fig. 7
+  int ownHand = 0;                           // which of the experiment's hands is here, from 0
 };
 
 ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
@@ -69,9 +78,16 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
 /// The same without its masses and springs, or without its target.
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
 
+/// A hand besides the first, or at another station.
+struct OtherHand {
+  int hand = 0;  // from 0
+  Vec3 place;    // [m]
+};
+
 /// One instant of it: what actors are moved to.
 struct SceneFrame {
   Vec3 hand;                 // [m]
+  std::vector<OtherHand> others;
   std::vector<Vec3> masses;  // [m] true places
   dynamics::BodyState body;
   bool handValid = true;

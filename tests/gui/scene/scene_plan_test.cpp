@@ -4,6 +4,7 @@
 
 #include <QApplication>
 #include <QFontMetricsF>
+#include <cmath>
 
 #include "gui/widgets/number_list_edit.h"
 #include "gui/scene/scene_overlay.h"
@@ -56,6 +57,30 @@ TEST(ScenePlan, TheFirstMassIsDrivenAndEverySpringHasItsCoil) {
   EXPECT_EQ(plan.massRole.back(), MassRole::Last);
   ASSERT_EQ(plan.springs.size(), 5u);  // the coupling and four of the chain
   EXPECT_TRUE(plan.springs[0].coupling);
+}
+
+TEST(ScenePlan, EachOfSeveralHandsHasItsColourAndIsCoupledToWhatItHolds) {
+  const experiment::Experiment e = experiment::readExperiment("chain-two-hands");
+  const ScenePlan plan = planScene(e, constraints::makeConstraint(e.constraint), {.ownHand = 1});
+  ASSERT_EQ(plan.hands.size(), 2u);
+  EXPECT_GT(std::abs(plan.hands[0].colour.green - plan.hands[1].colour.green), 0.2);
+  EXPECT_EQ(plan.look.colours.hand.green, plan.hands[1].colour.green) << "the picture's own pen is the second hand's";
+  ASSERT_EQ(plan.springs.size(), 6u);
+  EXPECT_EQ(plan.springs[0].to, 0);
+  EXPECT_EQ(plan.springs[0].hand, 0);
+  EXPECT_EQ(plan.springs[1].to, 4);
+  EXPECT_EQ(plan.springs[1].hand, 1);
+  const SceneFrame rest = restingFrame(plan);
+  ASSERT_EQ(rest.others.size(), 1u);
+  EXPECT_EQ(rest.others[0].hand, 0);
+  haptics::TickState both;  // at one station
+  both.handCount = 2;
+  both.others[0].hand.position = {0.1, 0.2, 0.3};
+  SceneFrame frame;
+  copyToFrame(both, frame);
+  ASSERT_EQ(frame.others.size(), 1u);
+  EXPECT_EQ(frame.others[0].hand, 1);
+  EXPECT_EQ(frame.others[0].place.y, 0.2);
 }
 
 TEST(ScenePlan, MassesOverOneAnotherAreCountedUntilTheyPart) {
