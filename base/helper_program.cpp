@@ -17,7 +17,7 @@ std::string findHelperProgram(const std::string& name, const std::string& progra
   const std::vector<fs::path> places{own / name, own / REACHLAB_LIBEXEC_FROM_BIN / name, own.parent_path() / "cli" / name};
   for (const fs::path& place : places)
     if (access(place.c_str(), X_OK) == 0) return place.string();
-  throw ResourceError(fmt::format("{}: {}, {}, is neither {} nor {}; install Reachlab whole, or build it: cmake --build BUILD --target {}", program,
+  throw ResourceError(fmt::format("{}: {}, {}, is neither {} nor {}; install Reachlab whole, or build the target {}", program,
                                   name, what, places[0].lexically_normal().string(), places[1].lexically_normal().string(), name));
 }
 

@@ -53,6 +53,7 @@ int conduct(const StationRequest& request) {
     }
     news = station.poll();
     for (const std::string& line : news.words) fmt::print(stderr, "{}\n", line);
+    if (!news.notArmed.empty()) fmt::print(stderr, "not armed: {}\n", news.notArmed);
     if (!news.problem.empty()) problem = news.problem;
     if (!news.ended) continue;
     fmt::print("{}\n", trialLine(run.numberOf(*news.ended), news.ended->result));

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -234,7 +235,7 @@ StationStanding StationLine::standingOf(int station) const {
   if (card.experiment != experiment_) say(fmt::format("has another experiment ({:016x}, here {:016x})", card.experiment, experiment_));
   if (card.conductor && options_.conductor) say("is a conductor too");
   s.roundTrip = line.roundTrip.load(), s.jitter = line.jitter.load(), s.loss = line.loss.load(), s.offset = line.offset.load();
-  const std::int64_t silentNs = now - line.heardNs.load();
+  const std::int64_t silentNs = std::max<std::int64_t>(now - line.heardNs.load(), 0);
   const double gap = line.gap.load();
   s.heard = silentNs <= kHeardNs && s.roundTrip >= 0;
   s.age = static_cast<double>(silentNs) * 1e-9;

@@ -64,14 +64,11 @@ void StationRun::begin(session::RecordedRun& run) {
 std::uint64_t StationRun::seedHere(std::uint64_t seed) const { return seededBits(seed, static_cast<std::uint64_t>(own_)); }
 
 void StationRun::armNext() {
-  if (stage_ != Stage::Idle || !isConductor() || stopping_) return;
-  stage_ = Stage::Lines;
-  until_ = now() + setup_.wait;
-  said_.clear();
+  wanted_ = isConductor() && !stopping_;
 }
 
 void StationRun::abort() {
-  if (isArming()) stage_ = Stage::Idle;
+  if (isArming()) wanted_ = false, stage_ = Stage::Idle;
   if (stage_ != Stage::UnderWay || aborted_) return;
   aborted_ = true;
   if (isConductor()) tell(EventKind::Interrupt);
@@ -108,8 +105,14 @@ StationNews StationRun::poll() {
 
 void StationRun::lead(StationNews& news) {
   switch (stage_) {
-    case Stage::Idle:
     case Stage::Over: return;
+    case Stage::Idle:
+      if (!wanted_) return;
+      wanted_ = false;
+      stage_ = Stage::Lines;
+      until_ = now() + setup_.wait;
+      said_.clear();
+      [[fallthrough]];
     case Stage::Lines:
     case Stage::LinesAgain: return awaitLines(news);
     case Stage::Settling:
@@ -137,7 +140,7 @@ void StationRun::awaitLines(StationNews& news) {
     return;
   }
   const std::string all = joined(obstacles);
-  if (all != said_) news.words.push_back("not armed: " + all), said_ = all;
+  if (all != said_) news.notArmed = said_ = all;
   if (now() <= until_ && line_->endpointFault().empty()) return;
   stage_ = Stage::Idle;
   inVain("no trial was armed: " + all, news);
@@ -269,21 +272,29 @@ void StationRun::noteEnd(const LineEvent& event, StationNews& news) {
 }
 
 std::string StationRun::close() {
-  if (std::exchange(closed_, true)) return {};
+  if (closed_) return {};
   std::string said;
   if (run_ != nullptr) {
-    closed_ = false, keep(), closed_ = true;
-    if (isConductor() && !finishTold_ && line_->endpointFault().empty()) {
-      if (stage_ == Stage::UnderWay && !aborted_) tell(EventKind::Interrupt);
-      tell(EventKind::Finish);
-    }
+    keep();
+    sayGoodbye();
     run_->note(fmt::format("network: {} bytes of states came twice or after newer ones and were dropped; {} samples found no room",
                            line_->memory().discardedBytes.load(), line_->memory().ringsFull.load()));
     run_->closeLog();
     said = line_->describe();
   }
+  closed_ = true;
   if (const std::string fault = line_->finish(); !fault.empty()) said += fault + "\n";
   return said;
+}
+
+// What follows has to be done whether anybody hears this or not.
+void StationRun::sayGoodbye() {
+  if (!isConductor() || finishTold_ || !line_->endpointFault().empty()) return;
+  try {
+    if (stage_ == Stage::UnderWay && !aborted_) tell(EventKind::Interrupt);
+    tell(EventKind::Finish);
+  } catch (const ResourceError&) {  // it takes no messages: `finish` says how it ended
+  }
 }
 
 }  // namespace reachlab::network

@@ -22,6 +22,7 @@ struct StationSetup {
 /// What has happened since the last look.
 struct StationNews {
   std::vector<std::string> words;                // for the experimenter, a line each
+  std::string notArmed;                          // why, where it is another reason than at the last look
   bool begun = false;                            // a trial was put up
   std::optional<haptics::ConductedTrial> ended;  // and is safe on the disk
   std::string problem;                           // in vain: nobody came, nobody arms, the endpoint has ended. Again after another `wait`
@@ -53,12 +54,12 @@ class StationRun {
 
   bool isConductor() const { return setup_.line.conductor; }
   int station() const { return setup_.line.station; }
-  /// The conductor: the next trial, as soon as every line is good.
+  /// The conductor: the next trial, as soon as every station has had its word on the one before and every line is good.
   void armNext();
   /// It is to be armed and has not been yet.
-  bool isArming() const { return stage_ == Stage::Lines || stage_ == Stage::Settling || stage_ == Stage::LinesAgain; }
+  bool isArming() const { return wanted_ || stage_ == Stage::Lines || stage_ == Stage::Settling || stage_ == Stage::LinesAgain; }
   /// The conductor is between two trials.
-  bool isIdle() const { return stage_ == Stage::Idle; }
+  bool isIdle() const { return stage_ == Stage::Idle && !wanted_; }
   /// Ends the trial under way, the conductor at every station; or no longer wants one to be armed.
   void abort();
   /// The same, and then no more trials.
@@ -74,8 +75,6 @@ class StationRun {
   StationLine& line() { return *line_; }
   /// Where the other hands are, by station from 0; known once something came.
   const OtherHands& otherHands() const { return others_; }
-  /// How this run's trial is going against the others; before `prepare`d run is made: null.
-  const StationSink* sink() const { return sink_.get(); }
 
  private:
   enum class Stage { Idle, Lines, Settling, LinesAgain, UnderWay, Others, Over };
@@ -96,6 +95,7 @@ class StationRun {
   void follow(StationNews& news);
   void tellEnd(const haptics::ConductedTrial& trial);
   void tell(EventKind kind);
+  void sayGoodbye();
   void takeEvents(StationNews& news);
   bool obey(const LineEvent& event, StationNews& news);
   void noteEnd(const LineEvent& event, StationNews& news);
@@ -116,7 +116,7 @@ class StationRun {
   std::deque<LineEvent> heard_;  // of stations that have not said yet who they are
   std::int32_t armed_ = 0, armAsked_ = 0, putUp_ = 0, trialsBefore_ = 0;
   trial::PlannedTrial planned_;
-  bool begun_ = false, finished_ = false, stopping_ = false, aborted_ = false, finishTold_ = false, closed_ = false;
+  bool wanted_ = false, begun_ = false, finished_ = false, stopping_ = false, aborted_ = false, finishTold_ = false, closed_ = false;
   std::array<std::int32_t, kMaxStations> endedTrial_{};
 };
 

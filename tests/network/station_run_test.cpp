@@ -1,0 +1,210 @@
+#include "network/station/station_run.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "base/fault.h"
+#include "base/os.h"
+#include "sim/session/session.h"
+#include "tests/record/made_run.h"
+
+// One station's trials, with the test in the endpoint's place: it writes what the network would have brought.
+namespace reachlab::network {
+namespace {
+
+/// A hand that rests where it is.
+class RestingHand final : public haptics::HapticDevice {
+ public:
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info;
+    info.name = "resting";
+    info.virtualHand = true;
+    return info;
+  }
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample;
+    sample.position = {-0.1, 0, 0};
+    return sample;
+  }
+  void write(const Vec3&) noexcept override {}
+};
+
+class OneStation : public testing::Test {
+ protected:
+  void open(int number, bool conductor, double wait = 60) {
+    const std::string endpoint = folder_ / "endpoint";
+    record::writeFileAtomically(endpoint, "#!/bin/sh\nexec sleep 60\n");
+    ASSERT_EQ(::chmod(endpoint.c_str(), 0700), 0);
+    session::SessionRequest request;
+    request.what = "chain-two-hands";
+    request.device = "resting";
+    request.place.data = folder_ / "data";
+    request.seed = 1;
+    request.trials = 3;
+    StationSetup setup;
+    setup.line.station = number;
+    setup.line.conductor = conductor;
+    setup.line.endpoint = endpoint;
+    setup.line.name = "here";
+    setup.line.software = "reachlab";
+    setup.wait = wait;
+    const session::BlockToRun block = session::planSession(request).blocks.at(0);
+    station_ = std::make_unique<StationRun>(setup, block.experiment);
+    session::RecordedRunOptions options;
+    options.place = request.place;
+    station_->prepare(options);
+    run_ = std::make_unique<session::RecordedRun>(block, std::make_unique<RestingHand>(), options);
+    station_->begin(*run_);
+    hash_ = sharedHash(block.experiment.experiment());
+  }
+  void TearDown() override {
+    if (station_) (void)station_->close();
+    run_.reset();
+    station_.reset();
+  }
+  LineMemory& memory() { return station_->line().memory(); }
+  void showCard(std::uint32_t number, bool conductor) {
+    StationCard card;
+    card.station = number;
+    card.version = LineMemory::kVersion;
+    card.experiment = hash_;
+    card.conductor = conductor;
+    std::strcpy(card.software.data(), "reachlab");
+    ASSERT_TRUE(memory().cardsIn.tryPush(card));
+  }
+  void hear(std::uint32_t number, double roundTrip) {
+    LineStatus& status = memory().status[number - 1];
+    status.roundTrip.store(roundTrip);
+    status.heardNs.store(os::now());
+  }
+  void tell(std::uint32_t number, EventKind kind, std::int32_t trial) {
+    LineEvent event;
+    event.station = number;
+    event.kind = kind;
+    event.trial = trial;
+    ASSERT_TRUE(memory().eventsIn.tryPush(event));
+  }
+  // All that happens until it is as wanted, or for so long.
+  StationNews pollUntil(const std::function<bool(const StationNews&)>& wanted, double seconds = 2) {
+    StationNews all;
+    const std::int64_t until = os::now() + static_cast<std::int64_t>(1e9 * seconds);
+    while (os::now() < until && !wanted(all)) {
+      const StationNews news = station_->poll();
+      all.words.insert(all.words.end(), news.words.begin(), news.words.end());
+      all.begun = all.begun || news.begun;
+      all.finished = all.finished || news.finished;
+      if (!news.notArmed.empty()) all.notArmed = news.notArmed;
+      if (news.ended) all.ended = news.ended;
+      if (!news.problem.empty()) all.problem = news.problem;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return all;
+  }
+  static bool never(const StationNews&) { return false; }
+  static bool begun(const StationNews& news) { return news.begun; }
+  bool sent(EventKind kind) {
+    for (LineEvent event; memory().eventsOut.tryPop(event);)
+      if (event.kind == kind) return true;
+    return false;
+  }
+
+  const record::TemporaryFolder folder_{"station"};
+  std::unique_ptr<StationRun> station_;
+  std::unique_ptr<session::RecordedRun> run_;
+  std::uint64_t hash_ = 0;
+};
+
+TEST_F(OneStation, OnlyTheConductorsWordCounts) {
+  open(2, false);
+  tell(1, EventKind::Arm, 1);
+  EXPECT_FALSE(pollUntil(begun, 0.3).begun) << "nobody has said yet who station 1 is";
+  showCard(1, false);
+  const StationNews refused = pollUntil(begun, 0.3);
+  EXPECT_FALSE(refused.begun);
+  ASSERT_EQ(refused.words.size(), 1u);
+  EXPECT_NE(refused.words[0].find("station 1 is not the conductor"), std::string::npos) << refused.words[0];
+  tell(1, EventKind::Finish, 1);
+  EXPECT_FALSE(pollUntil([](const StationNews& news) { return news.finished; }, 0.2).finished);
+}
+
+TEST_F(OneStation, AFollowerPutsUpWhatTheConductorArmsAndEndsWhenItIsTold) {
+  open(2, false);
+  tell(1, EventKind::Arm, 1);
+  EXPECT_FALSE(pollUntil(begun, 0.1).begun);
+  showCard(1, true);
+  EXPECT_TRUE(pollUntil(begun).begun) << "what was told before its card came is done";
+  EXPECT_FALSE(pollUntil(begun, 0.2).begun) << "once";
+  tell(1, EventKind::Interrupt, 1);
+  const StationNews ended = pollUntil([](const StationNews& news) { return news.ended.has_value(); });
+  ASSERT_TRUE(ended.ended);
+  EXPECT_EQ(ended.ended->result.reason, trial::Reason::Experimenter);
+  EXPECT_FALSE(ended.finished) << "another trial may follow";
+  tell(1, EventKind::Arm, 2);
+  EXPECT_TRUE(pollUntil(begun).begun);
+  tell(1, EventKind::Finish, 2);
+  EXPECT_FALSE(pollUntil([](const StationNews& news) { return news.finished; }, 0.2).finished) << "the trial under way goes to its end";
+  tell(1, EventKind::Interrupt, 2);
+  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
+}
+
+TEST_F(OneStation, ATrialThatIsOverForTheOthersIsNotPutUp) {
+  open(2, false);
+  showCard(1, true);
+  tell(1, EventKind::Arm, 4);
+  tell(1, EventKind::Ended, 4);
+  EXPECT_FALSE(pollUntil(begun, 0.3).begun);
+  tell(1, EventKind::Arm, 5);
+  EXPECT_TRUE(pollUntil(begun).begun);
+}
+
+TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
+  open(1, true, 1);
+  station_->armNext();
+  const StationNews alone = pollUntil([](const StationNews& news) { return !news.problem.empty(); }, 3);
+  EXPECT_EQ(alone.notArmed, "station 2: is not there");
+  EXPECT_EQ(alone.problem, "no trial was armed: station 2: is not there");
+  EXPECT_FALSE(station_->isArming()) << "it is asked again";
+  showCard(2, false);
+  hear(2, 0.2);
+  station_->armNext();
+  const StationNews slow = pollUntil([](const StationNews& news) { return !news.notArmed.empty(); });
+  EXPECT_EQ(slow.notArmed, "station 2: a round trip takes 200 ms; allowed: up to 120");
+  const StationNews armed = pollUntil([&](const StationNews& news) {
+    hear(2, 0.002);
+    return news.begun;
+  });
+  EXPECT_TRUE(armed.begun);
+  EXPECT_TRUE(sent(EventKind::Arm));
+  station_->stop();
+  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
+  EXPECT_TRUE(sent(EventKind::Finish));
+}
+
+TEST_F(OneStation, StandingsSayHowGoodALineIs) {
+  using Light = StationStanding::Light;
+  open(1, true);
+  const auto now = [&] {
+    station_->keep();
+    return station_->line().standings().at(0);
+  };
+  EXPECT_EQ(now().light, Light::Absent);
+  showCard(2, false);
+  EXPECT_EQ(now().light, Light::Stop) << "it sends nothing";
+  hear(2, 0.002);
+  EXPECT_EQ(now().light, Light::Good);
+  EXPECT_TRUE(now().heard);
+  hear(2, 0.08);
+  EXPECT_EQ(now().light, Light::Fair);
+  hear(2, 0.13);
+  EXPECT_EQ(now().light, Light::Stop);
+  EXPECT_EQ(now().obstacles, (std::vector<std::string>{"a round trip takes 130 ms; allowed: up to 120"}));
+}
+
+}  // namespace
+}  // namespace reachlab::network
