@@ -4,6 +4,7 @@
 #include <QSettings>
 #include <QIcon>
 #include <QSurfaceFormat>
+#include <QTimer>
 #include <cstdio>
 #include <cstdlib>
 
@@ -21,13 +22,26 @@
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
+#include "network/station/station_options.h"
 
 namespace {
 
 struct Arguments {
   reachlab::session::SessionRequest request;
   std::string pictures;
+  std::optional<reachlab::network::StationSetup> station;
 };
+
+// What only a station has; `number`: which it is, 0 where it is none.
+void parseStation(CLI::App& app, int number, const CLI::App& options, reachlab::network::StationSetup& setup, Arguments& a) {
+  if (number == 0) {
+    if (options.count_all() > 0) throw CLI::RequiresError("--station", "an option of a station");
+    return;
+  }
+  setup.line.station = number;
+  reachlab::network::completeStationSetup(setup, a.request.device, app.get_name());
+  a.station = setup;
+}
 
 Arguments parse(CLI::App& app, int argc, char** argv) {
   Arguments a;
@@ -57,10 +71,17 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
           "SEED"));
   app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
+  int number = 0;
+  reachlab::network::StationSetup setup;
+  CLI::App* station = app.add_option_group("Station", "One of several stations that move one object together");
+  station->add_option("--station", number, "Which of the experiment's hands is here, from 1")
+      ->check(CLI::Range(1, reachlab::network::kMaxStations));
+  reachlab::network::addStationOptions(*station, setup);
   app.footer(
       "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab data\n  reachlab parallel --device simulated --trials "
-      "5");
+      "5\n  reachlab chain-two-hands --station 1 --conductor --peers lab");
   app.parse(argc, argv);
+  parseStation(app, number, *station, setup, a);
   return a;
 }
 
@@ -90,10 +111,11 @@ int run(const Arguments& arguments, int argc, char** argv) {
   const QString what = QString::fromStdString(request.what);
   const bool recorded = reachlab::gui::app::isRecorded(what);
   if (recorded) request.what = "chain-moderate";
-  reachlab::gui::app::MainWindow window(request);
+  reachlab::gui::app::MainWindow window(request, arguments.station);
   window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
   if (recorded) window.inspect(what);
   window.show();
+  if (arguments.station) QTimer::singleShot(0, &window, &reachlab::gui::app::MainWindow::joinStations);
   return QApplication::exec();
 }
 

@@ -34,6 +34,7 @@
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/docks/signal_dock.h"
+#include "gui/docks/stations_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
 #include "gui/inspector/epsilon_panel.h"
@@ -50,15 +51,23 @@ constexpr int kFrameMs = 16;          // 60 Hz
 constexpr int kSoftwareFrameMs = 33;  // 30 Hz where the processor draws
 constexpr int kStatusMs = 200;
 
+void showTitle(MainWindow& window, const QString& name) {
+  const network::StationSetup* station = window.session().station();
+  const QString what = station == nullptr ? name : MainWindow::tr("%1, station %2").arg(name).arg(station->line.station);
+  window.setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(what));
+}
+
 }  // namespace
 
-MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) : QMainWindow(parent), session_(request), edits_(session_) {
+MainWindow::MainWindow(const session::SessionRequest& request, const std::optional<network::StationSetup>& station, QWidget* parent)
+    : QMainWindow(parent), session_(request, station), edits_(session_) {
   setObjectName(QStringLiteral("reachlab"));
   setAcceptDrops(true);
   if (QFileInfo::exists(QString::fromStdString(request.what))) file_ = QString::fromStdString(request.what);
   words_.setLanguage(QSettings().value(QStringLiteral("subject/language"), QStringLiteral("en")).toString());
   addCentre();
-  docks_ = docks::makeDocks(*this);
+  docks_ = docks::makeDocks(*this, station.has_value());
+  if (station) screens_->setOwnHand(station->line.station - 1);
   docks_.session->setRequest(request);
   status_ = std::make_unique<StatusLine>(*statusBar());
   actions_ = addMenus(*this);
@@ -73,6 +82,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, QWidget* parent) 
   firstLayout_ = saveState();
   layout_ = restoreLayout(*this);
   if (inspecting()) switchLayout(WindowLayout::SetUp);  // nothing is open yet
+  if (docks_.stations != nullptr) docks_.stations->show(), docks_.stations->raise();  // whatever windows without it have remembered
   showExperiment();
   showStage();
   view_->setFocus();
@@ -164,6 +174,7 @@ void MainWindow::wireSession() {
   connect(&session_, &SessionController::runClosed, this, &MainWindow::runClosed);
   connect(&session_, &SessionController::trialBegun, this, &MainWindow::showStage);
   connect(&session_, &SessionController::trialEnded, this, &MainWindow::trialEnded);
+  if (docks_.stations != nullptr) connect(&session_, &SessionController::stationTold, docks_.stations, &docks::StationsDock::tell);
   for (const auto& sentence : {&SessionController::told, &SessionController::failed})
     connect(&session_, sentence, this, [this](const QString& words) { message_->say(words); });
   connect(&edits_.stack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
@@ -178,6 +189,7 @@ void MainWindow::wireSession() {
   connect(slowTimer, &QTimer::timeout, this, [this] {
     if (session_.run() != nullptr) status_->refresh(*session_.run());
     plans_->refresh();
+    showStations();
     timer_->setInterval(view_->drawsInSoftware() ? kSoftwareFrameMs : kFrameMs);  // known once a picture was drawn
   });
   slowTimer->start(kStatusMs);
@@ -192,7 +204,7 @@ void MainWindow::showExperiment() {
   showOverlay();
   plans_->refresh();
   forecast_.setExperiment(compiled);
-  setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(QString::fromStdString(compiled.experiment().name)));
+  showTitle(*this, QString::fromStdString(compiled.experiment().name));
 }
 
 void MainWindow::showOverlay() {
@@ -204,16 +216,18 @@ void MainWindow::showStage() {
   using Stage = docks::SessionDock::Stage;
   const session::RecordedRun* run = session_.run();
   const Stage stage = run == nullptr              ? Stage::Closed
-                      : run->underWay()           ? Stage::UnderWay
+                      : session_.underWay()       ? Stage::UnderWay
+                      : session_.follows()        ? Stage::Following
                       : run->trialsLeft() > 0     ? Stage::BetweenTrials
                       : session_.blocksLeft() > 0 ? Stage::BlockDone
                                                   : Stage::Finished;
   docks_.session->setStage(stage);
   docks_.devices->setBusy(stage != Stage::Closed);
   // The keys do what the buttons do: a key that went astray begins no new run where one is over, or while a recording is looked at.
-  actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && !inspecting());
+  actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && stage != Stage::Following && !inspecting());
   actions_.abort->setEnabled(stage == Stage::UnderWay);
   for (QAction* action : {actions_.repeat, actions_.end}) action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
+  if (stage == Stage::Following) actions_.repeat->setEnabled(false);
 }
 
 void MainWindow::drawPredictions() {
@@ -288,11 +302,31 @@ void MainWindow::oneFrame() {
   forecast_.poll();
   if (pacing_.takeDue(std::chrono::steady_clock::now())) nextTrial();
   if (session_.run() == nullptr) return;
-  screens_->showState(session_.run()->latest());
+  screens_->showState(session_.run()->latest(), session_.otherHands());
   playGo(session_.run()->latest());
   showOverlay();
   plot().refresh();
   docks_.signal->plot().refresh();
+}
+
+void MainWindow::joinStations() {
+  try {
+    session_.join(docks_.session->request());
+  } catch (const std::exception& e) {
+    message_->say(QString::fromStdString(endingOf(e).sentence));
+  }
+  showStage();
+  showStations();
+}
+
+void MainWindow::showStations() {
+  if (docks_.stations == nullptr) return;
+  using Stage = docks::StationsDock::Stage;
+  const Stage stage = session_.run() == nullptr           ? Stage::Closed
+                      : session_.isArming()              ? Stage::Arming
+                      : session_.run()->underWay()       ? Stage::UnderWay
+                                                         : Stage::BetweenTrials;
+  docks_.stations->showStations(*session_.station(), stage, session_.standings());
 }
 
 // With the picture that shows the signal.
@@ -461,7 +495,7 @@ void MainWindow::showPage() {
   if (inspecting()) inspector().view().setFocus();  // for the keys of the replay
   else view_->setFocus();
   const QString name = inspecting() ? QFileInfo(inspector().path()).fileName() : QString::fromStdString(session_.experiment().name);
-  setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(name.isEmpty() ? tr("recordings") : name));
+  showTitle(*this, name.isEmpty() ? tr("recordings") : name);
   showStage();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <QMainWindow>
 #include <memory>
+#include <optional>
 
 #include "gui/app/dataset_analysis.h"
 #include "gui/app/edit_history.h"
@@ -43,7 +44,8 @@ class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
   /// Throws FaultError when the experiment cannot be read.
-  explicit MainWindow(const session::SessionRequest& request, QWidget* parent = nullptr);
+  explicit MainWindow(const session::SessionRequest& request, const std::optional<network::StationSetup>& station = std::nullopt,
+                      QWidget* parent = nullptr);
   ~MainWindow() override;
 
   SessionController& session() { return session_; }
@@ -73,6 +75,8 @@ class MainWindow : public QMainWindow {
   void repeatTrial();
   void resumeSession();
   void endRun();
+  /// At a station: the others hear of it from now on.
+  void joinStations();
   /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
   void openExperiment(const QString& what);
   void openFile();
@@ -128,6 +132,7 @@ class MainWindow : public QMainWindow {
   void trialEnded();
   void fitRun();
   void oneFrame();
+  void showStations();
   void playGo(const haptics::TickState& state);
   void tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what);
   /// True when no trial of an open run would be lost, or the user says so.

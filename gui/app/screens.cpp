@@ -97,8 +97,10 @@ void Screens::showPatch(const haptics::TickState* state) {
   subject_->setPatch(!experiment_->experiment().subjectScreen.photodiode ? Patch::None : white ? Patch::White : Patch::Black);
 }
 
-void Screens::showState(const haptics::TickState& state) {
+void Screens::showState(const haptics::TickState& state, const network::OtherHands& others) {
   copyToFrame(state, frame_);
+  for (std::size_t hand = 0; hand < std::min(others.known.size(), main_.plan().hands.size()); ++hand)
+    if (others.known[hand]) frame_.others.push_back({static_cast<int>(hand), others.place[hand]});
   if (!main_.plan().look.forceArrow) frame_.force = {};
   main_.showFrame(frame_);
   if (subject_) subject_->view().showFrame(frame_);

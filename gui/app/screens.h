@@ -9,6 +9,7 @@
 
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_plan.h"
+#include "network/line/station_line.h"
 #include "sim/experiment/compiled_experiment.h"
 
 class QAction;
@@ -33,12 +34,15 @@ class Screens : public QObject {
 
   /// Builds the picture anew, the hand at rest at the start.
   void showExperiment(const experiment::CompiledExperiment& experiment);
+  /// Which of the experiment's hands is here, from 0, where the others are at other stations.
+  void setOwnHand(int hand) { options_.ownHand = hand; }
   /// Where a scene file stands that is named without a folder.
   void lookIn(const QString& folder) { folder_ = folder; }
   /// The object back at the start: no run is open.
   void showRest();
   /// Moves what there is.
-  void showState(const haptics::TickState& state);
+  /// `others`: hands at other stations.
+  void showState(const haptics::TickState& state, const network::OtherHands& others = {});
   void showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects);
   /// The keys that work on the subject's screen as they do in the main window.
   void setSubjectsActions(const QList<QAction*>& actions) { actions_ = actions; }

@@ -39,9 +39,12 @@ QString wordsOf(const session::SessionNotice& notice) {
   return sentences.join(QLatin1Char('\n'));
 }
 
-SessionController::SessionController(const session::SessionRequest& request, QObject* parent)
+SessionController::SessionController(const session::SessionRequest& request, std::optional<network::StationSetup> station, QObject* parent)
     : QObject(parent), programme_(session::readProgramme(request.what)), shown_(firstExperiment(programme_, request)),
-      resume_(request.resume), asked_(request), endsOnSignal_([this](const std::stop_token& over) { endOnSignal(over); }) {}
+      resume_(request.resume), asked_(request), setup_(std::move(station)),
+      endsOnSignal_([this](const std::stop_token& over) { endOnSignal(over); }) {
+  if (setup_ && isPlan()) throw FaultError(Fault{"experiment", "is a plan", "a single experiment: the same one at every station"});
+}
 
 SessionController::~SessionController() {
   const std::scoped_lock lock(changing_);
@@ -52,7 +55,8 @@ SessionController::~SessionController() {
 std::optional<std::string> SessionController::putInOrder() {
   if (run() == nullptr) return std::nullopt;
   try {
-    run()->closeLog();
+    if (station_) (void)station_->close();
+    else run()->closeLog();
     stop_->allInOrder();
     return std::nullopt;
   } catch (const std::exception& e) {
@@ -95,7 +99,7 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
                                                                          std::uint64_t seed) {
   mouse_ = nullptr;
   if (spec != "mouse") {
-    auto device = devices::makeDevice(spec, experiment, seed);
+    auto device = devices::makeDevice(spec, experiment, station_ ? station_->seedHere(seed) : seed);
     for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) onOpening_ << QString::fromStdString(sentence);
     return device;
   }
@@ -104,30 +108,39 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
   return mouse;
 }
 
+void SessionController::planRuns(const session::SessionRequest& request) {
+  session::SessionRequest asked = request;
+  asked.resume = resume_;
+  if (numberUsed_) asked.run.reset();
+  if (follows()) asked.trials = 1;  // the conductor's count holds
+  std::vector<std::string> mappings;
+  asked.device = devices::withKeptMappings(asked.device, asked.place.data, asked.place.subject, mappings);
+  for (const std::string& file : mappings) onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
+  if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
+  auto planned = std::make_unique<session::RecordedSession>(
+      programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
+      &trace_, instruments_.get());
+  if (planned->blocksLeft() == 0)
+    throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
+  recorded_ = std::move(planned);
+  asked_ = request;
+  resume_ = false;
+  if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) onOpening_ << words;
+}
+
 void SessionController::openRun(const session::SessionRequest& request) {
   const std::scoped_lock lock(changing_);
   onOpening_.clear();
-  if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) {
-    session::SessionRequest asked = request;
-    asked.resume = resume_;
-    if (numberUsed_) asked.run.reset();
-    std::vector<std::string> mappings;
-    asked.device = devices::withKeptMappings(asked.device, asked.place.data, asked.place.subject, mappings);
-    for (const std::string& file : mappings) onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
-    if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
-    auto planned = std::make_unique<session::RecordedSession>(
-        programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
-        &trace_, instruments_.get());
-    if (planned->blocksLeft() == 0)
-      throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
-    recorded_ = std::move(planned);
-    asked_ = request;
-    resume_ = false;
-    if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) onOpening_ << words;
+  if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) planRuns(request);
+  if (setup_) {
+    setup_->line.device = request.device;
+    station_ = std::make_unique<network::StationRun>(*setup_, programme_.experiments.front());
+    recorded_->prepareRuns([this](session::RecordedRunOptions& options) { station_->prepare(options); });
   }
   const bool opened = recorded_->openNext();
   if (!onOpening_.isEmpty()) Q_EMIT told(onOpening_.join(QLatin1Char('\n')));
   if (!opened) return;
+  if (station_) station_->begin(*run());
   stop_.emplace();
   timingTold_ = false;
   numberUsed_ = true;
@@ -168,18 +181,25 @@ QString SessionController::instructions() {
   return next == nullptr ? QString() : QString::fromStdString(next->instructions);
 }
 
+void SessionController::join(const session::SessionRequest& request) {
+  if (run() != nullptr) return;
+  openRun(request);
+  tellOpened();
+}
+
 bool SessionController::next(const session::SessionRequest& request) {
   if (underWay()) return false;
-  if (run() != nullptr && run()->trialsLeft() == 0) {
+  if (run() != nullptr && run()->trialsLeft() == 0 && !follows()) {
     endRun();
     if (isPlan() && recorded_->blocksLeft() == 0) return false;
   }
-  if (run() == nullptr) {
-    openRun(request);
-    tellOpened();
-  }
+  join(request);
   {
     const std::scoped_lock lock(changing_);
+    if (station_) {
+      station_->armNext();
+      return true;
+    }
     if (run() == nullptr || !run()->putUpNext()) return false;
   }
   Q_EMIT trialBegun();
@@ -188,12 +208,13 @@ bool SessionController::next(const session::SessionRequest& request) {
 
 void SessionController::abort() {
   const std::scoped_lock lock(changing_);
-  if (run() != nullptr) run()->abort();
+  if (station_) station_->abort();
+  else if (run() != nullptr) run()->abort();
 }
 
 bool SessionController::repeat() {
   const std::scoped_lock lock(changing_);
-  if (run() == nullptr || !last_) return false;
+  if (run() == nullptr || !last_ || follows()) return false;
   run()->repeat(last_->planned);
   return true;
 }
@@ -223,6 +244,7 @@ void SessionController::endRun() {
   try {
     const std::string dataset = asked_.place.data;
     recorded_->closeRun();
+    station_.reset();
     tellInstruments();
     if (!asked_.backup.empty()) {
       if (!backup_ || backupOf_ != dataset) {
@@ -249,11 +271,19 @@ void SessionController::poll() {
   tellBackup();
   if (run() == nullptr) return;
   try {
-    const auto ended = [this] {
+    network::StationNews news;
+    {
       const std::scoped_lock lock(changing_);
-      return run()->poll();
-    }();
+      if (station_) news = station_->poll();
+      else news.ended = run()->poll();
+    }
     tellTiming();
+    tellStation(news);
+    if (news.finished) {
+      endRun();
+      Q_EMIT told(tr("The conductor has ended the run."));
+    }
+    const std::optional<haptics::ConductedTrial>& ended = news.ended;
     if (!ended) return;
     tellInstruments();
     last_ = *ended;
@@ -270,6 +300,22 @@ void SessionController::poll() {
   } catch (const std::exception& e) {
     fail(e);
   }
+}
+
+void SessionController::tellStation(const network::StationNews& news) {
+  for (const std::string& line : news.words) Q_EMIT stationTold(QString::fromStdString(line));
+  if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
+  if (news.begun) Q_EMIT trialBegun();
+}
+
+std::vector<network::StationStanding> SessionController::standings() {
+  const std::scoped_lock lock(changing_);
+  return station_ ? station_->line().standings() : std::vector<network::StationStanding>();
+}
+
+network::OtherHands SessionController::otherHands() {
+  const std::scoped_lock lock(changing_);
+  return station_ ? station_->otherHands() : network::OtherHands();
 }
 
 // A machine that keeps time well needs no word.
@@ -296,8 +342,21 @@ void SessionController::tellBackup() {
 
 void SessionController::endOnSignal(const std::stop_token& over) {
   constexpr auto kLook = std::chrono::milliseconds(10);
-  while (!over.stop_requested() && !StopRequest::asked()) std::this_thread::sleep_for(kLook);
+  while (!over.stop_requested() && !StopRequest::asked()) {
+    std::this_thread::sleep_for(kLook);
+    keepStation();
+  }
   if (StopRequest::asked()) stopInOrder();
+}
+
+// What the other stations send is kept however long the window is busy: the rings hold a second or so.
+void SessionController::keepStation() {
+  const std::unique_lock lock(changing_, std::try_to_lock);
+  if (!lock || !station_ || run() == nullptr) return;
+  try {
+    station_->keep();
+  } catch (const Error&) {  // the disk is full: the window's next look says so
+  }
 }
 
 // The window is not asked, and its objects are left as they are: it may be in the midst of anything.
@@ -320,6 +379,7 @@ void SessionController::fail(const std::exception& fault) {
   std::unique_lock lock(changing_);
   (void)putInOrder();  // the fault itself is what is told
   recorded_.reset();
+  station_.reset();
   stop_.reset();
   lock.unlock();
   resume_ = isPlan();  // its other blocks are still to be done

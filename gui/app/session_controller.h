@@ -12,6 +12,7 @@
 #include "base/fault.h"
 #include "base/stop_signals.h"
 #include "gui/plot/trial_trace.h"
+#include "network/station/station_run.h"
 #include "sim/session/backup_worker.h"
 #include "sim/session/recorded_session.h"
 
@@ -29,7 +30,9 @@ class SessionController : public QObject {
   Q_OBJECT
  public:
   /// Reads the experiment, or the plan and its first block. Throws FaultError.
-  explicit SessionController(const session::SessionRequest& request, QObject* parent = nullptr);
+  /// `station`: this window is one of several that move one object together; then FaultError for a plan, too.
+  explicit SessionController(const session::SessionRequest& request, std::optional<network::StationSetup> station = std::nullopt,
+                             QObject* parent = nullptr);
   ~SessionController() override;
 
   /// What is shown: the experiment, or that of the plan's block that is open or comes first.
@@ -49,7 +52,10 @@ class SessionController : public QObject {
   /// The next session that is opened begins from the first block.
   void beginAnew();
 
-  /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error.
+  /// At a station: opens its run, so that the others hear of it. Throws children of Error.
+  void join(const session::SessionRequest& request);
+  /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error. At a station the
+  /// conductor arms it as soon as every line is good, and the others wait for that.
   bool next(const session::SessionRequest& request);
   void abort();
   /// The last trial once more, at the end of the run. False when there was none.
@@ -75,7 +81,17 @@ class SessionController : public QObject {
   std::size_t blocksLeft() const { return recorded_ && isPlan() ? recorded_->blocksLeft() : 0; }
   /// Of the plan, as this session does them.
   std::size_t blockCount() { return run() != nullptr ? static_cast<std::size_t>(run()->configuration().block) + blocksLeft() : 0; }
-  bool underWay() { return run() != nullptr && run()->underWay(); }
+  bool underWay() { return run() != nullptr && (run()->underWay() || isArming()); }
+  /// One of several stations, by its setup; null: a window on its own.
+  const network::StationSetup* station() const { return setup_ ? &*setup_ : nullptr; }
+  /// Puts up what the conductor arms, and nothing else.
+  bool follows() const { return setup_ && !setup_->line.conductor; }
+  /// A trial is to be armed, and is not yet.
+  bool isArming() { return station_ && station_->isArming(); }
+  /// How the other stations stand to this one; empty while no run is open.
+  std::vector<network::StationStanding> standings();
+  /// Of a station's run: where the other hands are.
+  network::OtherHands otherHands();
   std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
 
  Q_SIGNALS:
@@ -88,9 +104,13 @@ class SessionController : public QObject {
   void failed(const QString& sentence);
   /// Worth a word, and no fault; sentences, a line each.
   void told(const QString& sentence);
+  /// Of the other stations: how they ended a trial, who was silent.
+  void stationTold(const QString& line);
 
  private:
   void openRun(const session::SessionRequest& request);
+  void planRuns(const session::SessionRequest& request);
+  void tellStation(const network::StationNews& news);
   void tellOpened();
   void showBlock(const session::SessionRequest& request);
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
@@ -101,6 +121,7 @@ class SessionController : public QObject {
   void tellInstruments();
   void tellBackup();
   void endOnSignal(const std::stop_token& over);
+  void keepStation();
   void stopInOrder();
 
   session::Programme programme_;
@@ -117,6 +138,8 @@ class SessionController : public QObject {
   std::string backupOf_;  // the dataset that this is of
   std::optional<session::BackupWorker> backup_;
   session::BackupState::Kind backupTold_ = session::BackupState::Kind::Idle;
+  std::optional<network::StationSetup> setup_;
+  std::unique_ptr<network::StationRun> station_;  // of the run that is open, and outlives it
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
   std::chrono::steady_clock::time_point restUntil_{};

@@ -13,7 +13,22 @@ bool isBeforeTheFirstReach(const haptics::TickState& state) {
   return state.trial <= 1 && (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Waiting);
 }
 
-bool isOver(const session::RecordedRun& run) { return !run.underWay() && run.trialsLeft() == 0; }
+bool isOver(SessionController& session) {
+  return !session.run()->underWay() && session.run()->trialsLeft() == 0 && !session.follows();
+}
+
+// Between trials it is the conductor who does something, and perhaps a line that is waited for.
+void tellStations(SessionController& session, scene::OverlayState& overlay) {
+  const haptics::TickState& state = session.run()->latest();
+  if (session.follows()) overlay.counter = state.trial > 0 ? QStringLiteral("Trial %1").arg(state.trial) : QString();
+  if (session.run()->underWay()) return;
+  const QString next = session.isArming()  ? QStringLiteral("Waiting for the other stations")
+                       : session.follows() ? QStringLiteral("The conductor begins the next trial")
+                                           : QStringLiteral("Space: next trial");
+  (state.trial == 0 ? overlay.instruction : overlay.detail) = state.trial == 0 && !session.isArming() && !session.follows()
+                                                                  ? QStringLiteral("Press Space to begin")
+                                                                  : next;
+}
 
 }  // namespace
 
@@ -29,7 +44,8 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
     if (session.isPlan())
       overlay.counter =
           QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
-    if (isOver(*run)) {
+    if (session.station() != nullptr) tellStations(session, overlay);
+    if (isOver(session)) {
       overlay.detail = session.restLeft() > 0   ? QStringLiteral("the block is done: rest %1 s more").arg(std::ceil(session.restLeft()))
                        : session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
                        : session.isPlan()       ? QStringLiteral("the session is complete")
@@ -38,7 +54,7 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
   }
   const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there
   if (!startPage && (run == nullptr || isBeforeTheFirstReach(run->latest()))) overlay.task = scene::taskText(experiment, massesHide);
-  if (run != nullptr && (isOver(*run) || isBeforeTheFirstReach(run->latest())))
+  if (run != nullptr && (isOver(session) || isBeforeTheFirstReach(run->latest())))
     if (const QString words = session.instructions(); !words.isEmpty())
       overlay.task = overlay.task.isEmpty() ? words : words + QLatin1Char('\n') + overlay.task;
   return overlay;
@@ -59,8 +75,8 @@ scene::OverlayState subjectsOverlayOf(SessionController& session, const subject:
   if (state.phase == trial::Phase::Done)
     overlay.tone = state.result.outcome == trial::Outcome::Success ? scene::OverlayState::Tone::Good : scene::OverlayState::Tone::Bad;
   if (run == nullptr) return overlay;
-  if (isOver(*run)) overlay.detail = session.blocksLeft() > 0 ? words.rest() : words.thanks();
-  if (isOver(*run) || isBeforeTheFirstReach(state)) overlay.task = session.instructions();
+  if (isOver(session)) overlay.detail = session.blocksLeft() > 0 ? words.rest() : words.thanks();
+  if (isOver(session) || isBeforeTheFirstReach(state)) overlay.task = session.instructions();
   return overlay;
 }
 

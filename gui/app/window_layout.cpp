@@ -24,7 +24,7 @@ QString docksKey(WindowLayout layout) {
 QStringList docksOf(WindowLayout layout) {
   switch (layout) {
     case WindowLayout::SetUp: break;
-    case WindowLayout::Run: return {QStringLiteral("sessionDock"), QStringLiteral("plotDock"), QStringLiteral("trialsDock")};
+    case WindowLayout::Run: return {QStringLiteral("sessionDock"), QStringLiteral("plotDock"), QStringLiteral("trialsDock"), QStringLiteral("stationsDock")};
     case WindowLayout::Inspect: return {QStringLiteral("none")};
   }
   return {};

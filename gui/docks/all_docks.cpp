@@ -9,13 +9,14 @@
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/docks/signal_dock.h"
+#include "gui/docks/stations_dock.h"
 #include "gui/docks/task_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
 
 namespace reachlab::gui::docks {
 
-Docks makeDocks(QMainWindow& window) {
+Docks makeDocks(QMainWindow& window, bool station) {
   Docks docks;
   const auto add = [&](auto* dock, Qt::DockWidgetArea area) {
     window.addDockWidget(area, dock);
@@ -27,7 +28,13 @@ Docks makeDocks(QMainWindow& window) {
   docks.velocity = add(new VelocityDock(&window), Qt::BottomDockWidgetArea);
   docks.signal = add(new SignalDock(&window), Qt::BottomDockWidgetArea);
   window.tabifyDockWidget(docks.velocity, docks.signal);
-  docks.velocity->raise();
+  if (station) {
+    docks.stations = add(new StationsDock(&window), Qt::BottomDockWidgetArea);
+    window.tabifyDockWidget(docks.velocity, docks.stations);
+    docks.stations->raise();
+  } else {
+    docks.velocity->raise();
+  }
   docks.session = add(new SessionDock(&window), Qt::LeftDockWidgetArea);
   docks.constraint = add(new ConstraintDock(&window), Qt::LeftDockWidgetArea);
   docks.predictions = add(new PredictionDock(&window), Qt::LeftDockWidgetArea);

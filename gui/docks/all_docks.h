@@ -11,6 +11,7 @@ class Dock;
 class PredictionDock;
 class SessionDock;
 class SignalDock;
+class StationsDock;
 class TrialsDock;
 class VelocityDock;
 
@@ -23,10 +24,11 @@ struct Docks {
   TrialsDock* trials = nullptr;
   DeviceDock* devices = nullptr;
   SignalDock* signal = nullptr;
+  StationsDock* stations = nullptr;  // null where the window is none of several stations
   std::vector<Dock*> all;  // these and those that need nothing but the experiment
 };
 
-/// Makes every dock and puts it in its place.
-Docks makeDocks(QMainWindow& window);
+/// Makes every dock and puts it in its place. `station`: the window is one of several stations.
+Docks makeDocks(QMainWindow& window, bool station = false);
 
 }  // namespace reachlab::gui::docks

@@ -228,9 +228,10 @@ void SessionDock::setStage(Stage stage) {
   next_->setText(stage == Stage::Closed      ? QStringLiteral("Start  (Space)")
                  : stage == Stage::BlockDone ? QStringLiteral("Next block  (Space)")
                                              : QStringLiteral("Next trial  (Space)"));
-  next_->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished);
+  next_->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && stage != Stage::Following);
   abort_->setEnabled(stage == Stage::UnderWay);
   for (auto* button : {repeat_, end_}) button->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed);
+  if (stage == Stage::Following) repeat_->setEnabled(false);
   note_->setEnabled(stage != Stage::Closed);
 }
 

@@ -36,8 +36,8 @@ class SessionDock : public Dock {
   bool repeatsByItself() const;  // next trial without a key
   double pauseSeconds() const;   // [s] before it
 
-  /// While a run is open its who and where stand still.
-  enum class Stage { Closed, BetweenTrials, UnderWay, BlockDone, Finished };  // BlockDone: the plan has another
+  /// While a run is open its who and where stand still. BlockDone: the plan has another; Following: another station conducts.
+  enum class Stage { Closed, BetweenTrials, UnderWay, BlockDone, Finished, Following };
   void setStage(Stage stage);
   /// Which run is open: its number, block, condition, day, seed.
   void showRun(const record::RunConfiguration& run);

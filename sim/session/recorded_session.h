@@ -2,6 +2,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "sim/session/recorded_run.h"
 
@@ -18,6 +19,8 @@ class RecordedSession {
   /// Plans the session; opens nothing. `watcher` (may be null) sees every tick of every run and outlives the session; so do `instruments`. Throws FaultError.
   RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice, haptics::RunSink* watcher = nullptr,
                   record::InstrumentLink* instruments = nullptr);
+  /// What is changed of every run's options before it is opened: whose engine it has, who else sees its ticks.
+  void prepareRuns(std::function<void(RecordedRunOptions&)> prepare) { prepare_ = std::move(prepare); }
 
   /// What is worth a word before it begins.
   const SessionNotice& notice() const { return notice_; }
@@ -38,6 +41,7 @@ class RecordedSession {
   DeviceMaker makeDevice_;
   haptics::RunSink* watcher_;
   record::InstrumentLink* instruments_;
+  std::function<void(RecordedRunOptions&)> prepare_;
   SessionNotice notice_;
   std::uint64_t seed_ = 0;
   std::deque<BlockToRun> blocks_;  // to be opened yet

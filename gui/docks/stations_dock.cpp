@@ -1,0 +1,146 @@
+#include "gui/docks/stations_dock.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "gui/scene/hand_colours.h"
+#include "gui/widgets/theme.h"
+#include "gui/widgets/themes.h"
+
+namespace reachlab::gui::docks {
+namespace {
+
+using Light = network::StationStanding::Light;
+
+enum Column { kLight, kNumber, kName, kRoundTrip, kJitter, kLoss, kOffset, kAge, kDevice, kSoftware, kColumns };
+constexpr int kMostLines = 3;
+
+// Told apart by shape and word; the colour only helps.
+QString lightText(Light light) {
+  switch (light) {
+    case Light::Good: return QStringLiteral("● good");
+    case Light::Fair: return QStringLiteral("▲ fair");
+    case Light::Stop: return QStringLiteral("■ stop");
+    case Light::Absent: break;
+  }
+  return QStringLiteral("○ absent");
+}
+
+QColor lightInk(Light light) {
+  using namespace widgets;
+  switch (light) {
+    case Light::Good: return toQColor(themed(colours::kGreen));
+    case Light::Fair: return toQColor(themed(colours::kTarget));
+    case Light::Stop: return QColor(255, 157, 140);
+    case Light::Absent: break;
+  }
+  return toQColor(themed(colours::kFaintText));
+}
+
+QString milliseconds(double seconds, int digits) { return QString::number(1e3 * seconds, 'f', digits); }
+
+}  // namespace
+
+StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLiteral("stationsDock"), parent) {
+  table_ = new QTableWidget(0, kColumns);
+  table_->setObjectName(QStringLiteral("stations"));
+  table_->setHorizontalHeaderLabels({tr("line"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("loss\n[%]"), tr("clock\n[ms]"),
+                                     tr("age\n[ms]"), tr("device"), tr("software")});
+  const std::pair<Column, QString> tips[] = {
+      {kRoundTrip, tr("there and back; a trial is armed up to 120 ms")},
+      {kJitter, tr("standard deviation of the round trip")},
+      {kLoss, tr("samples of the last second that did not come, or came overtaken")},
+      {kOffset, tr("its clock less this one's")},
+      {kAge, tr("since its newest sample came")}};
+  for (const auto& [column, tip] : tips) table_->horizontalHeaderItem(column)->setToolTip(tip);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(25);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionMode(QAbstractItemView::NoSelection);
+  table_->setFocusPolicy(Qt::NoFocus);
+  table_->setShowGrid(false);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setStretchLastSection(true);
+  table_->setMinimumSize(240, 100);
+  sentence_ = new QLabel;
+  sentence_->setObjectName(QStringLiteral("stationsSentence"));
+  told_ = new QLabel;
+  for (QLabel* label : {sentence_, told_}) label->setWordWrap(true), label->setTextFormat(Qt::PlainText);
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  layout->setContentsMargins(8, 4, 8, 6);
+  layout->addWidget(table_, 1);
+  layout->addWidget(sentence_);
+  layout->addWidget(told_);
+  setBody(body, false);
+}
+
+// Another experiment is another number of stations.
+void StationsDock::display(const experiment::CompiledExperiment&, bool) { table_->setRowCount(0); }
+
+void StationsDock::showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStanding>& others) {
+  network::StationStanding own;
+  own.station = here.line.station;
+  own.name = here.line.name, own.software = here.line.software, own.device = here.line.device, own.conductor = here.line.conductor;
+  QStringList obstacles;
+  if (table_->rowCount() != static_cast<int>(others.size()) + 1) {
+    table_->setRowCount(static_cast<int>(others.size()) + 1);
+    for (int row = 0; row < table_->rowCount(); ++row)
+      for (int column = 0; column < kColumns; ++column) {
+        auto* item = new QTableWidgetItem;
+        item->setTextAlignment((column >= kRoundTrip && column <= kAge ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+        table_->setItem(row, column, item);
+      }
+  }
+  int row = 0;
+  bool placed = false;
+  for (const network::StationStanding& other : others) {
+    if (!placed && other.station > own.station) fill(row++, own, true), placed = true;
+    fill(row++, other, false);
+    for (const std::string& what : other.obstacles)
+      obstacles << tr("station %1: %2").arg(other.station).arg(QString::fromStdString(what));
+  }
+  if (!placed) fill(row, own, true);
+  const QString why = obstacles.join(QStringLiteral("; "));
+  const QString next = stage == Stage::Closed     ? tr("No run is open here: Space opens one, and the others hear of this station.")
+                       : stage == Stage::UnderWay ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
+                       : !why.isEmpty()           ? tr("Not armed: %1.").arg(why)
+                       : stage == Stage::Arming   ? tr("Every line is good: the trial is being armed.")
+                       : own.conductor            ? tr("Every line is good. Space arms the next trial.")
+                                                  : tr("Every line is good. The conductor arms the next trial.");
+  sentence_->setText(here.insecure ? next + QLatin1Char(' ') + tr("Nothing is encrypted.") : next);
+}
+
+void StationsDock::fill(int row, const network::StationStanding& station, bool isHere) {
+  const auto set = [&](Column column, const QString& text) { table_->item(row, column)->setText(text); };
+  const auto text = [](const std::string& from) { return QString::fromStdString(from); };
+  const auto number = [&](const QString& value) { return station.heard ? value : QString(); };
+  set(kLight, isHere ? QString() : lightText(station.light));
+  table_->item(row, kLight)->setForeground(lightInk(station.light));
+  set(kNumber, QString::number(station.station));
+  const widgets::Colour& colour = scene::handColour(static_cast<std::size_t>(station.station - 1));
+  table_->item(row, kNumber)->setForeground(widgets::toQColor(widgets::themed(colour)));
+  QStringList roles;
+  if (isHere) roles << tr("here");
+  if (station.conductor) roles << tr("conductor");
+  set(kName, roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(QStringLiteral(", "))));
+  set(kRoundTrip, number(milliseconds(station.roundTrip, 1)));
+  set(kJitter, number(milliseconds(station.jitter, 1)));
+  set(kLoss, number(QString::number(100 * station.loss, 'f', 1)));
+  set(kOffset, number(milliseconds(station.offset, 3)));
+  set(kAge, number(milliseconds(station.age, 0)));
+  set(kDevice, text(station.device));
+  set(kSoftware, text(station.software));
+}
+
+void StationsDock::tell(const QString& line) {
+  lines_ << line;
+  while (lines_.size() > kMostLines) lines_.removeFirst();
+  told_->setText(lines_.join(QLatin1Char('\n')));
+}
+
+QString StationsDock::sentence() const { return sentence_->text(); }
+
+}  // namespace reachlab::gui::docks

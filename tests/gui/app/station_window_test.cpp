@@ -1,0 +1,78 @@
+#include <QAction>
+#include <QFile>
+#include <QLabel>
+#include <QTableWidget>
+
+#include "gui/docks/session_dock.h"
+#include "gui/docks/stations_dock.h"
+#include "tests/gui/at_the_window.h"
+
+// The window of one of several stations, beside an endpoint that brings nothing.
+namespace reachlab::gui::app {
+namespace {
+
+class StationWindow : public AtTheWindow {
+ protected:
+  MainWindow& openStation(int number, bool conductor) {
+    const QString endpoint = folder_.filePath(QStringLiteral("endpoint"));
+    QFile script(endpoint);
+    EXPECT_TRUE(script.open(QIODevice::WriteOnly));
+    script.write("#!/bin/sh\nexec sleep 60\n");
+    script.close();
+    EXPECT_TRUE(script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
+    request_.what = "chain-two-hands";
+    request_.device = "simulated";
+    network::StationSetup setup;
+    setup.line.station = number;
+    setup.line.conductor = conductor;
+    setup.line.name = "here";
+    setup.line.software = "reachlab";
+    setup.line.endpoint = endpoint.toStdString();
+    setup.wait = 1;
+    setup.insecure = true;
+    window_ = std::make_unique<MainWindow>(request_, setup);
+    window_->show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    QApplication::setActiveWindow(window_.get());
+    window_->joinStations();
+    return *window_;
+  }
+};
+
+TEST_F(StationWindow, TheConductorsArmsNothingWhileAStationIsMissingAndSaysSo) {
+  MainWindow& window = openStation(1, true);
+  ASSERT_NE(window.session().run(), nullptr) << "the others hear of it from the start";
+  auto* dock = window.findChild<docks::StationsDock*>();
+  ASSERT_NE(dock, nullptr);
+  EXPECT_TRUE(dock->sentence().contains(QStringLiteral("station 2: is not there"))) << dock->sentence().toStdString();
+  EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2);
+  EXPECT_EQ(window.view().plan().hands.size(), 2u);
+  QTest::keyClick(&window, Qt::Key_Space);
+  EXPECT_TRUE(window.session().isArming());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return window.message().startsWith(QStringLiteral("no trial was armed: station 2")); }, 5000))
+      << window.message().toStdString();
+  EXPECT_FALSE(window.session().isArming());
+  QTest::keyClick(&window, Qt::Key_Space);
+  EXPECT_TRUE(window.session().isArming());
+  QTest::keyClick(&window, Qt::Key_Escape);
+  EXPECT_FALSE(window.session().isArming()) << "Esc takes it back";
+  EXPECT_EQ(window.session().run()->latest().trial, 0);
+}
+
+TEST_F(StationWindow, AFollowersWaitsForTheConductor) {
+  MainWindow& window = openStation(2, false);
+  ASSERT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(window.view().plan().ownHand, 1);
+  QTest::keyClick(&window, Qt::Key_Space);
+  QTest::qWait(100);
+  EXPECT_FALSE(window.session().underWay());
+  EXPECT_EQ(window.overlay().instruction, QStringLiteral("The conductor begins the next trial"));
+}
+
+TEST_F(StationWindow, APlanIsRefused) {
+  request_.what = "paper";
+  EXPECT_THROW(MainWindow(request_, network::StationSetup{}), FaultError);
+}
+
+}  // namespace
+}  // namespace reachlab::gui::app
