@@ -176,7 +176,10 @@ void MainWindow::wireSession() {
   connect(&session_, &SessionController::trialEnded, this, &MainWindow::trialEnded);
   if (docks_.stations != nullptr) connect(&session_, &SessionController::stationTold, docks_.stations, &docks::StationsDock::tell);
   for (const auto& sentence : {&SessionController::told, &SessionController::failed})
-    connect(&session_, sentence, this, [this](const QString& words) { message_->say(words); });
+    connect(&session_, sentence, this, [this](const QString& words) {
+      message_->say(words);
+      showStage();  // where nothing was armed it may be asked again
+    });
   connect(&edits_.stack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
@@ -361,7 +364,10 @@ void MainWindow::beginNext() {
   showStage();
 }
 
-void MainWindow::abortTrial() { session_.abort(); }
+void MainWindow::abortTrial() {
+  session_.abort();
+  showStage();  // a trial that was not armed yet has no end
+}
 
 void MainWindow::repeatTrial() {
   if (session_.repeat()) showStage(), showOverlay();
