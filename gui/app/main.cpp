@@ -35,7 +35,7 @@ struct Arguments {
 // What only a station has; `number`: which it is, 0 where it is none.
 void parseStation(CLI::App& app, int number, const CLI::App& options, reachlab::network::StationSetup& setup, Arguments& a) {
   if (number == 0) {
-    if (options.count_all() > 0) throw CLI::RequiresError("--station", "an option of a station");
+    if (options.count_all() > 0) throw CLI::RequiresError("an option of a station", "--station");
     return;
   }
   setup.line.station = number;
