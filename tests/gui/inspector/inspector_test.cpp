@@ -56,6 +56,7 @@ class Inspecting : public ::testing::Test {
     QApplication::setActiveWindow(&page_);  // there may be no window manager to do it
     page_.view().setFocus();
     QObject::connect(&page_, &InspectorPage::said, [this](const QString& words) { said_ = words; });
+    QObject::connect(&page_, &InspectorPage::told, [this](const QString& words) { said_ = words; });
     page_.open(QString::fromStdString(data()));
     EXPECT_TRUE(QTest::qWaitFor([this] { return page_.table().rowCount() == 26; }, 10000));
     settle();
