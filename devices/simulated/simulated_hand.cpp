@@ -9,6 +9,7 @@
 
 #include "base/elementary.h"
 #include "base/fault.h"
+#include "base/fused.h"
 #include "base/seeded.h"
 #include "base/ticks.h"
 #include "devices/drivers.h"
@@ -50,8 +51,8 @@ class SmoothNoise {
   double next() {
     double sum = 0;
     for (Wave& w : waves_) {
-      const double sine = w.sine * w.turnCosine + w.cosine * w.turnSine;
-      w.cosine = w.cosine * w.turnCosine - w.sine * w.turnSine;
+      const double sine = mulAdd(w.sine, w.turnCosine, w.cosine * w.turnSine);
+      w.cosine = mulAdd(w.cosine, w.turnCosine, -(w.sine * w.turnSine));
       w.sine = sine;
       sum += sine;
     }
