@@ -5,8 +5,9 @@
 
 Each PROGRAM is a `reach` (or NAME=reach). Every shipped experiment and the formulas below are recorded by the first and recomputed by each of the
 others (`reach replay --check`), once as they are and once with the C library told that the processor has neither AVX2 nor FMA; the exported
-trials.csv of all are compared too. --emulate runs one experiment of each kind under qemu-x86_64 -cpu CPU (Nehalem: level v2). --price prints the
-ns of a simulated ms of each level beside a native build, in turns. Exit 1 where a bit differs.
+motion of a run by each, with a simulated hand of the same seed, is compared too. --emulate replays one experiment of each kind by the last program
+under qemu-x86_64 -cpu CPU (Nehalem: level v2). --price prints the ns of a tick of each level beside a native build, in turns. Exit 1 where a
+bit differs.
 """
 import argparse
 import json
@@ -54,9 +55,7 @@ def experiments(reach, folder):
 def record(command, experiment, folder, env=None):
     shutil.rmtree(folder, ignore_errors=True)
     must([*command, "run", experiment, "--device", "simulated", "--trials", "2", "--seed", "1", "--fast", "--data", str(folder)], env)
-    log = next(folder.rglob("*_log.reach"))
-    trials = next(folder.rglob("trials.csv"), None)
-    return log, trials.read_text() if trials else ""
+    return next(folder.rglob("*_log.reach")), next(folder.rglob("*_motion.tsv")).read_text()
 
 
 def price(programs, native, rounds):
@@ -94,12 +93,12 @@ def main():
         columns = [first + ", old C library"] + [n for o in others for n in (o, o + ", old C library")]
         print(f"recorded by {first}; '=' the same bits\n{'experiment':<20}" + "".join(f"{c:>28}" for c in columns) + (f"{wishes.emulate:>12}" if wishes.emulate else ""))
         for experiment, file in experiments(programs[first], folder):
-            log, trials = record([programs[first]], file, folder / "first")
+            log, motion = record([programs[first]], file, folder / "first")
             line = f"{experiment:<20}"
             for column in columns:
                 reach, env = programs[column.split(",")[0]], OLD_C_LIBRARY if "old" in column else None
                 same = run([reach, "replay", log, "--check"], env).returncode == 0
-                again = record([reach], file, folder / "again", env)[1] == trials
+                again = record([reach], file, folder / "again", env)[1] == motion
                 differing += not (same and again)
                 line += f"{'=' if same and again else 'other states' if not same else 'other hand':>28}"
             if wishes.emulate and experiment in EMULATED:
