@@ -331,8 +331,22 @@ class Reader {
     return frames;
   }
 
+  // Labels beside pairs of minutes and seconds.
+  std::vector<C3dEvent> events() const {
+    std::vector<std::string> labels;
+    addTexts(find("EVENT:LABELS"), labels);
+    const Parameter* times = find("EVENT:TIMES");
+    if (times == nullptr || times->type != 4) return {};
+    std::vector<C3dEvent> found;
+    for (std::size_t i = 0; i < labels.size() && 8 * (i + 1) <= times->data.size(); ++i)
+      if (const double time = 60 * real(&times->data[8 * i]) + real(&times->data[8 * i + 4]); std::isfinite(time))
+        found.push_back({labels[i], time});
+    return found;
+  }
+
   C3dFile readPoints() {
     C3dFile file;
+    file.events = events();
     const std::size_t points = word(&bytes_[2]), signals = word(&bytes_[4]);
     need(points > 0, "has no points", "at least one point");
     file.rate = number("POINT:RATE").value_or(real(&bytes_[20]));

@@ -24,7 +24,7 @@ struct C3dFile {
   double rate = 100;         // [1/s] frames
   std::string pointUnit;     // "mm", "m"
   std::vector<C3dLabel> points, analogs;
-  std::vector<C3dEvent> events;                            // written, not read
+  std::vector<C3dEvent> events;
   std::vector<std::pair<std::string, std::string>> notes;  // texts by upper-case name, written as the group REACHLAB; not read
 
   std::size_t frames = 0;
@@ -37,7 +37,7 @@ struct C3dFile {
 /// points or channels, 2^31 frames).
 std::string c3dBytes(const C3dFile& file);
 
-/// Reads the points: floats or scaled integers of Intel, MIPS and DEC processors. Throws FaultError `FILE: what; allowed: …` on bytes that are
+/// Reads the points and the events: floats or scaled integers of Intel, MIPS and DEC processors. Throws FaultError `FILE: what; allowed: …` on bytes that are
 /// no such file.
 C3dFile readC3d(std::string_view bytes, const std::string& origin);
 

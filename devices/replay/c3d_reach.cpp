@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <optional>
 
 #include "base/c3d_file.h"
 #include "base/error.h"
@@ -25,6 +27,23 @@ std::size_t pointAsked(const C3dFile& c3d, const std::string& file, const std::s
                          FilePlace{file}});
 }
 
+// The reach in a trial: from the event `onset` to the event `end`, as events.tsv of the same trial has it; the whole file where they are not told.
+struct Span {
+  double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();  // [s] since the first frame
+};
+
+Span reachIn(const C3dFile& c3d) {
+  const auto timeOf = [&](const char* label) -> std::optional<double> {
+    const auto at = std::find_if(c3d.events.begin(), c3d.events.end(), [&](const C3dEvent& event) { return event.label == label; });
+    if (at == c3d.events.end()) return std::nullopt;
+    return at->time;
+  };
+  const auto onset = timeOf("onset"), end = timeOf("end");
+  if (!onset || !end || !(*end > *onset)) return {};
+  const double rounding = 1e-4;  // [s] times are single precision
+  return {*onset - rounding, *end + rounding};
+}
+
 }  // namespace
 
 RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns) {
@@ -33,15 +52,18 @@ RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns)
   const C3dFile c3d = readC3d(readTextFile(file), file);
   const std::size_t point = pointAsked(c3d, file, columns.point);
   const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, FilePlace{file});
+  const Span reach = reachIn(c3d);
   SeenSamples samples(file);
   for (std::size_t frame = 0; frame < c3d.frames; ++frame) {
     const std::size_t at = frame * c3d.points.size() + point;
+    const double time = static_cast<double>(frame) / c3d.rate;
+    if (time < reach.begin || time > reach.end) continue;
     if (c3d.seen[at] == 0) {
       samples.miss();
       continue;
     }
     const auto metres = [&](std::size_t axis) { return unit * static_cast<double>(c3d.places[3 * at + axis]); };
-    samples.add(static_cast<double>(frame) / c3d.rate, {metres(0), metres(1), metres(2)});
+    samples.add(time, {metres(0), metres(1), metres(2)});
   }
   return samples.take();
 }

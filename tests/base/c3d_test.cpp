@@ -38,6 +38,11 @@ TEST(C3dFile, ReadsBackItsPoints) {
   for (std::size_t i = 0; i < file.places.size(); ++i) {
     EXPECT_EQ(back.places[i], i / 3 == 4 ? 0 : file.places[i]) << i;
   }
+  ASSERT_EQ(back.events.size(), 2u);
+  EXPECT_EQ(back.events[0].label, "go");
+  EXPECT_NEAR(back.events[0].time, 0.1, 1e-8) << "single precision";
+  EXPECT_EQ(back.events[1].label, "end");
+  EXPECT_EQ(back.events[1].time, 61.5);
 }
 
 // A parameter's dimensions are bytes: 255 labels at most.

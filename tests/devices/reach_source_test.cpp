@@ -172,6 +172,22 @@ TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
   EXPECT_NE(refusalOf(write("no.c3d", "hello")).find("is no C3D file"), std::string::npos);
 }
 
+// A trial's file begins before the movement and may end after it: what is replayed is the same as from the trial's BIDS files.
+TEST_F(OthersFiles, AC3dReachIsCutByItsEvents) {
+  C3dFile c3d;
+  c3d.pointUnit = "m";
+  c3d.points = {{"hand"}};
+  c3d.frames = 60;
+  c3d.places.assign(180, 1);
+  c3d.seen.assign(60, 1);
+  c3d.events = {{"go", 0.1}, {"onset", 0.17}, {"end", 0.43}};
+  const RecordedReach reach = read(write("cut.c3d", c3dBytes(c3d))).front();
+  EXPECT_EQ(reach.time.front(), 0.17);
+  EXPECT_EQ(reach.time.back(), 0.43);
+  c3d.events.pop_back();
+  EXPECT_EQ(read(write("whole.c3d", c3dBytes(c3d))).front().time.size(), 60u);
+}
+
 TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
   write("a.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n");
   C3dFile c3d;
