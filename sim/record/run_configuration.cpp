@@ -13,9 +13,15 @@ namespace reachlab::record {
 
 using nlohmann::json;
 
+namespace {
+
+constexpr int kSchemaVersion = 1;  // of the configuration's keys: one whose meaning changes is another version
+
+}  // namespace
+
 std::string toJson(const RunConfiguration& c) {
   json j = writeFields(c);
-  j["schema_version"] = 1;
+  j["schema_version"] = kSchemaVersion;
   return j.dump(1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -23,6 +29,9 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   try {
     const json j = json::parse(text, nullptr, false);
     if (!j.is_object()) throw FaultError(Fault{.what = "is no JSON object"});
+    if (const auto version = j.find("schema_version"); version != j.end() && *version != kSchemaVersion)
+      throw FaultError(Fault{"schema_version", fmt::format("is {}", version->dump().substr(0, 40)),
+                             fmt::format("{}; a newer reachlab reads newer recordings", kSchemaVersion)});
     RunConfiguration c;
     readFields(j, c);
     checkConfiguration(c);

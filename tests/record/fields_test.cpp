@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/fault.h"
 #include "sim/record/run_fields.h"
 #include "tests/record/made_run.h"
@@ -105,6 +107,20 @@ TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
     EXPECT_EQ(differingFields(original, read), expected);
   });
   EXPECT_GT(number, 40u);
+}
+
+// What a later version means by the same keys is not known.
+TEST(RunConfiguration, OfAnotherVersionIsRefused) {
+  nlohmann::json json = nlohmann::json::parse(toJson(RunConfiguration{}));
+  for (const nlohmann::json& version : {nlohmann::json(2), nlohmann::json(1e300), nlohmann::json("1"), nlohmann::json(nullptr)}) {
+    json["schema_version"] = version;
+    try {
+      configurationFromJson(json.dump(), "a log");
+      ADD_FAILURE() << version << " is read";
+    } catch (const FaultError& error) {
+      EXPECT_EQ(std::string(error.what()).find("a log: configuration.schema_version: is " + version.dump() + "; allowed: 1"), 0u) << error.what();
+    }
+  }
 }
 
 }  // namespace
