@@ -37,7 +37,7 @@ const char* processorLevel() noexcept { return REACHLAB_LEVEL_NAME; }
 void requireProcessorLevel() noexcept {
   if (isThere()) return;
   say("reachlab: this program is compiled for processors of level " REACHLAB_LEVEL_NAME
-      " (x86-64-v3: AVX2 and FMA, most since 2013), and this computer's is older; build it here from its source: packaging/run\n");
+      ", and this computer's is older; build it here from its source: packaging/run\n");
   ::_exit(kExitCode);
 }
 
