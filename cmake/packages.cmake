@@ -34,10 +34,9 @@ set(component_of_reachlab gui)
 set(component_of_reach-mpi mpi)
 
 # On the path: what picks the level.
-file(RELATIVE_PATH libexec ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/reachlab)
 foreach(program ${programs})
   add_executable(level-${program} cli/level/main.cpp)
-  target_compile_definitions(level-${program} PRIVATE REACHLAB_PROGRAM="${program}" REACHLAB_LIBEXEC_FROM_BIN="${libexec}")
+  target_compile_definitions(level-${program} PRIVATE REACHLAB_PROGRAM="${program}" REACHLAB_LIBEXEC_FROM_BIN="${REACHLAB_LIBEXEC_FROM_BIN}")
   target_compile_options(level-${program} PRIVATE -march=x86-64 -mtune=generic)
   install(PROGRAMS $<TARGET_FILE:level-${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${program} COMPONENT ${component_of_${program}})
 endforeach()

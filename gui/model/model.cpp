@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <QCoreApplication>
 #include <QFileInfo>
 #include <QProcess>
 #include <charconv>
 #include <cmath>
 
 #include "base/fault.h"
+#include "base/helper_program.h"
 #include "base/json_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"
@@ -17,14 +17,6 @@ namespace reachlab::gui::model {
 namespace {
 
 constexpr int kPatienceMs = 20'000;
-
-// Beside this program, where it is installed, or of its build tree.
-QString findGltfReader() {
-  const QString here = QCoreApplication::applicationDirPath();
-  for (const char* place : {"/reachlab-gltf", "/../" REACHLAB_LIBEXEC "/reachlab/reachlab-gltf", "/../../gui/reachlab-gltf"})
-    if (QFileInfo(here + QLatin1String(place)).isExecutable()) return here + QLatin1String(place);
-  return {};
-}
 
 FaultError refusal(const std::string& file, const std::string& what, const std::string& allowed = {}) {
   return FaultError(Fault{{}, what, allowed, FilePlace{file}});
@@ -40,10 +32,9 @@ std::string shortened(std::string words) {
 }
 
 Model readGltf(const std::string& file) {
-  const QString program = findGltfReader();
-  if (program.isEmpty()) throw ResourceError(file + ": glTF is read by the program reachlab-gltf, which is not installed; VRML 2.0 needs none");
   QProcess process;
-  process.start(program, {QString::fromStdString(file)});
+  process.start(QString::fromStdString(findHelperProgram("reachlab-gltf", file, "which reads glTF (VRML 2.0 needs no program)")),
+                {QString::fromStdString(file)});
   if (!process.waitForStarted() || !process.waitForFinished(kPatienceMs)) {
     process.kill();
     process.waitForFinished();
