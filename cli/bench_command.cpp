@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+#include "base/helper_program.h"
 #include "cli/bench/bench_options.h"
 #include "cli/commands.h"
-#include "base/helper_program.h"
-#include "base/error.h"
 
 namespace reachlab::cli {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "base/elementary.h"
 
-
 namespace reachlab::constraints {
 namespace {
 
