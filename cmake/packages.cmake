@@ -1,5 +1,8 @@
 # What is installed beside the programs, and the Debian packages: reachlab-cli (no Qt, no VTK), reachlab (the window), reachlab-mpi (studies over
 # the ranks of an MPI job), reachlab-doc (the manual). `packaging/deb` builds them out of one build tree for each level of processor.
+if(REACHLAB_PACKAGES STREQUAL PROGRAMS)  # a level beside the one that packs the rest
+  return()
+endif()
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(share ${CMAKE_INSTALL_DATADIR})
 
@@ -114,8 +117,8 @@ set(CPACK_DEBIAN_CLI_DESCRIPTION "laboratory for reaching movements: command lin
  simulated subject, datasets in Motion-BIDS and CSV, tables, figures.
  .
  For processors of level x86-64-v2 (most since 2009) and newer: the programs are
- there for levels v2, v3 and v4, with the same results to the bit, and the
- quickest that the processor runs is started.")
+ there for several levels, with the same results to the bit, and the quickest
+ that the processor runs is started.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME reachlab-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), openmpi-bin")
