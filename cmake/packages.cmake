@@ -41,7 +41,8 @@ foreach(program ${programs})
   add_executable(level-${program} cli/level/main.cpp)
   target_compile_definitions(level-${program} PRIVATE REACHLAB_PROGRAM="${program}" REACHLAB_LIBEXEC_FROM_BIN="${REACHLAB_LIBEXEC_FROM_BIN}")
   target_compile_options(level-${program} PRIVATE -march=x86-64 -mtune=generic)
-  install(PROGRAMS $<TARGET_FILE:level-${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${program} COMPONENT ${component_of_${program}})
+  set_target_properties(level-${program} PROPERTIES OUTPUT_NAME ${program} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/level)
+  install(TARGETS level-${program} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component_of_${program}})
 endforeach()
 
 # Man pages and completions, out of the programs' own --help.
@@ -103,6 +104,7 @@ endforeach()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_NAME} built using CMake")  # any other would stand before each package's own first line
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_CLI_PACKAGE_NAME reachlab-cli)
@@ -111,35 +113,35 @@ set(CPACK_DEBIAN_CLI_PACKAGE_DEPENDS "adduser, fonts-dejavu-core")
 set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "reachlab-doc")
 set(CPACK_DEBIAN_CLI_PACKAGE_CONTROL_EXTRA "${packaging}/debian/preinst;${packaging}/debian/postinst;${packaging}/debian/postrm;${packaging}/debian/conffiles")
 set(CPACK_DEBIAN_CLI_DESCRIPTION "laboratory for reaching movements: command line
- Records, judges, predicts and analyses how people move masses and springs that
- are bound to curves and surfaces, from rest to rest. The program reach does
- every job of the window of package reachlab: sessions with a force device or a
- simulated subject, datasets in Motion-BIDS and CSV, tables, figures.
- .
- For processors of level x86-64-v2 (most since 2009) and newer: the programs are
- there for several levels, with the same results to the bit, and the quickest
- that the processor runs is started.")
+Records, judges, predicts and analyses how people move masses and springs that
+are bound to curves and surfaces, from rest to rest. The program reach does
+every job of the window of package reachlab: sessions with a force device or a
+simulated subject, datasets in Motion-BIDS and CSV, tables, figures.
+
+For processors of level x86-64-v2 (most since 2009) and newer: the programs are
+there for several levels, with the same results to the bit, and the quickest
+that the processor runs is started.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME reachlab-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), openmpi-bin")
 set(CPACK_DEBIAN_MPI_DESCRIPTION "laboratory for reaching movements: studies on clusters
- The program reach-mpi spreads a study of virtual subjects over the ranks of an
- OpenMPI job; its bytes are those of reach study on one computer.")
+The program reach-mpi spreads a study of virtual subjects over the ranks of an
+OpenMPI job; its bytes are those of reach study on one computer.")
 set(CPACK_DEBIAN_GUI_PACKAGE_NAME reachlab)
 set(CPACK_DEBIAN_GUI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "reachlab-cli (= ${PROJECT_VERSION}), libqt5svg5, libgl1-mesa-dri, fonts-dejavu-core")
 set(CPACK_DEBIAN_GUI_PACKAGE_RECOMMENDS "libqt5multimedia5-plugins, fonts-ipafont-gothic, reachlab-doc")
 set(CPACK_DEBIAN_GUI_PACKAGE_SUGGESTS "xwayland")
 set(CPACK_DEBIAN_GUI_DESCRIPTION "laboratory for reaching movements: window
- A person holds a force device or a mouse and moves masses and springs that
- are bound to a curve, a surface or nothing. The window shows the scene, a
- semaphore and live velocity profiles with predictions; every trial is judged
- and recorded so that it cannot be lost.")
+A person holds a force device or a mouse and moves masses and springs that
+are bound to a curve, a surface or nothing. The window shows the scene, a
+semaphore and live velocity profiles with predictions; every trial is judged
+and recorded so that it cannot be lost.")
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME reachlab-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOC_DESCRIPTION "laboratory for reaching movements: manual
- Tutorial, how to make each figure and table of the paper that the program
- implements, reference of experiment, plan and definition files, recordings,
- analysis and predictions, as pages that need no network.")
+Tutorial, how to make each figure and table of the paper that the program
+implements, reference of experiment, plan and definition files, recordings,
+analysis and predictions, as pages that need no network.")
 include(CPack)
