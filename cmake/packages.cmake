@@ -62,8 +62,14 @@ foreach(program ${programs})
   install(FILES ${pages}/bash/${program} DESTINATION ${share}/bash-completion/completions COMPONENT ${component})
   install(FILES ${pages}/zsh/_${program} DESTINATION ${share}/zsh/vendor-completions COMPONENT ${component})
   install(FILES ${pages}/fish/${program}.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT ${component})
+  set(others "")  # reach-mpi is no command of reach
+  foreach(other ${programs})
+    if(other MATCHES "^${program}-")
+      list(APPEND others PATTERN ${other}.1.gz EXCLUDE)
+    endif()
+  endforeach()
   install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT ${component}
-    FILES_MATCHING PATTERN ${program}.1.gz PATTERN ${program}-*.1.gz)
+    FILES_MATCHING PATTERN ${program}.1.gz PATTERN ${program}-*.1.gz ${others})
 endforeach()
 
 # The manual as a site.
