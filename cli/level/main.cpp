@@ -29,7 +29,10 @@ int main(int, char** arguments) {
                           {"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0},
                           {"x86-64-v2", __builtin_cpu_supports("x86-64-v2") != 0}};
   std::error_code ignored;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path() / REACHLAB_LIBEXEC_FROM_BIN;
+  const fs::path own = fs::read_symlink("/proc/self/exe", ignored);
+  if (own.empty())
+    return fail(REACHLAB_PROGRAM, "/proc, which tells where this program is installed, is not mounted: mount -t proc proc /proc");
+  const fs::path folder = own.parent_path() / REACHLAB_LIBEXEC_FROM_BIN;
   const char* asked = std::getenv("REACHLAB_LEVEL");
   if (asked != nullptr && *asked == '\0') asked = nullptr;
   for (const Level& level : levels) {
