@@ -4,12 +4,23 @@
 #include <cmath>
 
 #include "base/gauss_legendre.h"
+#include "constraints/sincos.h"
 
 namespace reachlab::predict {
 namespace {
 
 // Sixteen Gauss nodes integrate the square of a wave to rounding while its phase W tau turns by no more than this within a interval.
 constexpr double kPhasePerInterval = 8;
+
+// Of a triangle. Its square's eigenvalues, which are cheap, have ten digits of the smallest one up to this condition.
+constexpr double kSquareTells = 1e3;
+double computeCondition(const Eigen::MatrixXd& r) {
+  const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(r.transpose() * r, Eigen::EigenvaluesOnly).eigenvalues();
+  const double least = squares(0), most = squares(squares.size() - 1);
+  if (most <= kSquareTells * kSquareTells * least) return std::sqrt(most / least);
+  const Eigen::VectorXd sizes = Eigen::BDCSVD<Eigen::MatrixXd>(r).singularValues();
+  return sizes(0) / sizes(sizes.size() - 1);
+}
 
 }  // namespace
 
@@ -36,14 +47,13 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
       p0 = p1, p1 = p2;
     }
     for (Eigen::Index j = 0; j < frequency.size(); ++j)
-      basis(row, polynomials + j) = root * (even ? std::cos(frequency(j) * tau) : std::sin(frequency(j) * tau));
+      basis(row, polynomials + j) = root * (even ? constraints::cosine(frequency(j) * tau) : constraints::sine(frequency(j) * tau));
   }
 
   const Eigen::VectorXd scale = basis.colwise().norm().cwiseInverse();
   basis *= scale.asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
   const Eigen::MatrixXd r = qr.matrixQR().topRows(unknowns).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd sizes = Eigen::BDCSVD<Eigen::MatrixXd>(r).singularValues();
 
   // int g P_(r-1) dtau = lead * (-1)^(r-1) (r-1)! L / H^(r-1), lead the leading coefficient of P_(r-1); all other products
   // vanish.
@@ -61,7 +71,7 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   motion.polynomial = c.head(polynomials);
   motion.trig = c.tail(frequency.size());
   motion.cost = right * c(polynomials - 1);
-  motion.condition = sizes(0) / sizes(unknowns - 1);
+  motion.condition = computeCondition(r);
   return motion;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "constraints/sincos.h"
 #include "sim/predict/line/min_norm.h"
 #include "sim/predict/line/modes.h"
 
@@ -52,7 +53,7 @@ RigidMotion integrateMotion(const MinNormMotion& motion, const Eigen::VectorXd& 
     if (even) {
       double end = 0;
       for (const double c : power) end += c;
-      for (Eigen::Index j = 0; j < trig.size(); ++j) end += trig(j) * std::cos(frequency(j) * H);
+      for (Eigen::Index j = 0; j < trig.size(); ++j) end += trig(j) * constraints::cosine(frequency(j) * H);
       power[0] = -end;
     }
     if (step == motion.order - 2) rigid.acceleration = asOdd();
@@ -85,7 +86,9 @@ class SymmetricPrediction final : public Prediction {
     }
     const Eigen::Index n = frequency_.size();
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double w = frequency_(j), angle = w * (t - halfTime_), sine = std::sin(angle), cosine = std::cos(angle);
+      double sine, cosine;
+      const double w = frequency_(j);
+      constraints::sinCos(w * (t - halfTime_), sine, cosine);
       const double a = hand_(kOddPowers + j), b = hand_(kOddPowers + n + j);
       out.position += a * sine + b * s * cosine;
       out.velocity += (a * w + b / halfTime_) * cosine - b * s * w * sine;
@@ -94,17 +97,16 @@ class SymmetricPrediction final : public Prediction {
     return out;
   }
 
-  double objectVelocityAt(double t) const override {
-    const double s = (t - halfTime_) / halfTime_, s2 = s * s;
-    const auto row = masses_.row(source_.back());
-    const Eigen::Index n = frequency_.size();
-    double even = 1 / halfTime_, velocity = 0;
-    for (int k = 0; k < kOddPowers; ++k, even *= s2) velocity += row(k) * (2 * k + 1) * even;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const double w = frequency_(j), angle = w * (t - halfTime_), cosine = std::cos(angle), b = row(kOddPowers + n + j);
-      velocity += (row(kOddPowers + j) * w + b / halfTime_) * cosine - b * s * w * std::sin(angle);
+  double objectVelocityAt(double t) const override { return velocitiesAt(t).object; }
+
+  // Both are even about the middle, so that the first half tells the second.
+  void sampleVelocities(std::span<double> hand, std::span<double> object) const override {
+    const size_t last = hand.size() - 1;
+    for (size_t i = 0; 2 * i <= last; ++i) {
+      const Velocities v = velocitiesAt(2 * halfTime_ * static_cast<double>(i) / static_cast<double>(last));
+      hand[i] = hand[last - i] = v.hand;
+      object[i] = object[last - i] = v.object;
     }
-    return velocity;
   }
 
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
@@ -123,13 +125,40 @@ class SymmetricPrediction final : public Prediction {
     }
     const Eigen::Index n = frequency_.size();
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double w = frequency_(j), angle = w * (t - halfTime_), sine = std::sin(angle), cosine = std::cos(angle);
+      double sine, cosine;
+      const double w = frequency_(j);
+      constraints::sinCos(w * (t - halfTime_), sine, cosine);
       add(kOddPowers + j, sine, w * cosine);
       add(kOddPowers + n + j, s * cosine, cosine / halfTime_ - s * w * sine);
     }
   }
 
  private:
+  struct Velocities {
+    double hand = 0, object = 0;  // of the last mass
+  };
+  Velocities velocitiesAt(double t) const {
+    const double s = (t - halfTime_) / halfTime_, s2 = s * s;
+    const auto object = masses_.row(source_.back());
+    const Eigen::Index n = frequency_.size();
+    Velocities v;
+    double even = 1 / halfTime_;
+    for (int k = 0; k < kOddPowers; ++k, even *= s2) {
+      const double slope = (2 * k + 1) * even;
+      v.hand += hand_(k) * slope;
+      v.object += object(k) * slope;
+    }
+    for (Eigen::Index j = 0; j < n; ++j) {
+      double sine, cosine;
+      const double w = frequency_(j);
+      constraints::sinCos(w * (t - halfTime_), sine, cosine);
+      const double a = w * cosine, b = cosine / halfTime_ - s * w * sine;
+      v.hand += hand_(kOddPowers + j) * a + hand_(kOddPowers + n + j) * b;
+      v.object += object(kOddPowers + j) * a + object(kOddPowers + n + j) * b;
+    }
+    return v;
+  }
+
   double halfTime_, half_;
   Eigen::VectorXd frequency_;
   Eigen::RowVectorXd hand_;
@@ -142,6 +171,8 @@ Eigen::MatrixXd computeModalResponse(const RigidMotion& rigid, const Modes& mode
   const Eigen::Index n = modes.frequency.size();
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(n, kOddPowers + 2 * n);
   const Eigen::VectorXd& w = modes.frequency;
+  Eigen::VectorXd sine(n), cosine(n);  // of W_j H
+  for (Eigen::Index j = 0; j < n; ++j) constraints::sinCos(w(j) * H, sine(j), cosine(j));
   for (Eigen::Index j = 0; j < n; ++j) {
     const double drive = modes.drive(j), w2 = w(j) * w(j);
     for (int k = kOddPowers - 1; k >= 0; --k) {
@@ -154,15 +185,14 @@ Eigen::MatrixXd computeModalResponse(const RigidMotion& rigid, const Modes& mode
     q(j, kOddPowers + n + j) = resonance * H;
 
     // Both end conditions q = q' = 0 at H give the homogeneous part without dividing by a small sine.
-    const double sine = std::sin(w(j) * H), cosine = std::cos(w(j) * H);
-    double end = resonance * H * cosine, endRate = resonance * (cosine - w(j) * H * sine);
+    double end = resonance * H * cosine(j), endRate = resonance * (cosine(j) - w(j) * H * sine(j));
     for (int k = 0; k < kOddPowers; ++k) end += q(j, k), endRate += q(j, k) * (2 * k + 1) / H;
     for (Eigen::Index i = 0; i < n; ++i)
       if (i != j) {
-        end += q(j, kOddPowers + i) * std::sin(w(i) * H);
-        endRate += q(j, kOddPowers + i) * w(i) * std::cos(w(i) * H);
+        end += q(j, kOddPowers + i) * sine(i);
+        endRate += q(j, kOddPowers + i) * w(i) * cosine(i);
       }
-    q(j, kOddPowers + j) = -(end * sine + endRate * cosine / w(j));
+    q(j, kOddPowers + j) = -(end * sine(j) + endRate * cosine(j) / w(j));
   }
   return q;
 }
