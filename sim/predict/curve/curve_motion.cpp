@@ -210,12 +210,10 @@ PiecewiseSeries CurveMotion::makeProfile() const {
     }
     for (size_t j = 0; j < kStages; ++j) power[l][j] = product[j];
   }
-  PiecewiseSeries profile;
-  profile.outputs = n_;
-  profile.terms = kStages + 2;
-  profile.intervals = intervals_;
+  PiecewiseSeries profile(n_, kStages + 2, intervals_);
   profile.width = width_;
-  for (const Interval& interval : interval_)
+  for (int p = 0; p < intervals_; ++p) {
+    const Interval& interval = interval_[static_cast<size_t>(p)];
     for (int i = 0; i < n_; ++i) {
       std::array<double, kStages + 2> series{interval.position(i), width_ * interval.speed(i)};
       for (size_t j = 0; j < kStages; ++j) {
@@ -223,8 +221,9 @@ PiecewiseSeries CurveMotion::makeProfile() const {
         for (int l = 0; l < kStages; ++l) sum += power[static_cast<size_t>(l)][j] * interval.acceleration(l * n_ + i);
         series[j + 2] = width_ * width_ * sum / static_cast<double>((j + 1) * (j + 2));
       }
-      profile.coefficient.insert(profile.coefficient.end(), series.begin(), series.end());
+      for (size_t k = 0; k < series.size(); ++k) profile.of(p, i)[k][p % kBatchLanes] = series[k];
     }
+  }
   return profile;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace reachlab::predict {
 namespace {
@@ -12,9 +13,17 @@ using Real = DoubleDouble;
 // A linear combination of the states and, last, of the control.
 using Row = std::vector<Real>;
 
+// One of them.
+struct Term {
+  size_t place;
+  Real factor;
+};
+
 void add(Row& to, const Row& row, Real factor) {
-  for (size_t i = 0; i < to.size(); ++i) to[i] += factor * row[i];
+  for (size_t i = 0; i < to.size(); ++i)
+    if (row[i].hi != 0) to[i] += factor * row[i];
 }
+void add(Row& to, const Term& term, Real factor) { to[term.place] += factor * term.factor; }
 
 /// Collects the equations of one object, state by state.
 class Builder {
@@ -25,10 +34,10 @@ class Builder {
     const int rest = 2 * n;  // h, h', … after elongations and relative velocities
     begin(n, n, order);
     s.controlled = s.size;
-    const Row speed = state(rest + 1), acceleration = state(rest + 2);
+    const Term speed = state(rest + 1), acceleration = state(rest + 2);
     for (int i = 0; i < n; ++i) {
       const int from = fromOf(i);
-      const Row stretching = difference(from < 0 ? zero() : velocity(from), velocity(i));
+      const Row stretching = from < 0 ? difference(zero(), velocity(i)) : difference(velocity(from), velocity(i));
       setRate(i, stretching, sqrt(Real(o.springs[i])));
       applySpring(i, from, i, stretching);
       add(force[i], velocity(i), Real(-o.viscosity[i]));
@@ -36,10 +45,10 @@ class Builder {
       add(force[i], acceleration, Real(-o.masses[i]));
     }
     finishVelocities(o.masses);
-    for (int k = 0; k + 1 < order; ++k) setRate(rest + k, state(rest + k + 1), Real(1));
-    setRate(rest + order - 1, control(), Real(1));
+    for (int k = 0; k + 1 < order; ++k) setRate(rest + k, row(state(rest + k + 1)), Real(1));
+    setRate(rest + order - 1, row(control()), Real(1));
     s.target[rest] = distance;
-    Row hand = state(rest);
+    Row hand = row(state(rest));
     s.output = positions(hand);
     return finish();
   }
@@ -75,7 +84,7 @@ class Builder {
     const Row drive = drivingForce(velocity(0), 1);
     add(force[0], drive, Real(1));
     finishByForce(masses, distance);
-    Row hand = centre();
+    Row hand = row(centre());
     for (int i = 0; i < n; ++i) subtractMassOffset(hand, i + 1);
     s.output = positions(hand);
     return finish();
@@ -86,7 +95,7 @@ class Builder {
     begin(n, n, 1 + forceStates());
     s.controlled = s.size;
     nodeMass = o.masses;
-    Row speed = drivingForce(zero(), 0);
+    Row speed = drivingForce(std::nullopt, 0);
     for (int i = 0; i < n; ++i)
       if (fromOf(i) < 0) {
         add(speed, state(i), -sqrt(Real(o.springs[i])));
@@ -95,14 +104,14 @@ class Builder {
     for (Real& c : speed) c /= Real(hubDamping);
     for (int i = 0; i < n; ++i) {
       const int from = fromOf(i);
-      const Row stretching = difference(from < 0 ? speed : velocity(from), velocity(i));
+      const Row stretching = from < 0 ? difference(speed, velocity(i)) : difference(velocity(from), velocity(i));
       setRate(i, stretching, sqrt(Real(o.springs[i])));
       applySpring(i, from, i, stretching);
       add(force[i], velocity(i), Real(-o.viscosity[i]));
     }
     s.handVelocityJumps = kind != Criterion::MinHandForceChange;
     finishByForce(o.masses, distance);
-    Row hand = centre();
+    Row hand = row(centre());
     for (int i = 0; i < n; ++i) subtractMassOffset(hand, i);
     s.output = positions(hand);
     return finish();
@@ -114,7 +123,7 @@ class Builder {
     begin(n - 1, n, 1 + forceStates() + (follower ? 1 : 0));
     s.controlled = s.size - (follower ? 1 : 0);
     nodeMass = o.masses;
-    const Row drive = drivingForce(zero(), 0);
+    const Row drive = drivingForce(std::nullopt, 0);
     for (int i = 0; i < n; ++i) {
       add(force[i], velocity(i), Real(-o.viscosity[i]));
       if (i == 0) continue;
@@ -125,7 +134,7 @@ class Builder {
     add(force[0], drive, Real(1));
     finishByForce(o.masses, distance);
 
-    Row first = centre();  // x1 = Xc + sum of what lies behind it
+    Row first = row(centre());  // x1 = Xc + sum of what lies behind it
     for (int i = 1; i < n; ++i) {
       double behind = 0;
       for (int j = i; j < n; ++j) behind += o.masses[j];
@@ -170,7 +179,7 @@ class Builder {
       const Real reflected = axis[i] * axis[j + 1] / axis[0];
       return i == j + 1 ? Real(1) - reflected : -reflected;
     };
-    const Row drive = drivingForce(zero(), 0);
+    const Row drive = drivingForce(std::nullopt, 0);
     std::vector<Row> stretch(n, zero());  // sqrt(k) e
     for (int i = 0; i < n; ++i) {
       add(stretch[i], drive, q[i] / sqrt(total));
@@ -184,7 +193,7 @@ class Builder {
       setRate(j, rate, Real(1));
     }
     finishByForce(o.masses, distance);
-    Row hand = centre();
+    Row hand = row(centre());
     for (int i = 0; i < n; ++i) add(hand, stretch[i], Real(o.masses[i]) / Real(o.totalMass()) / sqrt(Real(o.springs[i])));
     s.output = {hand};
     for (int i = 0; i < n; ++i) {
@@ -220,33 +229,31 @@ class Builder {
     return sum;
   }
 
-  Row zero() const { return Row(s.size + 1, Real(0)); }
-  Row state(int i) const {
-    Row row = zero();
-    row[i] = Real(1);
-    return row;
+  Row zero() const { return Row(static_cast<size_t>(s.size) + 1, Real(0)); }
+  Row row(const Term& term) const {
+    Row single = zero();
+    single[term.place] = term.factor;
+    return single;
   }
-  Row control() const { return state(s.size); }
-  Row centre() const { return state(centreIndex()); }
-  Row velocity(int node) const {
-    Row row = zero();
-    row[s.elongations + node] = Real(1) / sqrt(Real(nodeMass[node]));
-    return row;
-  }
-  static Row difference(Row a, const Row& b) {
+  Term state(int i) const { return {static_cast<size_t>(i), Real(1)}; }
+  Term control() const { return state(s.size); }
+  Term centre() const { return state(centreIndex()); }
+  Term velocity(int node) const { return {static_cast<size_t>(s.elongations + node), Real(1) / sqrt(Real(nodeMass[node]))}; }
+  static Row difference(Row a, const Term& b) {
     add(a, b, Real(-1));
     return a;
   }
+  Row difference(const Term& a, const Term& b) const { return difference(row(a), b); }
 
   // F in terms of states and control; for criterion 6 the control is the acceleration of the centre of mass.
-  Row drivingForce(const Row& handVelocity, int firstMass) {
-    if (kind == Criterion::MinHandForceChange) return state(forceIndex());
-    if (kind == Criterion::MinHandForce) return control();
-    Row row = control();
-    for (Real& c : row) c *= Real(o.totalMass());
-    add(row, handVelocity, Real(o.handDamping));
-    for (int i = 0; i < n; ++i) add(row, velocity(firstMass + i), Real(o.viscosity[i]));
-    return row;
+  Row drivingForce(const std::optional<Term>& handVelocity, int firstMass) {
+    if (kind == Criterion::MinHandForceChange) return row(state(forceIndex()));
+    Row drive = row(control());
+    if (kind == Criterion::MinHandForce) return drive;
+    for (Real& c : drive) c *= Real(o.totalMass());
+    if (handVelocity) add(drive, *handVelocity, Real(o.handDamping));
+    for (int i = 0; i < n; ++i) add(drive, velocity(firstMass + i), Real(o.viscosity[i]));
+    return drive;
   }
 
   void setRate(int i, const Row& rate, Real factor) {
@@ -271,7 +278,7 @@ class Builder {
     Row momentum = zero();
     for (int i = 0; i < s.velocities; ++i) add(momentum, velocity(i), Real(masses[i]));
     setRate(centreIndex(), momentum, Real(1) / Real(o.totalMass()));
-    if (forceStates() > 0) setRate(forceIndex(), control(), Real(1));
+    if (forceStates() > 0) setRate(forceIndex(), row(control()), Real(1));
     s.target[centreIndex()] = distance;
   }
 
@@ -285,6 +292,7 @@ class Builder {
   // Hand and masses from the hand's row when every spring has its elongation state.
   std::vector<Row> positions(const Row& hand) const {
     std::vector<Row> rows{hand};
+    rows.reserve(static_cast<size_t>(n) + 1);
     for (int i = 0; i < n; ++i) {
       Row mass = o.parallel ? hand : rows.back();
       add(mass, state(i), Real(-1) / sqrt(Real(o.springs[i])));

@@ -10,6 +10,10 @@ namespace reachlab::predict {
 /// A without its zeros, row by row.
 struct SparseRows {
   explicit SparseRows(const ControlProblem& system) : begin(1, 0) {
+    const auto entries = std::count_if(system.a.begin(), system.a.end(), [](const DoubleDouble& entry) { return entry.hi != 0; });
+    begin.reserve(static_cast<size_t>(system.size) + 1);
+    column.reserve(static_cast<size_t>(entries));
+    value.reserve(static_cast<size_t>(entries));
     for (int i = 0; i < system.size; ++i) {
       for (int j = 0; j < system.size; ++j) {
         const DoubleDouble& entry = system.a[static_cast<size_t>(i) * system.size + j];

@@ -17,6 +17,8 @@ using BatchOf = std::conditional_t<std::is_same_v<Real, double>, LaneBatch, Wide
 /// A number's first 16 digits.
 inline double leading(double x) { return x; }
 inline double leading(const DoubleDouble& x) { return x.hi; }
+inline LaneBatch leading(const LaneBatch& x) { return x; }
+inline LaneBatch leading(const WideBatch& x) { return x.hi; }
 
 inline double laneOf(const LaneBatch& x, int lane) { return x[lane]; }
 inline DoubleDouble laneOf(const WideBatch& x, int lane) { return {x.hi[lane], x.lo[lane]}; }
