@@ -23,7 +23,7 @@ def build(folder, program):
     libraries = [str(folder / library) for library in LIBRARIES if (folder / library).exists()]
     own = str(Path(__file__).with_suffix(".cpp"))
     subprocess.run(["g++", "-std=c++20", "-O3", "-DNDEBUG", "-march=native", "-I" + source, own, "-Wl,--start-group", *libraries,
-                    "-Wl,--end-group", "-lfmt", "-lcairo", "-o", program], check=True)
+                    "-Wl,--end-group", "-lfmt", "-lcairo", "-lsleef", "-o", program], check=True)
     return program
 
 
