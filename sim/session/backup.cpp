@@ -194,10 +194,11 @@ class Backup {
     // A closed log never changes; what is written again may, at the same length.
     if (listed != list_.end() && sameSize && (isLog || hashOf(file.string(), false) == listed->second)) return;
     if (isLog && fs::exists(copy, error)) {
-      if (hashOf(file.string(), false) != hashOf(copy.string(), true))
+      const std::string there = hashOf(copy.string(), true);
+      if (hashOf(file.string(), false) != there)
         throw ResourceError(
             fmt::format("{}: is there already with other bytes; nothing is overwritten: choose another folder", copy.string()));
-      list_[name] = hashOf(copy.string(), true);
+      list_[name] = there;
       ++report_.copiedFiles;
       return;
     }

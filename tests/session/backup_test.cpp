@@ -1,11 +1,17 @@
 #include "sim/session/backup.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <thread>
 
 #include "base/error.h"
@@ -13,6 +19,26 @@
 #include "sim/record/bids.h"
 #include "sim/session/backup_worker.h"
 #include "tests/record/made_run.h"
+
+namespace {
+// Files that the system was told to forget what it has of them in memory.
+std::set<std::string>& forgotten() {
+  static std::set<std::string> paths;
+  return paths;
+}
+std::mutex forgottenMutex;
+}  // namespace
+
+/// In the place of the C library's.
+extern "C" int posix_fadvise(int file, off_t at, off_t size, int advice) noexcept {
+  if (advice == POSIX_FADV_DONTNEED && at == 0 && size == 0) {
+    std::error_code error;
+    const auto path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), error);
+    const std::scoped_lock lock(forgottenMutex);
+    forgotten().insert(path.string());
+  }
+  return static_cast<int>(::syscall(SYS_fadvise64, file, at, size, advice)) == 0 ? 0 : errno;
+}
 
 namespace reachlab::session {
 namespace {
@@ -134,6 +160,29 @@ TEST_F(Backups, NeverOverwriteALogOfAnother) {
   EXPECT_EQ(contentOf(inBackup(logOf(1))), "another laboratory's only copy");
 }
 
+// What the system still has in memory would be right on any disk.
+TEST_F(Backups, AreReadBackFromTheDisk) {
+  const auto readFromDisk = [&] {
+    std::set<std::string> paths;
+    for (const std::string& path : forgotten())
+      if (path.starts_with(backup_ + "/")) paths.insert(path);
+    forgotten().clear();
+    return paths;
+  };
+  std::set<std::string> copies;
+  (void)readFromDisk();
+  (void)backUp(dataset_, backup_);
+  for (const auto& entry : fs::recursive_directory_iterator(backup_))
+    if (entry.is_regular_file() && entry.path() != backup_ + "/" + kBackupList) copies.insert(entry.path().string());
+  EXPECT_EQ(copies.size(), filesOfBackup(backup_));
+  EXPECT_EQ(readFromDisk(), copies) << "when they are made";
+  EXPECT_TRUE(faultsOfBackup(backup_).empty());
+  EXPECT_EQ(readFromDisk(), copies) << "when they are checked";
+  fs::remove(backup_ + "/" + kBackupList);
+  (void)backUp(dataset_, backup_);
+  EXPECT_EQ(readFromDisk(), copies) << "when they are there, and nobody knows of them";
+}
+
 // A disk that loses what it was given: somebody cuts the copy short as soon as it is there, before it has been read back.
 TEST_F(Backups, LeaveNoCopyThatReadsBackOtherwise) {
   const std::string file = dataset_ + "/sourcedata/video.mp4", copy = inBackup(file);
@@ -167,7 +216,14 @@ TEST_F(Backups, AreMadeOnAThreadOfTheirOwnAndSayHowTheyStand) {
   worker.request();
   BackupState state = worker.finish();
   EXPECT_EQ(state.kind, BackupState::Kind::Verified) << state.sentence;
-  EXPECT_NE(state.sentence.find("all 1 finished run is there and verified"), std::string::npos) << state.sentence;
+  const std::string files = std::to_string(filesOfBackup(backup_));
+  EXPECT_NE(state.sentence.find("all 1 finished run is there and verified (" + files + " files, "), std::string::npos) << state.sentence;
+  for (const int count : {1, 2}) {
+    for (int i = 0; i < count; ++i) std::ofstream(dataset_ + "/note" + std::to_string(i)) << count;
+    worker.request();
+    state = worker.finish();
+    EXPECT_NE(state.sentence.find(count == 1 ? "(1 file, " : "(2 files, "), std::string::npos) << state.sentence;
+  }
   addRun(2);
   record::makeFolders(backup_ + "/sourcedata");
   std::ofstream(inBackup(logOf(2))) << "in the way";
