@@ -614,7 +614,35 @@ TEST_F(Conducted, ARestIsSaidWhereThePlanHasOneAndSomebodyWaits) {
   EXPECT_EQ(tellsOf("03", false, 0), unchecked);
 }
 
-// Lower bounds alone: however slow the machine is, the pause is not shorter.
+TEST_F(Conducted, AStopInARestLeavesTheNextBlockToBeResumed) {
+  request_.fast = false;
+  request_.trials.reset();
+  RecordedSession session(plan(R"({ "schema_version": 1, "trials": 1, "blocks": [ { "experiment": "easy.json" },
+      { "experiment": "easy.json", "condition": "b", "rest_s": 3600 } ] })"),
+                          request_, maker(false));
+  std::atomic<bool> stop{false};
+  SessionWords said = words();
+  said.resting = [&](const BlockToRun&) { stop = true; };
+  EXPECT_FALSE(conduct(session, stop, said));
+  EXPECT_EQ(session.blocksLeft(), 1u);
+  EXPECT_EQ(logs().size(), 1u);
+}
+
+// Lower bounds alone: however slow the machine is, rest and pause are not shorter.
+TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
+  request_.fast = false;
+  request_.trials.reset();
+  RecordedSession session(plan(R"({ "schema_version": 1, "trials": 1, "blocks": [ { "experiment": "easy.json" },
+      { "experiment": "easy.json", "condition": "b", "rest_s": 0.3 } ] })"),
+                          request_, maker(false));
+  std::chrono::steady_clock::time_point rests, opened;
+  SessionWords said = words();
+  said.resting = [&](const BlockToRun&) { rests = std::chrono::steady_clock::now(); };
+  said.opened = [&](const RecordedRun&) { opened = std::chrono::steady_clock::now(); };
+  EXPECT_TRUE(conduct(session, kNeverStop, said));
+  EXPECT_GE(opened - rests, std::chrono::milliseconds(300));
+}
+
 TEST_F(Conducted, ThePlansPauseLiesBetweenTrialsInRealTime) {
   request_.fast = false;
   request_.trials.reset();

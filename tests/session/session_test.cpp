@@ -489,6 +489,15 @@ TEST(Seed, IsAnyNumberOf64BitsAndNothingElse) {
   for (const char* text : {"", "-1", "1x", "1.5", "18446744073709551616"}) EXPECT_TRUE(seedFault(text)) << text;
 }
 
+// The dataset's JSON holds it, and many readers of JSON know doubles alone.
+TEST(Seed, ThatIsDrawnIsAWholeNumberThatADoubleHolds) {
+  std::set<std::uint64_t> drawn;
+  for (int i = 0; i < 64; ++i) drawn.insert(drawSeed());
+  EXPECT_EQ(drawn.size(), 64u);
+  EXPECT_LE(*drawn.rbegin(), std::uint64_t{1} << 53);
+  EXPECT_GT(*drawn.rbegin(), std::uint64_t{1} << 52) << "all 53 bits are drawn";
+}
+
 TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
   const std::string all = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   EXPECT_EQ(labelOf(all), all);
