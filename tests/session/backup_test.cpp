@@ -165,15 +165,15 @@ TEST_F(Backups, AreReadBackFromTheDisk) {
   const auto readFromDisk = [&] {
     std::set<std::string> paths;
     for (const std::string& path : forgotten())
-      if (path.starts_with(backup_ + "/")) paths.insert(path);
+      if (path.starts_with(fs::weakly_canonical(backup_).string() + "/")) paths.insert(path);
     forgotten().clear();
     return paths;
   };
   std::set<std::string> copies;
   (void)readFromDisk();
   (void)backUp(dataset_, backup_);
-  for (const auto& entry : fs::recursive_directory_iterator(backup_))
-    if (entry.is_regular_file() && entry.path() != backup_ + "/" + kBackupList) copies.insert(entry.path().string());
+  for (const auto& entry : fs::recursive_directory_iterator(fs::canonical(backup_)))
+    if (entry.is_regular_file() && !entry.path().string().ends_with(kBackupList)) copies.insert(entry.path().string());
   EXPECT_EQ(copies.size(), filesOfBackup(backup_));
   EXPECT_EQ(readFromDisk(), copies) << "when they are made";
   EXPECT_TRUE(faultsOfBackup(backup_).empty());
