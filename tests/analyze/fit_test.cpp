@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -139,6 +140,37 @@ TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
           EXPECT_EQ(fit.candidates[truth].choice.family, family) << e.task->duration;
         }
       }
+  }
+}
+
+// An even and an odd number of trials, so that their median duration is one of them or lies between two.
+TEST(PersonFit, OfAllTrialsDoesNotDependOnTheirOrder) {
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)),
+                                          of({Criterion::MinHandJerk, Criterion::MinHandForceChange}));
+  for (const int count : {12, 13}) {
+    std::vector<FitWindow> windows;
+    std::vector<double> durations;
+    std::vector<std::size_t> order;
+    for (int i = 0; i < count; ++i) {
+      const double stretch = 0.8 + 0.03 * i;
+      windows.push_back(recorded(*set.candidates[1].families[0], 1.35, 0.5, 0.2 / stretch, stretch));
+      durations.push_back(1.3 * stretch);
+      order.push_back(static_cast<std::size_t>(i * 5 % count));
+    }
+    const auto choicesIn = [&](const std::vector<std::size_t>& places) {
+      std::vector<FitWindow> w;
+      std::vector<double> d;
+      for (const std::size_t i : places) w.push_back(windows[i]), d.push_back(durations[i]);
+      std::vector<double> plans;
+      for (const CandidateFit& fit : fitPerson(w, d, set).candidates) plans.push_back(fit.choice.plan);
+      return plans;
+    };
+    const std::vector<double> shuffled = choicesIn(order);
+    std::sort(order.begin(), order.end());
+    const std::vector<double> sorted = choicesIn(order);
+    ASSERT_EQ(shuffled.size(), sorted.size());
+    EXPECT_GT(sorted[1], 0) << "one plan, stretched, as they were made";
+    for (std::size_t k = 0; k < sorted.size(); ++k) EXPECT_NEAR(shuffled[k], sorted[k], 1e-9) << count << " trials";
   }
 }
 

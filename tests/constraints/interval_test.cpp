@@ -42,5 +42,20 @@ TEST(IntervalEvaluator, BoundsWhatIsMonotoneByItsCorners) {
   }
 }
 
+// Neither too narrow nor wider than it need be: what is positive but for its end is not told to change its sign.
+TEST(IntervalEvaluator, TheSignOfAnIntervalReachesFromThatOfOneEndToThatOfTheOther) {
+  const auto signOf = [](double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; };
+  const auto formula = compileFormula({ConstraintKind::Surface, {"u", "v", "sign(u)"}, {}}, "here");
+  IntervalEvaluator evaluator(formula->graph, std::span(formula->roots).subspan(2, 1), nullptr);
+  const double ends[] = {-2, -0.5, 0, 0.5, 1, 2};
+  for (const double lo : ends)
+    for (const double hi : ends) {
+      if (hi < lo) continue;
+      evaluator.evaluate({Interval{lo, hi}, Interval{0, 1}});
+      EXPECT_EQ(evaluator.rangeOf(0).lo, signOf(lo)) << lo << " to " << hi;
+      EXPECT_EQ(evaluator.rangeOf(0).hi, signOf(hi)) << lo << " to " << hi;
+    }
+}
+
 }  // namespace
 }  // namespace reachlab::constraints

@@ -123,6 +123,14 @@ TEST(ChooseTicks, OfNoDataOrOneValueAreStillAnAxis) {
   }
 }
 
+TEST(ChooseTicks, OfOneValueReachHalfItsSizeToEitherSide) {
+  for (const double value : {-400.0, -0.3, 0.02, 5.0}) {
+    const AxisTicks ticks = chooseTicks(Axis{}, value, value, 150);
+    EXPECT_NEAR(ticks.from, value - 0.5 * std::abs(value), 0.1 * std::abs(value));
+    EXPECT_NEAR(ticks.to, value + 0.5 * std::abs(value), 0.1 * std::abs(value));
+  }
+}
+
 TEST(Figure, IsTheSameBytesEachTime) {
   const Figure figure = exampleFigure();
   const std::string svg = renderSvg(figure), pdf = renderPdf(figure), png = renderPng(figure);
