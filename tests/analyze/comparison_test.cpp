@@ -26,6 +26,20 @@ TEST(TTest, OfOneNumberSaysNothing) {
   EXPECT_TRUE(std::isinf(computeMeanInterval(std::vector<double>{3.0}).high));
 }
 
+// Two people are enough for their own scatter to count: no interval is narrower than what is known of either.
+TEST(PeopleMean, IsNoBetterKnownThanThePeopleAre) {
+  for (const std::vector<double>& values : {std::vector<double>{1, 3}, {1, 2, 3}, kSleep}) {
+    const PeopleMean known = computePeopleMean(values, std::vector<double>(values.size(), 0.0));
+    const PeopleMean scattered = computePeopleMean(values, std::vector<double>(values.size(), 400.0));
+    EXPECT_EQ(known.test.p, computeTTest(values).p);
+    EXPECT_LT(scattered.interval.low, known.interval.low) << values.size();
+    EXPECT_GT(scattered.interval.high, known.interval.high) << values.size();
+    const double half = 1.959963985 * 20 / std::sqrt(static_cast<double>(values.size()));
+    EXPECT_NEAR(scattered.interval.high - scattered.interval.low, 2 * half, 1e-6);
+    EXPECT_GT(scattered.test.p, known.test.p) << values.size();
+  }
+}
+
 TEST(SerialTTest, CountsFewerTrialsWhenNeighboursAreAlike) {
   // 1, 1, 0, 0 … twenty times: rho = (sum of products of neighbours) / (sum of squares) = (+10 - 9) / 4 / (20 / 4) = 0.05.
   std::vector<double> v;

@@ -72,5 +72,10 @@ TEST(Differentiate, IsExactForPolynomialsOfItsOrder) {
   }
 }
 
+TEST(Differentiate, NeedsThreeSamplesAndNoMore) {
+  EXPECT_EQ(differentiate(std::vector<double>{0, 1, 4}, 10)[1], 20);
+  EXPECT_EQ(differentiate(std::vector<double>{0, 1}, 10), std::vector<double>(2, 0.0));
+}
+
 }  // namespace
 }  // namespace reachlab::analyze

@@ -47,5 +47,19 @@ TEST(TrialMarks, AFaultyFileIsToldWithItsPlaces) {
   }
 }
 
+TEST(TrialMarks, TimesReachAMillionSecondsAndNoFurther) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/a_log.reach";
+  const auto write = [&](const char* onset) {
+    std::ofstream(marksPathOf(log)) << R"({"schema_version": 1, "trials": [{"trial": 1, "onset_s": )" << onset << "}]}";
+  };
+  write("1000000");
+  EXPECT_EQ(readMarks(log).trials.at(0).onset, 1e6);
+  write("1000001");
+  EXPECT_THROW((void)readMarks(log), Error);
+  write("-1e-9");
+  EXPECT_THROW((void)readMarks(log), Error);
+}
+
 }  // namespace
 }  // namespace reachlab::record

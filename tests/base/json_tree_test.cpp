@@ -23,6 +23,11 @@ void expectAtItsPlace(const JsonNode& node, const std::vector<std::string>& line
   }
 }
 
+TEST(JsonTree, IsOneValueAndNothingAfterIt) {
+  for (const char* text : {"{} {}", "1 2", "[] ]", "{}x", "null,"}) EXPECT_THROW((void)parseJson(text, "made.json"), FaultError) << text;
+  EXPECT_EQ(parseJson("{} // a remark\n", "made.json").kind, JsonNode::Kind::Object);
+}
+
 // A fault is told by line and column, so that every value, of whatever kind and form, is where its first character stands.
 TEST(JsonTree, KnowsWhereEachValueBegins) {
   const std::vector<std::string> lines{"{ // a remark",

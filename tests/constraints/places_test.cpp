@@ -40,6 +40,12 @@ TEST(Places, EachKindIsFoundWithItsPlaceAndItsOperation) {
             (Told{"kink at phi = -1: abs(abs(phi) - 1)", "kink at phi = 0: abs(phi)", "kink at phi = 1: abs(abs(phi) - 1)"}));
 }
 
+TEST(Places, WhereAMovementBeginsOrEndsAreNotBetween) {
+  EXPECT_EQ(placesOf("abs(phi)", 0, 1), Told{});
+  EXPECT_EQ(placesOf("abs(phi)", 1, 0), Told{});
+  EXPECT_EQ(placesOf("abs(phi)", 1e-9, -1), Told{"kink at phi = 0: abs(phi)"});
+}
+
 // What lies far away has the same places: |r| says nothing of how far apart two sides are.
 TEST(Places, AJumpOfCentimetresIsOneAThousandKilometresAway) {
   for (const char* far : {"0", "1e6", "1e8"}) {

@@ -108,6 +108,7 @@ TEST_F(Triggers, AChangeOfAnInputIsNotedOnce) {
 }
 
 TEST_F(Triggers, ASerialPortsLineGoesUpAndDown) {
+  port.lines = TIOCM_RTS;  // whoever had it before
   const auto lines = openSerialLines("rts", "/dev/ttyS0", {}, kFakeCalls);
   EXPECT_EQ(port.lines & TIOCM_RTS, 0);
   lines->send({Mark::Go, 1, os::now()});

@@ -139,6 +139,10 @@ TEST(HandOptions, AreTakenBeforeTheDriversOwn) {
   EXPECT_EQ(info.speedLimit, 1);
   EXPECT_NEAR(info.guards.compensation.y, 0.295 * 9.80665, 1e-12);
   EXPECT_TRUE(info.guards.passivityControl);
+  const haptics::DeviceInfo plain = makeDevice("virtual:omni,arm-mass=1", experiment, 1)->info();
+  EXPECT_EQ(plain.guards.compensation, Vec3{}) << "nothing is held up that nobody has weighed";
+  EXPECT_EQ(plain.guards.wallRadius, haptics::DeviceInfo{}.guards.wallRadius);
+  EXPECT_FALSE(plain.guards.passivityControl);
   EXPECT_THROW(makeDevice("virtual:omni,wall=maybe", experiment, 1), FaultError);
   EXPECT_THROW(makeDevice("virtual:omni,offset=1/2", experiment, 1), FaultError);
   EXPECT_THROW(makeDevice("virtual:omni,colour=red,scale=2", experiment, 1), FaultError);

@@ -52,7 +52,8 @@ class OneStation : public testing::Test {
     setup.line.conductor = conductor;
     setup.line.endpoint = endpoint;
     setup.line.name = "here";
-    setup.line.software = "reachlab";
+    setup.line.software = software_;
+    setup.line.device = device_;
     setup.wait = wait;
     const session::BlockToRun block = session::planSession(request).blocks.at(0);
     station_ = std::make_unique<StationRun>(setup, block.experiment);
@@ -118,7 +119,13 @@ class OneStation : public testing::Test {
   std::unique_ptr<StationRun> station_;
   std::unique_ptr<session::RecordedRun> run_;
   std::uint64_t hash_ = 0;
+  std::string software_ = "reachlab", device_ = "resting";
 };
+
+TEST_F(OneStation, LongNamesAreShownAsFarAsACardHoldsThem) {
+  software_ = device_ = std::string(1000, 'x');
+  EXPECT_NO_THROW(open(1, true));
+}
 
 TEST_F(OneStation, OnlyTheConductorsWordCounts) {
   open(2, false);
