@@ -144,7 +144,7 @@ PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
   std::string why;
   if (thread_.join(kPatience)) why = shared_->transport->lossText();
   else thread_.leave();
-  throw ResourceError(fmt::format("device {}: it was opened, but no report came within {} ms{}{}", info_.name, patienceMs,
+  throw ResourceError(fmt::format("{}: it was opened, but no report came within {} ms{}{}", info_.name, patienceMs,
                                   why.empty() ? "" : ": ", why));
 }
 
