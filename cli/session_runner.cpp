@@ -11,6 +11,7 @@
 #include "devices/preflight/preflight.h"
 #include "sim/session/backup_worker.h"
 #include "sim/session/recorded_session.h"
+#include "sim/trial/protocol.h"
 #include "sim/trial/task_places.h"
 
 namespace reachlab::cli {
@@ -27,6 +28,22 @@ void printRun(const session::RecordedRun& run) {
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", c.run, c.condition, run.trialCount(),
              run.trialCount() == 1 ? "" : "s", c.practice ? " of practice" : "", c.method, run.logPath());
   for (const Fault& warning : trial::describeWay(run.experiment())) fmt::print(stderr, "warning: {}\n", toText(warning));
+}
+
+// Which hand is farthest from where it has to be.
+void printWait(const session::RecordedRun& run) {
+  const experiment::CompiledExperiment& experiment = run.experiment();
+  const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment.experiment(), experiment.constraint());
+  const haptics::TickState& state = run.latest();
+  Vec3 hand = state.device.position;
+  for (int i = 1; i < state.handCount; ++i)
+    if (const Vec3& other = handOf(state, i).device.position; norm(other - place.start) > norm(hand - place.start)) hand = other;
+  const double away = norm(hand - place.start);
+  const std::string where = away > place.armRadius
+                                ? fmt::format("{:.3g} m from there, at ({:.4f}, {:.4f}, {:.4f}) m", away, hand.x, hand.y, hand.z)
+                                : "there, and does not rest";
+  fmt::print(stderr, "the trial begins when the hand rests within {:g} m of ({:.4f}, {:.4f}, {:.4f}) m; it is {}\n", place.armRadius,
+             place.start.x, place.start.y, place.start.z, where);
 }
 
 // Before anybody feels it: what this experiment will meet on this device.
@@ -61,6 +78,7 @@ int runSession(const session::SessionRequest& request) {
     stop.emplace();  // from here on a signal ends the trial, not the program
   };
   words.checked = [](const session::RecordedRun& run) { fmt::print(stderr, "{}\n", run.timingVerdict()->sentence); };
+  words.waiting = printWait;
   const auto warn = [&] {
     if (instruments == nullptr) return;
     for (const std::string& sentence : instruments->takeWarnings()) fmt::print(stderr, "warning: {}\n", sentence);

@@ -89,12 +89,13 @@ std::optional<ConductedTrial> RunConductor::poll() {
   return ConductedTrial{trial_, trials_[next_ - 1], latest_->result};
 }
 
-std::optional<ConductedTrial> RunConductor::runTrial(const std::atomic<bool>& stop) {
+std::optional<ConductedTrial> RunConductor::runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked) {
   if (!putUpNext()) return std::nullopt;
   if (options_.virtualClock) advanceUntilDone(&stop);
   bool asked = false;
   while (true) {
     if (const auto ended = poll()) return ended;
+    if (looked) looked();
     if (stop && !asked) {
       interrupt();
       asked = true;

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,8 +67,9 @@ class RunConductor {
   void abort() { loop_->tryCommand(trial::Command::Abort); }
   void interrupt() { loop_->tryCommand(trial::Command::Interrupt); }
 
-  /// putUpNext and poll until the trial has ended; nullopt when none is left. When `stop` becomes true, the trial is interrupted.
-  std::optional<ConductedTrial> runTrial(const std::atomic<bool>& stop);
+  /// putUpNext and poll until the trial has ended; nullopt when none is left. When `stop` becomes true, the trial is interrupted. `looked`,
+  /// if any, is called after each look at a trial that goes on; on the virtual clock there is none.
+  std::optional<ConductedTrial> runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked = {});
 
   /// Stops the loop, zero force, closes the sink. Idempotent.
   void finish();

@@ -205,9 +205,9 @@ void RecordedRun::keepInstrumentEvents() {
   recorder_->add(options_.instruments->takeEvents());
 }
 
-std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop) {
+std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked) {
   checkTiming(stop);
-  const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop);
+  const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop, looked);
   if (trial) {
     repeatIfAborted(*trial);
     keepInstrumentEvents();

@@ -57,8 +57,9 @@ class RecordedRun {
   /// Starts the loop and waits until the timing is checked; returns at once where there is nothing (more) to check, soon when `stop` becomes
   /// true.
   void checkTiming(const std::atomic<bool>& stop);
-  /// Puts the next trial up and waits for its end; nullopt when none is left. When `stop` becomes true, the trial is interrupted.
-  std::optional<haptics::ConductedTrial> runTrial(const std::atomic<bool>& stop);
+  /// Puts the next trial up and waits for its end; nullopt when none is left. When `stop` becomes true, the trial is interrupted. `looked`, if
+  /// any, is called some hundred times a second meanwhile; not on the virtual clock.
+  std::optional<haptics::ConductedTrial> runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked = {});
   /// Puts a trial that is over up once more at the end, under its own index.
   void repeat(const trial::PlannedTrial& trial);
   /// Takes the last repeat back that is still to be done. False when there is none.

@@ -13,11 +13,35 @@ void pauseFor(double seconds, const std::atomic<bool>& stop) {
   while (!stop && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
+// Says at times that the trial which is up waits for its hand.
+class Wait {
+ public:
+  Wait(const RecordedRun& run, const SessionWords& words) : run_(run), words_(words) {}
+  void look() {
+    const auto now = std::chrono::steady_clock::now();
+    if (run_.latest().phase != trial::Phase::Waiting || now < due_) return;
+    due_ = now + kAgain;
+    words_.waiting(run_);
+  }
+
+ private:
+  static constexpr std::chrono::seconds kFirst{3}, kAgain{10};
+  const RecordedRun& run_;
+  const SessionWords& words_;
+  std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now() + kFirst;
+};
+
+std::optional<haptics::ConductedTrial> runTrial(RecordedRun& run, const std::atomic<bool>& stop, const SessionWords& words) {
+  if (!words.waiting) return run.runTrial(stop);
+  Wait wait(run, words);
+  return run.runTrial(stop, [&wait] { wait.look(); });
+}
+
 // True when it was done to its end.
 bool conduct(RecordedRun& run, bool virtualClock, const std::atomic<bool>& stop, const SessionWords& words) {
   run.checkTiming(stop);
   if (run.timingVerdict() && words.checked) words.checked(run);
-  while (const std::optional<haptics::ConductedTrial> trial = run.runTrial(stop)) {
+  while (const std::optional<haptics::ConductedTrial> trial = runTrial(run, stop, words)) {
     words.ended(run, *trial);
     if (trial::endsRun(trial->result) || run.fault()) return false;
     if (!virtualClock && run.trialsLeft() > 0) pauseFor(run.configuration().pauseSeconds, stop);

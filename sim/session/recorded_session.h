@@ -53,6 +53,9 @@ struct SessionWords {
   std::function<void(const BlockToRun& next)> resting;  // the plan rests before this block; may be empty
   std::function<void(const RecordedRun& run)> opened;   // before the loop starts
   std::function<void(const RecordedRun& run)> checked;  // RecordedRun::timingVerdict is there; in real time only, before the first trial
+  /// In real time, 3 s after a trial was put up and every 10 s from then on, while the hand does not rest at its start: a person waits for
+  /// nothing else, and where no window shows the start nothing else says so. May be empty.
+  std::function<void(const RecordedRun& run)> waiting;
   std::function<void(const RecordedRun& run, const haptics::ConductedTrial& trial)> ended;  // the trial is safe on the disk
   std::function<void(const RecordedRun& run)> logClosed;                                    // all that was recorded is in order
   std::function<void(const RecordedRun& run)> closed;                                       // and in the dataset

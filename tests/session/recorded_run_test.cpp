@@ -643,6 +643,35 @@ TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
   EXPECT_GE(opened - rests, std::chrono::milliseconds(300));
 }
 
+// A person's hand that lies somewhere else than at the start.
+class HandElsewhere final : public haptics::HapticDevice {
+ public:
+  haptics::DeviceInfo info() const override { return {}; }
+  haptics::DeviceSample read() noexcept override { return {.position = {0.05, 0, 0}}; }
+  void write(const Vec3&) noexcept override {}
+};
+
+TEST_F(Conducted, ATrialThatWaitsForItsHandIsSaidToWait) {
+  request_.fast = false;
+  request_.trials = 1;
+  RecordedSession session(easy_, request_, [](const auto&...) { return std::make_unique<HandElsewhere>(); });
+  std::atomic<bool> stop{false};
+  SessionWords said = words();
+  said.waiting = [&](const RecordedRun& run) {
+    EXPECT_EQ(run.latest().phase, trial::Phase::Waiting);
+    EXPECT_EQ(run.latest().device.position, Vec3(0.05, 0, 0));
+    told_.emplace_back("waiting");
+    stop = true;
+  };
+  const std::jthread unsaid([&](const std::stop_token& over) {  // else it would wait for ever
+    for (int i = 0; i < 6000 && !over.stop_requested(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    stop = true;
+  });
+  EXPECT_FALSE(conduct(session, stop, said));
+  EXPECT_EQ(told_, (std::vector<std::string>{"opened 1", "waiting", "1", "in order", "closed"}));
+}
+
+// Lower bounds alone: however slow the machine is, the pause is not shorter.
 TEST_F(Conducted, ThePlansPauseLiesBetweenTrialsInRealTime) {
   request_.fast = false;
   request_.trials.reset();
