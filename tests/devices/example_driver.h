@@ -19,8 +19,7 @@ inline bool vendorWrite(double fx, double fy, double fz) {
   return !vendorUnplugged;
 }
 
-// Its calls may wait, so they are made by the I/O thread of PolledDevice. A serial line, or anything else that looks like a terminal, is opened
-// and read line by line by `openSerial` (devices/serial/serial_port.h); what came in part, or not in time, is Exchange::Nothing.
+// Its calls may wait, so they are made by the I/O thread of PolledDevice.
 class SpringHandle final : public Transport {
  public:
   haptics::DeviceInfo info() const override {
@@ -29,6 +28,7 @@ class SpringHandle final : public Transport {
     info.maxForce = 4;  // [N]; better asked of the device. These three are left out where it renders no force
     info.maxContinuousForce = 1;
     info.rendersForce = true;  // the watch and the watchdog look after it from here on
+    info.rate = 1000;          // [1/s] of its reports; they may come more slowly than the tick
     return info;
   }
   // World: x to the right, y up, z towards the user; metres. The same rotation takes the force the other way.
@@ -40,26 +40,25 @@ class SpringHandle final : public Transport {
     return vendorWrite(-f.z, f.x, f.y) ? Exchange::Report : Exchange::Lost;
   }
   bool reopen() override { return !vendorUnplugged; }
+  std::string lossText() const override { return "its cable is out"; }  // `device Spring Handle is lost: …`
   void close() noexcept override { vendorWrite(0, 0, 0); }
 };
 
 // One line in registry.cpp makes it known to `reach list devices`, to `--device`, and to the window.
-// What stands behind the name, as in springhandle:PATH,gain=2, is the request's argument; DeviceOptions (devices/options.h) takes it apart. What
-// is wrong there throws FaultError (base/fault.h), what cannot be had ResourceError.
 inline DeviceDriver springHandleDriver() {
-  return {"springhandle",
-          "springhandle",
-          "Spring Handle of this page",
-          false,
-          [](const DeviceDriver& self) -> std::vector<FoundDevice> {
-            if (vendorUnplugged) return {absentDevice(self, "no Spring Handle is connected")};
-            return {presentDevice(self, self.name, SpringHandle().info())};
-          },
-          // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (devices/options.h) takes it apart. What is
-          // wrong there throws FaultError (base/fault.h), what cannot be had ResourceError.
-          [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
-            return std::make_unique<PolledDevice>(std::make_shared<SpringHandle>());
-          }};
+  return {
+      .name = "springhandle",
+      .usage = "springhandle",
+      .description = "Spring Handle of this page",
+      .find = [](const DeviceDriver& self) -> std::vector<FoundDevice> {
+        if (vendorUnplugged) return {absentDevice(self, "no Spring Handle is connected")};
+        return {presentDevice(self, self.name, SpringHandle().info())};
+      },
+      // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (devices/options.h) takes it apart. What is
+      // wrong there throws FaultError (base/fault.h), what cannot be had ResourceError (base/error.h).
+      .make = [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
+        return std::make_unique<PolledDevice>(std::make_shared<SpringHandle>());  // refused if no report comes within 2 s
+      }};
 }
 
 }  // namespace reachlab::devices::example

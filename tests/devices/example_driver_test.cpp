@@ -38,6 +38,7 @@ TEST(ExampleDriver, GivesPlacesTakesForcesAndSurvivesAPulledCable) {
   }));
   example::vendorUnplugged = true;
   ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  EXPECT_EQ(device->healthText(), "its cable is out");
   EXPECT_FALSE(driver.find(driver).front().present);
   example::vendorUnplugged = false;
   EXPECT_TRUE(until([&] { return device->read().valid; }));
