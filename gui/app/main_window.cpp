@@ -187,13 +187,12 @@ void MainWindow::wireSession() {
   connect(&analysis_, &DatasetAnalysis::said, this, [this](const QString& words) { message_->say(words); });
   connect(&analysis_, &DatasetAnalysis::told, this, [this](const QString& words) { message_->tell(words); });
   connect(&analysis_, &DatasetAnalysis::reported, this, [](const QString& page) { QDesktopServices::openUrl(QUrl::fromLocalFile(page)); });
-  timer_->start(kFrameMs);
+  timer_->start(view_->drawsInSoftware() ? kSoftwareFrameMs : kFrameMs);
   auto* slowTimer = new QTimer(this);
   connect(slowTimer, &QTimer::timeout, this, [this] {
     if (session_.run() != nullptr) status_->refresh(*session_.run());
     plans_->refresh();
     showStations();
-    timer_->setInterval(view_->drawsInSoftware() ? kSoftwareFrameMs : kFrameMs);  // known once a picture was drawn
   });
   slowTimer->start(kStatusMs);
 }

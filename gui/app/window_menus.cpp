@@ -12,6 +12,7 @@
 #include "gui/plot/velocity_plot.h"
 #include "gui/app/session_controller.h"
 #include "gui/app/subject_menu.h"
+#include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_view.h"
 
 namespace reachlab::gui::app {
@@ -53,7 +54,7 @@ void sayAbout(MainWindow& window) {
       QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>"
                      "Qt %2, VTK %3, Qwt %4<br>Drawn by %5")
           .arg(QStringLiteral(REACHLAB_VERSION), QLatin1String(qVersion()), scene::libraryVersion(), plot::libraryVersion(),
-               window.view().rendererName().toHtmlEscaped()));
+               scene::rendererName().toHtmlEscaped()));
 }
 
 void listRecent(MainWindow& window, QMenu& menu) {

@@ -28,7 +28,9 @@
 
 #include "gui/widgets/colours.h"
 #include "gui/scene/ghost_actors.h"
+#include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_actors.h"
+#include "gui/scene/software_canvas.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -73,7 +75,8 @@ QString libraryVersion() { return QString::fromUtf8(vtkVersion::GetVTKVersion())
 void applySurfaceFormat() { QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); }
 
 struct SceneView::Impl {
-  QVTKOpenGLNativeWidget* widget = nullptr;
+  QWidget* widget = nullptr;
+  SoftwareCanvas* software = nullptr;  // the widget, where the processor draws
   SceneOverlay* overlay = nullptr;
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
@@ -83,7 +86,6 @@ struct SceneView::Impl {
   SceneFrame frame;
   Camera camera;
   SurfaceStyle style = SurfaceStyle::Glass;
-  QString rendererName;
   QTimer* resting = nullptr;
   bool placed = false;  // the camera has been put in place for a real size
   bool drawn = false;   // what is on the screen is `frame`
@@ -140,22 +142,6 @@ struct SceneView::Impl {
     overlay->setLabel(QStringLiteral("%1 masses").arg(count), {x, y + radius});
   }
 
-  // Once a picture has been drawn it is known who draws: true translucency where it is fast, the approximate one in software.
-  void learnRenderer() {
-    if (!rendererName.isEmpty()) return;
-    const QString capabilities = QString::fromUtf8(window->ReportCapabilities());
-    const QString key = QStringLiteral("OpenGL renderer string:");
-    const int at = static_cast<int>(capabilities.indexOf(key));
-    rendererName = at < 0 ? QStringLiteral("unknown") : capabilities.mid(at + key.size()).section(QLatin1Char('\n'), 0, 0).trimmed();
-    if (!rendererName.contains(QLatin1String("llvmpipe")) && !rendererName.contains(QLatin1String("softpipe"))) {
-      renderer->SetUseDepthPeeling(true);
-      renderer->SetMaximumNumberOfPeels(6);
-      renderer->SetOcclusionRatio(0);
-    }
-  }
-
-  bool inSoftware() const { return rendererName.contains(QLatin1String("llvmpipe")) || rendererName.contains(QLatin1String("softpipe")); }
-
   // A movement that the processor cannot follow is drawn coarser until it rests.
   void adapt() {
     const qint64 ms = sinceMoving.isValid() ? sinceMoving.restart() : (sinceMoving.start(), 0);
@@ -166,44 +152,43 @@ struct SceneView::Impl {
     slow = 0;
   }
 
-  void setScale(double scale) {
-    const double ratio = scale == 1 ? 0 : scale * widget->devicePixelRatioF();  // 0: the screen's own
-    if (widget->customDevicePixelRatio() == ratio) return;
-    widget->setCustomDevicePixelRatio(ratio);
-    const double real = scale * widget->devicePixelRatioF();
-    window->SetSize(static_cast<int>(std::lround(width() * real)), static_cast<int>(std::lround(height() * real)));
-  }
-
   // Where the processor draws, edges are smoothed once the picture rests: the eye does not see them while it moves.
   void render(bool moving = false) {
     drawn = false;
     if (!widget->isVisible()) return;
-    const bool rough = moving && inSoftware();
+    const bool rough = moving && software != nullptr;
     const bool stereo = window->GetStereoRender() != 0;  // VTK's own pass alone moves the camera from eye to eye
     if (stereo) renderer->SetPass(nullptr);
-    if (inSoftware()) {
+    if (software != nullptr) {
       if (rough) adapt();
       if (!stereo && rough) renderer->SetPass(plain);
       if (!stereo && !rough) renderer->SetPass(smooth);
-      setScale(rough ? kScales[coarse] : 1);
+      software->setScale(rough ? kScales[coarse] : 1);
     }
     if (rough) resting->start();
     window->Render();
     drawn = true;
     ++pictures;
-    learnRenderer();
   }
 };
 
 SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  impl_->widget = new QVTKOpenGLNativeWidget(this);
-  layout->addWidget(impl_->widget);
-  impl_->overlay = new SceneOverlay(this);
   impl_->window->SetMultiSamples(0);  // translucency needs it so; FXAA smooths the edges
   impl_->window->SetAlphaBitPlanes(1);
-  impl_->widget->setRenderWindow(impl_->window);
+  if (scene::drawsInSoftware()) {
+    impl_->widget = impl_->software = new SoftwareCanvas(*impl_->window, this);
+  } else {
+    auto* card = new QVTKOpenGLNativeWidget(this);
+    card->setRenderWindow(impl_->window);
+    impl_->widget = card;
+    impl_->renderer->SetUseDepthPeeling(true);
+    impl_->renderer->SetMaximumNumberOfPeels(6);
+    impl_->renderer->SetOcclusionRatio(0);
+  }
+  layout->addWidget(impl_->widget);
+  impl_->overlay = new SceneOverlay(this);
   impl_->window->AddRenderer(impl_->renderer);
   impl_->smooth->SetDelegatePass(impl_->plain);
   impl_->renderer->SetUseFXAA(true);
@@ -315,6 +300,7 @@ void SceneView::setParallel(bool parallel) {
 void SceneView::setStereo(bool stereo) {
   impl_->window->SetStereoTypeToAnaglyph();
   impl_->window->SetStereoRender(stereo);
+  impl_->coarse = impl_->slow = 0;  // it costs what two pictures do
   renderNow();
 }
 
@@ -322,11 +308,8 @@ std::int64_t SceneView::picturesDrawn() const { return impl_->pictures; }
 
 const ScenePlan& SceneView::plan() const { return impl_->plan; }
 SceneFrame SceneView::frame() const { return impl_->frame; }
-QString SceneView::rendererName() const { return impl_->rendererName; }
 
-bool SceneView::drawsInSoftware() const {
-  return impl_->inSoftware();
-}
+bool SceneView::drawsInSoftware() const { return impl_->software != nullptr; }
 
 QPointF SceneView::pixelOf(const Vec3& world) const {
   const auto [x, y] = reachlab::gui::scene::pixelOf(impl_->camera, world, impl_->width(), impl_->height());

@@ -50,10 +50,8 @@ class SceneView : public QWidget {
   void setCamera(const Camera& camera);
   const ScenePlan& plan() const;
   SceneFrame frame() const;
-  /// Software drawing is slow: fewer frames a second, and a cheaper translucency. Known after the first drawing.
+  /// Software drawing is slow: fewer frames a second, and a cheaper translucency.
   bool drawsInSoftware() const;
-  /// "llvmpipe (LLVM 15.0.6, 256 bits)"; empty before the first drawing.
-  QString rendererName() const;
   /// Where a world point is drawn, in this widget's coordinates.
   QPointF pixelOf(const Vec3& world) const;
 

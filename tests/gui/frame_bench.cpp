@@ -15,6 +15,7 @@
 
 #include "gui/plot/signal_plot.h"
 #include "gui/plot/velocity_plot.h"
+#include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/compiled_experiment.h"
@@ -112,6 +113,6 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   std::printf("\nIdle: %.1f %% of a core. First picture after %.2f s. Drawn by %s\n", 100 * bench.idle(), first,
-              bench.view->rendererName().toUtf8().constData());
+              gui::scene::rendererName().toUtf8().constData());
   return 0;
 }

@@ -1,0 +1,77 @@
+#include "gui/scene/software_canvas.h"
+
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QPainter>
+#include <cmath>
+#include <vtkCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
+
+namespace reachlab::gui::scene {
+
+SoftwareCanvas::SoftwareCanvas(vtkGenericOpenGLRenderWindow& window, QWidget* parent)
+    : QWidget(parent), window_(&window), surface_(std::make_unique<QOffscreenSurface>()), context_(std::make_unique<QOpenGLContext>()) {
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  surface_->create();
+  context_->create();
+  observers_ = {window.AddObserver(vtkCommand::WindowMakeCurrentEvent, this, &SoftwareCanvas::makeCurrent),
+                window.AddObserver(vtkCommand::WindowIsCurrentEvent, this, &SoftwareCanvas::tellCurrent),
+                window.AddObserver(vtkCommand::WindowFrameEvent, this, &SoftwareCanvas::keepPicture)};
+  window.SetForceMaximumHardwareLineWidth(1);
+  window.SetOwnContext(0);
+  makeCurrent();
+  window.OpenGLInitContext();
+}
+
+SoftwareCanvas::~SoftwareCanvas() {
+  makeCurrent();
+  window_->Finalize();
+  window_->SetReadyForRendering(false);
+  for (const unsigned long observer : observers_) window_->RemoveObserver(observer);
+}
+
+void SoftwareCanvas::makeCurrent() { context_->makeCurrent(surface_.get()); }
+
+void SoftwareCanvas::tellCurrent(vtkObject*, unsigned long, void* answer) {
+  *static_cast<bool*>(answer) = QOpenGLContext::currentContext() == context_.get();
+}
+
+void SoftwareCanvas::setScale(double scale) {
+  scale_ = scale;
+  fit();
+}
+
+// Whether the picture's size was another.
+bool SoftwareCanvas::fit() {
+  const double pixels = scale_ * devicePixelRatioF();
+  const int w = std::max(1, static_cast<int>(std::lround(width() * pixels))), h = std::max(1, static_cast<int>(std::lround(height() * pixels)));
+  const int* now = window_->GetSize();
+  if (now[0] == w && now[1] == h) return false;
+  window_->SetSize(w, h);
+  return true;
+}
+
+void SoftwareCanvas::keepPicture() {
+  vtkOpenGLFramebufferObject* drawn = window_->GetDisplayFramebuffer();
+  const int* size = drawn->GetLastSize();
+  QImage picture(size[0], size[1], QImage::Format_RGBX8888);
+  window_->GetState()->PushReadFramebufferBinding();
+  drawn->Bind(GL_READ_FRAMEBUFFER);
+  drawn->ActivateReadBuffer(0);
+  context_->functions()->glReadPixels(0, 0, size[0], size[1], GL_RGBA, GL_UNSIGNED_BYTE, picture.bits());
+  window_->GetState()->PopReadFramebufferBinding();
+  picture_ = std::move(picture).mirrored();  // OpenGL's first row is the lowest
+  update();
+}
+
+void SoftwareCanvas::paintEvent(QPaintEvent*) {
+  if (fit() || picture_.isNull()) window_->Render();
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.drawImage(rect(), picture_);
+}
+
+}  // namespace reachlab::gui::scene
