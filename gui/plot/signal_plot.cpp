@@ -7,13 +7,9 @@
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
-#include <qwt_plot_renderer.h>
-#include <qwt_plot_zoomer.h>
-#include <qwt_text.h>
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QSaveFile>
@@ -24,8 +20,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "gui/widgets/inks.h"
-#include "gui/widgets/theme.h"
+#include "gui/plot/plot_tools.h"
 
 namespace reachlab::gui::plot {
 namespace {
@@ -37,28 +32,6 @@ QColor inkOf(int line) {
   const widgets::Colour inks[kLines] = {widgets::colours::kDriven, widgets::colours::kLast, widgets::colours::kSurfaceLine};
   return widgets::toQColor(inks[line]).lighter(115);
 }
-
-QwtText axisTitle(const QString& text) {
-  QwtText title(text);
-  QFont font;
-  font.setPointSizeF(10);
-  title.setFont(font);
-  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
-  return title;
-}
-
-// The pointer's place in the axes' units.
-class Zoomer : public QwtPlotZoomer {
- public:
-  explicit Zoomer(QWidget* canvas) : QwtPlotZoomer(canvas) {
-    setTrackerMode(QwtPicker::AlwaysOn);
-    setRubberBandPen(QPen(widgets::ink(255), 1, Qt::DashLine));
-    setTrackerPen(QPen(widgets::ink(255)));
-  }
-  QwtText trackerTextF(const QPointF& at) const override {
-    return QwtText(QStringLiteral("%1, %2").arg(at.x(), 0, 'f', 3).arg(at.y(), 0, 'g', 4));
-  }
-};
 
 }  // namespace
 
@@ -133,9 +106,7 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
     Q_EMIT watchedChanged(watched());
   });
   connect(save, &QToolButton::clicked, this, [this] {
-    const QString file = QFileDialog::getSaveFileName(this, tr("Export signal"), QStringLiteral("signal.svg"),
-                                                      tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));
-    if (!file.isEmpty()) exportTo(file);
+    askAndExport(this, tr("Export signal"), QStringLiteral("signal.svg"), [this](const QString& file) { return exportTo(file); });
   });
   fill();
 }
@@ -240,10 +211,7 @@ bool SignalPlot::exportTo(const QString& file) {
     text.flush();
     return out.commit();
   }
-  if (ending != QLatin1String("svg") && ending != QLatin1String("pdf")) return false;
-  QwtPlotRenderer renderer;
-  renderer.renderDocument(impl_->plot, file, ending, QSizeF(180, 80), 150);
-  return QFileInfo::exists(file);
+  return exportFigure(*impl_->plot, file);
 }
 
 }  // namespace reachlab::gui::plot

@@ -10,27 +10,21 @@
 #include <qwt_plot_marker.h>
 #include <qwt_plot_zoneitem.h>
 #include <qwt_scale_widget.h>
-#include <qwt_text.h>
 
+#include <QCheckBox>
+#include <QSaveFile>
+#include <QTextStream>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <QVector>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "gui/widgets/inks.h"
-#include "gui/widgets/theme.h"
+#include "gui/plot/plot_tools.h"
 
 namespace reachlab::gui::plot {
 namespace {
-
-QwtText axisTitle(const QString& text) {
-  QwtText title(text);
-  QFont font;
-  font.setPointSizeF(10);
-  title.setFont(font);
-  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
-  return title;
-}
 
 std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QColor& colour, double width, Qt::PenStyle style,
                                         double z) {
@@ -56,9 +50,43 @@ struct VelocityPlot::Impl {
   std::unique_ptr<QwtPlotGrid> grid;
   std::unique_ptr<QwtPlotCurve> hand, last, handBefore, lastBefore;
   std::vector<std::unique_ptr<QwtPlotCurve>> predictions;
-  QVector<double> times, hands, lasts;
+  Zoomer* zoomer = nullptr;
+  QCheckBox* freeze = nullptr;
+  struct Trial {
+    QVector<double> times, hands, lasts;
+  };
+  // What is to be drawn next; the curves hold what is drawn.
+  Trial now, before;
+  std::vector<Line> lines;
+  bool newLines = false, newTask = false;
   double duration = 1, tolerance = 0.5, low = 0, high = 0.1, span = 1;
   bool changed = false;
+
+  void draw() {
+    hand->setSamples(now.times, now.hands);
+    last->setSamples(now.times, now.lasts);
+    handBefore->setSamples(before.times, before.hands);
+    lastBefore->setSamples(before.times, before.lasts);
+    band->setInterval(std::max(0.0, duration - tolerance), duration + tolerance);
+    goal->setXValue(duration);
+    if (std::exchange(newLines, false)) drawPredictions();
+    if (std::exchange(newTask, false)) zoomer->zoom(0);
+    if (zoomer->zoomRectIndex() == 0) {
+      scale();
+      plot->updateAxes();
+      zoomer->setZoomBase(false);
+    }
+    plot->replot();
+  }
+
+  void drawPredictions() {
+    predictions.clear();
+    for (const Line& line : lines) {
+      auto curve = makeCurve(*plot, line.title, line.colour, 1.8, Qt::DashLine, 24);
+      curve->setSamples(line.time.data(), line.velocity.data(), static_cast<int>(std::min(line.time.size(), line.velocity.size())));
+      predictions.push_back(std::move(curve));
+    }
+  }
 
   void scale() {
     double least = -0.02, most = 0.1;
@@ -77,16 +105,27 @@ struct VelocityPlot::Impl {
     high = std::ceil(most * 1.06 / step) * step;
     plot->setAxisScale(QwtPlot::yLeft, low, high);
     // A window in time that is open at its beginning only says how long to wait: the reach would be a splinter in it.
-    span = std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, times.isEmpty() ? 0.0 : times.back());
+    span = std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, now.times.isEmpty() ? 0.0 : now.times.back());
     plot->setAxisScale(QwtPlot::xBottom, 0, span);
   }
 };
 
 VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(6, 4, 6, 4);
+  layout->setContentsMargins(6, 2, 6, 2);
+  layout->setSpacing(2);
+  auto* row = new QHBoxLayout;
+  impl_->freeze = new QCheckBox(tr("freeze"));
+  impl_->freeze->setObjectName(QStringLiteral("velocityFreeze"));
+  impl_->freeze->setToolTip(tr("holds the picture; the trial under way is drawn when it is let go"));
+  auto* save = new QToolButton;
+  save->setText(tr("Export…"));
+  row->addWidget(impl_->freeze);
+  row->addStretch(1);
+  row->addWidget(save);
+  layout->addLayout(row);
   auto* plot = impl_->plot = new QwtPlot(this);
-  layout->addWidget(plot);
+  layout->addWidget(plot, 1);
   auto* canvas = new QwtPlotCanvas(plot);
   canvas->setFrameStyle(QFrame::NoFrame);
   canvas->setAutoFillBackground(true);
@@ -134,73 +173,92 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   auto* legend = new QwtLegend;
   legend->setDefaultItemMode(QwtLegendData::ReadOnly);
   plot->insertLegend(legend, QwtPlot::RightLegend);
-  impl_->scale();
+  impl_->zoomer = new Zoomer(canvas);
+  connect(impl_->freeze, &QCheckBox::toggled, this, &VelocityPlot::refresh);
+  connect(save, &QToolButton::clicked, this, [this] {
+    askAndExport(this, tr("Export velocities"), QStringLiteral("velocity.svg"), [this](const QString& file) { return exportTo(file); });
+  });
+  impl_->draw();
 }
 
 VelocityPlot::~VelocityPlot() = default;
 
 void VelocityPlot::setTask(double duration, double tolerance) {
-  impl_->duration = duration;
-  impl_->tolerance = tolerance;
-  impl_->band->setInterval(std::max(0.0, duration - tolerance), duration + tolerance);
-  impl_->goal->setXValue(duration);
-  impl_->changed = true;
+  Impl& d = *impl_;
+  d.newTask = d.newTask || duration != d.duration || tolerance != d.tolerance;
+  d.duration = duration;
+  d.tolerance = tolerance;
+  d.changed = true;
   refresh();
 }
 
 void VelocityPlot::beginTrial() {
   Impl& d = *impl_;
-  if (d.times.size() > 1) {
-    d.handBefore->setSamples(d.times, d.hands);
-    d.lastBefore->setSamples(d.times, d.lasts);
+  if (d.now.times.size() > 1) d.before = d.now;
+  for (QVector<double>* column : {&d.now.times, &d.now.hands, &d.now.lasts}) {
+    column->clear();
+    column->reserve(4096);
   }
-  d.times.clear();
-  d.hands.clear();
-  d.lasts.clear();
-  d.times.reserve(4096);
-  d.hands.reserve(4096);
-  d.lasts.reserve(4096);
   d.changed = true;
 }
 
 void VelocityPlot::forgetTrials() {
   beginTrial();
-  impl_->handBefore->setSamples(QVector<double>(), QVector<double>());
-  impl_->lastBefore->setSamples(QVector<double>(), QVector<double>());
+  impl_->before = {};
 }
 
 void VelocityPlot::add(double time, double hand, double last) {
   if (!std::isfinite(time) || !std::isfinite(hand) || !std::isfinite(last)) return;
-  impl_->times.push_back(time);
-  impl_->hands.push_back(hand);
-  impl_->lasts.push_back(last);
+  Impl::Trial& now = impl_->now;
+  now.times.push_back(time);
+  now.hands.push_back(hand);
+  now.lasts.push_back(last);
   impl_->changed = true;
 }
 
 void VelocityPlot::refresh() {
   Impl& d = *impl_;
-  if (!d.changed) return;
+  if (!d.changed || d.freeze->isChecked()) return;
   d.changed = false;
-  d.hand->setSamples(d.times, d.hands);
-  d.last->setSamples(d.times, d.lasts);
-  d.scale();
-  d.plot->replot();
+  d.draw();
 }
 
 void VelocityPlot::setPredictions(const std::vector<Line>& lines) {
-  Impl& d = *impl_;
-  d.predictions.clear();
-  for (const Line& line : lines) {
-    auto curve = makeCurve(*d.plot, line.title, line.colour, 1.8, Qt::DashLine, 24);
-    curve->setSamples(line.time.data(), line.velocity.data(), static_cast<int>(std::min(line.time.size(), line.velocity.size())));
-    d.predictions.push_back(std::move(curve));
-  }
-  d.changed = true;
+  impl_->lines = lines;
+  impl_->newLines = impl_->changed = true;
   refresh();
+}
+
+bool VelocityPlot::exportTo(const QString& file) {
+  Impl& d = *impl_;
+  if (QFileInfo(file).suffix().toLower() != QLatin1String("csv")) return exportFigure(*d.plot, file);
+  QSaveFile out(file);
+  if (!out.open(QIODevice::WriteOnly)) return false;
+  QTextStream text(&out);
+  text.setRealNumberPrecision(17);
+  text << "line,time_s,velocity_m_per_s\n";
+  const auto put = [&](const QString& name, const QwtPlotCurve& curve) {
+    for (std::size_t i = 0; i < curve.dataSize(); ++i) {
+      const QPointF p = curve.sample(static_cast<int>(i));
+      text << '"' << name << "\"," << p.x() << ',' << p.y() << '\n';
+    }
+  };
+  put(d.hand->title().text(), *d.hand);
+  put(d.last->title().text(), *d.last);
+  put(d.hand->title().text() + tr(", trial before"), *d.handBefore);
+  put(d.last->title().text() + tr(", trial before"), *d.lastBefore);
+  for (const auto& prediction : d.predictions) put(prediction->title().text(), *prediction);
+  text.flush();
+  return out.commit();
+}
+
+std::pair<double, double> VelocityPlot::shownTimes() const {
+  const QwtInterval shown = impl_->plot->axisInterval(QwtPlot::xBottom);
+  return {shown.minValue(), shown.maxValue()};
 }
 
 double VelocityPlot::timeSpan() const { return impl_->span; }
 
-std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->times.size()); }
+std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->now.times.size()); }
 
 }  // namespace reachlab::gui::plot

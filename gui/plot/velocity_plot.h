@@ -3,6 +3,7 @@
 #include <QString>
 #include <QWidget>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace reachlab::gui::plot {
@@ -12,6 +13,7 @@ QString libraryVersion();
 
 /// Velocity against time since onset: hand and last mass of the trial under way, the last trial's faintly behind, the window T ± dT as a
 /// band, chosen predictions dashed. [s], [m/s]
+/// A drag zooms in, a right click back; the pointer tells values; *freeze* holds the picture, not the trial; what is shown is exported.
 class VelocityPlot : public QWidget {
   Q_OBJECT
  public:
@@ -25,6 +27,7 @@ class VelocityPlot : public QWidget {
   void forgetTrials();
   /// Appends; drawn at the next `refresh`.
   void add(double time, double hand, double last);
+  /// Draws what has changed; nothing while it is frozen.
   void refresh();
 
   struct Line {
@@ -33,8 +36,11 @@ class VelocityPlot : public QWidget {
     std::vector<double> time, velocity;  // [s], [m/s]
   };
   void setPredictions(const std::vector<Line>& lines);
+  /// By the file's ending: pdf, svg, csv. False when it cannot be written.
+  bool exportTo(const QString& file);
   std::size_t pointCount() const;
-  double timeSpan() const;  // [s] that the time axis shows
+  double timeSpan() const;                       // [s] that the time axis shows while nothing is zoomed
+  std::pair<double, double> shownTimes() const;  // [s] where the time axis begins and ends now
   QSize sizeHint() const override { return {900, 260}; }
   QSize minimumSizeHint() const override { return {300, 150}; }
 

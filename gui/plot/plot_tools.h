@@ -1,0 +1,57 @@
+#pragma once
+// What every plot of the window can do. For files that are compiled with Qwt's headers (gui/CMakeLists.txt).
+#include <qwt_global.h>
+#include <qwt_plot.h>
+#include <qwt_plot_renderer.h>
+#include <qwt_plot_zoomer.h>
+#include <qwt_text.h>
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+
+#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
+
+namespace reachlab::gui::plot {
+
+inline QwtText axisTitle(const QString& text) {
+  QwtText title(text);
+  QFont font;
+  font.setPointSizeF(10);
+  title.setFont(font);
+  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
+  return title;
+}
+
+/// A drag zooms in, a right click back; the pointer's place in the axes' units stands beside it.
+class Zoomer : public QwtPlotZoomer {
+ public:
+  explicit Zoomer(QWidget* canvas) : QwtPlotZoomer(canvas) {
+    setTrackerMode(QwtPicker::AlwaysOn);
+    setRubberBandPen(QPen(widgets::ink(255), 1, Qt::DashLine));
+    setTrackerPen(QPen(widgets::ink(255)));
+  }
+  QwtText trackerTextF(const QPointF& at) const override {
+    return QwtText(QStringLiteral("%1, %2").arg(at.x(), 0, 'f', 3).arg(at.y(), 0, 'g', 4));
+  }
+};
+
+/// As SVG or PDF, by the file's ending. False when it is neither, or cannot be written.
+inline bool exportFigure(QwtPlot& plot, const QString& file) {
+  const QString ending = QFileInfo(file).suffix().toLower();
+  if (ending != QLatin1String("svg") && ending != QLatin1String("pdf")) return false;
+  QwtPlotRenderer renderer;
+  renderer.renderDocument(&plot, file, ending, QSizeF(180, 80), 150);
+  return QFileInfo::exists(file);
+}
+
+/// Asks for a file; `write` is told its name, and answers whether it was written.
+template <typename Write>
+void askAndExport(QWidget* plot, const QString& title, const QString& suggested, Write write) {
+  const QString file = QFileDialog::getSaveFileName(plot, title, suggested, QObject::tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));
+  if (file.isEmpty() || write(file)) return;
+  QMessageBox::warning(plot, title, QObject::tr("%1 was not written: its name ends in .svg, .pdf or .csv, and its folder can be written to.").arg(file));
+}
+
+}  // namespace reachlab::gui::plot

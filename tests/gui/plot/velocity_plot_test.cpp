@@ -1,0 +1,93 @@
+#include "gui/plot/velocity_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <QCheckBox>
+#include <QFile>
+#include <QTemporaryDir>
+#include <QTest>
+
+namespace reachlab::gui::plot {
+namespace {
+
+struct Shown {
+  VelocityPlot plot;
+  QWidget* canvas = nullptr;
+  Shown() {
+    plot.resize(700, 320);
+    plot.setTask(1, 0.3);
+    plot.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&plot));
+    for (QWidget* child : plot.findChildren<QWidget*>())
+      if (child->inherits("QwtPlotCanvas")) canvas = child;
+  }
+  void add(int from, int to) {
+    for (int i = from; i < to; ++i) plot.add(0.01 * i, 0.1 * i, 0.05 * i);
+    plot.refresh();
+  }
+  QCheckBox& freeze() { return *plot.findChild<QCheckBox*>(QStringLiteral("velocityFreeze")); }
+};
+
+QList<QByteArray> exported(VelocityPlot& plot) {
+  const QTemporaryDir folder;
+  const QString name = folder.filePath(QStringLiteral("velocity.csv"));
+  EXPECT_TRUE(plot.exportTo(name));
+  QFile file(name);
+  EXPECT_TRUE(file.open(QIODevice::ReadOnly));
+  return file.readAll().trimmed().split('\n');
+}
+
+TEST(VelocityPlot, ADragZoomsInAndNewPointsDoNotZoomOut) {
+  Shown shown;
+  ASSERT_NE(shown.canvas, nullptr);
+  shown.add(0, 50);
+  const auto whole = shown.plot.shownTimes();
+  const QPoint from(shown.canvas->width() / 4, 20), to(shown.canvas->width() / 2, shown.canvas->height() - 20);
+  QTest::mousePress(shown.canvas, Qt::LeftButton, {}, from);
+  QTest::mouseMove(shown.canvas, to);
+  QTest::mouseRelease(shown.canvas, Qt::LeftButton, {}, to);
+  const auto part = shown.plot.shownTimes();
+  EXPECT_NEAR(part.first, 0.25 * whole.second, 0.02);
+  EXPECT_NEAR(part.second, 0.5 * whole.second, 0.02);
+  shown.add(50, 60);
+  EXPECT_EQ(shown.plot.shownTimes(), part);
+  QTest::mouseClick(shown.canvas, Qt::RightButton);
+  EXPECT_EQ(shown.plot.shownTimes(), whole);
+  QTest::mousePress(shown.canvas, Qt::LeftButton, {}, from);
+  QTest::mouseRelease(shown.canvas, Qt::LeftButton, {}, to);
+  shown.plot.setTask(3, 0.3);
+  EXPECT_NEAR(shown.plot.shownTimes().second, 3.55, 1e-9) << "another task is looked at whole";
+}
+
+TEST(VelocityPlot, FreezeHoldsThePictureAndLosesNothing) {
+  Shown shown;
+  shown.plot.beginTrial();
+  shown.add(0, 10);
+  shown.freeze().setChecked(true);
+  shown.add(10, 20);
+  shown.plot.beginTrial();
+  shown.add(0, 5);
+  EXPECT_EQ(exported(shown.plot).size(), 1 + 2 * 10) << "what is looked at";
+  shown.freeze().setChecked(false);
+  EXPECT_EQ(exported(shown.plot).size(), 1 + 2 * 5 + 2 * 20) << "the trial under way, and the whole one before";
+}
+
+TEST(VelocityPlot, IsExportedAsItIsDrawn) {
+  Shown shown;
+  shown.add(0, 30);
+  shown.plot.setPredictions({{QStringLiteral("jerk"), Qt::red, {0, 1}, {0, 0.5}}});
+  const QList<QByteArray> lines = exported(shown.plot);
+  EXPECT_EQ(lines[0], "line,time_s,velocity_m_per_s");
+  EXPECT_EQ(lines[30], "\"hand\",0.28999999999999998,2.9000000000000004");
+  EXPECT_EQ(lines.back(), "\"jerk\",1,0.5");
+  const QTemporaryDir folder;
+  for (const char* ending : {"svg", "pdf"}) {
+    const QString file = folder.filePath(QStringLiteral("velocity.") + QLatin1String(ending));
+    ASSERT_TRUE(shown.plot.exportTo(file)) << ending;
+    EXPECT_GT(QFile(file).size(), 2000) << ending;
+  }
+  EXPECT_FALSE(shown.plot.exportTo(folder.filePath(QStringLiteral("velocity.doc"))));
+}
+
+}  // namespace
+}  // namespace reachlab::gui::plot
