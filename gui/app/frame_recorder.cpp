@@ -1,6 +1,7 @@
 #include "gui/app/frame_recorder.h"
 
 #include <QMetaObject>
+#include <QPainter>
 #include <QTimer>
 
 #include "gui/scene/scene_view.h"
@@ -9,6 +10,15 @@ namespace reachlab::gui::app {
 namespace {
 
 constexpr std::size_t kMostWaiting = 20;
+
+QImage fitted(const QImage& picture, const QSize& size) {
+  if (QSize(picture.width() / 2 * 2, picture.height() / 2 * 2) == size) return picture.copy(QRect(QPoint(), size));
+  QImage whole(size, QImage::Format_RGB32);
+  whole.fill(Qt::black);
+  const QImage inside = picture.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  QPainter(&whole).drawImage((size.width() - inside.width()) / 2, (size.height() - inside.height()) / 2, inside);
+  return whole;
+}
 
 }  // namespace
 
@@ -27,6 +37,7 @@ void FrameRecorder::start(const QString& folder) {
   written_ = leftOut_ = failed_ = 0;
   last_ = false;
   waiting_.clear();
+  size_ = {};
   thread_ = std::jthread([this](const std::stop_token& stop) { write(stop); });
   timer_->start();
 }
@@ -41,10 +52,16 @@ void FrameRecorder::stop() {
 
 void FrameRecorder::take() {
   QImage picture = view_.grabScene();
-  const std::scoped_lock lock(mutex_);
-  if (waiting_.size() >= kMostWaiting) return static_cast<void>(++leftOut_);
-  waiting_.push_back(std::move(picture));
+  if (size_.isEmpty()) size_ = {picture.width() / 2 * 2, picture.height() / 2 * 2};
+  picture = fitted(picture, size_);
+  std::unique_lock lock(mutex_);
+  const bool room = waiting_.size() < kMostWaiting;
+  if (room) waiting_.push_back(std::move(picture));
+  else ++leftOut_;
   changed_.notify_all();
+  const int written = written_, leftOut = leftOut_;
+  lock.unlock();
+  Q_EMIT progressed(written, leftOut);
 }
 
 void FrameRecorder::write(const std::stop_token& stop) {

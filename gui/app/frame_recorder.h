@@ -16,7 +16,8 @@ class SceneView;
 namespace reachlab::gui::app {
 
 /// Pictures of a scene for a film, 25 a second, as frame-000001.png and on. Written on a thread of its own; where the disk is slower than the
-/// pictures come, pictures are left out and counted: neither window nor memory waits.
+/// pictures come, pictures are left out and counted: neither window nor memory waits. All are of the first one's size, made even, as encoders
+/// want it: what is of another size since, because the window was changed, is fitted into it.
 class FrameRecorder : public QObject {
   Q_OBJECT
  public:
@@ -29,6 +30,7 @@ class FrameRecorder : public QObject {
   void stop();
 
  Q_SIGNALS:
+  void progressed(int written, int leftOut);
   void ended(const QString& sentence);
 
  private:
@@ -38,6 +40,7 @@ class FrameRecorder : public QObject {
   scene::SceneView& view_;
   QTimer* timer_;
   QString folder_;
+  QSize size_;  // of the film, from its first picture on [pixel]
   std::mutex mutex_;  // guards what follows
   std::condition_variable_any changed_;
   std::deque<QImage> waiting_;

@@ -9,12 +9,15 @@
 #include <QMenu>
 #include <QSettings>
 #include <QSlider>
+#include <QStatusBar>
 #include <QWidgetAction>
 
 #include "gui/app/frame_recorder.h"
 #include "gui/app/main_window.h"
+#include "gui/scene/part_names.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
+#include "gui/widgets/work_strip.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::app {
@@ -22,7 +25,24 @@ namespace {
 
 using experiment::SceneLook;
 
-QString wordsOf(const std::string& part) { return QString::fromStdString(part).replace(QLatin1Char('_'), QLatin1Char(' ')); }
+QString wordsOf(const std::string& part) {
+  for (const auto& [name, words] : {std::pair{"driven", "driven mass"}, {"middle", "masses between"}, {"last", "last mass"}, {"spring", "springs"}})
+    if (part == name) return QObject::tr(words);
+  return QString::fromStdString(part).replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
+// As it is drawn now, by the theme or by the experiment.
+QColor drawnColour(MainWindow& window, const std::string& part) {
+  scene::PartColours drawn = window.view().plan().look.colours;
+  const widgets::Colour* colour = scene::partNamed(drawn, part);
+  return colour == nullptr ? QColor() : QColor::fromRgbF(colour->red, colour->green, colour->blue);
+}
+
+QIcon swatchOf(const QColor& colour) {
+  QPixmap picture(16, 16);
+  picture.fill(colour);
+  return QIcon(picture);
+}
 
 scene::Camera cameraOf(const experiment::NamedCamera& named) { return {named.position, named.focus, named.up, named.angle, named.parallel}; }
 
@@ -89,9 +109,9 @@ void listColours(MainWindow& window, QMenu& menu) {
   menu.clear();
   menu.setEnabled(!window.session().isPlan());
   for (const std::string& part : experiment::colouredParts())
-    QObject::connect(menu.addAction(wordsOf(part) + QStringLiteral("…")), &QAction::triggered, &window, [&window, part] {
+    QObject::connect(menu.addAction(swatchOf(drawnColour(window, part)), wordsOf(part) + QStringLiteral("…")), &QAction::triggered, &window, [&window, part] {
       SceneLook look = window.look();
-      const QColor chosen = QColorDialog::getColor(QColor(QString::fromStdString(look.colours[part])), &window, wordsOf(part));
+      const QColor chosen = QColorDialog::getColor(drawnColour(window, part), &window, QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
       if (!chosen.isValid()) return;
       look.colours[part] = chosen.name().toStdString();
       window.setLook(look);
@@ -160,9 +180,17 @@ void addMovie(MainWindow& window, QMenu& menu) {
     if (folder.isEmpty()) return action->setChecked(false);
     recorder->start(folder);
   });
-  QObject::connect(recorder, &FrameRecorder::ended, &window, [&window, action](const QString& sentence) {
+  auto* filming = new widgets::WorkStrip(QStringLiteral("filming"), QObject::tr("Stop"));
+  window.statusBar()->addPermanentWidget(filming);
+  QObject::connect(&filming->button(), &QToolButton::clicked, recorder, &FrameRecorder::stop);
+  QObject::connect(recorder, &FrameRecorder::progressed, filming, [filming](int written, int leftOut) {
+    filming->tell(leftOut == 0 ? QObject::tr("filming: %1 pictures").arg(written)
+                               : QObject::tr("filming: %1 pictures, %2 left out").arg(written).arg(leftOut), -1);
+  });
+  QObject::connect(recorder, &FrameRecorder::ended, &window, [&window, filming, action](const QString& sentence) {
+    filming->hide();
     action->setChecked(false);
-    window.say(sentence);
+    window.tell(sentence);
   });
 }
 
@@ -197,7 +225,7 @@ void addLookMenu(MainWindow& window, QMenu& menu) {
   light->setChecked(QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"));
   QObject::connect(light, &QAction::triggered, &window, [&window](bool on) {
     QSettings().setValue(QStringLiteral("window/theme"), on ? QStringLiteral("light") : QStringLiteral("dark"));
-    window.say(QObject::tr("The %1 theme holds when the window is opened again.").arg(on ? QObject::tr("light") : QObject::tr("dark")));
+    window.tell(QObject::tr("The %1 theme holds when the window is opened again.").arg(on ? QObject::tr("light") : QObject::tr("dark")));
   });
   addMovie(window, menu);
 }

@@ -42,6 +42,7 @@
 #include "gui/plot/criterion_style.h"
 #include "gui/plot/signal_point.h"
 #include "gui/scene/scene_view.h"
+#include "gui/widgets/work_strip.h"
 #include "sim/dynamics/compiled_scene.h"
 
 namespace reachlab::gui::app {
@@ -76,6 +77,12 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   plans_ = new PlanPages(session_, *docks_.session, *view_);
   if (!file_.isEmpty()) screens_->lookIn(QFileInfo(file_).path());
   connect(screens_, &Screens::said, this, &MainWindow::say);
+  auto* reading = new widgets::WorkStrip(QStringLiteral("readingScene"), tr("Cancel"));
+  statusBar()->addPermanentWidget(reading);
+  model::ModelReader& reader = screens_->modelReader();
+  connect(&reader, &model::ModelReader::progressed, reading, &widgets::WorkStrip::tell);
+  connect(&reader, &model::ModelReader::idle, reading, &QWidget::hide);
+  connect(&reading->button(), &QToolButton::clicked, &reader, &model::ModelReader::cancel);
   wireDocks();
   wireSession();
   stackOnNarrowScreen(*this);
@@ -550,6 +557,7 @@ void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
 }
 
 void MainWindow::say(const QString& sentence) { message_->say(sentence); }
+void MainWindow::tell(const QString& sentence) { message_->tell(sentence); }
 
 void MainWindow::setLook(const experiment::SceneLook& look) {
   if (look == this->look() || !mayEndRun(tr("Another look of the scene"))) return;

@@ -63,7 +63,9 @@ class MainWindow : public QMainWindow {
   /// How the scene is drawn, as the experiment has it.
   experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }
   /// In the bar at the top.
+  /// At the top of the window: what is wrong, and what went as it was asked for.
   void say(const QString& sentence);
+  void tell(const QString& sentence);
   /// The sentence in the bar at the top, empty when there is none.
   QString message() const;
   /// Waits for nothing; true once the criteria have been computed for the experiment as it is.

@@ -1,13 +1,9 @@
 #include "gui/app/screens.h"
 
-#include <QDir>
-#include <QFileInfo>
 #include <QLabel>
-#include <QMetaObject>
 #include <QTimer>
 #include <algorithm>
 
-#include "base/ending.h"
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/scene_look.h"
@@ -27,50 +23,26 @@ Screens::Screens(scene::SceneView& main) : main_(main), mirror_(new QLabel(&main
   mirror_->hide();
   mirrorTimer_->setInterval(kMirrorMs);
   connect(mirrorTimer_, &QTimer::timeout, this, &Screens::mirror);
+  connect(&model_, &model::ModelReader::failed, this, &Screens::said);
+  connect(&model_, &model::ModelReader::ready, this, [this] {
+    if (!model_.model()) return;  // rebuilt by who asked for none
+    const scene::Camera kept = main_.camera();
+    rebuild();
+    main_.setCamera(kept);
+  });
 }
 
 Screens::~Screens() { delete subject_; }
 
 void Screens::showExperiment(const experiment::CompiledExperiment& experiment) {
   experiment_ = experiment;
-  readModel();
+  model_.begin(model::findSceneFile(experiment::lookOf(experiment_->experiment()).sceneFile, folder_));
   rebuild();
-}
-
-// Beside the window: a large file, or a slow disk, keeps nobody waiting. The newest one wins.
-void Screens::readModel() {
-  const QString named = QString::fromStdString(experiment::lookOf(experiment_->experiment()).sceneFile);
-  const QString beside = QDir(folder_).filePath(named);
-  const std::string file = (named.isEmpty() || !QFileInfo::exists(beside) ? named : beside).toStdString();
-  if (file == modelFile_) return;
-  modelFile_ = file;
-  model_.reset();
-  if (file.empty()) return;
-  modelReader_ = std::jthread([this, file] {
-    std::shared_ptr<const model::Model> read;
-    QString fault;
-    try {
-      read = std::make_shared<model::Model>(model::readModel(file));
-    } catch (const std::exception& e) {
-      fault = QString::fromStdString(endingOf(e).sentence);
-    }
-    QMetaObject::invokeMethod(
-        this,
-        [this, file, read, fault] {
-          if (file != modelFile_) return;
-          if (!fault.isEmpty()) return static_cast<void>(Q_EMIT said(fault));
-          model_ = read;
-          const scene::Camera kept = main_.camera();
-          rebuild();
-          main_.setCamera(kept);
-        },
-        Qt::QueuedConnection);
-  });
 }
 
 void Screens::rebuild() {
   scene::ScenePlan plan = planScene(experiment_->experiment(), experiment_->constraint(), options_);
-  plan.model = model_;
+  plan.model = model_.model();
   frame_ = restingFrame(plan);
   main_.setPlan(plan);
   if (subject_) subject_->view().setPlan(subjectsPlan(plan, experiment_->experiment().subjectScreen));

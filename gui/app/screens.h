@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "gui/model/model_reader.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_plan.h"
 #include "network/line/station_line.h"
@@ -53,6 +53,8 @@ class Screens : public QObject {
   void showSubjectOn(const QString& screen);
   void closeSubject();
   const scene::OverlayState& overlay() const { return overlay_; }
+  /// Of the experiment's scene file.
+  model::ModelReader& modelReader() { return model_; }
   /// Masses stand at one place, so that one hides the others.
   bool massesHide() const;
 
@@ -64,7 +66,6 @@ class Screens : public QObject {
 
  private:
   void rebuild();
-  void readModel();
   void showPatch(const haptics::TickState* state);
   void openSubject(const QString& screen);
   void mirror();
@@ -77,9 +78,7 @@ class Screens : public QObject {
   scene::OverlayState overlay_, subjectsOverlay_;
   QList<QAction*> actions_;
   QString folder_;
-  std::string modelFile_;  // that is read, or being read
-  std::shared_ptr<const model::Model> model_;
-  std::jthread modelReader_;
+  model::ModelReader model_;
   QLabel* mirror_;  // the subject's screen, small, in a corner of the experimenter's
   QTimer* mirrorTimer_;
 };

@@ -107,6 +107,7 @@ void InspectorPage::wire() {
     if (axis_->currentIndex() == 0) replay_->goTo(time);
   });
   connect(plot_, &ProfilePlot::marksMoved, this, &InspectorPage::marksDragged);
+  connect(replay_, &ReplayView::said, this, &InspectorPage::said);
   connect(replay_, &ReplayView::timeChanged, this, [this](double time) {
     plot_->setCursor(axis_->currentIndex() == 0 ? std::optional(time) : std::nullopt);
   });

@@ -1,5 +1,6 @@
 // InspectorPage: the one trial that is looked at: its replay, its marks.
 #include <QComboBox>
+#include <QFileInfo>
 #include <cmath>
 
 #include "base/ending.h"
@@ -55,7 +56,7 @@ void InspectorPage::showPicked() {
     std::vector<ReplayView::Track> ghosts;
     for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
       if (i != *line && inspectedRows_[i] >= 0 && table_->run(inspectedRows_[i]).condition == table_->run(picked_).condition) ghosts.push_back(trackOf(i));
-    replay_->show(experimentOf(log), trackOf(*line), std::move(ghosts));
+    replay_->show(experimentOf(log), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line), std::move(ghosts));
     const record::IndexedRun& run = table_->run(picked_);
     const analyze::Movement& move = inspection_->signals[*line].movement;
     const double first = inspection_->input.trials[*line].first;

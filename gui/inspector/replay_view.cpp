@@ -16,6 +16,7 @@
 
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
+#include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -97,13 +98,18 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   connect(back_, &QToolButton::clicked, this, [this] { step(-1); });
   connect(on_, &QToolButton::clicked, this, [this] { step(1); });
   connect(ghostsShown_, &QCheckBox::toggled, this, &ReplayView::draw);
+  connect(&model_, &model::ModelReader::ready, this, &ReplayView::drawModel);
+  connect(&model_, &model::ModelReader::failed, this, &ReplayView::said);
   setEnabled(false);
 }
 
-void ReplayView::show(const experiment::CompiledExperiment& experiment, Track trial, std::vector<Track> ghosts) {
+void ReplayView::show(const experiment::CompiledExperiment& experiment, const QString& folder, Track trial, std::vector<Track> ghosts) {
   const std::string& text = experiment.experiment().text;
   if (text != shownExperiment_ || !isEnabled()) {
-    view_->setPlan(scene::planScene(experiment.experiment(), experiment.constraint()));
+    model_.begin(model::findSceneFile(experiment::lookOf(experiment.experiment()).sceneFile, folder));
+    scene::ScenePlan plan = scene::planScene(experiment.experiment(), experiment.constraint());
+    plan.model = model_.model();
+    view_->setPlan(plan);
     shownExperiment_ = text;
   }
   trial_ = std::move(trial);
@@ -115,6 +121,15 @@ void ReplayView::show(const experiment::CompiledExperiment& experiment, Track tr
     slider_->setRange(static_cast<int>(std::floor(1000 * begin())), static_cast<int>(std::ceil(1000 * end())));
   }
   goTo(std::clamp(time_, begin(), end()));
+}
+
+// It has been read: hand and masses take its shapes.
+void ReplayView::drawModel() {
+  if (!model_.model()) return;
+  scene::ScenePlan plan = view_->plan();
+  plan.model = model_.model();
+  view_->setPlan(plan, false);
+  draw();
 }
 
 void ReplayView::clear() {

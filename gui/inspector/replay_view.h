@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gui/inspector/replay.h"
+#include "gui/model/model_reader.h"
 #include "sim/experiment/compiled_experiment.h"
 
 class QCheckBox;
@@ -31,7 +32,8 @@ class ReplayView : public QWidget {
     Replay replay;
     double zero = 0;
   };
-  void show(const experiment::CompiledExperiment& experiment, Track trial, std::vector<Track> ghosts);
+  /// `folder`: where a scene file stands that the experiment names without a folder.
+  void show(const experiment::CompiledExperiment& experiment, const QString& folder, Track trial, std::vector<Track> ghosts);
   void clear();
   /// On the plot's time. [s]
   double time() const { return time_; }
@@ -46,17 +48,21 @@ class ReplayView : public QWidget {
 
  Q_SIGNALS:
   void timeChanged(double time);
+  /// What is wrong with the experiment's scene file.
+  void said(const QString& sentence);
 
  private:
   using QWidget::show;
   double begin() const { return trial_.replay.begin() - trial_.zero; }
   double end() const { return trial_.replay.end() - trial_.zero; }
   void draw();
+  void drawModel();
   void tick();
 
   Track trial_;
   std::vector<Track> ghosts_;
   std::string shownExperiment_;
+  model::ModelReader model_;
   double time_ = 0;
   QElapsedTimer clock_;
   QTimer* timer_;

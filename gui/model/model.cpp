@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <QElapsedTimer>
 #include <QFileInfo>
 #include <QProcess>
 #include <charconv>
@@ -10,6 +11,7 @@
 #include "base/fault.h"
 #include "base/helper_program.h"
 #include "base/json_reader.h"
+#include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"
 
@@ -31,11 +33,15 @@ std::string shortened(std::string words) {
   return words.size() > kMost ? words.substr(0, kMost) + " …" : words;
 }
 
-Model readGltf(const std::string& file) {
+Model readGltf(const std::string& file, const Watch& watch) {
   QProcess process;
   process.start(QString::fromStdString(findHelperProgram("reachlab-gltf", file, "which reads glTF (VRML 2.0 needs no program)")),
                 {QString::fromStdString(file)});
-  if (!process.waitForStarted() || !process.waitForFinished(kPatienceMs)) {
+  bool ended = !process.waitForStarted();
+  QElapsedTimer clock;
+  for (clock.start(); !ended && clock.elapsed() < kPatienceMs; ended = process.waitForFinished(50))
+    if (watch) watch(std::nan(""));  // throws to give up: the process ends with its QProcess
+  if (process.state() != QProcess::NotRunning || process.error() == QProcess::FailedToStart) {
     process.kill();
     process.waitForFinished();
     throw refusal(file, fmt::format("was not read within {} s", kPatienceMs / 1000), "a smaller scene");
@@ -114,14 +120,16 @@ Model readStream(std::string_view bytes, const std::string& file) {
   return model;
 }
 
-Model readModel(const std::string& file) {
+Model readModel(const std::string& file) { return readModel(file, {}); }
+
+Model readModel(const std::string& file, const Watch& watch) {
   const QFileInfo info(QString::fromStdString(file));
   if (!info.isFile()) throw ResourceError(file + ": there is no such file");
   if (static_cast<std::uintmax_t>(info.size()) > kMostBytes)
     throw refusal(file, fmt::format("has {:.0f} MB", 1e-6 * static_cast<double>(info.size())), fmt::format("up to {:.0f} MB", 1e-6 * static_cast<double>(kMostBytes)));
   const QString ending = info.suffix().toLower();
-  if (ending == QLatin1String("wrl") || ending == QLatin1String("vrml")) return readVrml(readTextFile(file), file);
-  if (ending == QLatin1String("gltf") || ending == QLatin1String("glb")) return readGltf(file);
+  if (ending == QLatin1String("wrl") || ending == QLatin1String("vrml")) return readVrml(readTextFile(file), file, watch);
+  if (ending == QLatin1String("gltf") || ending == QLatin1String("glb")) return readGltf(file, watch);
   throw refusal(file, "is no scene that is read, by its ending", ".wrl (VRML 2.0), .gltf, .glb");
 }
 

@@ -48,7 +48,7 @@ const char* const kPassedOver[] = {"WorldInfo", "NavigationInfo", "Viewpoint", "
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& file) : words_(text, file) {}
+  Reader(std::string_view text, const std::string& file, const Watch& watch) : words_(text, file, watch) {}
 
   std::vector<NodePtr> readAll() {
     std::vector<NodePtr> nodes;
@@ -408,13 +408,13 @@ void collect(const Node& node, const Transform& frame, const std::string& moving
 
 }  // namespace
 
-Model readVrml(std::string_view text, const std::string& file) {
+Model readVrml(std::string_view text, const std::string& file, const Watch& watch) {
   constexpr std::string_view kHead = "#VRML V2.0 utf8";
   if (text.substr(0, kHead.size()) != kHead)
     throw FaultError(Fault{{}, "does not begin as a VRML 2.0 file", std::string(kHead), FilePlace{file, 1, 1}});
   Model model;
   Work work;
-  for (const NodePtr& node : Reader(text, file).readAll()) collect(*node, {}, {}, file, work, model);
+  for (const NodePtr& node : Reader(text, file, watch).readAll()) collect(*node, {}, {}, file, work, model);
   if (model.parts.empty()) throw FaultError(Fault{{}, "has nothing to draw", "a Shape with a geometry", FilePlace{file}});
   check(model, file);
   return model;

@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "gui/model/model.h"
+#include "gui/model/watch.h"
 
 namespace reachlab::gui::model {
 
@@ -9,6 +10,6 @@ namespace reachlab::gui::model {
 /// Lights, views and scripts of the file are passed over; prototypes and files inside the file are refused. What a name of isMoving()
 /// defines is a part of that name, in the frame of its own node without its shift: its origin goes where the mass is.
 /// Throws FaultError: where in the file, what is there, what may be.
-Model readVrml(std::string_view text, const std::string& file);
+Model readVrml(std::string_view text, const std::string& file, const Watch& watch = {});
 
 }  // namespace reachlab::gui::model

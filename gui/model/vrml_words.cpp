@@ -14,6 +14,8 @@ bool isBracket(char c) { return c == '{' || c == '}' || c == '[' || c == ']'; }
 }  // namespace
 
 void VrmlWords::advance() {
+  constexpr std::size_t kTellEvery = 4096;
+  if (++words_ % kTellEvery == 0 && watch_) watch_(static_cast<double>(at_) / static_cast<double>(text_.size()));
   const auto step = [&] {
     if (text_[at_] == '\n') ++line_, column_ = 1;
     else ++column_;

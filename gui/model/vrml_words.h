@@ -3,13 +3,14 @@
 #include <string_view>
 
 #include "base/fault.h"
+#include "gui/model/watch.h"
 
 namespace reachlab::gui::model {
 
 /// The words of a VRML 2.0 text one by one: names, numbers, "texts", { } [ ]. Comments and commas are blanks.
 class VrmlWords {
  public:
-  VrmlWords(std::string_view text, std::string file) : text_(text), file_(std::move(file)) { advance(); }
+  VrmlWords(std::string_view text, std::string file, Watch watch = {}) : text_(text), file_(std::move(file)), watch_(std::move(watch)) { advance(); }
 
   /// Empty at the end.
   std::string_view word() const { return word_; }
@@ -30,7 +31,8 @@ class VrmlWords {
   void advance();
   std::string_view text_, word_;
   std::string file_;
-  std::size_t at_ = 0;
+  Watch watch_;
+  std::size_t at_ = 0, words_ = 0;
   int line_ = 1, column_ = 1, wordLine_ = 1, wordColumn_ = 1;
   bool quoted_ = false;
 };

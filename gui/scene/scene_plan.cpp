@@ -5,6 +5,7 @@
 
 #include "constraints/geometry/task_path.h"
 #include "gui/scene/hand_colours.h"
+#include "gui/scene/part_names.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/scene_look.h"
 
@@ -87,6 +88,8 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
     for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, 0, false});
 }
 
+}  // namespace
+
 widgets::Colour* partNamed(PartColours& c, const std::string& name) {
   const std::pair<const char*, widgets::Colour*> parts[] = {
       {"background_top", &c.backgroundTop}, {"background_bottom", &c.backgroundBottom}, {"rail", &c.rail}, {"surface", &c.surface},
@@ -96,6 +99,8 @@ widgets::Colour* partNamed(PartColours& c, const std::string& name) {
     if (name == known) return colour;
   return nullptr;
 }
+
+namespace {
 
 PlanLook plannedLook(const experiment::Experiment& experiment) {
   using namespace widgets::colours;

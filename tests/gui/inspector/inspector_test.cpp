@@ -26,6 +26,7 @@
 #include "gui/inspector/replay_view.h"
 #include "gui/scene/scene_view.h"
 #include "sim/analyze/tables.h"
+#include "sim/experiment/scene_look.h"
 #include "sim/record/append_file.h"
 #include "tests/analyze/recorded.h"
 
@@ -280,6 +281,28 @@ TEST_F(Inspecting, WhatIsNoRecordingIsSaid) {
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 10000));
   QTest::qWait(40);
   EXPECT_TRUE(said_.contains(QStringLiteral("no logs"))) << said_.toStdString();
+}
+
+TEST(Replay, ShowsTheSceneFileOfItsExperiment) {
+  const QTemporaryDir folder;
+  QFile file(folder.filePath(QStringLiteral("ball.wrl")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("#VRML V2.0 utf8\nDEF mass1 Shape { geometry Sphere { radius 0.02 } }\n");
+  file.close();
+  const auto openWith = [](const std::string& scene) {
+    experiment::SceneLook look;
+    look.sceneFile = scene;
+    return experiment::openExperimentText(experiment::withLook(experiment::openExperiment("dingwell").experiment(), look).text, "recorded");
+  };
+  ReplayView replay;
+  QString said;
+  QObject::connect(&replay, &ReplayView::said, [&](const QString& words) { said = words; });
+  replay.show(openWith("ball.wrl"), folder.path(), {}, {});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return replay.view().plan().model != nullptr; }, 10'000)) << said.toStdString();
+  EXPECT_EQ(replay.view().plan().model->parts.front().name, "mass1");
+  replay.show(openWith("gone.wrl"), folder.path(), {}, {});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !said.isEmpty(); }, 10'000));
+  EXPECT_EQ(replay.view().plan().model, nullptr) << "the usual shapes";
 }
 
 TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {

@@ -1,14 +1,18 @@
 // Scenes from files: what is good is drawn where it belongs, and what is damaged is refused in words.
 #include <gtest/gtest.h>
 
+#include <QElapsedTimer>
 #include <QFile>
 #include <QTemporaryDir>
+#include <QTest>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 
 #include "base/fault.h"
 #include "gui/model/model.h"
+#include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"
 
@@ -288,6 +292,66 @@ TEST_F(Gltf, MutantsAreReadOrRefused) {
     refused += !said(mutant).empty();
   }
   EXPECT_GT(refused, kMutants / 3);
+}
+
+// So long that it is told of and can be given up.
+std::string longScene() {
+  std::string points;
+  for (int i = 0; i < 900'000; ++i) points += "0.125 0.25 0.375 ";
+  return vrml("Shape { geometry IndexedFaceSet { coord Coordinate { point [ " + points + "] } coordIndex [ 0 1 2 -1 ] } }");
+}
+
+class ModelReaders : public ::testing::Test {
+ protected:
+  ModelReaders() {
+    QObject::connect(&reader_, &ModelReader::ready, [this] { ++ready_; });
+    QObject::connect(&reader_, &ModelReader::failed, [this](const QString& words) { failed_ = words; });
+    QObject::connect(&reader_, &ModelReader::progressed, [this](const QString&, int percent) { percents_.push_back(percent); });
+    QObject::connect(&reader_, &ModelReader::idle, [this] { ++idle_; });
+  }
+  std::string fileOf(const QString& name, const std::string& text) {
+    QFile file(folder_.filePath(name));
+    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(text.data(), static_cast<qint64>(text.size()));
+    return file.fileName().toStdString();
+  }
+  QTemporaryDir folder_;
+  ModelReader reader_;
+  int ready_ = 0, idle_ = 0;
+  QString failed_;
+  std::vector<int> percents_;
+};
+
+TEST_F(ModelReaders, TellHowFarTheyAreAndAreGivenUp) {
+  const std::string file = fileOf(QStringLiteral("long.wrl"), longScene());
+  reader_.begin(file);
+  const int before = idle_;
+  reader_.cancel();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle_ > before; }, 30'000));
+  EXPECT_EQ(ready_, 0);
+  EXPECT_TRUE(failed_.isEmpty());
+  EXPECT_EQ(reader_.model(), nullptr);
+  std::vector<double> shares;
+  readModel(file, [&](double share) { shares.push_back(share); });
+  ASSERT_GT(shares.size(), 100u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.back(), 0.98);
+}
+
+TEST_F(ModelReaders, TheNewestWinsAndWaitsForNobodyInTheWindow) {
+  const std::string first = fileOf(QStringLiteral("long.wrl"), longScene()), second = fileOf(QStringLiteral("table.wrl"), kTable);
+  QElapsedTimer clock;
+  clock.start();
+  reader_.begin(first);
+  reader_.begin(second);
+  EXPECT_LT(clock.elapsed(), 50) << "the window went on";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return ready_ > 0; }, 30'000));
+  EXPECT_EQ(reader_.model()->triangleCount(), readVrml(kTable, "table.wrl").triangleCount());
+  reader_.begin(folder_.filePath(QStringLiteral("missing.wrl")).toStdString());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !failed_.isEmpty(); }, 30'000));
+  EXPECT_EQ(reader_.model(), nullptr);
+  reader_.begin({});
+  EXPECT_EQ(ready_, 2) << "no scene is there at once";
 }
 
 }  // namespace

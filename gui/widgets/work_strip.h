@@ -1,0 +1,39 @@
+#pragma once
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QWidget>
+
+namespace reachlab::gui::widgets {
+
+/// What goes on beside the window, how far it is, and the button that ends it. Hidden while there is nothing.
+class WorkStrip : public QWidget {
+ public:
+  WorkStrip(const QString& name, const QString& button) : what_(new QLabel), bar_(new QProgressBar), stop_(new QToolButton) {
+    setObjectName(name);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    bar_->setFixedWidth(120);
+    stop_->setText(button);
+    row->addWidget(what_);
+    row->addWidget(bar_);
+    row->addWidget(stop_);
+    hide();
+  }
+  /// `percent`: below 0 where nobody knows.
+  void tell(const QString& what, int percent) {
+    what_->setText(what);
+    bar_->setValue(percent);
+    bar_->setVisible(percent >= 0);
+    show();
+  }
+  QToolButton& button() { return *stop_; }
+
+ private:
+  QLabel* what_;
+  QProgressBar* bar_;
+  QToolButton* stop_;
+};
+
+}  // namespace reachlab::gui::widgets
