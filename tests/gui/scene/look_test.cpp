@@ -1,10 +1,14 @@
 // What helps an eye, where the experiment asks for it.
 #include <gtest/gtest.h>
 
+#include <QDir>
+#include <QTemporaryDir>
 #include <QTest>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include "gui/app/frame_recorder.h"
+#include "gui/plot/criterion_style.h"
 #include "gui/scene/cue_actors.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/themes.h"
@@ -108,6 +112,26 @@ TEST(Trace, IsOfOneTrialAndItsMemoryIsBounded) {
   EXPECT_LE(cues.tracePointCount(), 1);
 }
 
+TEST_F(Looks, PicturesOfAFilmHaveOneEvenSize) {
+  view_.setPlan(planWith({}));
+  view_.resize(601, 451);
+  const QTemporaryDir folder;
+  app::FrameRecorder recorder(view_, nullptr);
+  QString ended;
+  int taken = 0;
+  QObject::connect(&recorder, &app::FrameRecorder::ended, [&](const QString& words) { ended = words; });
+  QObject::connect(&recorder, &app::FrameRecorder::progressed, [&](int, int) {
+    if (++taken == 2) view_.resize(640, 420);
+  });
+  recorder.start(folder.path());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return taken >= 4; }, 20'000));
+  recorder.stop();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !ended.isEmpty(); }, 20'000));
+  const QStringList files = QDir(folder.path()).entryList({QStringLiteral("frame-*.png")});
+  ASSERT_GE(files.size(), 4);
+  for (const QString& file : files) EXPECT_EQ(QImage(folder.filePath(file)).size(), QSize(600, 450)) << file.toStdString();
+}
+
 TEST(ParallelProjection, KeepsSizesAndFindsItsPointsAgain) {
   const ScenePlan plan = planWith({}, "torus");
   Camera camera = lookAtPoints(plan.seen, 0.1 * plan.size, plan.viewFrom, 1.5, true);
@@ -135,6 +159,10 @@ TEST(LightTheme, KeepsItsContrast) {
     }
     for (const Colour& part : {colours::kDriven, colours::kLast, colours::kHand, colours::kRail, colours::kTarget})
       EXPECT_GE(contrast(themed(part), themed(colours::kSkyTop)), 3) << static_cast<int>(theme) << ": " << part.red << " " << part.green;
+    for (int i = 0; i < predict::kCriterionCount; ++i) {  // lines of a plot, and words of a list
+      const QColor ink = plot::colourOf(static_cast<predict::Criterion>(i));
+      EXPECT_GE(contrast({ink.redF(), ink.greenF(), ink.blueF()}, themed(colours::kBase)), 4.5) << static_cast<int>(theme) << ": criterion " << i;
+    }
   }
   setTheme(Theme::Dark);
 }
