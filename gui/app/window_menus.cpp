@@ -132,6 +132,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   addSubjectMenu(window, *menu);
   addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
   menu->addSeparator();
+  menu = menu->addMenu(QStringLiteral("&Docks"));  // ten of them would make the menu longer than a small screen
   for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();
   const std::pair<const char*, WindowLayout> layouts[] = {
@@ -140,7 +141,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   for (const auto& [title, layout] : layouts)
     add(window, menu, QLatin1String(title), QKeySequence(QStringLiteral("Alt+%1").arg(number++)),
         [&window, layout = layout] { window.switchLayout(layout); });
-  add(window, menu, QStringLiteral("&Docks in their places"), {}, &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
+  add(window, menu, QStringLiteral("In their &places"), {}, &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
 }
 
 void addHelpMenu(MainWindow& window) {

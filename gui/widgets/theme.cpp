@@ -75,6 +75,7 @@ void applyTheme(QApplication& application) {
   palette.setColor(QPalette::Link, toQColor(kAccent));
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
     palette.setColor(QPalette::Disabled, role, toQColor(kNeutral));
+  palette.setColor(QPalette::Disabled, QPalette::Light, toQColor(kBase));  // of the etching beside a menu's words: not seen
   QApplication::setPalette(palette);
   const auto either = [](const char* light, const char* dark) { return QString::fromLatin1(theme() == Theme::Light ? light : dark); };
   // Fusion draws an empty box darker than the dark it stands on.
