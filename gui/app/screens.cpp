@@ -11,7 +11,7 @@
 namespace reachlab::gui::app {
 namespace {
 
-constexpr int kMirrorMs = 250, kMirrorWidth = 220;
+constexpr int kMirrorMs = 250, kMirrorWidth = 220;  // no wider than a fifth of the scene: it hides what is behind it
 
 }  // namespace
 
@@ -127,7 +127,7 @@ void Screens::mirror() {
     if (!subject_) mirrorTimer_->stop();
     return;
   }
-  mirror_->setPixmap(subject_->grab().scaledToWidth(kMirrorWidth, Qt::SmoothTransformation));
+  mirror_->setPixmap(subject_->grab().scaledToWidth(std::min(kMirrorWidth, main_.width() / 5), Qt::SmoothTransformation));
   mirror_->adjustSize();
   mirror_->move(main_.width() - mirror_->width() - 14, main_.height() - mirror_->height() - 64);
   mirror_->raise();

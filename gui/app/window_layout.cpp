@@ -10,7 +10,8 @@
 namespace reachlab::gui::app {
 namespace {
 
-constexpr int kThreeColumns = 1200;  // pixels, as the scale has them: docks left and right of a scene that is still seen
+// Pixels, as the scale has them: docks left and right of a scene that is still seen, and three of them below one another.
+constexpr int kThreeColumns = 1200, kThreeRows = 680;
 constexpr int kLayoutVersion = 5;  // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
@@ -34,10 +35,14 @@ QStringList docksOf(WindowLayout layout) {
 
 void stackOnNarrowScreen(QMainWindow& window) {
   const QScreen* screen = QGuiApplication::primaryScreen();
-  auto* onto = window.findChild<QDockWidget*>(QStringLiteral("trialsDock"));
-  if (screen == nullptr || onto == nullptr || screen->availableSize().width() >= kThreeColumns) return;
+  if (screen == nullptr) return;
+  const bool narrow = screen->availableSize().width() < kThreeColumns, low = screen->availableSize().height() < kThreeRows;
+  auto* onto = window.findChild<QDockWidget*>(low ? QStringLiteral("sessionDock") : QStringLiteral("trialsDock"));
+  if (onto == nullptr) return;
   for (QDockWidget* dock : window.findChildren<QDockWidget*>())
-    if (window.dockWidgetArea(dock) == Qt::RightDockWidgetArea) window.tabifyDockWidget(onto, dock);
+    if ((narrow && window.dockWidgetArea(dock) == Qt::RightDockWidgetArea) || (low && dock->objectName() == QLatin1String("constraintDock")))
+      window.tabifyDockWidget(onto, dock);
+  if (low) onto->raise();
 }
 
 void rememberDocks(const QMainWindow& window, WindowLayout layout) {

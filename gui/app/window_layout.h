@@ -13,7 +13,7 @@ void rememberLayout(const QMainWindow& window, WindowLayout layout);
 WindowLayout restoreLayout(QMainWindow& window);
 void forgetLayout();
 
-/// Where docks on both sides would leave no room, those of the right become tabs on the left.
+/// Where docks on both sides, or three below one another, would leave no room, those of the right and the constraint become tabs on the left.
 void stackOnNarrowScreen(QMainWindow& window);
 void rememberDocks(const QMainWindow& window, WindowLayout layout);
 /// As they were left in this layout, or as it begins: everything to set up, the session and the plot to run, none to

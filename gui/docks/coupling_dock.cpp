@@ -7,7 +7,7 @@
 
 namespace reachlab::gui::docks {
 
-CouplingDock::CouplingDock(QWidget* parent) : Dock(QStringLiteral("Coupling of hand and object"), QStringLiteral("couplingDock"), parent) {
+CouplingDock::CouplingDock(QWidget* parent) : Dock(QStringLiteral("Coupling"), QStringLiteral("couplingDock"), parent) {
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
   stiffness_ = new widgets::UnitSpinBox(0, 1e6, QStringLiteral("N/m"));

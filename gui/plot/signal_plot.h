@@ -38,6 +38,7 @@ class SignalPlot : public QWidget {
   bool frozen() const;
   /// By the file's ending: pdf, svg, csv. False when it cannot be written.
   bool exportTo(const QString& file);
+  QSize minimumSizeHint() const override { return {300, 150}; }
 
  Q_SIGNALS:
   void watchedChanged(int mass);

@@ -203,7 +203,7 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
   impl_->widget->setFocusPolicy(Qt::ClickFocus);  // a field beside the scene is left by a click into it
   setFocusPolicy(Qt::ClickFocus);
   setFocusProxy(impl_->widget);
-  setMinimumSize(320, 240);
+  setMinimumSize(320, 198);
 }
 
 SceneView::~SceneView() {

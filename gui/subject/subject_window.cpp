@@ -23,7 +23,8 @@ QScreen* screenNamed(const QString& name) {
 }  // namespace
 
 QString titleOf(const QScreen& screen) {
-  return QStringLiteral("%1, %2 × %3").arg(screen.name()).arg(screen.size().width()).arg(screen.size().height());
+  const QSizeF pixels = QSizeF(screen.size()) * screen.devicePixelRatio();  // as its box says, whatever the desktop's scale
+  return QStringLiteral("%1, %2 × %3").arg(screen.name()).arg(pixels.width(), 0, 'f', 0).arg(pixels.height(), 0, 'f', 0);
 }
 
 QString rememberedScreen() {
