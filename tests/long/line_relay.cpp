@@ -1,7 +1,7 @@
 // Joins two network interfaces as a line with delay, jitter and loss: line_relay IFACE IFACE DELAY_MS JITTER_MS LOSS_PERCENT [SEED]
 //   or has an interface fill in checksums itself, as no card does on a virtual one: line_relay checksums IFACE
-// On standard input, a line each, while it runs: "cut MS" drops everything for so long; "twice PERCENT" sends so many frames twice; "again"
-// sends the last 4,000 frames once more.
+// On standard input, a line each, while it runs: "line DELAY_MS JITTER_MS LOSS_PERCENT" is another line from now on; "cut MS" drops everything
+// for so long; "twice PERCENT" sends so many frames twice; "again" sends the last 4,000 frames once more.
 // Raw Ethernet, seeded; address resolution goes through at once. Needs CAP_NET_RAW.
 #include <arpa/inet.h>
 #include <linux/ethtool.h>
@@ -61,6 +61,8 @@ bool resolvesAddresses(const char* frame, ssize_t size) {
 
 /// What can be asked for while it runs.
 struct Orders {
+  double delay = 0, jitter = 0;  // [ms]
+  double loss = 0;               // share
   Clock::time_point cutUntil{};
   double twice = 0;  // share
   bool again = false;
@@ -75,7 +77,8 @@ struct Orders {
         line_ += text[i];
         continue;
       }
-      double number = 0;
+      double number = 0, more = 0, percent = 0;
+      if (std::sscanf(line_.c_str(), "line %lf %lf %lf", &number, &more, &percent) == 3) delay = number, jitter = more, loss = percent / 100;
       if (std::sscanf(line_.c_str(), "cut %lf", &number) == 1)
         cutUntil = Clock::now() + std::chrono::microseconds(static_cast<long>(1e3 * number));
       if (std::sscanf(line_.c_str(), "twice %lf", &number) == 1) twice = number / 100;
@@ -110,7 +113,6 @@ int main(int argc, char** argv) {
   }
   ::prctl(PR_SET_TIMERSLACK, 1UL);
   const std::array<int, 2> ends{openInterface(argv[1]), openInterface(argv[2])};
-  const double delay = std::atof(argv[3]), jitter = std::atof(argv[4]), loss = std::atof(argv[5]) / 100;
   std::mt19937_64 random(argc > 6 ? std::strtoull(argv[6], nullptr, 10) : 1);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::priority_queue<Packet> under;
@@ -118,6 +120,7 @@ int main(int argc, char** argv) {
   constexpr std::size_t kKept = 4000;
   std::deque<Packet> kept;
   Orders orders;
+  orders.delay = std::atof(argv[3]), orders.jitter = std::atof(argv[4]), orders.loss = std::atof(argv[5]) / 100;
   int from = 0;  // standard input, until it ends
   static std::array<char, 65536> frame;
   while (true) {
@@ -138,8 +141,8 @@ int main(int argc, char** argv) {
       if (size <= 0) continue;
       const bool at_once = resolvesAddresses(frame.data(), size);
       if (Clock::now() < orders.cutUntil) continue;
-      if (!at_once && uniform(random) < loss) continue;
-      const double ms = at_once ? 0 : std::max(0.0, delay + jitter * (2 * uniform(random) - 1));
+      if (!at_once && uniform(random) < orders.loss) continue;
+      const double ms = at_once ? 0 : std::max(0.0, orders.delay + orders.jitter * (2 * uniform(random) - 1));
       under.push({Clock::now() + std::chrono::nanoseconds(static_cast<std::int64_t>(1e6 * ms)), number++, 1 - end,
                   std::vector<char>(frame.data(), frame.data() + size)});
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two stations and what can happen to them and to the line between them (needs root, for network namespaces):
   station_faults.py BUILD [CASE ...]
-Judged by what the logs hold, tick by tick: who is lost ends the trial as peer_lost within 150 ms of its last sample, with zero force from there
+Judged by what the logs hold, tick by tick: over a line of 25 +- 2.5 or 50 +- 5 ms each way that loses 5 % the copies keep together; who is lost ends the trial as peer_lost within 150 ms of its last sample, with zero force from there
 on; a line that is cut for 30 ms goes on, for 90 ms fades and recovers and is marked; a clock that steps, frames that come twice or once more
 change nothing; certificates that are not right, and other versions, are refused before a trial. Every log replays to the bit. Exits 1 otherwise."""
 import csv
@@ -131,18 +131,18 @@ def before_others():
 class Pair:
     """One run of two stations; `left` is the conductor."""
 
-    def __init__(self, bench, name, wait=20, **stations):
+    def __init__(self, bench, name, wait=20, experiment=None, trials=None, **stations):
         self.folder = os.path.join(bench.work, name)
         os.makedirs(self.folder)
         self.bench, self.processes = bench, {}
         for side, number in (("right", 2), ("left", 1)):
             more = stations.get(side, {})
-            words = ["ip", "netns", "exec", bench.line.spaces[number - 1], more.get("reach", bench.reach), "station", bench.experiment,
+            words = ["ip", "netns", "exec", bench.line.spaces[number - 1], more.get("reach", bench.reach), "station", experiment or bench.experiment,
                      "--number", str(number), "--device", "simulated:noise=0", "--seed", str(number), "--every-tick", "--wait", str(wait),
                      "--peers", more.get("peers", os.path.join(bench.work, side)), "--interface", bench.line.outer[number - 1] + "n",
                      "--peer", f"10.77.0.{3 - number}", "--data", self.path(side)]
             if side == "left":
-                words.append("--conductor")
+                words += ["--conductor"] + (["--trials", str(trials)] if trials else [])
             self.processes[side] = subprocess.Popen(words, stdout=open(self.path(side + ".out"), "w"), stderr=open(self.path(side + ".err"), "w"),
                                                     env={**os.environ, **more.get("environment", {})}, preexec_fn=before_others)
 
@@ -225,6 +225,25 @@ class Pair:
     def check_goes_on(self, side):
         check("outcome=" in self.text(side + ".out") and "peer_lost" not in self.text(side + ".out"),
               f"{side}: {self.text(side + '.out').strip().splitlines()[:1]}")
+
+    def check_together(self, side, bound):
+        """Whole trials only: one that ended early proves nothing."""
+        whole = {int(found[1]) for found in re.finditer(r"^trial=(\d+) outcome=(?:success|failure)", self.text(side + ".out"), re.M)}
+        apart = {}
+        for note in self.log(side).notes():
+            if found := re.match(r"trial (\d+): copies apart ([\d.e+-]+) m RMS", note):
+                apart[int(found[1])] = 1e3 * float(found[2])
+        judged = sorted(whole & set(apart))
+        check(judged and all(0 < apart[trial] <= bound for trial in judged),
+              f"{side}: {len(judged)} whole trials, copies apart {', '.join(f'{apart[trial]:.3f}' for trial in judged)} mm RMS, at most {bound}")
+        forces = self.forces(side)
+        check(len(forces) >= len(self.log(side).times) - 2 and 0.1 < max(forces.values()) <= 12,
+              f"{side}: force at most {max(forces.values()):.2f} of 12 N at each of {len(forces)} ticks")
+
+    def told_line(self, side):
+        """Round trip [ms], jitter [ms] and loss [%], as the station tells them at its end."""
+        found = re.search(r"round trip ([\d.]+) ms, jitter ([\d.]+) ms, loss ([\d.]+) %", self.text(side + ".err"))
+        return tuple(float(number) for number in found.groups()) if found else (0.0, 0.0, 0.0)
 
     def silence(self, side):
         """As the station's own note has it: the oldest sample [ms], ticks at less than the full coupling."""
@@ -314,6 +333,30 @@ class Bench:
         for side in ("left", "right"):
             pair.check_lost(side)
         pair.check_logs()
+
+    def over_a_line(self, delay, jitter, bound):
+        """`delay` +- `jitter` ms each way, 5 % loss; copies apart at most `bound` mm. The chain of five as it is shipped, but that ticks may be late."""
+        with open(os.path.join(HERE, "../../resources/experiments/two-hands/chain-two-hands.json")) as file:
+            experiment = {**json.load(file), "timing": SLOW["timing"]}
+        chain = os.path.join(self.work, "chain-two-hands.json")
+        with open(chain, "w") as file:
+            json.dump(experiment, file)
+        self.line.order(f"line {delay} {jitter} 5")
+        pair = Pair(self, f"line_{2 * delay}", experiment=chain, trials=3)
+        codes = pair.end()
+        self.line.order("line 1 0.1 0")
+        check(codes == {"left": 0, "right": 0}, f"exit {codes}")
+        for side in ("left", "right"):
+            trip, spread, loss = pair.told_line(side)
+            check(1.7 * delay < trip < 2.3 * delay, f"{side}: round trip {trip:.1f} ms, jitter {spread:.1f} ms, {loss:.0f} % lost or overtaken")
+            pair.check_together(side, bound)
+        pair.check_logs()
+
+    def line_50(self):
+        self.over_a_line(25, 2.5, 0.5)
+
+    def line_100(self):
+        self.over_a_line(50, 5, 1.5)
 
     def clock_step(self):
         shim = os.path.join(self.work, "clock_step.so")
@@ -426,7 +469,7 @@ class Bench:
         check(f"runs reachlab {other}, and this one reachlab {version}" in pair.text("left.err"), "left says which")
 
 
-CASES = ["peer_killed", "conductor_killed", "cut_30", "cut_90", "cut_500", "clock_step", "duplicates", "replays", "wrong_certificate",
+CASES = ["line_50", "line_100", "peer_killed", "conductor_killed", "cut_30", "cut_90", "cut_500", "clock_step", "duplicates", "replays", "wrong_certificate",
          "expired_certificate", "self_signed_permissions", "other_version"]
 
 
