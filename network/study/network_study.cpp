@@ -79,6 +79,17 @@ figure::Panel panelOf(const std::string& title, const std::string& y, figure::Sc
   return panel;
 }
 
+figure::Series seriesOf(Coupling coupling, int number) {
+  figure::Series series;
+  series.label = std::string(describe(coupling));
+  series.color = figure::palette::series(number);
+  series.marker = figure::markerOf(number);
+  if (coupling == Coupling::Design) series.width = figure::kThick;
+  return series;
+}
+
+double percentStable(const StudyShare& share) { return 100.0 * share.stable / std::max(1, share.runs); }
+
 }  // namespace
 
 std::string_view nameOf(StudyObject object) { return object == StudyObject::Chain ? "chain" : "parallel"; }
@@ -124,8 +135,9 @@ std::string formatStudy(const StudyTables& tables) {
                 return fmt::format("{}/{} {:.2f} {:.2f}", c.stable, c.runs, 1e3 * c.apart, c.forceError);
               }) + "\n";
     if (!tables.shares.empty())
-      text += formatObject(tables.shares, object, fmt::format("{}, random set-ups: stable", nameOf(object)), [](const StudyShare& s) {
-                return fmt::format("{:.0f} %", 100.0 * s.stable / std::max(1, s.runs));
+      text += formatObject(tables.shares, object, fmt::format("{}, random set-ups: stable, J, s above", nameOf(object)), [](const StudyShare& s) {
+                const std::string share = fmt::format("{:.1f} %", percentStable(s));
+                return s.coupling == Coupling::Design ? fmt::format("{} {:.2f} {:.2f}", share, s.ledgerWorst, s.ledgerDuration) : share;
               }) + "\n";
   }
   return text;
@@ -151,7 +163,7 @@ std::string studyCsv(const StudyTables& tables) {
   return table.text();
 }
 
-// Each way of coupling where it was stable; a line ends where it is not any more.
+// Each way of coupling where it was stable; a line ends where it is not any more. Below, where there are any, the random set-ups.
 std::string drawStudy(const StudyTables& tables) {
   figure::Figure page;
   page.columns = 2;
@@ -160,11 +172,7 @@ std::string drawStudy(const StudyTables& tables) {
     figure::Panel force = panelOf(fmt::format("{}: force", nameOf(object)), "Error, RMS (N)", figure::Scale::Log);
     int number = 0;
     for (const Coupling coupling : kCouplings) {
-      figure::Series line;
-      line.label = std::string(describe(coupling));
-      line.color = figure::palette::series(number);
-      line.marker = figure::markerOf(number++);
-      if (coupling == Coupling::Design) line.width = figure::kThick;
+      figure::Series line = seriesOf(coupling, number++);
       figure::Series error = line;
       for (const StudyCell& cell : tables.cells) {
         if (cell.object != object || cell.coupling != coupling) continue;
@@ -180,6 +188,18 @@ std::string drawStudy(const StudyTables& tables) {
     if (object == StudyObject::Parallel) force.legend = figure::LegendPlace::Below;
     page.panels.push_back(std::move(apart));
     page.panels.push_back(std::move(force));
+  }
+  if (tables.shares.empty()) return figure::renderSvg(page);
+  for (const StudyObject object : kObjects) {
+    figure::Panel share = panelOf(fmt::format("{}: random set-ups", nameOf(object)), "Stable (%)", figure::Scale::Linear);
+    int number = 0;
+    for (const Coupling coupling : kCouplings) {
+      figure::Series line = seriesOf(coupling, number++);
+      for (const StudyShare& s : tables.shares)
+        if (s.object == object && s.coupling == coupling) line.x.push_back(1e3 * s.roundTrip), line.y.push_back(percentStable(s));
+      if (!line.x.empty()) share.series.push_back(line);
+    }
+    page.panels.push_back(std::move(share));
   }
   return figure::renderSvg(page);
 }
