@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <deque>
 
 #include "base/seeded.h"
 
@@ -23,28 +22,26 @@ class SimulatedLine {
   void send(const Sample& sample, double now) {
     if (seededFraction(seed_, count_++) < conditions_.loss) return;
     const double jitter = conditions_.jitter * (2 * seededFraction(seed_, count_++) - 1);
-    under_.push_back({now + conditions_.delay + jitter, sample});
+    under_.push_back({now + conditions_.delay + jitter, sample, false});
   }
   /// Everything that has arrived by `now`, in the order of sending.
   template <class Take>
   void receive(double now, Take&& take) {
     constexpr double kSame = 1e-9;  // [s]
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < under_.size(); ++i) {
-      if (under_[i].at <= now + kSame) take(under_[i].sample);
-      else under_[kept++] = under_[i];
-    }
-    under_.resize(kept);
+    for (Flying& one : under_)
+      if (!one.taken && one.at <= now + kSame) take(one.sample), one.taken = true;
+    while (!under_.empty() && under_.front().taken) under_.pop_front();
   }
 
  private:
   struct Flying {
     double at = 0;  // [s]
     Sample sample;
+    bool taken = false;
   };
   LineConditions conditions_;
   std::uint64_t seed_, count_ = 0;
-  std::vector<Flying> under_;
+  std::deque<Flying> under_;  // in the order of sending
 };
 
 }  // namespace reachlab::network

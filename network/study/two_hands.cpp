@@ -7,6 +7,8 @@
 
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
+#include "network/study/copies_over_lines.h"
+#include "network/study/growth.h"
 
 namespace reachlab::network {
 namespace {
@@ -195,49 +197,24 @@ class Server final : public Stations {
 /// The shipped copies, by whatever settings.
 class Copies final : public Stations {
  public:
-  Copies(const StudySetup& setup, const CopySettings& settings) : roundTrip_(setup.roundTrip) {
-    const constraints::Constraint line = constraints::makeConstraint(setup.experiment.constraint);
-    for (int h = 0; h < 2; ++h) {
-      copies_.push_back(std::make_unique<CoupledCopy>(setup.experiment, line, h, settings));
-      copies_.back()->placeAtRest(std::array{kStart});
-      lines_.emplace_back(conditionsOf(setup), 2 * setup.seed + static_cast<std::uint64_t>(h));
-      copies_.back()->fill(samples_[static_cast<std::size_t>(h)], {});
-    }
-  }
+  Copies(const StudySetup& setup, const CopySettings& settings)
+      : copies_(setup.experiment, constraints::makeConstraint(setup.experiment.constraint), std::array{kStart}, settings, conditionsOf(setup),
+                setup.roundTrip, setup.seed) {}
   void tick(const Bodies& bodies, double now) override {
-    for (std::size_t h = 0; h < 2; ++h) {
-      CoupledCopy& copy = *copies_[h];
-      copy.beginTick(now);
-      lines_[h].receive(now, [&](const CopySample& sample) { copy.take(0, sample, roundTrip_); });
-      (void)copy.step(bodies[h].segment(), kTickSeconds);
-      force[h] = -copy.couplingForce(bodies[h].sample()).x;
-    }
-    for (std::size_t h = 0; h < 2; ++h) {
-      CopySample& sample = samples_[h];
-      ++sample.sequence;
-      sample.time = now;
-      copies_[h]->fill(sample, bodies[h].sample());
-      lines_[1 - h].send(sample, now);
-    }
+    const std::array hands{bodies[0].segment(), bodies[1].segment()};
+    const std::array ends{bodies[0].sample(), bodies[1].sample()};
+    copies_.tick(hands, ends, now);
+    for (int h = 0; h < 2; ++h) force[static_cast<std::size_t>(h)] = -copies_.copy(h).couplingForce(ends[static_cast<std::size_t>(h)]).x;
   }
   Coordinates places(int station) const override {
-    const CopySample& sample = samples_[static_cast<std::size_t>(station)];
-    return {sample.places.begin(), sample.places.begin() + copies_[0]->massCount()};
+    const CopySample& sample = copies_.sample(station);
+    return {sample.places.begin(), sample.places.begin() + copies_.copy(0).massCount()};
   }
-  double speedSquares() const override {
-    const auto count = static_cast<std::size_t>(copies_[0]->massCount());
-    return squares({samples_[0].rates.data(), count}) + squares({samples_[1].rates.data(), count});
-  }
-  double aboveLedger() const override {
-    const double put = copies_[0]->ownWork() + copies_[1]->ownWork();
-    return std::max(copies_[0]->objectEnergy(), copies_[1]->objectEnergy()) - put;
-  }
+  double speedSquares() const override { return copies_.speedSquares(); }
+  double aboveLedger() const override { return copies_.aboveLedger(); }
 
  private:
-  double roundTrip_;
-  std::vector<std::unique_ptr<CoupledCopy>> copies_;
-  std::vector<SimulatedLine<CopySample>> lines_;  // to station h
-  std::array<CopySample, 2> samples_;
+  CopiesOverLines copies_;
 };
 
 /// Copies of half the mass, each held by its own hand, joined over the line.
@@ -354,27 +331,10 @@ std::unique_ptr<Stations> makeStations(const StudySetup& setup, Coupling couplin
   return std::make_unique<HalfCopies>(setup, coupling);
 }
 
-// Speeds just after going limp and at the end.
-class Growth {
- public:
-  void add(double t, double squares) {
-    if (t > kRelaxAt + 0.5 && t < kRelaxAt + 1.5) early_ += squares, ++earlyCount_;
-    if (t > kEnd - 1) late_ += squares, ++lateCount_;
-  }
-  double ratio() const {
-    constexpr double kStill = 1e-12;  // [m^2/s^2]
-    return std::sqrt(late_ / std::max(1, lateCount_) / (early_ / std::max(1, earlyCount_) + kStill));
-  }
-
- private:
-  double early_ = 0, late_ = 0;
-  int earlyCount_ = 0, lateCount_ = 0;
-};
-
 // Runs to the end, or until `look` says that it has gone far enough. Returns the growth.
 double conduct(const StudySetup& setup, Stations& stations, const std::function<bool(int k, double t, const Bodies&)>& look) {
   Bodies bodies;
-  Growth growth;
+  Growth growth(kRelaxAt, kEnd);
   for (int k = 0; k < kTicks; ++k) {
     const double begin = secondsOf(k);
     for (int h = 0; h < 2; ++h)
@@ -463,10 +423,7 @@ StudyOutcome runTwoHands(const StudySetup& setup, Coupling coupling, const CopyS
   });
   outcome.apart = std::sqrt(apart / std::max(1, apartCount));
   outcome.forceError = std::sqrt(error / std::max(1, errorCount));
-  // An object that hardly comes to rest by itself may ring as long over a line.
-  constexpr double kLikeAlone = 1.3;
-  outcome.stable = outcome.given < kMostGiven && (outcome.growth < kMostGrowth || outcome.growth < kLikeAlone * reference.growth) &&
-                   std::isfinite(outcome.growth) && std::isfinite(outcome.forceError);
+  outcome.stable = outcome.given < kMostGiven && Growth::isStable(outcome.growth, reference.growth) && std::isfinite(outcome.forceError);
   return outcome;
 }
 

@@ -8,7 +8,7 @@
 #include "network/simulated_line.h"
 
 /// Two simulated people who move one object over a simulated line, along one axis: what a way of coupling their stations does to the object
-/// and to them. The numeric study that the design was chosen by, and the check before a block.
+/// and to them. The numeric study that the design was chosen by.
 namespace reachlab::network {
 
 /// A person's hand as a body about where it means to be; from `relaxAt` on it means to be at the start, limp.
@@ -51,12 +51,11 @@ struct StudyOutcome {
   double forceError = 0;  // [N] RMS of the two rendered forces against no line
   double force = 0;       // [N] RMS without a line
   double given = 0;       // [J] the most that the stations have given the two hands at any time
-  double growth = 0;      // speed in the last second over that after going limp; above 1.05 it grows
+  double growth = 0;      // speed in the last second over that after going limp
   double ledgerWorst = 0;     // [J] the most that a copy held above what both hands had put in by then
   double ledgerDuration = 0;  // [s] the longest time in a row that it held more than kLedgerAmount above it
 };
 inline constexpr double kMostGiven = 0.3;       // [J]
-inline constexpr double kMostGrowth = 1.05;
 inline constexpr double kLedgerAmount = 0.05;   // [J]
 
 /// The same two people on one simulation, without a line: what every coupling is held against.
