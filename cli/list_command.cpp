@@ -27,16 +27,20 @@ std::string describeMasses(const std::vector<double>& masses) {
 std::string inShort(const experiment::Experiment& e) {
   const char* kinds[] = {"point of", "chain of", "parallel masses:", "body of"};
   const std::string& constraint = e.constraint.name;
-  return fmt::format("{} {}{}{}", kinds[static_cast<int>(e.object.kind)], describeMasses(e.object.masses),
+  return fmt::format("{} {}{}{}{}", kinds[static_cast<int>(e.object.kind)], describeMasses(e.object.masses),
                      constraint == "free" ? ", free in space"
                      : constraint.empty() ? " on a formula"
                                           : " on " + constraint,
+                     e.hands.size() > 1 ? fmt::format(", {} hands", e.hands.size()) : "",
                      e.task ? ", " + experiment::describePace(*e.task) : "");
 }
 
 Json listExperiments() {
   Json rows = Json::array();
-  for (const std::string& name : experiment::shippedExperiments())
+  std::vector<std::string> names = experiment::shippedExperiments();
+  const std::vector<std::string> forTwo = experiment::shippedForTwoHands();
+  names.insert(names.end(), forTwo.begin(), forTwo.end());
+  for (const std::string& name : names)
     rows.push_back({{"name", name}, {"description", inShort(experiment::readExperiment(name))}});
   return rows;
 }

@@ -122,6 +122,7 @@ TEST(List, TellsWhatAnExperimentAsks) {
   const std::string out = reach("list experiments").out;
   EXPECT_NE(out.find("point of 1 kg on torus, 1.5 ± 0.6 s\n"), std::string::npos) << out;
   EXPECT_NE(out.find("chain of 5 x 0.6 kg on line, 1.35 ± 0.5 s\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("chain of 5 x 0.6 kg on line, 2 hands, 1.35 ± 0.5 s\n"), std::string::npos) << out;
 }
 
 // As validate says it: the chord stands at right angles to the ellipse at the start.
