@@ -48,6 +48,8 @@ class HapticLoop {
 
   /// Any thread: what was latched, None while all is well.
   DeviceFault fault() const noexcept { return core_->fault.load(std::memory_order_acquire); }
+  /// Whose device that is of, from 0.
+  int faultHand() const noexcept { return core_->faultHand.load(std::memory_order_relaxed); }
   /// Controlling thread: the experimenter has seen to it; takes effect at the next tick.
   void resetFault() noexcept { core_->resetAsked.store(true, std::memory_order_release); }
   /// Any thread: no tick has come for kHangNs since the watchdog fired, or a device call was left behind. The trial will not end.

@@ -56,9 +56,11 @@ bool LoopCore::abandon() noexcept {
   return false;
 }
 
-void LoopCore::latch(DeviceFault newFault) noexcept {
+void LoopCore::latch(DeviceFault newFault, int hand) noexcept {
   DeviceFault none = DeviceFault::None;
-  if (newFault != DeviceFault::None) fault.compare_exchange_strong(none, newFault, std::memory_order_acq_rel);
+  if (newFault == DeviceFault::None || fault.load(std::memory_order_acquire) != none) return;
+  faultHand.store(hand, std::memory_order_relaxed);
+  fault.compare_exchange_strong(none, newFault, std::memory_order_acq_rel);
 }
 
 void LoopCore::countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept {
@@ -92,14 +94,14 @@ void LoopCore::acceptReset() noexcept {
   fault.store(DeviceFault::None, std::memory_order_release);
 }
 
-DeviceSample LoopCore::watched(HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
+DeviceSample LoopCore::watched(int hand, HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
                                std::int64_t measuredNs) noexcept {
   watch.latch(fault.load(std::memory_order_acquire));
   // Before it is looked at: a force that the engine has let grow while the device was not given it would come as a kick.
   if (watchedDevice.health() == DeviceHealth::Failed) watch.latch(DeviceFault::Device);
   const TickState& before = engine->state();
   const DeviceSample believed = watch.look(sample, {trial::isEngaged(before.phase), missed, measuredNs});
-  latch(watch.fault());
+  latch(watch.fault(), hand);
   return believed;
 }
 
@@ -117,10 +119,10 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   if (!leaveDevice()) return false;
   if (anyRendersForce) {
     acceptReset();
-    if (info.rendersForce) input.device = watched(*device, deviceWatch, input.device, missed, measuredNs);
+    if (info.rendersForce) input.device = watched(0, *device, deviceWatch, input.device, missed, measuredNs);
     for (std::size_t i = 0; i < others.size(); ++i)
       if (OtherDevice& other = others[i]; other.info.rendersForce)
-        otherSamples[i] = watched(*other.device, other.watch, otherSamples[i], missed, measuredNs);
+        otherSamples[i] = watched(static_cast<int>(i) + 1, *other.device, other.watch, otherSamples[i], missed, measuredNs);
     input.deviceFault = fault.load(std::memory_order_acquire) != DeviceFault::None;
   }
   input.others = otherSamples;

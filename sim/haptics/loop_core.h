@@ -59,8 +59,8 @@ struct LoopCore {
   void tickOfDevice() noexcept;
   /// Controlling thread: true once the haptic thread will never touch anything here again. False: it computes just now; ask again.
   bool abandon() noexcept;
-  /// Any thread: the first fault stays.
-  void latch(DeviceFault fault) noexcept;
+  /// Any thread: the first fault stays. `hand`: whose device it is of, from 0.
+  void latch(DeviceFault fault, int hand = 0) noexcept;
 
   std::unique_ptr<TickEngine> engine;
   std::shared_ptr<HapticDevice> device;
@@ -84,6 +84,7 @@ struct LoopCore {
   std::atomic<std::int64_t> completedNs{0};  // when the latest tick was completed, for the watchdog
   std::atomic<bool> forceOn{false};          // a trial is engaged
   std::atomic<DeviceFault> fault{DeviceFault::None};
+  std::atomic<int> faultHand{0};  // of the fault that is latched
   std::atomic<bool> resetAsked{false};
   std::atomic<Where> where{Where::Idle};
   std::atomic<bool> stopping{false};
@@ -98,7 +99,7 @@ struct LoopCore {
   bool leaveDevice() noexcept;
   void writeForces() noexcept;
   void acceptReset() noexcept;
-  DeviceSample watched(HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
+  DeviceSample watched(int hand, HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
                        std::int64_t measuredNs) noexcept;
 };
 

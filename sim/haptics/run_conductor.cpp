@@ -110,6 +110,9 @@ std::optional<std::string> RunConductor::fault() const {
   const HapticDevice* worst = device_.get();
   for (const HapticDevice* other : device_->otherHands())
     if (health != DeviceHealth::Ready && other->health() == health) worst = other;
+  // What the loop itself has found is of the hand it found it at, however well its device says that it is.
+  if (const int hand = loop_->faultHand(); health == DeviceHealth::Ready && loop_->fault() != DeviceFault::None && hand > 0)
+    worst = device_->otherHands()[static_cast<std::size_t>(hand - 1)];
   const std::string device = worst->info().name, said = worst->healthText();
   if (health == DeviceHealth::Lost) return fmt::format("device {} is lost{}", device, said.empty() ? "" : ": " + said);
   if (const DeviceFault fault = loop_->fault(); fault != DeviceFault::None)

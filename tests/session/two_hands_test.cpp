@@ -39,6 +39,32 @@ class Pair final : public haptics::HapticDevice {
   std::array<haptics::HapticDevice*, 1> others_;
 };
 
+/// A scripted hand as a device that renders force, which the loop looks after; with another hand beside it, if told.
+class Rendering final : public haptics::HapticDevice {
+ public:
+  Rendering(const std::string& name, int ticks, std::unique_ptr<HapticDevice> other = nullptr)
+      : name_(name), script_(-0.1, 0.1, ticks), other_(std::move(other)), others_{other_.get()} {}
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info = script_.info();
+    info.name = name_;
+    info.rendersForce = true;
+    return info;
+  }
+  void cue(haptics::Cue cue) noexcept override {
+    script_.cue(cue);
+    if (other_) other_->cue(cue);
+  }
+  haptics::DeviceSample read() noexcept override { return script_.read(); }
+  void write(const Vec3& force) noexcept override { script_.write(force); }
+  std::span<haptics::HapticDevice* const> otherHands() const noexcept override { return {others_.data(), other_ ? 1u : 0u}; }
+
+ private:
+  std::string name_;
+  ScriptedDevice script_;
+  std::unique_ptr<HapticDevice> other_;
+  std::array<HapticDevice*, 1> others_;
+};
+
 class TwoHands : public testing::Test {
  protected:
   TwoHands() {
@@ -57,13 +83,17 @@ class TwoHands : public testing::Test {
     options.virtualClock = true;
     RecordedRun run(planSession(request_, programme).blocks.at(0), std::move(device), options);
     const std::atomic<bool> stop{false};
-    while (const auto trial = run.runTrial(stop)) results_.push_back(trial->result);
+    while (const auto trial = run.runTrial(stop)) {
+      results_.push_back(trial->result);
+      said_ = run.fault().value_or("");
+    }
     run.finish();
     return record::RunLog::open(run.logPath());
   }
   const record::TemporaryFolder folder_{"twohands"};
   SessionRequest request_;
   std::vector<trial::TrialResult> results_;
+  std::string said_;  // of the devices, after the last trial
 };
 
 TEST_F(TwoHands, AreRecordedAndReplayedToTheBit) {
@@ -107,6 +137,16 @@ TEST_F(TwoHands, AResumedBlockHasTheSameHands) {
   EXPECT_EQ(run.configuration().otherHands.size(), 1u);
   run.finish();
   EXPECT_EQ(record::RunLog::open(run.logPath()).configuration().otherHands.size(), 1u);
+}
+
+// Its device says that it is well: what the loop has found is of that hand all the same.
+TEST_F(TwoHands, AFaultThatTheLoopFindsNamesTheHandThatHasIt) {
+  request_.trials = 1;
+  record(std::make_unique<Rendering>("left", 400, std::make_unique<Rendering>("right", 1)));
+  ASSERT_EQ(results_.size(), 1u);
+  EXPECT_EQ(results_[0].reason, trial::Reason::DeviceLost);
+  EXPECT_NE(said_.find("right jumped"), std::string::npos) << said_;
+  EXPECT_EQ(said_.find("left"), std::string::npos) << said_;
 }
 
 TEST_F(TwoHands, NeedADeviceEach) {
