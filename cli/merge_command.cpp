@@ -29,10 +29,7 @@ void merge(const Options& o) {
   const session::FolderHold hold(o.data);
   c.run = session::chooseRun(place, std::nullopt);
   const std::string path = session::logPath(place, c.task, c.run);
-  const std::string name = std::filesystem::path(path).stem().string();
-  const std::string lines =
-      (std::filesystem::path(o.data) / "derivatives/stations" / (name.substr(0, name.rfind("_log")) + "_stations.csv")).string();
-  const network::MergeReport report = network::mergeStations(o.logs, c, path, lines);
+  const network::MergeReport report = network::mergeStations(o.logs, c, path);
   for (const network::MergedStation& s : report.stations)
     fmt::print(
         "station={}{} ticks={} samples={} replay={} other_outcomes={} clock_offset_s={:.6f} clock_spread_s={:.6f} apart_rms_m={:.6g}\n",
@@ -41,7 +38,7 @@ void merge(const Options& o) {
   const std::vector<record::RunLog> run{record::RunLog::open(path)};
   for (const record::Exporter& exporter : record::exporters())
     if (exporter.withEachRun) record::writeInto(o.data, exporter, run);
-  fmt::print("{}: {} trials, {} rows; {}\n", path, report.trials, report.rows, lines);
+  fmt::print("{}: {} trials, {} rows\n", path, report.trials, report.rows);
 }
 
 }  // namespace
@@ -60,9 +57,9 @@ void addMergeCommand(CLI::App& app, int&) {
       "copy of the\n"
       "object is another when it is computed again. The stations' own logs are kept in sourcedata/stations (reach replay --check of the "
       "merged\n"
-      "log computes each again), and what every copy was to every other station (distance, age, fade, synchronisation, round trip, loss, "
-      "ledger) in\n"
-      "derivatives/stations, a row for each of the recording.\n\n"
+      "log computes each again); what every copy was to every other station (distance, age, fade, synchronisation, round trip, loss, "
+      "ledger) are\n"
+      "channels of the merged recording.\n\n"
       "Example:\n"
       "  reach merge left/sourcedata/*_log.reach right/sourcedata/*_log.reach --data together");
   command->callback([o] { merge(*o); });

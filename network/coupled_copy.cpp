@@ -34,6 +34,8 @@ CopySettings copySettingsFor(const experiment::Experiment& experiment) {
   return settings;
 }
 
+double synchronisationLimit(const CopySettings& settings, double roundTrip) noexcept { return settings.loopShare / (roundTrip + kLoopTicks); }
+
 CoupledCopy::CoupledCopy(const experiment::Experiment& experiment, const constraints::Constraint& constraint, int own,
                          const CopySettings& settings)
     : settings_(settings), plant_(dynamics::makeSharedPlant(ownHandFirst(experiment, own), constraint)),
@@ -48,6 +50,7 @@ void CoupledCopy::resetPeers() noexcept {
     const double roundTrip = peer.line.roundTrip, usual = peer.line.usualAge;
     const std::uint32_t sequence = peer.newest.sequence;
     const std::uint64_t taken = peer.line.taken, old = peer.line.old;
+    const double loss = peer.line.loss;
     peer.newest = {};
     peer.newest.sequence = sequence;
     peer.line = {};
@@ -56,6 +59,8 @@ void CoupledCopy::resetPeers() noexcept {
     peer.line.frequency = settings_.frequency;
     peer.line.taken = taken;
     peer.line.old = old;
+    peer.line.loss = loss;
+    peer.count = {};
     peer.held = false;
   }
   for (Past& past : past_) past.time = -1;
@@ -83,6 +88,23 @@ void CoupledCopy::noteAge(Peer& peer, double age) noexcept {
   peer.line.usualAge = sorted[static_cast<std::size_t>(known / 2)];
 }
 
+void CoupledCopy::noteLoss(Peer& peer, std::uint32_t sequence) noexcept {
+  constexpr double kSecond = 1;
+  Peer::Count& count = peer.count;
+  if (count.came == 0) count.first = sequence, count.since = now_;
+  else count.stride = std::min(count.stride, sequence - count.last);
+  count.last = sequence;
+  ++count.came;
+  if (now_ - count.since < kSecond || count.came < 2) return;
+  peer.line.loss = 1 - (count.came - 1) / (static_cast<double>(count.last - count.first) / count.stride);
+  count = {now_, sequence, sequence, 0xffffffff, 1};
+}
+
+void CoupledCopy::setFrequency(double frequency) noexcept {
+  settings_.frequency = frequency;
+  for (Peer& peer : peers_) peer.line.frequency = std::min(frequency, synchronisationLimit(settings_, peer.line.roundTrip));
+}
+
 void CoupledCopy::take(int index, const CopySample& sample, double roundTrip) noexcept {
   Peer& peer = peers_[static_cast<std::size_t>(index)];
   if (static_cast<std::int32_t>(sample.sequence - peer.newest.sequence) <= 0) {
@@ -93,6 +115,7 @@ void CoupledCopy::take(int index, const CopySample& sample, double roundTrip) no
   peer.newest = sample;
   peer.line.heard = true;
   noteAge(peer, now_ - sample.time);
+  noteLoss(peer, sample.sequence);
   if (roundTrip < 0) return;
   peer.line.roundTrip += (peer.line.roundTrip == 0 ? 1 : kTickSeconds / kRoundTripMemory) * (roundTrip - peer.line.roundTrip);
 }
@@ -108,7 +131,7 @@ void CoupledCopy::updateLine(Peer& peer, double dt) noexcept {
   line.fade = line.lost ? 0 : std::clamp(1 - silence / settings_.fadeDuration, 0.0, 1.0);
   if (line.fade <= 0) line.lost = true;
   if (!line.heard) line.fade = 0;
-  const double wanted = std::min(settings_.frequency, settings_.loopShare / (line.roundTrip + kLoopTicks));
+  const double wanted = std::min(settings_.frequency, synchronisationLimit(settings_, line.roundTrip));
   if (!begun_) line.frequency = wanted;
   else if (!frozen_) line.frequency += std::clamp(wanted - line.frequency, -kFrequencySlope * dt, kFrequencySlope * dt);
 }

@@ -34,6 +34,8 @@ struct CopySettings {
 };
 /// The settings for an experiment's object.
 CopySettings copySettingsFor(const experiment::Experiment& experiment);
+/// [rad/s] beyond which no copy is synchronised over such a line, whatever omega_o.
+double synchronisationLimit(const CopySettings& settings, double roundTrip) noexcept;
 
 /// How this copy stands to one peer, after a tick.
 struct PeerLine {
@@ -45,6 +47,7 @@ struct PeerLine {
   double roundTrip = 0;       // [s] filtered over a second
   double frequency = 0;       // [rad/s] omega now
   double apart = 0;           // [m] RMS over the masses: this copy at the sample's time against the peer's
+  double loss = -1;           // share of its samples of the latest whole second that were not used: lost, or overtaken; -1: not known yet
   std::uint64_t taken = 0, old = 0;  // samples used; such that were no newer than one before (duplicates, replays, overtaken)
 };
 
@@ -67,6 +70,8 @@ class CoupledCopy final : public dynamics::Plant {
   void beginTick(double now) noexcept { now_ = now; }
   /// A sample of a peer has come; an older one than the newest is counted and dropped. `roundTrip` [s] as measured; below 0: not known.
   void take(int peer, const CopySample& sample, double roundTrip) noexcept;
+  /// Another omega_o [rad/s]: between trials.
+  void setFrequency(double frequency) noexcept;
   /// Holds omega where it is: at the end of a trial.
   void freeze(bool frozen) noexcept { frozen_ = frozen; }
 
@@ -111,9 +116,16 @@ class CoupledCopy final : public dynamics::Plant {
     dynamics::HandSample guessed;  // where its hand was taken to be at the tick before
     bool held = false;             // `guessed` is of the tick before
     double silentSince = 0;        // [s] when the trial began, where nothing has been heard yet
+    /// Of the second under way.
+    struct Count {
+      double since = 0;  // [s]
+      std::uint32_t first = 0, last = 0, stride = 0xffffffff;  // sequence numbers; not every tick need be sent
+      int came = 0;
+    } count;
   };
   void resetPeers() noexcept;
   void noteAge(Peer& peer, double age) noexcept;
+  void noteLoss(Peer& peer, std::uint32_t sequence) noexcept;
   void guessHand(Peer& peer, int hand) noexcept;
   void updateLine(Peer& peer, double dt) noexcept;
   void synchronise() noexcept;

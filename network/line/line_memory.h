@@ -39,6 +39,7 @@ struct LineEvent {
   EventKind kind = EventKind::Arm;
   std::int32_t trial = 0;
   trial::PlannedTrial planned;
+  double frequency = 0;  // [rad/s] omega_o of the trial that is armed; 0: as the object has it
   trial::Outcome outcome = trial::Outcome::None;
   trial::Reason reason = trial::Reason::None;
   double apart = 0;  // [m] at the end
@@ -76,7 +77,7 @@ struct EndpointSettings {
 };
 
 struct LineMemory {
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3;
   std::uint32_t version = kVersion;
   EndpointSettings settings;
   std::atomic<bool> stop{false};

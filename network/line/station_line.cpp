@@ -237,7 +237,8 @@ StationStanding StationLine::standingOf(int station) const {
   s.roundTrip = line.roundTrip.load(), s.jitter = line.jitter.load(), s.loss = line.loss.load(), s.offset = line.offset.load();
   const std::int64_t silentNs = std::max<std::int64_t>(now - line.heardNs.load(), 0);
   const double gap = line.gap.load();
-  s.heard = silentNs <= kHeardNs && s.roundTrip >= 0;
+  const bool looksOn = options_.station == 0;  // nobody answers it: there is no round trip
+  s.heard = silentNs <= kHeardNs && (s.roundTrip >= 0 || looksOn);
   s.age = static_cast<double>(silentNs) * 1e-9;
   if (!s.heard) {
     say("sends nothing");
@@ -275,6 +276,36 @@ std::string StationLine::describe() const {
   return text;
 }
 
+std::vector<record::Channel> lineChannels(int station, int stations) {
+  std::vector<record::Channel> channels;
+  const auto add = [&](const std::string& name, const char* units, const char* columnUnit, const std::string& description) {
+    channels.push_back({name, "n/a", "MISC", "n/a", units, description, name + columnUnit});
+  };
+  const std::string here = fmt::format("station{}", station);
+  add(here + "_ledger", "J", "_j", "what the hands have put in, as far as this station knows, less what its copy of the object holds");
+  for (int other = 1; other <= stations; ++other) {
+    if (other == station) continue;
+    const std::string line = fmt::format("{}_of_{}_", here, other), of = fmt::format("station {}'s newest sample", other);
+    add(line + "apart", "m", "_m", "this station's copy and the other's at the moment of " + of + ", root mean square over the masses");
+    add(line + "age", "s", "_s", "age of " + of);
+    add(line + "fade", "n/a", "", fmt::format("1 while station {}'s hand is held, 0 when it is let go", other));
+    add(line + "synchronisation", "rad/s", "_rad_per_s", fmt::format("rate at which this copy is drawn to station {}'s", other));
+    add(line + "round_trip", "s", "_s", "there and back, filtered over a second");
+    add(line + "loss", "n/a", "", fmt::format("share of station {}'s samples of the latest whole second that were not used: lost, or overtaken", other));
+  }
+  return channels;
+}
+
+void fillLines(const CoupledCopy& copy, double* columns) noexcept {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  *columns++ = copy.ledger();
+  for (int i = 0; i < copy.peerCount(); ++i) {
+    const PeerLine& line = copy.line(i);
+    const double round = line.roundTrip > 0 ? line.roundTrip : kUnknown, loss = line.loss >= 0 ? line.loss : kUnknown;
+    for (const double value : {line.heard ? line.apart : kUnknown, line.age, line.fade, line.frequency, round, loss}) *columns++ = value;
+  }
+}
+
 std::uint64_t StationSink::repeatedNow() const noexcept {
   std::uint64_t all = 0;
   for (int i = 0; i < copy_.peerCount(); ++i) all += copy_.line(i).old;
@@ -282,10 +313,16 @@ std::uint64_t StationSink::repeatedNow() const noexcept {
 }
 
 bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept {
+  fillLines(copy_, lines_.data());
+  if (const double wanted = frequency_.load(std::memory_order_acquire);
+      wanted != frequencyNow_ && given_->tryPush({state.tick, GivenSample::kFrequency, wanted, {}})) {
+    frequencyNow_ = wanted;
+    copy_.setFrequency(wanted);
+  }
   if (state.trial != trial_) {
     trial_ = state.trial;
     squares_ = 0, count_ = 0;
-    mostApart_.store(0, std::memory_order_relaxed), rmsApart_.store(0, std::memory_order_relaxed);
+    for (auto* apart : {&mostApart_, &rmsApart_, &lastApart_}) apart->store(0, std::memory_order_relaxed);
     oldest_.store(0, std::memory_order_relaxed), fadedTicks_.store(0, std::memory_order_relaxed);
     repeatedBefore_ = repeatedNow();
   }
@@ -302,6 +339,7 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
     if (faded) fadedTicks_.store(fadedTicks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     repeated_.store(repeatedNow() - repeatedBefore_, std::memory_order_relaxed);
     squares_ += apart * apart, ++count_;
+    lastApart_.store(apart, std::memory_order_relaxed);
     mostApart_.store(std::max(apart, mostApart_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
     rmsApart_.store(std::sqrt(squares_ / static_cast<double>(count_)), std::memory_order_relaxed);
   }
@@ -386,7 +424,9 @@ int recordedStation(const record::RunLog& log) {
 
 std::vector<GivenSample> givenSamples(const record::RunLog& log) {
   int own = -1;
-  return readGiven(log, own);
+  std::vector<GivenSample> given = readGiven(log, own);
+  std::erase_if(given, [](const GivenSample& one) { return one.peer == GivenSample::kFrequency; });
+  return given;
 }
 
 record::Replay replayStation(const record::RunLog& log, const LookAtCopy& look) {
@@ -403,10 +443,13 @@ record::Replay replayStation(const record::RunLog& log, const LookAtCopy& look) 
   hooks.afterTick = [&](const haptics::TickState& state) {
     if (look) look(state, *copy);
     copy->beginTick(nextTime(state));
-    for (; next < given.size() && given[next].tick <= state.tick; ++next)
-      if (given[next].peer >= 0 && given[next].peer < copy->peerCount())
-        copy->take(given[next].peer, given[next].sample, given[next].roundTrip);
+    for (; next < given.size() && given[next].tick <= state.tick; ++next) {
+      const GivenSample& one = given[next];
+      if (one.peer == GivenSample::kFrequency) copy->setFrequency(one.roundTrip);
+      if (one.peer >= 0 && one.peer < copy->peerCount()) copy->take(one.peer, one.sample, one.roundTrip);
+    }
   };
+  hooks.further = [&](double* columns) { fillLines(*copy, columns); };
   return record::replayRun(log, hooks);
 }
 

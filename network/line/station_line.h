@@ -10,6 +10,7 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_sink.h"
 #include "sim/haptics/tick_engine.h"
+#include "sim/record/recorder.h"
 #include "sim/record/replay.h"
 
 namespace reachlab::network {
@@ -96,11 +97,20 @@ class StationLine {
 
 /// A peer's sample as it was given to the copy after a tick: what the log keeps of it.
 struct GivenSample {
+  /// In a peer's place: from this tick on the copy has another omega_o, which stands in the round trip's.
+  static constexpr std::int32_t kFrequency = -1;
   std::uint64_t tick = 0;
   std::int32_t peer = 0;  // of the copy
   double roundTrip = -1;  // [s]
   CopySample sample;
 };
+
+/// How a station's copy stands to the others, as channels of a recording: its ledger; of every other station, in their order, how far the two
+/// copies are apart, the newest sample's age, fade, synchronisation, round trip and loss. `station`: from 1, of so many.
+std::vector<record::Channel> lineChannels(int station, int stations);
+inline constexpr std::size_t kMostLineColumns = 1 + 6 * (kMaxStations - 1);
+/// What stands in them after a tick, before what came then is taken; NaN: not known.
+void fillLines(const CoupledCopy& copy, double* columns) noexcept;
 
 /// Where the other stations' hands were by their newest samples.
 struct OtherHands {
@@ -110,16 +120,21 @@ struct OtherHands {
 
 /// Between the haptic thread and the rings: sends this station's state every tick, and hands what came to the copy before the next. It allocates
 /// nothing and waits for nothing.
-class StationSink final : public haptics::RunSink {
+class StationSink final : public haptics::RunSink, public record::FurtherColumns {
  public:
   /// All outlive the sink's use. `own`: from 0. Of the ticks one in `sendEvery` is sent.
   StationSink(LineMemory& memory, CoupledCopy& copy, int own, int sendEvery = 1)
       : memory_(memory), copy_(copy), own_(own), sendEvery_(sendEvery), places_(static_cast<std::uint32_t>(copy.placeCount())),
-        rates_(static_cast<std::uint32_t>(copy.rateCount())), given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
+        rates_(static_cast<std::uint32_t>(copy.rateCount())), lineColumns_(1 + 6 * static_cast<std::size_t>(copy.peerCount())), given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}
+  /// Of the latest tick.
+  void fill(double* columns) const noexcept override { std::copy_n(lines_.begin(), lineColumns_, columns); }
+
+  /// Controlling thread, between trials: omega_o [rad/s] from the next tick on.
+  void synchroniseBy(double frequency) noexcept { frequency_.store(frequency, std::memory_order_release); }
 
   /// Controlling thread, now and then: what was given since, as the payload of a record; empty: nothing. Only `places` coordinates are kept.
   /// The first says whose log it is, be anything given or not.
@@ -134,6 +149,8 @@ class StationSink final : public haptics::RunSink {
   /// The largest distance between this copy and another in the latest trial, and samples of it that were lost for want of room. Any thread.
   double mostApart() const noexcept { return mostApart_.load(std::memory_order_relaxed); }
   double rmsApart() const noexcept { return rmsApart_.load(std::memory_order_relaxed); }
+  /// The same at the latest tick of the movement: how far apart the copies were when the trial was judged.
+  double lastApart() const noexcept { return lastApart_.load(std::memory_order_relaxed); }
   /// Of the latest trial, over all peers: ticks at which one was held by less than its full coupling, the oldest sample in force [s], and
   /// samples that were no newer than one before. Any thread.
   std::uint64_t fadedTicks() const noexcept { return fadedTicks_.load(std::memory_order_relaxed); }
@@ -147,12 +164,16 @@ class StationSink final : public haptics::RunSink {
   CoupledCopy& copy_;
   int own_, sendEvery_;
   std::uint32_t places_, rates_;  // of the copy, which is the haptic thread's once it runs
+  std::size_t lineColumns_;
+  std::array<double, kMostLineColumns> lines_{};
   std::unique_ptr<SpscQueue<GivenSample, 4096>> given_;
   std::uint32_t sequence_ = 0;
   std::int32_t trial_ = 0;
   double squares_ = 0;
   std::uint64_t count_ = 0;
-  std::atomic<double> mostApart_{0}, rmsApart_{0}, oldest_{0};  // [m], [m], [s]
+  std::atomic<double> mostApart_{0}, rmsApart_{0}, lastApart_{0}, oldest_{0};  // [m], [m], [m], [s]
+  std::atomic<double> frequency_{0};                                           // [rad/s] as asked for; 0: as the object has it
+  double frequencyNow_ = 0;
   std::atomic<std::uint64_t> fadedTicks_{0}, repeated_{0};
   std::uint64_t repeatedBefore_ = 0;
   std::atomic<std::int32_t> trialsBefore_{0};

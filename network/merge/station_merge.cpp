@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include "base/fault.h"
-#include "base/table_text.h"
 #include "base/ticks.h"
 #include "network/line/station_line.h"
-#include "sim/record/append_file.h"
 #include "sim/record/recorder.h"
 
 namespace reachlab::network {
@@ -24,10 +22,6 @@ namespace {
 constexpr const char* kMethod = "stations";
 constexpr double kMostContradiction = 0.005;  // [s] of two clocks told from either side, beyond what the line's unequal ways explain
 
-/// What one copy was to one other station after a tick.
-struct LineAt {
-  double apart = 0, age = 0, fade = 0, frequency = 0, roundTrip = 0;
-};
 /// A station's log, computed again.
 struct Station {
   record::RunLog log;
@@ -37,8 +31,8 @@ struct Station {
   std::vector<haptics::HandState> hands;  // after each tick
   std::vector<std::int32_t> trials;       // under way at it
   std::vector<trial::Phase> phases;
-  std::vector<std::vector<LineAt>> lines;  // by peer of the copy
-  std::vector<double> ledger;              // [J]
+  std::size_t lineColumns = 0;
+  std::vector<double> lines;               // how its copy stood to the others after each tick, as fillLines has it
   std::vector<GivenSample> given;
   record::Replay replay;
 
@@ -68,7 +62,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 Station readStation(const std::string& path) {
-  Station s{record::RunLog::open(path), 0, false, {}, {}, {}, {}, {}, {}, {}, {}};
+  Station s{record::RunLog::open(path), 0, false, {}, {}, {}, {}, 0, {}, {}, {}};
   s.number = stationOf(s.log);
   if (s.number == 0) refuse("is of no station", "logs of reach station", path);
   s.conductor = isConductor(s.log);
@@ -76,17 +70,15 @@ Station readStation(const std::string& path) {
   s.hands.reserve(s.ticks.size());
   s.given = givenSamples(s.log);
   s.replay = replayStation(s.log, [&](const haptics::TickState& state, const CoupledCopy& copy) {
-    s.lines.resize(static_cast<std::size_t>(copy.peerCount()));
     haptics::HandState hand = state;
     hand.work = copy.ownWork();
     s.hands.push_back(hand);
     s.trials.push_back(state.trial);
     s.phases.push_back(state.phase);
-    s.ledger.push_back(copy.ledger());
-    for (int i = 0; i < copy.peerCount(); ++i) {
-      const PeerLine& line = copy.line(i);
-      s.lines[static_cast<std::size_t>(i)].push_back({line.apart, line.age, line.fade, line.frequency, line.roundTrip});
-    }
+    std::array<double, kMostLineColumns> columns{};
+    fillLines(copy, columns.data());
+    s.lineColumns = 1 + 6 * static_cast<std::size_t>(copy.peerCount());
+    s.lines.insert(s.lines.end(), columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(s.lineColumns));
   });
   if (!s.replay.identical())
     refuse("is another when its copy is computed again: " + s.replay.firstDifference, "a log as this program recorded it", path);
@@ -203,9 +195,11 @@ int countOtherOutcomes(const record::RunLog& log, const record::RunLog& conducto
 double rmsApart(const Station& s) {
   double squares = 0;
   std::size_t count = 0;
-  for (const std::vector<LineAt>& line : s.lines)
-    for (std::size_t i = 0; i < line.size(); ++i)
-      if (s.phases[i] == trial::Phase::Moving) squares += line[i].apart * line[i].apart, ++count;
+  for (std::size_t i = 0; i < s.phases.size(); ++i) {
+    if (s.phases[i] != trial::Phase::Moving) continue;
+    for (std::size_t peer = 0; 1 + 6 * peer < s.lineColumns; ++peer)
+      if (const double apart = s.lines[i * s.lineColumns + 1 + 6 * peer]; !std::isnan(apart)) squares += apart * apart, ++count;
+  }
   return count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
 }
 
@@ -229,34 +223,25 @@ record::RunConfiguration mergedConfiguration(const std::vector<Station>& station
   c.method = kMethod;
   const experiment::CompiledExperiment compiled = record::recordedExperiment(conductor.log.configuration());
   c.table = record::makeChannelTable(compiled.experiment(), compiled.constraint().parameterCount(), c.rendersForce);
+  for (const Station& s : stations)
+    for (const record::Channel& channel : lineChannels(s.number, static_cast<int>(stations.size()))) c.table.channels.push_back(channel);
   return c;
 }
 
-/// Share of a peer's samples that were not used, over the second before.
-class LossOf {
+/// How every station's copy stood to the others at the tick of its own that a row is of.
+class LinesOfAll final : public record::FurtherColumns {
  public:
-  LossOf(const Station& s, int peer) {
-    for (const GivenSample& given : s.given)
-      if (given.peer == peer) all_.push_back({given.tick, given.sample.sequence});
-    stride_ = 1000;
-    for (std::size_t i = 1; i < all_.size(); ++i) stride_ = std::min(stride_, all_[i].sequence - all_[i - 1].sequence);
-  }
-  double at(std::uint64_t tick) {
-    while (end_ < all_.size() && all_[end_].tick <= tick) ++end_;
-    while (begin_ < end_ && all_[begin_].tick + 1000 < tick) ++begin_;
-    if (end_ - begin_ < 2) return std::numeric_limits<double>::quiet_NaN();
-    const double sent = static_cast<double>(all_[end_ - 1].sequence - all_[begin_].sequence) / stride_;
-    return 1 - static_cast<double>(end_ - begin_ - 1) / sent;
+  LinesOfAll(const std::vector<Station>& stations, const std::vector<std::size_t>& ticks) : stations_(stations), ticks_(ticks) {}
+  void fill(double* columns) const noexcept override {
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      const std::size_t width = stations_[i].lineColumns;
+      columns = std::copy_n(stations_[i].lines.data() + ticks_[i] * width, width, columns);
+    }
   }
 
  private:
-  struct Came {
-    std::uint64_t tick;
-    std::uint32_t sequence;
-  };
-  std::vector<Came> all_;
-  std::uint32_t stride_ = 1;  // not every tick need be sent
-  std::size_t begin_ = 0, end_ = 0;
+  const std::vector<Station>& stations_;
+  const std::vector<std::size_t>& ticks_;
 };
 
 }  // namespace
@@ -277,8 +262,7 @@ std::vector<std::string> logsOfMerged(const record::RunLog& log) {
   return found;
 }
 
-MergeReport mergeStations(const std::vector<std::string>& logs, const record::RunConfiguration& configuration, const std::string& path,
-                          const std::string& linesPath) {
+MergeReport mergeStations(const std::vector<std::string>& logs, const record::RunConfiguration& configuration, const std::string& path) {
   if (logs.size() < 2) refuse(fmt::format("are {}", logs.size()), "one of each station, two or more");
   const std::vector<Station> stations = readAll(logs);
   const Station& conductor = *std::find_if(stations.begin(), stations.end(), [](const Station& s) { return s.conductor; });
@@ -310,26 +294,13 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
   }
 
   const record::RunConfiguration merged = mergedConfiguration(stations, conductor, configuration);
-  record::Recorder recorder(path, merged, record::RecorderOptions{.threaded = false});
-  TableText table(',', "");
-  std::vector<std::string> header{"time_s", "trial"};
-  std::vector<std::vector<LossOf>> losses(stations.size());
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    header.push_back(fmt::format("station{}_ledger_j", stations[i].number));
-    for (std::size_t peer = 0; peer + 1 < stations.size(); ++peer) {
-      losses[i].emplace_back(stations[i], static_cast<int>(peer));
-      const std::string line = fmt::format("station{}_of_{}_", stations[i].number, stations[i].stationOf(static_cast<int>(peer)));
-      for (const char* what : {"apart_m", "age_s", "fade", "synchronisation_rad_per_s", "round_trip_s", "loss"})
-        header.push_back(line + what);
-    }
-  }
-  table.row(header);
-
+  std::vector<std::size_t> ticks(stations.size());
+  const LinesOfAll lines(stations, ticks);
+  record::Recorder recorder(path, merged, record::RecorderOptions{.threaded = false, .further = &lines});
   std::vector<NearestTick> nearest;
   for (const Station& s : stations) nearest.emplace_back(s.ticks);
   const std::vector<record::TrialSetup> setups = conductor.log.setups();
   std::size_t number = 0, setup = 0;
-  std::vector<std::size_t> ticks(stations.size());
   const auto state = std::make_unique<haptics::TickState>();
   (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
     const record::RecordedTick& tick = conductor.ticks[number];
@@ -346,19 +317,7 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
       ++setup;
     }
     recorder.onTick(*state, tick.command, tick.missedTicks);
-    if (own.tick % merged.sampleEveryTicks == 0) {
-      ++report.rows;
-      table.number(secondsOf(own.tick)).whole(own.trial > 0 ? own.trial + merged.firstTrial - 1 : 0);
-      for (std::size_t i = 0; i < stations.size(); ++i) {
-        table.number(stations[i].ledger[ticks[i]]);
-        for (std::size_t peer = 0; peer < stations[i].lines.size(); ++peer) {
-          const LineAt& line = stations[i].lines[peer][ticks[i]];
-          for (const double value : {line.apart, line.age, line.fade, line.frequency, line.roundTrip}) table.number(value);
-          table.number(losses[i][peer].at(stations[i].ticks[ticks[i]].tick));
-        }
-      }
-      table.endRow();
-    }
+    if (own.tick % merged.sampleEveryTicks == 0) ++report.rows;
     ++number;
   });
   for (const Station& s : stations)
@@ -375,8 +334,6 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
     if (!fs::copy_file(s.log.path(), to, error))
       throw ResourceError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
   }
-  fs::create_directories(fs::path(linesPath).parent_path(), error);
-  record::writeFileAtomically(linesPath, table.text());
   return report;
 }
 

@@ -22,7 +22,7 @@ constexpr auto kNap = std::chrono::milliseconds(10);  // the recorder looks at i
 struct Recorder::Impl {
   Impl(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& recorderOptions)
       : options(recorderOptions), table(configuration.table), every(std::max(1u, configuration.sampleEveryTicks)),
-        firstTrial(configuration.firstTrial),
+        firstTrial(configuration.firstTrial), sceneColumns(rowWidth(table)),
         writer(path, configuration, options.diskReserve, options.threaded ? RunWriter::CutBy::Clock : RunWriter::CutBy::Ticks),
         ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size(),
              static_cast<std::size_t>(table.hands - 1)) {}
@@ -31,6 +31,7 @@ struct Recorder::Impl {
   ChannelTable table;
   std::uint32_t every;
   int firstTrial;
+  std::size_t sceneColumns;
   std::int64_t startNs = 0;  // haptic thread: clock at the first tick
   bool anyTick = false;
 
@@ -112,6 +113,7 @@ bool Recorder::onTick(const haptics::TickState& state, trial::Command command, s
   if (slot->hasRow) {
     fillRow(impl.table, state, rowSpace);
     numberTrial(impl.table, impl.firstTrial, rowSpace);
+    if (impl.options.further != nullptr && impl.table.size() > impl.sceneColumns) impl.options.further->fill(rowSpace + impl.sceneColumns);
     rowSpace[1] = static_cast<double>(state.measuredNs - impl.startNs) * 1e-9;
   }
   impl.ring.publish(slot->hasRow);

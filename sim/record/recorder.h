@@ -9,10 +9,20 @@
 
 namespace reachlab::record {
 
+/// What stands in a row behind what the engine knows, as many numbers as the table has channels beyond its scene's: how a station's copy stands to
+/// the others.
+class FurtherColumns {
+ public:
+  virtual ~FurtherColumns() = default;
+  /// Haptic thread; never allocates.
+  virtual void fill(double* columns) const noexcept = 0;
+};
+
 struct RecorderOptions {
   bool threaded = true;                       // false: written by the caller (virtual clock), so that nothing can be dropped
   std::uint64_t diskReserve = 1'000'000'000;  // [bytes] or 5 % of the disk, whichever is less: recording ends before the disk has no more
   std::size_t queueTicks = 4096;              // how many ticks the disk may be behind before ticks are dropped and counted
+  const FurtherColumns* further = nullptr;    // outlives the ticks; null where the table is the scene's
 };
 
 /// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a

@@ -28,12 +28,15 @@ class RowCheck {
   explicit RowCheck(const RunLog& log)
       : table_(log.configuration().table), firstTrial_(log.configuration().firstTrial), recorded_(log.allRows()), row_(table_.size()) {}
 
-  void look(const haptics::TickState& state, Replay& replay) {
+  void look(const haptics::TickState& state, const ReplayHooks& hooks, Replay& replay) {
     if (next_ >= recorded_.size() || recorded_.ticks[next_] != state.tick) return;
     fillRow(table_, state, row_.data());
     numberTrial(table_, firstTrial_, row_.data());
+    const std::size_t scene = rowWidth(table_);
+    const bool further = hooks.further && table_.size() > scene;
+    if (further) hooks.further(row_.data() + scene);
     ++replay.rows;
-    for (std::size_t column = 0; column < table_.size(); ++column) {
+    for (std::size_t column = 0; column < (further ? table_.size() : scene); ++column) {
       const double recorded = recorded_.at(next_, column);
       if (column == kMeasuredTime || sameBits(recorded, row_[column])) continue;
       if (replay.firstDifference.empty())
@@ -126,7 +129,7 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
                              FilePlace{log.path()}});
     ++expected;
     ++replay.ticks;
-    rows.look(state, replay);
+    rows.look(state, hooks, replay);
     if (hooks.afterTick) hooks.afterTick(state);
     if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
   }

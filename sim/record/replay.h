@@ -29,6 +29,7 @@ Replay replayRun(const RunLog& log);
 struct ReplayHooks {
   std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
   std::function<void(const haptics::TickState& state)> afterTick;
+  std::function<void(double* columns)> further;  // FurtherColumns, of the tick just simulated; without it they are not compared
 };
 Replay replayRun(const RunLog& log, const ReplayHooks& hooks);
 

@@ -128,6 +128,7 @@ void RecordedRun::completeConfiguration() {
   experiment::Experiment recorded = block_.experiment.experiment();
   if (c.otherHands.empty()) recorded.hands.clear();  // a station records its own hand alone
   c.table = record::makeChannelTable(recorded, block_.experiment.constraint().parameterCount(), device.rendersForce);
+  c.table.channels.insert(c.table.channels.end(), options_.furtherChannels.begin(), options_.furtherChannels.end());
 }
 
 // The number is free when the log is created: nobody else takes one meanwhile.
@@ -138,7 +139,7 @@ void RecordedRun::openLog() {
   completeConfiguration();
   recorder_ =
       std::make_unique<record::Recorder>(block_.logPath, block_.configuration,
-                                         record::RecorderOptions{.threaded = !options_.virtualClock, .diskReserve = options_.diskReserve});
+                                         record::RecorderOptions{.threaded = !options_.virtualClock, .diskReserve = options_.diskReserve, .further = options_.further});
 }
 
 // A repeat is not repeated.

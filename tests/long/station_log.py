@@ -10,6 +10,7 @@ class StationLog:
         self.times = []    # ns, on the station's clock, by tick
         self.events = []   # (tick, kind, trial, value, text)
         self.given = []    # (tick, peer, round trip, sequence, time)
+        self.frequencies = []  # (tick, omega_o): of the copy from there on
         self.own = None
         self.closed = False
         self.trials = 0
@@ -40,6 +41,9 @@ class StationLog:
             step = 88 + 8 * (places + rates)
             for i in range(count):
                 tick, peer, trip, sequence, time = struct.unpack_from("<QidId", p, 16 + i * step)
+                if peer < 0:
+                    self.frequencies.append((tick, trip))
+                    continue
                 self.given.append((tick, peer, trip, sequence, time))
 
     def _ticks(self, p):
