@@ -269,6 +269,7 @@ class Endpoint {
                       static_cast<EventKind>(e.kind),
                       e.trial,
                       {e.index, e.foreperiod_ticks, e.catch_trial != 0},
+                      e.frequency,
                       static_cast<trial::Outcome>(std::min<int>(e.outcome, static_cast<int>(trial::Outcome::Interrupted))),
                       static_cast<trial::Reason>(std::min<int>(e.reason, static_cast<int>(trial::kLastReason))),
                       e.apart};
@@ -309,6 +310,7 @@ class Endpoint {
       reach_Event e{};
       e.station = own_.station, e.kind = static_cast<std::uint8_t>(event.kind), e.trial = event.trial;
       e.index = event.planned.index, e.foreperiod_ticks = event.planned.foreperiodTicks, e.catch_trial = event.planned.catchTrial;
+      e.frequency = event.frequency;
       e.outcome = static_cast<std::uint8_t>(event.outcome), e.reason = static_cast<std::uint8_t>(event.reason), e.apart = event.apart;
       dds_write(events_.writer, &e);
     }

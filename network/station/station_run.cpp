@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 
 #include "base/fault.h"
 #include "base/os.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kGoodFor = 0.5;          // [s] the lines are heard before a trial
 constexpr double kPatience = 3;           // [s] for every station's word on a trial
+constexpr double kLongerTrip = 0.25, kLongerBy = 0.005;  // share and [s] by which a round trip may become longer until it is simulated again
 constexpr double kOldWords = 0.05;        // [s] in which it is known whether a trial told of has ended already
 constexpr std::size_t kMostHeard = 64;    // events of stations that do not say who they are
 
@@ -35,10 +37,23 @@ StationSetup forExperiment(StationSetup setup, const experiment::Experiment& exp
   return setup;
 }
 
+// Lines between two others are not known here: they are taken to be as bad.
+MeasuredLine worstLine(const StationLine& line) {
+  MeasuredLine worst;
+  for (const StationStanding& other : line.standings()) worst = MeasuredLine::worse(worst, {other.roundTrip, other.jitter, other.loss});
+  return worst;
+}
+
 }  // namespace
 
+std::string wordsOf(const LineEvent& ended) {
+  const bool reason = ended.reason != trial::Reason::None;
+  return fmt::format("station {}: trial {} {}{}{}, copies apart {:.3f} mm RMS", ended.station, ended.trial, trial::nameOf(ended.outcome),
+                     reason ? ", " : "", reason ? trial::nameOf(ended.reason) : "", 1e3 * ended.apart);
+}
+
 StationRun::StationRun(const StationSetup& setup, const experiment::CompiledExperiment& experiment)
-    : setup_(forExperiment(setup, experiment.experiment())), own_(setup.line.station - 1),
+    : setup_(forExperiment(setup, experiment.experiment())), own_(setup.line.station - 1), experiment_(experiment.experiment()),
       line_(std::make_unique<StationLine>(setup_.line, sharedHash(experiment.experiment()))), until_(now() + setup.wait) {}
 
 void StationRun::prepare(session::RecordedRunOptions& options) {
@@ -50,6 +65,8 @@ void StationRun::prepare(session::RecordedRunOptions& options) {
     return made;
   };
   options.watchers.push_back(&watcher_);
+  options.furtherChannels = lineChannels(setup_.line.station, setup_.line.stations);
+  options.further = &watcher_;
   options.timingCheckSeconds = 0;  // a trial is put up when the others put it up
 }
 
@@ -93,6 +110,7 @@ StationNews StationRun::poll() {
   news.ended = run_->poll();
   if (news.ended) tellEnd(*news.ended);
   takeEvents(news);
+  keepVerdict(news);
   if (isConductor()) lead(news);
   else follow(news);
   if (stopping_ && stage_ != Stage::UnderWay) {
@@ -118,6 +136,7 @@ void StationRun::lead(StationNews& news) {
     case Stage::Settling:
       if (now() >= until_) stage_ = Stage::LinesAgain, until_ = now() + setup_.wait;
       return;
+    case Stage::Checking: return awaitCheck(news);
     case Stage::UnderWay:
       if (news.ended) stage_ = Stage::Others, until_ = now() + kPatience;
       return;
@@ -130,11 +149,39 @@ void StationRun::lead(StationNews& news) {
   }
 }
 
+bool StationRun::isChecked() const {
+  const double trip = worstLine(*line_).roundTrip;
+  return frequency_ > 0 && trip <= checkedFor_.roundTrip * (1 + kLongerTrip) + kLongerBy;
+}
+
+// Before the first trial, and when a line has become much longer. The simulation takes a tenth of a second or several; nobody waits for it.
+void StationRun::check() {
+  stage_ = Stage::Checking;
+  if (checking_.valid()) return;  // asked for before a trial that was taken back
+  checkedFor_ = worstLine(*line_);
+  checking_ = std::async(std::launch::async, [experiment = experiment_, line = checkedFor_] { return checkLine(experiment, line); });
+}
+
+void StationRun::awaitCheck(StationNews& news) {
+  if (checking_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  const LineCheck found = checking_.get();
+  run_->note(found.sentence);
+  if (!found.stable) {
+    stage_ = Stage::Idle;
+    frequency_ = 0;
+    return inVain("no trial was armed: " + found.sentence, news);
+  }
+  if (found.frequency > copySettingsFor(experiment_).frequency) news.words.push_back(found.sentence);
+  frequency_ = std::max(frequency_, found.frequency);
+  stage_ = Stage::LinesAgain;
+  until_ = now() + setup_.wait;
+}
+
 // Twice good, and time between: the lines are heard before a trial.
 void StationRun::awaitLines(StationNews& news) {
   const std::vector<std::string> obstacles = line_->obstacles();
   if (obstacles.empty()) {
-    if (stage_ == Stage::LinesAgain) return putUp(news);
+    if (stage_ == Stage::LinesAgain) return isChecked() ? putUp(news) : check();
     stage_ = Stage::Settling;
     until_ = now() + kGoodFor;
     return;
@@ -157,6 +204,7 @@ void StationRun::putUp(StationNews& news) {
     arm.kind = EventKind::Arm;
     arm.planned = *next;
     arm.trial = ++armed_;
+    arm.frequency = frequency_;
     line_->send(arm);
   } else {
     armed_ = armAsked_;
@@ -164,7 +212,9 @@ void StationRun::putUp(StationNews& news) {
     sink_->countTrialsFrom(trialsBefore_);
     if (run_->trialsLeft() == 0) run_->repeat(planned_);
   }
+  sink_->synchroniseBy(frequency_);
   aborted_ = false;
+  ended_.reset();
   (void)run_->putUpNext();
   stage_ = Stage::UnderWay;
   news.begun = true;
@@ -217,10 +267,26 @@ void StationRun::tellEnd(const haptics::ConductedTrial& trial) {
   event.reason = trial.result.reason;
   event.apart = sink_->rmsApart();
   line_->send(event);
+  ended_ = trial;
+  if (isConductor()) event.station = static_cast<std::uint32_t>(setup_.line.station), verdict_ = event;
   run_->note(
       fmt::format("trial {}: copies apart {:.6g} m RMS, {:.6g} m at most; other hands' samples up to {:.6g} s old, held by less than "
                   "their full coupling for {} ticks; {} samples were no newer than one before",
                   run_->numberOf(trial), sink_->rmsApart(), sink_->mostApart(), sink_->oldest(), sink_->fadedTicks(), sink_->repeated()));
+}
+
+// The conductor's copy is judged for all; each station keeps that beside what its own copy came to, and how far apart the two were then.
+void StationRun::keepVerdict(StationNews& news) {
+  if (!ended_ || !verdict_ || verdict_->trial != ended_->trial + trialsBefore_) return;
+  const auto words = [](trial::Outcome outcome, trial::Reason reason) {
+    return std::string(trial::nameOf(outcome)) + (reason == trial::Reason::None ? "" : " (" + std::string(trial::nameOf(reason)) + ")");
+  };
+  const std::string judged = words(verdict_->outcome, verdict_->reason), here = words(ended_->result.outcome, ended_->result.reason);
+  run_->note(fmt::format("trial {}: outcome {} by the conductor, station {}; {} here, where the copies were {:.6g} m apart at its end",
+                         run_->numberOf(*ended_), judged, verdict_->station, here, sink_->lastApart()));
+  if (verdict_->outcome != ended_->result.outcome)
+    news.words.push_back(fmt::format("trial {}: {} by the conductor's copy, which counts; {} by the copy here", verdict_->trial, judged, here));
+  ended_.reset();
 }
 
 std::string StationRun::silentOnes() const {
@@ -255,6 +321,7 @@ bool StationRun::obey(const LineEvent& event, StationNews& news) {
   if (event.kind == EventKind::Arm) {
     armAsked_ = event.trial;
     planned_ = event.planned;
+    if (event.frequency > 0) frequency_ = event.frequency;
   }
   if (event.kind == EventKind::Interrupt) {
     if (stage_ == Stage::UnderWay) abort();
@@ -266,9 +333,8 @@ bool StationRun::obey(const LineEvent& event, StationNews& news) {
 
 void StationRun::noteEnd(const LineEvent& event, StationNews& news) {
   endedTrial_.at(event.station - 1) = event.trial;
-  news.words.push_back(fmt::format("station {}: trial {} {}{}{}, copies apart {:.3f} mm RMS", event.station, event.trial,
-                                   trial::nameOf(event.outcome), event.reason == trial::Reason::None ? "" : ", ",
-                                   event.reason == trial::Reason::None ? "" : trial::nameOf(event.reason), 1e3 * event.apart));
+  if (line_->isConductor(event.station).value_or(false)) verdict_ = event;
+  news.words.push_back(wordsOf(event));
 }
 
 std::string StationRun::close() {

@@ -1,12 +1,14 @@
 #pragma once
 #include <array>
 #include <deque>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "network/line/station_line.h"
+#include "network/study/line_check.h"
 #include "sim/session/recorded_run.h"
 
 namespace reachlab::network {
@@ -28,6 +30,9 @@ struct StationNews {
   std::string problem;                           // in vain: nobody came, nobody arms, the endpoint has ended. Again after another `wait`
   bool finished = false;                         // no more trials: the conductor said so, or this one stopped
 };
+
+/// How a station's trial ended, in a line.
+std::string wordsOf(const LineEvent& ended);
 
 /// The trials of one station, from its first word to its last. The conductor arms trial after trial, when it is told to and every line is
 /// good; the others put up what it arms. Never waits; `poll` it often. Every call from one thread at a time.
@@ -57,7 +62,7 @@ class StationRun {
   /// The conductor: the next trial, as soon as every station has had its word on the one before and every line is good.
   void armNext();
   /// It is to be armed and has not been yet.
-  bool isArming() const { return wanted_ || stage_ == Stage::Lines || stage_ == Stage::Settling || stage_ == Stage::LinesAgain; }
+  bool isArming() const { return wanted_ || (stage_ > Stage::Idle && stage_ < Stage::UnderWay); }
   /// The conductor is between two trials.
   bool isIdle() const { return stage_ == Stage::Idle && !wanted_; }
   /// Ends the trial under way, the conductor at every station; or no longer wants one to be armed.
@@ -77,19 +82,23 @@ class StationRun {
   const OtherHands& otherHands() const { return others_; }
 
  private:
-  enum class Stage { Idle, Lines, Settling, LinesAgain, UnderWay, Others, Over };
+  enum class Stage { Idle, Lines, Settling, LinesAgain, Checking, UnderWay, Others, Over };
   /// The run asks for its watcher before the engine, and with it the sink, is made.
-  struct Watcher final : haptics::RunSink {
-    haptics::RunSink* sink = nullptr;
+  struct Watcher final : haptics::RunSink, record::FurtherColumns {
+    StationSink* sink = nullptr;
     bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missed) noexcept override {
       return sink->onTick(state, command, missed);
     }
     void announce(std::int32_t, const trial::PlannedTrial&) override {}
     void awaitTrial(std::int32_t) override {}
     void close() override {}
+    void fill(double* columns) const noexcept override { sink->fill(columns); }
   };
 
   void awaitLines(StationNews& news);
+  bool isChecked() const;
+  void check();
+  void awaitCheck(StationNews& news);
   void putUp(StationNews& news);
   void lead(StationNews& news);
   void follow(StationNews& news);
@@ -99,11 +108,13 @@ class StationRun {
   void takeEvents(StationNews& news);
   bool obey(const LineEvent& event, StationNews& news);
   void noteEnd(const LineEvent& event, StationNews& news);
+  void keepVerdict(StationNews& news);
   std::string silentOnes() const;
   void inVain(const std::string& what, StationNews& news);
 
   StationSetup setup_;
   int own_;  // from 0
+  experiment::Experiment experiment_;
   std::unique_ptr<StationLine> line_;
   std::unique_ptr<StationSink> sink_;
   Watcher watcher_;
@@ -113,11 +124,16 @@ class StationRun {
   double until_ = 0;   // [s] that this stage may take
   double settled_ = 0;  // [s] when what was told before this station came is known to hold; 0: nothing was told
   std::string said_;
+  std::future<LineCheck> checking_;  // the conductor's, on a thread of its own
+  MeasuredLine checkedFor_;          // of that or of the last that was well
+  double frequency_ = 0;             // [rad/s] omega_o that was found; 0: nothing was checked yet
   std::deque<LineEvent> heard_;  // of stations that have not said yet who they are
   std::int32_t armed_ = 0, armAsked_ = 0, putUp_ = 0, trialsBefore_ = 0;
   trial::PlannedTrial planned_;
   bool wanted_ = false, begun_ = false, finished_ = false, stopping_ = false, aborted_ = false, finishTold_ = false, closed_ = false;
   std::array<std::int32_t, kMaxStations> endedTrial_{};
+  std::optional<haptics::ConductedTrial> ended_;  // here, and the conductor's word on it has not come
+  std::optional<LineEvent> verdict_;              // the conductor's on the latest trial
 };
 
 }  // namespace reachlab::network

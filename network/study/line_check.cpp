@@ -1,0 +1,155 @@
+#include "network/study/line_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/ticks.h"
+#include "network/study/copies_over_lines.h"
+#include "network/study/growth.h"
+#include "network/study/two_hands.h"
+
+namespace reachlab::network {
+namespace {
+
+constexpr double kEnd = 6.5;             // [s] as long as the study's hands are limp
+constexpr int kSubsteps = 10;            // of a hand in a tick
+constexpr double kPush = 0.1;            // [m/s] of the first hand
+constexpr double kFarAway = 1;           // [m] a hand there has been thrown
+constexpr double kFrequencyStep = 0.5;   // [rad/s]
+constexpr double kMostFrequency = 10;    // [rad/s]: stronger synchronisation is felt as drag
+constexpr int kSeeds = 2;                // of losses and jitter
+
+/// A hand that lets itself be moved, about where it held the object at first.
+struct LimpHand {
+  Vec3 home, x, v, beforeX, beforeV;
+
+  void advance(const Vec3& force) {
+    constexpr StudyHand kHand;
+    constexpr double kStep = kTickSeconds / kSubsteps;
+    beforeX = x, beforeV = v;
+    for (int i = 0; i < kSubsteps; ++i) {
+      const Vec3 was = v;
+      v += kStep / kHand.mass * (kHand.limpStiffness * (home - x) - kHand.limpDamping * v + force);
+      x += 0.5 * kStep * (was + v);
+    }
+  }
+  dynamics::HandSegment segment() const {
+    dynamics::HandSegment segment;
+    segment.degree = 1;
+    segment.position[0] = beforeX, segment.position[1] = x - beforeX;
+    segment.velocity[0] = beforeV, segment.velocity[1] = v - beforeV;
+    return segment;
+  }
+  dynamics::HandSample sample() const { return {x, v, true}; }
+};
+
+// Along the way to the target, the others half as fast against the first: both the whole and its inside move.
+std::vector<LimpHand> pushedHands(const experiment::Experiment& experiment, const constraints::Constraint& constraint) {
+  const auto plant = dynamics::makeSharedPlant(experiment, constraint);
+  std::vector<LimpHand> hands(experiment.hands.size());
+  plant->placeAtRest(experiment.task->target);
+  const Vec3 target = plant->fixedPoint(0);
+  plant->placeAtRest(experiment.task->start);
+  const Vec3 way = target - plant->fixedPoint(0);
+  const Vec3 along = norm(way) > 0 ? way / norm(way) : Vec3{1, 0, 0};
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    hands[i].home = hands[i].x = plant->fixedPoint(static_cast<int>(i));
+    hands[i].v = (i % 2 == 0 ? kPush : -0.5 * kPush) * along;
+  }
+  return hands;
+}
+
+// `step` takes the object a tick on and answers the speed squares of all of it; `force` on a hand. Infinite: a hand was thrown.
+template <class Step, class Force>
+double letBe(std::vector<LimpHand> hands, Step&& step, Force&& force) {
+  Growth growth(0, kEnd);
+  std::vector<dynamics::HandSegment> segments(hands.size());
+  std::vector<dynamics::HandSample> samples(hands.size());
+  std::vector<Vec3> forces(hands.size());
+  const int ticks = static_cast<int>(kEnd / kTickSeconds + 0.5);
+  for (int k = 1; k <= ticks; ++k) {
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      hands[i].advance(forces[i]);
+      segments[i] = hands[i].segment(), samples[i] = hands[i].sample();
+    }
+    const double t = secondsOf(k);
+    double squares = step(segments, samples, t);
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      forces[i] = force(static_cast<int>(i), samples[i]);
+      squares += dot(hands[i].v, hands[i].v);
+      if (!(norm(hands[i].x - hands[i].home) < kFarAway)) return std::numeric_limits<double>::infinity();
+    }
+    growth.add(t, squares);
+  }
+  return growth.ratio();
+}
+
+double growthAlone(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const std::vector<LimpHand>& hands) {
+  const auto plant = dynamics::makeSharedPlant(experiment, constraint);
+  plant->placeAtRest(experiment.task->start);
+  return letBe(
+      hands,
+      [&](const auto& segments, const auto& samples, double) {
+        for (std::size_t i = 1; i < segments.size(); ++i) plant->setHand(static_cast<int>(i), segments[i], samples[i]);
+        (void)plant->step(segments[0], kTickSeconds);
+        double squares = 0;  // once for each station, as of as many copies
+        for (const double rate : plant->rates()) squares += static_cast<double>(segments.size()) * rate * rate;
+        return squares;
+      },
+      [&](int hand, const dynamics::HandSample&) { return -plant->couplingForceOf(hand); });
+}
+
+double growthOver(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const std::vector<LimpHand>& hands,
+                  const MeasuredLine& line, const CopySettings& settings) {
+  // Uniform jitter either way makes this standard deviation of the round trip.
+  const LineConditions conditions{line.roundTrip / 2, std::sqrt(1.5) * line.jitter, line.loss};
+  double worst = 0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    CopiesOverLines copies(experiment, constraint, experiment.task->start, settings, conditions, line.roundTrip,
+                           static_cast<std::uint64_t>(seed));
+    worst = std::max(worst, letBe(
+                                hands,
+                                [&](const auto& segments, const auto& samples, double t) {
+                                  copies.tick(segments, samples, t);
+                                  return copies.speedSquares();
+                                },
+                                [&](int hand, const dynamics::HandSample& sample) { return -copies.copy(hand).couplingForce(sample); }));
+  }
+  return worst;
+}
+
+}  // namespace
+
+MeasuredLine MeasuredLine::worse(const MeasuredLine& a, const MeasuredLine& b) {
+  return {std::max(a.roundTrip, b.roundTrip), std::max(a.jitter, b.jitter), std::max(a.loss, b.loss)};
+}
+
+LineCheck checkLine(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const MeasuredLine& line,
+                    const CopySettings& settings) {
+  const std::vector<LimpHand> hands = pushedHands(experiment, constraint);
+  const double alone = growthAlone(experiment, constraint, hands);
+  const double most = std::min(kMostFrequency, synchronisationLimit(settings, line.roundTrip));
+  LineCheck check;
+  CopySettings tried = settings;
+  while (true) {
+    check.frequency = tried.frequency;
+    check.growth = growthOver(experiment, constraint, hands, line, tried);
+    check.stable = Growth::isStable(check.growth, alone);
+    if (check.stable || tried.frequency >= most) break;
+    tried.frequency = std::min(most, tried.frequency + kFrequencyStep);
+  }
+  const std::string over = fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * line.roundTrip, 1e3 * line.jitter, 100 * line.loss);
+  const std::string how = std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth) : "thrown out of the hands";
+  check.sentence = fmt::format("simulated with limp hands over this line ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
+                               check.stable ? "comes to rest" : "does not come to rest", how, check.frequency);
+  return check;
+}
+
+LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line) {
+  return checkLine(experiment, constraints::makeConstraint(experiment.constraint), line, copySettingsFor(experiment));
+}
+
+}  // namespace reachlab::network

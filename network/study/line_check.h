@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+
+#include "network/coupled_copy.h"
+
+/// Before a block: does this very object come to rest over the lines as they are, when all let go of it?
+namespace reachlab::network {
+
+/// A line as it is measured (LineStatus).
+struct MeasuredLine {
+  double roundTrip = 0;  // [s]
+  double jitter = 0;     // [s] standard deviation of the round trip
+  double loss = 0;       // share
+  /// The worse of the two in everything.
+  static MeasuredLine worse(const MeasuredLine& a, const MeasuredLine& b);
+};
+
+struct LineCheck {
+  bool stable = false;
+  double frequency = 0;  // [rad/s] omega_o with which it comes to rest; not stable: the last that was tried
+  double growth = 0;     // speed after some seconds over that at first
+  std::string sentence;  // what was found, with the numbers
+};
+
+/// Limp hands (1 kg on 20 N/m and 5 N s/m), pushed apart at the start, over lines all as bad as `line`. Where the motion grows omega_o is raised
+/// from `settings`' by steps of 0.5 rad/s, as far as the round trip allows. Takes a tenth of a second or several; a function of its arguments alone.
+/// Throws as CoupledCopy.
+LineCheck checkLine(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const MeasuredLine& line,
+                    const CopySettings& settings);
+/// With the settings of the experiment's object.
+LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line);
+
+}  // namespace reachlab::network

@@ -1,0 +1,47 @@
+#include "network/study/line_check.h"
+
+#include <gtest/gtest.h>
+
+namespace reachlab::network {
+namespace {
+
+constexpr MeasuredLine kLan{0.0005, 0.0001, 0}, kFar{0.1, 0.003, 0.05};
+
+TEST(LineCheck, EveryShippedObjectComesToRestAsItIs) {
+  const auto expectRest = [](const std::string& name, const MeasuredLine& line) {
+    const experiment::Experiment e = experiment::readExperiment(name);
+    const LineCheck check = checkLine(e, line);
+    EXPECT_TRUE(check.stable) << name << ": " << check.sentence;
+    EXPECT_EQ(check.frequency, copySettingsFor(e).frequency) << name << ": " << check.sentence;
+  };
+  for (const std::string& name : experiment::shippedForTwoHands())
+    for (const MeasuredLine& line : {kLan, MeasuredLine{0.05, 0.0015, 0.4}}) expectRest(name, line);
+  for (const char* name : {"chain-two-hands", "parallel-two-hands"}) expectRest(name, kFar);
+}
+
+// Copies that are not drawn together let a chain ring up over 100 ms: the study's row of dead reckoning alone.
+TEST(LineCheck, SynchronisesMoreWhereTheMotionWouldGrow) {
+  const experiment::Experiment e = experiment::readExperiment("chain-two-hands");
+  CopySettings weak = copySettingsFor(e);
+  weak.frequency = 0, weak.ledger = false;
+  const LineCheck check = checkLine(e, constraints::makeConstraint(e.constraint), kFar, weak);
+  EXPECT_TRUE(check.stable) << check.sentence;
+  EXPECT_GT(check.frequency, 0) << check.sentence;
+  EXPECT_LT(check.frequency, 3) << check.sentence;
+}
+
+// A stiff rod of 1 kg: as far as the design's study of chains and parallel masses allows, it does not go.
+TEST(LineCheck, RefusesWithTheNumbersWhatNoSynchronisationHolds) {
+  const LineCheck check = checkLine(experiment::readExperiment("body-two-hands"), kFar);
+  EXPECT_FALSE(check.stable) << check.sentence;
+  EXPECT_NE(check.sentence.find("round trip 100.0 ms, jitter 3.0 ms, loss 5 %"), std::string::npos) << check.sentence;
+  EXPECT_NE(check.sentence.find("does not come to rest"), std::string::npos) << check.sentence;
+}
+
+TEST(LineCheck, IsAFunctionOfItsArguments) {
+  const experiment::Experiment e = experiment::readExperiment("parallel-two-hands");
+  EXPECT_EQ(checkLine(e, kFar).growth, checkLine(e, kFar).growth);
+}
+
+}  // namespace
+}  // namespace reachlab::network
