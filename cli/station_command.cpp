@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/os.h"
@@ -13,8 +13,8 @@
 #include "cli/seed_option.h"
 #include "cli/success_table.h"
 #include "devices/make_device.h"
+#include "network/station/looker_on.h"
 #include "network/station/station_options.h"
-#include "sim/dynamics/shared_plant.h"
 #include "sim/session/recorded_run.h"
 
 namespace reachlab::cli {
@@ -72,77 +72,43 @@ const char* wordOf(std::uint8_t phase) {
   return phase < kWords.size() ? kWords[phase] : "unknown";
 }
 
-/// Who only looks on: no hand, no copy, nothing recorded; the others do not know of it. Ends with the conductor's last word.
-class LookerOn {
- public:
-  explicit LookerOn(const StationRequest& request)
-      : request_(request), block_(session::planSession(request.session).blocks.at(0)),
-        plant_(dynamics::makeSharedPlant(block_.experiment.experiment(), block_.experiment.constraint())) {
-    request_.setup.line.station = 0;
-    request_.setup.line.stations = static_cast<int>(block_.experiment.experiment().hands.size());
-    line_ = std::make_unique<network::StationLine>(request_.setup.line, network::sharedHash(block_.experiment.experiment()));
+// Of every station the newest that came, and how far its copy was then from the first's.
+void show(const network::LookerOn& looker) {
+  const double now = static_cast<double>(os::now()) * 1e-9;
+  bool first = true;
+  for (std::size_t i = 0; i < looker.newest().size(); ++i) {
+    const network::HeardState& state = looker.newest()[i];
+    const network::CopySample& sample = state.sample;
+    if (sample.sequence == 0) continue;
+    fmt::print("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", i + 1, state.trial, wordOf(state.phase),
+               now - sample.time, sample.hand.x, sample.hand.y, sample.hand.z, sample.work);
+    if (!std::exchange(first, false)) fmt::print(" apart_m={:.6f}", looker.apart(static_cast<int>(i)));
+    fmt::print("\n");
   }
+  std::fflush(stdout);
+}
 
-  int watch() {
-    const StopRequest stop;
-    const double begun = now();
-    double shown = begun;
-    bool heard = false;
-    while (!StopRequest::asked()) {
-      line_->look();
-      take();
-      if (finished_) return 0;
-      heard = heard || std::any_of(newest_.begin(), newest_.end(), [](const network::HeardState& s) { return s.sample.sequence != 0; });
-      if (const std::string fault = line_->endpointFault(); !fault.empty()) throw ResourceError(fault);
-      if (!heard && now() - begun > request_.setup.wait) throw ResourceError(fmt::format("no station was heard within {:.0f} s", request_.setup.wait));
-      if (now() - shown >= request_.every) show(), shown = now();
-      std::this_thread::sleep_for(kLook);
-    }
-    return StopRequest::exitCode();
-  }
-
- private:
-  static double now() { return static_cast<double>(os::now()) * 1e-9; }
-
-  void take() {
-    network::LineMemory& memory = line_->memory();
-    for (std::size_t i = 0; i < newest_.size(); ++i)
-      while (memory.in[i].tryPop(newest_[i])) {}
-    network::LineEvent event;
-    while (memory.eventsIn.tryPop(event)) {
-      if (event.kind == network::EventKind::Finish) finished_ = true;
-      if (event.kind != network::EventKind::Ended) continue;
+/// Until the conductor's last word.
+int watchStations(const StationRequest& request) {
+  const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
+  network::LookerOn looker(request.setup, block.experiment);
+  const StopRequest stop;
+  const auto every = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(request.every));
+  auto shown = std::chrono::steady_clock::now();
+  for (; !StopRequest::asked(); std::this_thread::sleep_for(kLook)) {
+    const network::LookerNews news = looker.poll();
+    for (const network::LineEvent& event : news.ended)
       fmt::print("station={} trial={} outcome={}{} apart_rms_m={:.6g}\n", event.station, event.trial, trial::nameOf(event.outcome),
                  event.reason == trial::Reason::None ? "" : fmt::format(" reason={}", trial::nameOf(event.reason)), event.apart);
-      std::fflush(stdout);
-    }
-  }
-
-  // Of every station the newest that came, and how far its copy was then from the first's.
-  void show() {
-    const auto count = static_cast<std::size_t>(plant_->placeCount());
-    const network::CopySample* first = nullptr;
-    for (std::size_t i = 0; i < newest_.size(); ++i) {
-      const network::HeardState& state = newest_[i];
-      if (state.sample.sequence == 0) continue;
-      const network::CopySample& sample = state.sample;
-      fmt::print("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", i + 1, state.trial,
-                 wordOf(state.phase), now() - sample.time, sample.hand.x, sample.hand.y, sample.hand.z, sample.work);
-      if (first != nullptr)
-        fmt::print(" apart_m={:.6f}", plant_->distanceBetween({first->places.data(), count}, {sample.places.data(), count}));
-      else first = &sample;
-      fmt::print("\n");
-    }
     std::fflush(stdout);
+    if (news.finished) return 0;
+    if (!news.problem.empty()) throw ResourceError(news.problem);
+    if (std::chrono::steady_clock::now() - shown < every) continue;
+    show(looker);
+    shown = std::chrono::steady_clock::now();
   }
-
-  StationRequest request_;
-  session::BlockToRun block_;
-  std::unique_ptr<dynamics::SharedPlant> plant_;  // for distances
-  std::unique_ptr<network::StationLine> line_;
-  std::array<network::HeardState, network::kMaxStations> newest_{};
-  bool finished_ = false;
-};
+  return StopRequest::exitCode();
+}
 
 }  // namespace
 
@@ -190,8 +156,7 @@ void addStationCommand(CLI::App& app, int& exitCode) {
       exitCode = conduct(*r);
       return;
     }
-    LookerOn looker(*r);
-    exitCode = looker.watch();
+    exitCode = watchStations(*r);
   });
 }
 

@@ -54,7 +54,9 @@ constexpr int kStatusMs = 200;
 
 void showTitle(MainWindow& window, const QString& name) {
   const network::StationSetup* station = window.session().station();
-  const QString what = station == nullptr ? name : MainWindow::tr("%1, station %2").arg(name).arg(station->line.station);
+  const QString what = station == nullptr           ? name
+                       : window.session().looksOn() ? MainWindow::tr("%1, looking on").arg(name)
+                                                    : MainWindow::tr("%1, station %2").arg(name).arg(station->line.station);
   window.setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(what));
 }
 
@@ -224,7 +226,8 @@ void MainWindow::showOverlay() {
 void MainWindow::showStage() {
   using Stage = docks::SessionDock::Stage;
   const session::RecordedRun* run = session_.run();
-  const Stage stage = run == nullptr              ? Stage::Closed
+  const Stage stage = session_.looksOn()          ? Stage::Following
+                      : run == nullptr            ? Stage::Closed
                       : session_.underWay()       ? Stage::UnderWay
                       : session_.follows()        ? Stage::Following
                       : run->trialsLeft() > 0     ? Stage::BetweenTrials
@@ -310,6 +313,10 @@ void MainWindow::oneFrame() {
   drainTrace();
   forecast_.poll();
   if (pacing_.takeDue(std::chrono::steady_clock::now())) nextTrial();
+  if (const haptics::TickState* seen = session_.seen()) {
+    screens_->showState(*seen, session_.otherHands());
+    showOverlay();
+  }
   if (session_.run() == nullptr) return;
   screens_->showState(session_.run()->latest(), session_.otherHands());
   playGo(session_.run()->latest());
@@ -331,7 +338,8 @@ void MainWindow::joinStations() {
 void MainWindow::showStations() {
   if (docks_.stations == nullptr) return;
   using Stage = docks::StationsDock::Stage;
-  const Stage stage = session_.run() == nullptr           ? Stage::Closed
+  const Stage stage = session_.looksOn()                  ? Stage::LookingOn
+                      : session_.run() == nullptr         ? Stage::Closed
                       : session_.isArming()              ? Stage::Arming
                       : session_.run()->underWay()       ? Stage::UnderWay
                                                          : Stage::BetweenTrials;

@@ -66,6 +66,8 @@ std::optional<std::string> SessionController::putInOrder() {
 
 void SessionController::setProgramme(const session::Programme& programme) {
   programme_ = programme;
+  const bool lookedOn = looker_ != nullptr;
+  looker_.reset();  // of another experiment
   try {
     shown_ = firstExperiment(programme, asked_);
   } catch (const Error&) {  // the plan has nothing for this subject and day: that is said when a run is to be opened
@@ -79,6 +81,11 @@ void SessionController::setProgramme(const session::Programme& programme) {
     recorded_.reset();
   }
   Q_EMIT experimentChanged();
+  try {
+    if (lookedOn) join(asked_);
+  } catch (const std::exception& e) {
+    Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
+  }
 }
 
 std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& experiment) {
@@ -183,12 +190,18 @@ QString SessionController::instructions() {
 
 void SessionController::join(const session::SessionRequest& request) {
   if (run() != nullptr) return;
+  if (looksOn()) {
+    const std::scoped_lock lock(changing_);
+    if (!looker_) looker_ = std::make_unique<network::LookerOn>(*setup_, shown_);
+    return;
+  }
   openRun(request);
   tellOpened();
 }
 
 bool SessionController::next(const session::SessionRequest& request) {
   if (underWay()) return false;
+  if (looksOn()) throw FaultError(Fault{"station", "only looks on", "a station's number, to take part"});
   if (run() != nullptr && run()->trialsLeft() == 0 && !follows()) {
     endRun();
     if (isPlan() && recorded_->blocksLeft() == 0) return false;
@@ -269,6 +282,7 @@ void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
 void SessionController::poll() {
   if (StopRequest::asked()) return;
   tellBackup();
+  if (looker_) return lookOn();
   if (run() == nullptr) return;
   try {
     network::StationNews news;
@@ -302,6 +316,13 @@ void SessionController::poll() {
   }
 }
 
+void SessionController::lookOn() {
+  const network::LookerNews news = looker_->poll();
+  for (const network::LineEvent& event : news.ended) Q_EMIT stationTold(QString::fromStdString(network::wordsOf(event)));
+  if (news.finished) Q_EMIT told(tr("The conductor has ended the run."));
+  if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
+}
+
 void SessionController::tellStation(const network::StationNews& news) {
   for (const std::string& line : news.words) Q_EMIT stationTold(QString::fromStdString(line));
   if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
@@ -310,11 +331,13 @@ void SessionController::tellStation(const network::StationNews& news) {
 
 std::vector<network::StationStanding> SessionController::standings() {
   const std::scoped_lock lock(changing_);
+  if (looker_) return looker_->line().standings();
   return station_ ? station_->line().standings() : std::vector<network::StationStanding>();
 }
 
 network::OtherHands SessionController::otherHands() {
   const std::scoped_lock lock(changing_);
+  if (looker_) return looker_->hands();
   return station_ ? station_->otherHands() : network::OtherHands();
 }
 

@@ -85,8 +85,9 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
   own.station = here.line.station;
   own.name = here.line.name, own.software = here.line.software, own.device = here.line.device, own.conductor = here.line.conductor;
   QStringList obstacles;
-  if (table_->rowCount() != static_cast<int>(others.size()) + 1) {
-    table_->setRowCount(static_cast<int>(others.size()) + 1);
+  const int rows = static_cast<int>(others.size()) + (own.station > 0 ? 1 : 0);
+  if (table_->rowCount() != rows) {
+    table_->setRowCount(rows);
     for (int row = 0; row < table_->rowCount(); ++row)
       for (int column = 0; column < kColumns; ++column) {
         auto* item = new QTableWidgetItem;
@@ -95,7 +96,7 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
       }
   }
   int row = 0;
-  bool placed = false;
+  bool placed = own.station == 0;  // it looks on
   for (const network::StationStanding& other : others) {
     if (!placed && other.station > own.station) fill(row++, own, true), placed = true;
     fill(row++, other, false);
@@ -104,7 +105,8 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
   }
   if (!placed) fill(row, own, true);
   const QString why = obstacles.join(QStringLiteral("; "));
-  const QString next = stage == Stage::Closed     ? tr("No run is open here: Space opens one, and the others hear of this station.")
+  const QString next = stage == Stage::LookingOn  ? tr("Looking on: nothing is recorded, and nobody waits for this window.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
+                       : stage == Stage::Closed     ? tr("No run is open here: Space opens one, and the others hear of this station.")
                        : stage == Stage::UnderWay ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
                        : !why.isEmpty()           ? tr("Not armed: %1.").arg(why)
                        : stage == Stage::Arming   ? tr("Every line is good: the trial is being armed.")
@@ -126,10 +128,11 @@ void StationsDock::fill(int row, const network::StationStanding& station, bool i
   if (isHere) roles << tr("here");
   if (station.conductor) roles << tr("conductor");
   set(kName, roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(QStringLiteral(", "))));
-  set(kRoundTrip, number(milliseconds(station.roundTrip, 1)));
-  set(kJitter, number(milliseconds(station.jitter, 1)));
+  const bool answers = station.roundTrip >= 0;  // nobody answers who only looks on
+  set(kRoundTrip, answers ? number(milliseconds(station.roundTrip, 1)) : QString());
+  set(kJitter, answers ? number(milliseconds(station.jitter, 1)) : QString());
   set(kLoss, number(QString::number(100 * station.loss, 'f', 1)));
-  set(kOffset, number(milliseconds(station.offset, 3)));
+  set(kOffset, answers ? number(milliseconds(station.offset, 3)) : QString());
   set(kAge, number(milliseconds(station.age, 0)));
   set(kDevice, text(station.device));
   set(kSoftware, text(station.software));

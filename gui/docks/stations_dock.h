@@ -15,7 +15,7 @@ class StationsDock : public Dock {
  public:
   explicit StationsDock(QWidget* parent = nullptr);
   /// Of this station's run: none is open, and so no line either; a trial waits for the lines to be good; one is under way.
-  enum class Stage { Closed, BetweenTrials, Arming, UnderWay };
+  enum class Stage { Closed, BetweenTrials, Arming, UnderWay, LookingOn };
   void showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStanding>& others);
   /// One line of what the stations tell, the newest at the end.
   void tell(const QString& line);

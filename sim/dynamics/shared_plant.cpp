@@ -65,6 +65,11 @@ class HeldObject final : public SharedPlant {
     }
     fraction_ = 1;
   }
+  void show(std::span<const double> places, std::span<const double> rates) noexcept override {
+    std::copy_n(places.begin(), places_.size(), places_.begin());
+    std::copy_n(rates.begin(), rates_.size(), rates_.begin());
+    geometry_.locate(places_, rates_, r_, v_);
+  }
   void setExtraForce(const Vec3& force) noexcept override { extraForce_ = force; }
   void setCoupled(bool coupled) noexcept override { coupled_ = coupled; }
   void restart() noexcept override {}

@@ -37,6 +37,8 @@ class SharedPlant : public Plant {
   virtual int rateCount() const noexcept = 0;
   virtual std::span<const double> places() const noexcept = 0;  // generalised coordinates; a body's quaternion w x y z at the end
   virtual std::span<const double> rates() const noexcept = 0;   // [1/s]; a body's angular velocity in body axes at the end
+  /// The object as such lists have it: for a picture of another's copy. The hands stay as they are.
+  virtual void show(std::span<const double> places, std::span<const double> rates) noexcept = 0;
   /// Added to the rates' derivatives in the steps to come. Length rateCount().
   virtual void setExtraAcceleration(std::span<const double> acceleration) noexcept = 0;
   /// What would take this object to `places`, as a vector of rateCount(): the difference of coordinates, a rotation vector in body axes.

@@ -70,6 +70,21 @@ TEST_F(StationWindow, AFollowersWaitsForTheConductor) {
   EXPECT_EQ(window.overlay().instruction, QStringLiteral("The conductor begins the next trial"));
 }
 
+TEST_F(StationWindow, OneThatLooksOnHasNoHandAndRecordsNothing) {
+  MainWindow& window = openStation(0, false);
+  EXPECT_EQ(window.session().run(), nullptr);
+  EXPECT_EQ(window.session().seen(), nullptr) << "nothing has come";
+  QTest::keyClick(&window, Qt::Key_Space);
+  QTest::qWait(100);
+  EXPECT_EQ(window.session().run(), nullptr);
+  EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("looking on")));
+  auto* dock = window.findChild<docks::StationsDock*>();
+  ASSERT_NE(dock, nullptr);
+  EXPECT_TRUE(dock->sentence().startsWith(QStringLiteral("Looking on"))) << dock->sentence().toStdString();
+  EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2) << "both stations, and no row of its own";
+  EXPECT_FALSE(QFile::exists(QString::fromStdString(request_.place.data)));
+}
+
 TEST_F(StationWindow, APlanIsRefused) {
   request_.what = "paper";
   EXPECT_THROW(MainWindow(request_, network::StationSetup{}), FaultError);

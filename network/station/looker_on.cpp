@@ -1,0 +1,79 @@
+#include "network/station/looker_on.h"
+
+#include <fmt/format.h>
+
+#include "base/os.h"
+
+namespace reachlab::network {
+namespace {
+
+double now() { return static_cast<double>(os::now()) * 1e-9; }
+
+StationSetup lookingOn(StationSetup setup, const experiment::Experiment& experiment) {
+  setup.line.station = 0;
+  setup.line.stations = static_cast<int>(experiment.hands.size());
+  return setup;
+}
+
+}  // namespace
+
+LookerOn::LookerOn(const StationSetup& setup, const experiment::CompiledExperiment& experiment)
+    : setup_(lookingOn(setup, experiment.experiment())),
+      plant_(dynamics::makeSharedPlant(experiment.experiment(), experiment.constraint())),
+      line_(std::make_unique<StationLine>(setup_.line, sharedHash(experiment.experiment()))), state_(std::make_unique<haptics::TickState>()),
+      begun_(now()) {}
+
+LookerNews LookerOn::poll() {
+  LookerNews news;
+  line_->look();
+  take(news);
+  if (shown_ >= 0) show();
+  if (told_) return news;
+  news.problem = line_->endpointFault();
+  if (news.problem.empty() && first_ < 0 && now() - begun_ > setup_.wait)
+    news.problem = fmt::format("no station was heard within {:.0f} s", setup_.wait);
+  told_ = !news.problem.empty();
+  return news;
+}
+
+void LookerOn::take(LookerNews& news) {
+  LineMemory& memory = line_->memory();
+  for (int i = 0; i < setup_.line.stations; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    while (memory.in[index].tryPop(newest_[index])) {}
+    if (!isHeard(i)) continue;
+    if (first_ < 0) first_ = i;
+    if (shown_ < 0 || line_->isConductor(static_cast<std::uint32_t>(i + 1)).value_or(false)) shown_ = i;
+    hands_.place[index] = newest_[index].sample.hand;
+    hands_.known[index] = i > 0;
+  }
+  LineEvent event;
+  while (memory.eventsIn.tryPop(event)) {
+    if (event.kind == EventKind::Finish) news.finished = true;
+    if (event.kind == EventKind::Ended) news.ended.push_back(event);
+  }
+}
+
+void LookerOn::show() {
+  const HeardState& heard = newest_[static_cast<std::size_t>(shown_)];
+  plant_->show({heard.sample.places.data(), static_cast<std::size_t>(plant_->placeCount())},
+               {heard.sample.rates.data(), static_cast<std::size_t>(plant_->rateCount())});
+  haptics::TickState& state = *state_;
+  ++state.tick;
+  state.hand = {isHeard(0) ? newest_[0].sample.hand : plant_->fixedPoint(0), {}, true};
+  state.device.valid = true;
+  state.trial = heard.trial;
+  state.phase = static_cast<trial::Phase>(heard.phase);
+  state.massCount = plant_->massCount();
+  plant_->observe(state.hand, std::span(state.masses).first(static_cast<std::size_t>(state.massCount)));
+  state.body = plant_->body();
+}
+
+double LookerOn::apart(int station) const {
+  if (first_ < 0 || !isHeard(station)) return 0;
+  const auto count = static_cast<std::size_t>(plant_->placeCount());
+  return plant_->distanceBetween({newest_[static_cast<std::size_t>(first_)].sample.places.data(), count},
+                                 {newest_[static_cast<std::size_t>(station)].sample.places.data(), count});
+}
+
+}  // namespace reachlab::network

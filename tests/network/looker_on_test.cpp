@@ -1,0 +1,95 @@
+#include "network/station/looker_on.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "sim/record/append_file.h"
+#include "tests/record/made_run.h"
+
+// Who only looks on, with the test in the endpoint's place.
+namespace reachlab::network {
+namespace {
+
+class Looker : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string endpoint = folder_ / "endpoint";
+    record::writeFileAtomically(endpoint, "#!/bin/sh\nexec sleep 60\n");
+    ASSERT_EQ(::chmod(endpoint.c_str(), 0700), 0);
+    StationSetup setup;
+    setup.line.endpoint = endpoint;
+    setup.wait = 0.1;
+    looker_ = std::make_unique<LookerOn>(setup, experiment_);
+  }
+  void TearDown() override { (void)looker_->line().finish(); }
+  LineMemory& memory() { return looker_->line().memory(); }
+  void hear(std::size_t station, double place, double hand) {
+    HeardState heard;
+    heard.trial = 3;
+    heard.phase = static_cast<std::uint8_t>(trial::Phase::Moving);
+    heard.sample.sequence = ++sequence_;
+    heard.sample.hand = {hand, 0, 0};
+    for (std::size_t i = 0; i < 5; ++i) heard.sample.places[i] = place;
+    ASSERT_TRUE(memory().in[station - 1].tryPush(heard));
+  }
+  const record::TemporaryFolder folder_{"looker"};
+  const experiment::CompiledExperiment experiment_{experiment::readExperiment("chain-two-hands")};
+  std::unique_ptr<LookerOn> looker_;
+  std::uint32_t sequence_ = 0;
+};
+
+TEST_F(Looker, SeesTheConductorsCopyAndEveryHand) {
+  EXPECT_EQ(looker_->state(), nullptr);
+  hear(1, 0, -0.09);
+  (void)looker_->poll();
+  ASSERT_NE(looker_->state(), nullptr);
+  EXPECT_NEAR(looker_->state()->masses[4].r.x, -0.1, 1e-9) << "the first that is heard, until one conducts";
+  StationCard card;
+  card.station = 2, card.conductor = true;
+  ASSERT_TRUE(memory().cardsIn.tryPush(card));
+  hear(2, M_PI, 0.02);
+  (void)looker_->poll();
+  const haptics::TickState& state = *looker_->state();
+  EXPECT_EQ(state.trial, 3);
+  EXPECT_EQ(state.phase, trial::Phase::Moving);
+  EXPECT_EQ(state.massCount, 5);
+  EXPECT_NEAR(state.masses[0].r.x, 0, 1e-9);
+  EXPECT_EQ(state.hand.position.x, -0.09);
+  EXPECT_FALSE(looker_->hands().known[0]);
+  EXPECT_TRUE(looker_->hands().known[1]);
+  EXPECT_EQ(looker_->hands().place[1].x, 0.02);
+  EXPECT_NEAR(looker_->apart(1), 0.1, 1e-9);
+}
+
+TEST_F(Looker, SendsNothingAndSaysOnceThatNobodyIsThere) {
+  std::string problem;
+  int told = 0;
+  for (int i = 0; i < 50; ++i) {
+    if (const LookerNews news = looker_->poll(); !news.problem.empty()) problem = news.problem, ++told;
+    ::usleep(5000);
+  }
+  EXPECT_EQ(problem, "no station was heard within 0 s");
+  EXPECT_EQ(told, 1);
+  OwnState state;
+  LineEvent event;
+  EXPECT_FALSE(memory().out.tryPop(state));
+  EXPECT_FALSE(memory().eventsOut.tryPop(event));
+}
+
+TEST_F(Looker, HearsHowTrialsEnd) {
+  LineEvent event;
+  event.station = 2, event.kind = EventKind::Ended, event.trial = 4, event.outcome = trial::Outcome::Success, event.apart = 2e-4;
+  ASSERT_TRUE(memory().eventsIn.tryPush(event));
+  event.kind = EventKind::Finish;
+  ASSERT_TRUE(memory().eventsIn.tryPush(event));
+  const LookerNews news = looker_->poll();
+  ASSERT_EQ(news.ended.size(), 1u);
+  EXPECT_EQ(wordsOf(news.ended[0]), "station 2: trial 4 success, copies apart 0.200 mm RMS");
+  EXPECT_TRUE(news.finished);
+}
+
+}  // namespace
+}  // namespace reachlab::network
