@@ -226,9 +226,18 @@ class Pair:
         check("outcome=" in self.text(side + ".out") and "peer_lost" not in self.text(side + ".out"),
               f"{side}: {self.text(side + '.out').strip().splitlines()[:1]}")
 
+    def trials(self, side):
+        """Trial -> (whole, share of its ticks that this computer missed)."""
+        with open(glob.glob(self.path(f"{side}/sub-*/ses-*/motion/*_events.tsv"))[0]) as file:
+            return {int(row["trial"]): (row["outcome"] in ("success", "failure"), float(row["missed_ticks"]) / (1e3 * float(row["elapsed_s"])))
+                    for row in csv.DictReader(file, delimiter="\t") if row["elapsed_s"] != "n/a"}
+
     def check_together(self, side, bound):
-        """Whole trials only: one that ended early proves nothing."""
-        whole = {int(found[1]) for found in re.finditer(r"^trial=(\d+) outcome=(?:success|failure)", self.text(side + ".out"), re.M)}
+        """Whole trials only: one that ended early proves nothing. Nor does one in which a computer stood still: its copy is then late by that."""
+        MOST_MISSED = 0.01
+        both = [self.trials(each) for each in ("left", "right")]
+        known = [trial for trial in both[0] if trial in both[1] and all(trials[trial][0] for trials in both)]
+        whole = {trial for trial in known if all(trials[trial][1] <= MOST_MISSED for trials in both)}
         apart = {}
         for note in self.log(side).notes():
             if found := re.match(r"trial (\d+): copies apart ([\d.e+-]+) m RMS", note):
@@ -236,6 +245,9 @@ class Pair:
         judged = sorted(whole & set(apart))
         check(judged and all(0 < apart[trial] <= bound for trial in judged),
               f"{side}: {len(judged)} whole trials, copies apart {', '.join(f'{apart[trial]:.3f}' for trial in judged)} mm RMS, at most {bound}")
+        for trial in sorted(set(known) - whole):
+            print(f"        {side}: trial {trial} not judged: {100 * both[0][trial][1]:.1f} and {100 * both[1][trial][1]:.1f} % of the ticks missed, "
+                  f"{apart.get(trial, 0):.3f} mm")
         forces = self.forces(side)
         check(len(forces) >= len(self.log(side).times) - 2 and 0.1 < max(forces.values()) <= 12,
               f"{side}: force at most {max(forces.values()):.2f} of 12 N at each of {len(forces)} ticks")
