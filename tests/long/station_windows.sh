@@ -1,7 +1,7 @@
 #!/bin/bash
 # Two windows on one machine move the five masses from both ends, under a virtual display with a window manager: at first two simulated people,
-# until two trials have succeeded; then the conductor's hand is the mouse, moved by real events, and the other's a simulated partner. Both logs are
-# computed again, and made into one. Last the partner's window is closed, and the conductor's arms nothing and says why. Prints what came of it;
+# until two trials have succeeded; a third window looks on for a trial. Then the conductor's hand is the mouse, moved by real events along the way of
+# the simulated person's, and the other's a simulated partner, until a trial has succeeded. Both logs are computed again, and made into one. Last the partner's window is closed, and the conductor's arms nothing and says why. Prints what came of it;
 # exits 1 when something is not as it should be.
 #   tests/long/station_windows.sh [BUILD [PICTURES]]   PICTURES: a folder for pictures on the way
 set -euo pipefail
@@ -85,7 +85,25 @@ until [[ $(outcomes 1 success) -ge 2 || $tries -ge 8 ]]; do
 done
 told simulated
 check "two trials succeed" test "$(outcomes 1 success)" -ge 2
+
+# A third window looks on: it sees them move, and nothing of it is recorded.
+before=$(outcomes 1 "$all")
+XDG_CONFIG_HOME=$work/config3 "$build/gui/reachlab" "$work/chain-two-hands.json" --look-on --insecure --interface lo --peer 127.0.0.1 \
+  --domain $(($$ % 230)) --data "$work/data3" 2> "$work/said3" & looker=$!
+seen=
+for _ in $(seq 100); do seen=$(xdotool search --onlyvisible --name 'looking on' 2> /dev/null | head -1 || true); [[ -n $seen ]] && break; sleep 0.2; done
+check "a third window looks on" test -n "$seen"
+sleep 5
+key space
+sleep 2.2
+[[ -z $pictures || -z $seen ]] || import -silent -window "$seen" -depth 8 PNG24:"$pictures/2-looking-on.png"
+check "a trial that is looked at ends at both stations" ended $((before + 1))
+sleep 1
+[[ -z $pictures || -z $seen ]] || import -silent -window "$seen" -depth 8 PNG24:"$pictures/2-looked-on.png"
+kill $looker; wait $looker 2> /dev/null || true
+check "who looks on records nothing" test ! -e "$work/data3"
 close_run simulated
+/usr/bin/python3 tests/long/mouse_reach.py way "$work/data1" "$work/way"
 picture 3-run-ended
 kill $first $partner; wait $first $partner 2> /dev/null || true
 rm -r "$work"/data[12]
@@ -111,35 +129,24 @@ P
 )"
 echo "masses at $start, target at $target, row $row of the conductor's window"
 
-# drag FROM TO SECONDS: a reach as a person makes it, by minimum jerk.
-drag() {
-  xdotool $(/usr/bin/python3 - "$1" "$2" "$3" << 'P'
-import sys
-start, to, seconds = float(sys.argv[1]), float(sys.argv[2]), float(sys.argv[3])
-steps, at, words = 65, 0, []
-for i in range(1, steps + 1):
-    s = i / steps
-    next = round((to - start) * s**3 * (10 - 15 * s + 6 * s * s))
-    words += ["mousemove_relative", "--", str(next - at), "0"] if next != at else []
-    words += ["sleep", f"{seconds / steps:.4f}"]
-    at = next
-print(*words)
-P
-)
-}
+reach() { /usr/bin/python3 tests/long/mouse_reach.py "$@"; }
 xdotool windowactivate --sync "$conductor" mousemove --window "$conductor" "$start" "$row" mousedown 1
-for tries in 1 2; do
+tries=0
+until [[ $(outcomes 1 success) -ge 1 || $tries -ge 5 ]]; do
+  tries=$((tries + 1))
+  sleep 1
   xdotool key --window "$conductor" space
-  sleep 3
-  (sleep 0.7; for shot in a b c; do sleep 0.3; picture "4-mouse-$tries-$shot"; done) &
+  check "trial $tries begins" reach go "$work/data1" $tries
+  (for shot in a b c; do sleep 0.4; picture "4-mouse-$tries-$shot"; done) &
   shots=$!
-  drag "$start" "$target" 1.2
+  reach drag "$work/way" "$start" "$target"
   check "trial $tries ends at both stations" ended $tries
   wait $shots
   picture "5-after-$tries"
-  drag "$target" "$start" 1.5
+  reach back "$start" "$target"
 done
 xdotool mouseup 1
+check "a trial with the mouse succeeds" test "$(outcomes 1 success)" -ge 1
 told mouse
 
 # The partner's window is closed: the conductor's says who is missing, and arms nothing.
