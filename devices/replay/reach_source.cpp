@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "devices/options.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 namespace {
@@ -54,7 +55,9 @@ std::vector<std::string> reachFiles(const std::string& path) {
     std::sort(files.begin(), files.end());
     return files;
   }
-  if (!fs::exists(path, error)) throw ResourceError(path + ": no such file or folder to replay");
+  if (!fs::exists(path, error)) 
+    throw ResourceError(path + ": no such file or folder to replay; the reaches that come with the program are in " +
+                        experiment::resourceFolder() + "/reaches");
   return {path};
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "test_paths.h"
 
 namespace reachlab::devices {
@@ -121,7 +122,12 @@ TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
 
 TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(readReach((folder / "missing.csv").string()), ResourceError);
-  EXPECT_THROW(makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}), ResourceError);
+  try {
+    makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
+    FAIL();
+  } catch (const ResourceError& error) {
+    EXPECT_NE(std::string(error.what()).find(experiment::resourceFolder() + "/reaches"), std::string::npos) << error.what();
+  }
   EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
   EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), FaultError) << "one place is no reach";
