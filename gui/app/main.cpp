@@ -50,7 +50,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   r.device = "mouse";
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
   app.add_option("experiment", r.what, "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]; or what was recorded: a dataset, a session, a log");
-  app.add_option("--device", r.device, "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER [mouse]");
+  app.add_option("--device", r.device, "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [mouse]");
   app.add_option("--instrument", r.instruments,
                  "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
       ->expected(1)
@@ -108,7 +108,7 @@ int run(const Arguments& arguments, int argc, char** argv) {
   reachlab::gui::widgets::applyTheme(application);
   if (!arguments.pictures.empty()) {
     const int drawn = reachlab::gui::scene::drawPictures(QString::fromStdString(arguments.pictures));
-    std::printf("%d pictures in %s\n", drawn, arguments.pictures.c_str());
+    std::printf("%d pictures and their contact sheets in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
   reachlab::session::SessionRequest request = arguments.request;
