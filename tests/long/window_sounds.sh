@@ -30,7 +30,8 @@ listen() {
   until [[ -n $id ]]; do sleep 0.3; id=$(xdotool search --onlyvisible --name 'Reachlab$' 2> /dev/null | tail -1 || true); done
   xdotool windowactivate --sync "$id"
   sleep 4
-  parec -d t.monitor --format=s16le --rate=44100 --channels=1 > "$work/$1.raw" & ear=$!
+  # With little latency: what a null sink rendered ahead, as silence, its monitor does not take back when a sound begins.
+  parec --latency-msec=10 -d t.monitor --format=s16le --rate=44100 --channels=1 > "$work/$1.raw" & ear=$!
   until [[ -s $work/$1.raw ]]; do sleep 0.2; done  # it listens
   for _ in $(seq "${6:-1}"); do
     xdotool key --clearmodifiers space
