@@ -186,7 +186,13 @@ TEST_F(Inspecting, MarksAreMovedByTheMouseAndStandBesideTheRecording) {
   const std::string before = record::readWholeFile(log());
   const analyze::Movement move = page_.inspection()->signals[0].movement;
   const double first = page_.inspection()->input.trials[0].first;
-  QPoint from = page_.plot().pixelOf(0, 0), to = page_.plot().pixelOf(0.12, 0);
+  QPoint from, to;
+  ASSERT_TRUE(QTest::qWaitFor([&] {  // a busy machine is still laying the axes out
+    const QPoint known = from, knownTo = to;
+    from = page_.plot().pixelOf(0, 0), to = page_.plot().pixelOf(0.12, 0);
+    QTest::qWait(60);
+    return from == known && to == knownTo && page_.plot().pixelOf(0, 0) == from && page_.plot().pixelOf(0.12, 0) == to;
+  }, 10'000));
   const double dragged = page_.plot().timeAt(to) - page_.plot().timeAt(from);
   QWidget* canvas = page_.plot().childAt(from);
   from = canvas->mapFrom(&page_.plot(), from);
