@@ -192,6 +192,7 @@ std::string drawStudy(const StudyTables& tables) {
   if (tables.shares.empty()) return figure::renderSvg(page);
   for (const StudyObject object : kObjects) {
     figure::Panel share = panelOf(fmt::format("{}: random set-ups", nameOf(object)), "Stable (%)", figure::Scale::Linear);
+    share.y.from = 0, share.y.to = 100;
     int number = 0;
     for (const Coupling coupling : kCouplings) {
       figure::Series line = seriesOf(coupling, number++);
