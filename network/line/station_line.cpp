@@ -314,8 +314,10 @@ std::uint64_t StationSink::repeatedNow() const noexcept {
 
 bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept {
   fillLines(copy_, lines_.data());
+  const bool gives = !givesNoMore_.load(std::memory_order_acquire);
+  if (!gives) gaveLast_.store(true, std::memory_order_release);
   if (const double wanted = frequency_.load(std::memory_order_acquire);
-      wanted != frequencyNow_ && given_->tryPush({state.tick, GivenSample::kFrequency, wanted, {}})) {
+      gives && wanted != frequencyNow_ && given_->tryPush({state.tick, GivenSample::kFrequency, wanted, {}})) {
     frequencyNow_ = wanted;
     copy_.setFrequency(wanted);
   }
@@ -354,7 +356,7 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
     while (memory_.in[static_cast<std::size_t>(station)].tryPop(heard)) {
       seen_.place[static_cast<std::size_t>(station)] = heard.sample.hand;
       seen_.known[static_cast<std::size_t>(station)] = came = true;
-      if (heard.trial != trial || trial < 1) continue;
+      if (!gives || heard.trial != trial || trial < 1) continue;
       copy_.take(peer, heard.sample, heard.roundTrip);
       if (!given_->tryPush({state.tick, peer, heard.roundTrip, heard.sample})) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
     }

@@ -136,6 +136,11 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   /// Controlling thread, between trials: omega_o [rad/s] from the next tick on.
   void synchroniseBy(double frequency) noexcept { frequency_.store(frequency, std::memory_order_release); }
 
+  /// Controlling thread: from the next tick on nothing is given to the copy any more, so that the log can have all that was.
+  void stopGiving() noexcept { givesNoMore_.store(true, std::memory_order_release); }
+  /// The haptic thread has heard of it.
+  bool hasStoppedGiving() const noexcept { return gaveLast_.load(std::memory_order_acquire); }
+
   /// Controlling thread, now and then: what was given since, as the payload of a record; empty: nothing. Only `places` coordinates are kept.
   /// The first says whose log it is, be anything given or not.
   std::vector<std::uint8_t> takeGiven();
@@ -177,6 +182,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   std::atomic<std::uint64_t> fadedTicks_{0}, repeated_{0};
   std::uint64_t repeatedBefore_ = 0;
   std::atomic<std::int32_t> trialsBefore_{0};
+  std::atomic<bool> givesNoMore_{false}, gaveLast_{false};
   bool said_ = false;  // whose log it is
   OtherHands seen_;    // the haptic thread's
   TripleBuffer<OtherHands> hands_;

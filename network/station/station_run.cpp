@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <thread>
 
 #include "base/fault.h"
 #include "base/os.h"
@@ -341,7 +342,7 @@ std::string StationRun::close() {
   if (closed_) return {};
   std::string said;
   if (run_ != nullptr) {
-    keep();
+    keepTheLast();
     sayGoodbye();
     run_->note(fmt::format("network: {} bytes of states came twice or after newer ones and were dropped; {} samples found no room",
                            line_->memory().discardedBytes.load(), line_->memory().ringsFull.load()));
@@ -351,6 +352,14 @@ std::string StationRun::close() {
   closed_ = true;
   if (const std::string fault = line_->finish(); !fault.empty()) said += fault + "\n";
   return said;
+}
+
+// The loop runs until the log is closed: what it gave the copy after the last look would be missing in the log.
+void StationRun::keepTheLast() {
+  constexpr int kLooks = 50;  // milliseconds; a loop that hangs gives nothing
+  sink_->stopGiving();
+  for (int look = 0; look < kLooks && !sink_->hasStoppedGiving(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  keep();
 }
 
 // What follows has to be done whether anybody hears this or not.

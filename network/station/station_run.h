@@ -104,6 +104,7 @@ class StationRun {
   void follow(StationNews& news);
   void tellEnd(const haptics::ConductedTrial& trial);
   void tell(EventKind kind);
+  void keepTheLast();
   void sayGoodbye();
   void takeEvents(StationNews& news);
   bool obey(const LineEvent& event, StationNews& news);

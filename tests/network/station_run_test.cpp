@@ -47,6 +47,7 @@ class OneStation : public testing::Test {
     request.place.data = folder_ / "data";
     request.seed = 1;
     request.trials = 3;
+    request.everyTick = true;
     StationSetup setup;
     setup.line.station = number;
     setup.line.conductor = conductor;
@@ -218,6 +219,33 @@ TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
   EXPECT_TRUE(refused.problem.starts_with("no trial was armed: simulated with limp hands over this line (round trip 100.0 ms")) << refused.problem;
   EXPECT_FALSE(sent(EventKind::Arm));
   EXPECT_FALSE(station_->isArming());
+}
+
+// The loop runs on while the log is being closed, and samples come on.
+TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
+  open(2, false);
+  showCard(1, true);
+  tell(1, EventKind::Arm, 1);
+  EXPECT_TRUE(pollUntil(begun).begun);
+  std::jthread others([this](const std::stop_token& over) {
+    HeardState heard;
+    heard.trial = 1;
+    for (std::uint32_t sequence = 1; !over.stop_requested(); ++sequence) {
+      heard.roundTrip = 0.01 + 1e-5 * (sequence % 100);
+      heard.sample.sequence = sequence;
+      heard.sample.time = 1e-9 * static_cast<double>(os::now());
+      (void)memory().in[0].tryPush(heard);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  (void)pollUntil(never, 0.3);
+  (void)station_->close();
+  others.request_stop();
+  others.join();
+  const record::RunLog log = record::RunLog::open(run_->logPath());
+  EXPECT_GT(givenSamples(log).size(), 100u);
+  const record::Replay replay = replayStation(log);
+  EXPECT_TRUE(replay.identical()) << replay.firstDifference;
 }
 
 TEST_F(OneStation, TheConductorsOutcomeIsKeptBesideWhatTheCopyHereCameTo) {
