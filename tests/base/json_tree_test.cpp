@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/fault.h"
+
 namespace reachlab {
 namespace {
 
