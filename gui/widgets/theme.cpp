@@ -90,12 +90,12 @@ void applyTheme(QApplication& application) {
       " border-radius: 2px; background: %5; }"
       "QPushButton { padding: 5px 14px; }"
       "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; }"
-      "QPushButton[role=\"go\"]:disabled { background: %6; }"
+      "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; }"
       "QStatusBar { background: %7; } QStatusBar QLabel { color: %4; padding: 0 6px; }"
       "QSplitter::handle { background: %1; }")
                                 .arg(either("#d3d8e0", "#262c37"), either("#8a94a3", "#46505f"), either("#a01810", "#ff9d8c"),
                                      either("#39424f", "#a8b5c7"), either("#ffffff", "#11151c"), either("#b9c0ca", "#2d333f"),
-                                     either("#e1e5eb", "#181c23")));
+                                     either("#e1e5eb", "#181c23"), toQColor(kNeutral).name()));
 }
 
 }  // namespace reachlab::gui::widgets
