@@ -105,6 +105,7 @@ TEST_F(Backups, AreCheckedBySha256sum) {
 TEST_F(Backups, CopyOnlyWhatIsNew) {
   (void)backUp(dataset_, backup_);
   EXPECT_EQ(backUp(dataset_, backup_).copiedFiles, 0u);
+  EXPECT_EQ(backUp(dataset_ + "/", backup_ + "/").copiedFiles, 0u) << "a folder is the same one with a slash";
   addRun(2);
   const BackupReport report = backUp(dataset_, backup_);
   EXPECT_EQ(report.runs, 2u);

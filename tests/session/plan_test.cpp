@@ -1,5 +1,6 @@
 #include "sim/session/plan.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,6 +147,31 @@ TEST(BlockOrder, OfMoreThanFourConditionsIsALatinSquare) {
   EXPECT_GT(mixed.size(), 2u) << "what only begins with a number is a name";
   for (const char* subject : {"0", "00", "000", "0000", "00000", "000000"}) zeros.insert(blockOrder(plan, subject, 0));
   EXPECT_GT(zeros.size(), 1u) << "subjects are counted from 1";
+}
+
+TEST(BlockOrder, OfTwoConditionsIsTurnedRoundForEverySecondSubject) {
+  const Plan plan = parsePlan(R"({ "schema_version": 1, "order_seed": 1, "counterbalance": "permute", "trials": 1, "blocks": [
+      { "experiment": "chain-slow" }, { "experiment": "chain-fast" } ] })",
+                              "p.json");
+  const std::vector<int> first = blockOrder(plan, "01", 0), second = blockOrder(plan, "02", 0);
+  EXPECT_EQ(first, (std::vector<int>{second[1], second[0]}));
+  EXPECT_EQ(blockOrder(plan, "03", 0), first);
+}
+
+// What a subject has begun with is gone on with, by a later program too. Each seed has the six orders in turns of its own.
+TEST(BlockOrder, OfASeedAndSubjectIsForEver) {
+  const auto orders = [](int seed) {
+    const Plan plan = parsePlan(fmt::format(R"({{ "schema_version": 1, "order_seed": {}, "counterbalance": "permute", "trials": 1, "blocks": [
+        {{ "experiment": "chain-slow" }}, {{ "experiment": "chain-moderate" }}, {{ "experiment": "chain-fast" }} ] }})",
+                                            seed),
+                                "p.json");
+    std::string all;
+    for (const char* subject : {"01", "02", "03", "04", "05", "06"})
+      for (const int block : blockOrder(plan, subject, 0)) all += static_cast<char>('0' + block);
+    return all;
+  };
+  EXPECT_EQ(orders(5), "012102201210120021");
+  EXPECT_EQ(orders(6), "120012102201210021");
 }
 
 TEST(BlockOrder, OfADayHasTheBlocksOfEveryDayToo) {
