@@ -205,6 +205,8 @@ TEST_F(Backups, LieElsewhere) {
   EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
   backup_ = dataset_ + "/copy";
   EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
+  dataset_ += "/";
+  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos) << "with a slash at its end too";
   std::ofstream(folder_ / "file") << "no folder";
   backup_ = folder_ / "file";
   EXPECT_NE(refusal(), "made");

@@ -409,6 +409,9 @@ TEST_F(InRealTime, TheTimingIsCheckedBeforeTheFirstTrialAndTheVerdictIsKept) {
     while (!run.poll()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_TRUE(run.timingVerdict());
     EXPECT_EQ(run.timingVerdict()->good, steady) << run.timingVerdict()->sentence;
+    for (int looks = 0; looks < 20; ++looks, std::this_thread::sleep_for(std::chrono::milliseconds(1))) EXPECT_FALSE(run.poll());
+    EXPECT_FALSE(run.underWay()) << "one trial was asked for, and the next is not put up by itself";
+    EXPECT_EQ(run.trialsLeft(), 2u);
     while (run.runTrial(kNeverStop)) {}
     run.finish();
     const record::RunLog log = logs().at(steady ? 0 : 1);
@@ -419,6 +422,37 @@ TEST_F(InRealTime, TheTimingIsCheckedBeforeTheFirstTrialAndTheVerdictIsKept) {
     EXPECT_EQ(std::count_if(events.begin(), events.end(), isVerdict), 1);
     EXPECT_TRUE(record::replayRun(log).identical());
   }
+}
+
+// Says its last word when it is closed, as one does that sends a mark at the end.
+class LastWord final : public record::InstrumentLink {
+ public:
+  bool onTick(const haptics::TickState&, trial::Command, std::uint32_t) noexcept override { return true; }
+  void announce(std::int32_t, const trial::PlannedTrial&) override {}
+  void awaitTrial(std::int32_t) override {}
+  void close() override { events_.push_back({.kind = record::EventKind::Instrument, .text = "the last word"}); }
+  std::string names() const override { return "last-word"; }
+  void begin(const record::RunConfiguration&) override { events_.push_back({.kind = record::EventKind::Instrument, .text = "the first"}); }
+  std::vector<record::RecordedEvent> takeEvents() override { return std::exchange(events_, {}); }
+  std::vector<std::string> takeWarnings() override { return {}; }
+
+ private:
+  std::vector<record::RecordedEvent> events_;
+};
+
+TEST_F(InRealTime, WhatAnInstrumentSaysAtItsEndIsInTheLog) {
+  LastWord instrument;
+  RecordedRunOptions with = options(std::make_shared<Stalls>(std::vector<Gaps>(3)));
+  with.instruments = &instrument;
+  RecordedRun run(block(), goodHand(), with);
+  ASSERT_TRUE(run.runTrial(kNeverStop));
+  run.finish();
+  std::string told;
+  const record::RunLog log = logs().at(0);
+  for (const record::RecordedEvent& event : log.events())
+    if (event.kind == record::EventKind::Instrument) told += event.text + "; ";
+  EXPECT_EQ(told, "the first; the last word; ");
+  EXPECT_EQ(log.configuration().instruments, "last-word");
 }
 
 TEST_F(InRealTime, WhoAbortsDoesNotWaitForTheCheckAndWhoStopsNeither) {
