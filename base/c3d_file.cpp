@@ -101,7 +101,8 @@ class Parameters {
     text_ += name;
     put16(text_, follows);
   }
-  void open(const std::string& name, int type, const std::vector<std::size_t>& dimensions, std::size_t bytes, const std::string& description) {
+  void open(const std::string& name, int type, const std::vector<std::size_t>& dimensions, std::size_t bytes,
+            const std::string& description) {
     begin(name, group_, 2 + 1 + 1 + dimensions.size() + bytes + 1 + description.size());
     text_ += static_cast<char>(type);
     text_ += static_cast<char>(dimensions.size());
@@ -115,7 +116,7 @@ class Parameters {
   int group_ = 0;
 };
 
-std::vector<std::string> each(const std::vector<C3dLabel>& labels, std::string C3dLabel::* member) {
+std::vector<std::string> each(const std::vector<C3dLabel>& labels, std::string C3dLabel::*member) {
   std::vector<std::string> values;
   for (const C3dLabel& label : labels) values.push_back(label.*member);
   return values;
@@ -327,7 +328,8 @@ class Reader {
       const auto whole = [this](const Parameter& p) { return word(p.data.data()) | word(p.data.data() + 2) << 16; };
       if (whole(*end) >= whole(*begin)) frames = std::max(frames, whole(*end) - whole(*begin) + 1);
     }
-    if (const auto many = number("POINT:LONG_FRAMES"); many && *many >= 1 && *many < 2e9) frames = std::max(frames, static_cast<std::size_t>(*many));
+    if (const auto many = number("POINT:LONG_FRAMES"); many && *many >= 1 && *many < 2e9)
+      frames = std::max(frames, static_cast<std::size_t>(*many));
     return frames;
   }
 
@@ -353,7 +355,8 @@ class Reader {
     need(file.rate > 0 && file.rate < 1e6 && std::isfinite(file.rate), fmt::format("has {} frames a second", file.rate), "more than 0");
     std::vector<std::string> labels, units;
     addTexts(find("POINT:LABELS"), labels);
-    for (int part = 2; find(fmt::format("POINT:LABELS{}", part)) != nullptr; ++part) addTexts(find(fmt::format("POINT:LABELS{}", part)), labels);
+    for (int part = 2; find(fmt::format("POINT:LABELS{}", part)) != nullptr; ++part)
+      addTexts(find(fmt::format("POINT:LABELS{}", part)), labels);
     addTexts(find("POINT:UNITS"), units);
     file.pointUnit = units.empty() ? "" : units.front();
     for (std::size_t i = 0; i < points; ++i)
@@ -367,7 +370,8 @@ class Reader {
     file.frames = frameCount();
     need(file.frames > 0, "has no frames", "at least one frame");
     need(begin >= kBlock && begin <= bytes_.size() && file.frames <= (bytes_.size() - begin) / stride,
-         fmt::format("says {} frames, and has {}", file.frames, begin <= bytes_.size() ? (bytes_.size() - begin) / stride : 0), "a whole file");
+         fmt::format("says {} frames, and has {}", file.frames, begin <= bytes_.size() ? (bytes_.size() - begin) / stride : 0),
+         "a whole file");
     for (std::size_t frame = 0; frame < file.frames; ++frame)
       for (std::size_t i = 0; i < points; ++i) {
         const unsigned char* at = &bytes_[begin + frame * stride + 4 * width * i];

@@ -21,8 +21,8 @@ struct C3dEvent {
 /// A C3D file (biomechanics' common format, c3d.org): points in space and analog channels at equal times, here one analog sample a frame
 /// when written, any number when read. Plain value.
 struct C3dFile {
-  double rate = 100;         // [1/s] frames
-  std::string pointUnit;     // "mm", "m"
+  double rate = 100;      // [1/s] frames
+  std::string pointUnit;  // "mm", "m"
   std::vector<C3dLabel> points, analogs;
   std::vector<C3dEvent> events;
   std::vector<std::pair<std::string, std::string>> notes;  // texts by upper-case name, written as the group REACHLAB; not read

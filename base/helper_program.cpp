@@ -19,8 +19,8 @@ std::string findHelperProgram(const std::string& name, const std::string& progra
     for (const char* folder : {"cli", "gui"}) places.push_back(tree / folder / name);
   for (const fs::path& place : places)
     if (access(place.c_str(), X_OK) == 0) return place.string();
-  throw ResourceError(fmt::format("{}: {}, {}, is neither {} nor {}; install Reachlab whole, or build the target {}", program,
-                                  name, what, places[0].lexically_normal().string(), places[1].lexically_normal().string(), name));
+  throw ResourceError(fmt::format("{}: {}, {}, is neither {} nor {}; install Reachlab whole, or build the target {}", program, name, what,
+                                  places[0].lexically_normal().string(), places[1].lexically_normal().string(), name));
 }
 
 }  // namespace reachlab

@@ -12,7 +12,8 @@ class TableText {
   /// `missing` stands for what is not known (a number that is not finite).
   TableText(char separator, std::string missing) : separator_(separator), missing_(std::move(missing)) {}
 
-  TableText& cell(std::string_view text);  // quoted for CSV where it must be, and guarded by ' where it begins with = + - @; tabs and line ends become spaces in TSV
+  /// Quoted for CSV where it must be, and guarded by ' where it begins with = + - @; tabs and line ends become spaces in TSV.
+  TableText& cell(std::string_view text);
   TableText& cell(const char* text) { return cell(std::string_view(text)); }
   TableText& cell(const std::string& text) { return cell(std::string_view(text)); }
   TableText& number(double value);

@@ -288,7 +288,8 @@ void run(const AnalyzeOptions& o) {
   const analyze::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o)};
   const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
   analyze::AnalysisFiles files = atOption("--out", [&] { return analyze::writeAnalysis(study, dataset, header, out, recovery); });
-  for (std::string& table : atOption("--out", [&] { return analyze::writeHandsTable(dataset, out); })) files.tables.push_back(std::move(table));
+  for (std::string& table : atOption("--out", [&] { return analyze::writeHandsTable(dataset, out); }))
+    files.tables.push_back(std::move(table));
   if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
   if (o.json) fmt::print("{}", summaryJson(study, dataset, files, recovery));
   else printSummary(study, dataset, files, recovery);

@@ -14,12 +14,14 @@ struct Options {
 
 void backUp(const Options& o) {
   const session::BackupReport report = session::backUp(o.dataset, o.backup);
-  fmt::print("{}: all {} finished runs are there; {} files, {} bytes copied now and read back equal{}\n", o.backup, report.runs, report.copiedFiles,
-             report.copiedBytes, report.pending > 0 ? fmt::format("; {} still being recorded", report.pending) : "");
+  fmt::print("{}: all {} finished runs are there; {} files, {} bytes copied now and read back equal{}\n", o.backup, report.runs,
+             report.copiedFiles, report.copiedBytes, report.pending > 0 ? fmt::format("; {} still being recorded", report.pending) : "");
   if (!o.check) return;
   const std::vector<std::string> faults = session::faultsOfBackup(o.backup);
   for (const std::string& fault : faults) fmt::print(stderr, "{}\n", fault);
-  if (!faults.empty()) throw ResourceError(fmt::format("{}: {} of {} files are not what was copied", o.backup, faults.size(), session::filesOfBackup(o.backup)));
+  if (!faults.empty())
+    throw ResourceError(
+        fmt::format("{}: {} of {} files are not what was copied", o.backup, faults.size(), session::filesOfBackup(o.backup)));
   fmt::print("{}: every byte of {} files is what was copied\n", o.backup, session::filesOfBackup(o.backup));
 }
 

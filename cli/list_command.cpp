@@ -40,8 +40,7 @@ Json listExperiments() {
   std::vector<std::string> names = experiment::shippedExperiments();
   const std::vector<std::string> forTwo = experiment::shippedForTwoHands();
   names.insert(names.end(), forTwo.begin(), forTwo.end());
-  for (const std::string& name : names)
-    rows.push_back({{"name", name}, {"description", inShort(experiment::readExperiment(name))}});
+  for (const std::string& name : names) rows.push_back({{"name", name}, {"description", inShort(experiment::readExperiment(name))}});
   return rows;
 }
 

@@ -37,10 +37,10 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "reach " REACHLAB_VERSION);
   app.require_subcommand(1);
   app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
-  for (auto* add : {addListCommand, addValidateCommand, addRunCommand, addSimulateCommand, addPredictCommand, addAnalyzeCommand,
-                    addShowCommand, addReplayCommand, addExportCommand, addBackupCommand, addRecoverCommand, addConstraintCommand,
-                    addBenchCommand, addStationCommand, addMergeCommand, addPeersCommand, addStabilityCommand, addVelocityCommand,
-                    addLatencyCommand, addStudyCommand})
+  for (auto* add : {addListCommand,    addValidateCommand,   addRunCommand,      addSimulateCommand, addPredictCommand,
+                    addAnalyzeCommand, addShowCommand,       addReplayCommand,   addExportCommand,   addBackupCommand,
+                    addRecoverCommand, addConstraintCommand, addBenchCommand,    addStationCommand,  addMergeCommand,
+                    addPeersCommand,   addStabilityCommand,  addVelocityCommand, addLatencyCommand,  addStudyCommand})
     add(app, exitCode);
   for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   return exitCodeOf(app, [&] {

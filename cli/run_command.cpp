@@ -37,13 +37,16 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("experiment", r->what, "Experiment or session plan: a file, or the name of a shipped one")->required();
   const auto hands = std::make_shared<std::vector<std::string>>();
   command
-      ->add_option("--device", *hands,
-                   "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, mouse …; `reach list devices` tells all. Once for each of the experiment's hands")
+      ->add_option(
+          "--device", *hands,
+          "simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, mouse …; `reach list devices` tells all. Once for each of the experiment's hands")
       ->required()
       ->allow_extra_args(false);
-  command->add_option("--instrument", r->instruments,
-                      "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
-      ->expected(1)->take_all();
+  command
+      ->add_option("--instrument", r->instruments,
+                   "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
+      ->expected(1)
+      ->take_all();
   command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));

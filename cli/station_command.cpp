@@ -80,8 +80,8 @@ void show(const network::LookerOn& looker) {
     const network::HeardState& state = looker.newest()[i];
     const network::CopySample& sample = state.sample;
     if (sample.sequence == 0) continue;
-    fmt::print("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", i + 1, state.trial, wordOf(state.phase),
-               now - sample.time, sample.hand.x, sample.hand.y, sample.hand.z, sample.work);
+    fmt::print("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", i + 1, state.trial,
+               wordOf(state.phase), now - sample.time, sample.hand.x, sample.hand.y, sample.hand.z, sample.work);
     if (!std::exchange(first, false)) fmt::print(" apart_m={:.6f}", looker.apart(static_cast<int>(i)));
     fmt::print("\n");
   }

@@ -99,7 +99,8 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
       ->required();
   CLI::Option* device = command->add_option(
       "--device", r->device, "checks also what the experiment asks of this device: forces, stability, workspace; as for reach run");
-  command->add_flag("--json", r->json, "with --device: an array of {hand, name, verdict, asked, limit, unit, sentence, remedy}")->needs(device);
+  command->add_flag("--json", r->json, "with --device: an array of {hand, name, verdict, asked, limit, unit, sentence, remedy}")
+      ->needs(device);
   command->footer(
       "Examples:\n  reach validate my-experiment.json\n  reach validate *.json\n  reach validate chain-fast --device virtual:omni");
   command->callback([r, &exitCode] {

@@ -84,15 +84,17 @@ void requirePeriods(const Constraint& c, const std::string& key) {
       const Vec3 r = at(begin, across);
       if (!isFinite(r)) continue;
       double apart = norm(at(end, across) - r);
-      if (parameters == 2 && !(apart <= kSame * (1e-3 + norm(r)))) apart = std::fmin(apart, norm(at(end, other.lo + other.hi - across) - r));
+      if (parameters == 2 && !(apart <= kSame * (1e-3 + norm(r))))
+        apart = std::fmin(apart, norm(at(end, other.lo + other.hi - across) - r));
       if (apart <= kSame * (1e-3 + norm(r))) continue;
       const char* name = parameters == 1 ? "phi" : k == 0 ? "u" : "v";
-      throw FaultError(Fault{
-          parameters == 1 ? keyIn(key, "periodic") : keyIn(key, fmt::format("periodic[{}]", k)),
-          std::isfinite(apart)
-              ? fmt::format("is true, but r does not repeat itself: its places at {} = {:.6g} and {:.6g} are {:.3g} m apart", name, begin, end, apart)
-              : fmt::format("is true, but r has a value at {} = {:.6g} and none at {:.6g}", name, begin, end),
-          "true for a formula of that period; else false, with at_end stop or bounce"});
+      throw FaultError(
+          Fault{parameters == 1 ? keyIn(key, "periodic") : keyIn(key, fmt::format("periodic[{}]", k)),
+                std::isfinite(apart)
+                    ? fmt::format("is true, but r does not repeat itself: its places at {} = {:.6g} and {:.6g} are {:.3g} m apart", name,
+                                  begin, end, apart)
+                    : fmt::format("is true, but r has a value at {} = {:.6g} and none at {:.6g}", name, begin, end),
+                "true for a formula of that period; else false, with at_end stop or bounce"});
     }
   }
 }

@@ -13,7 +13,8 @@ class CppWriter {
  public:
   struct Names {
     std::vector<std::string> variables, parameters;  // C++ identifiers
-    std::string sinCos;                              // call for both at once, of sincos.h; empty: code that stands alone, with std::sin and its like
+    // call for both at once, of sincos.h; empty: code that stands alone, with std::sin and its like
+    std::string sinCos;
   };
   /// `roots` will be asked for by expression(). Integer powers become products in `graph`.
   CppWriter(ExpressionGraph& graph, const std::vector<int>& roots, Names names);

@@ -234,9 +234,9 @@ class Examiner {
     bool valid = false, bounded = true, settled = true;  // settled: r and r_phi have limits
     bool exact = false;                                  // the formula itself has them at the boundary
     CurvePoint limit;
-    double edge = 0;  // the last phi at which the formula is evaluated
-    double stop = 0;  // where a mass ends if it may not pass
-    double slack = 0; // [m] limits closer than this are one
+    double edge = 0;   // the last phi at which the formula is evaluated
+    double stop = 0;   // where a mass ends if it may not pass
+    double slack = 0;  // [m] limits closer than this are one
   };
   CurvePoint at(const Program& program, double phi) const {
     CurvePoint p;
@@ -496,7 +496,8 @@ class Examiner {
         const double middle = a + (b - a) / 2;
         if (!(evaluateNodes(graph_, one, shape_, &middle)[0] > 0) || !((b - a) * speed < narrow::kWay)) continue;
         const double more = 0.25 * (b - a);
-        if (!narrow.empty() && a - narrow.back().second < 4 * more + 2 * (narrow.back().second - narrow.back().first)) narrow.back().second = b + more;
+        if (!narrow.empty() && a - narrow.back().second < 4 * more + 2 * (narrow.back().second - narrow.back().first))
+          narrow.back().second = b + more;
         else narrow.push_back({a - more, b + more});
       }
       count += narrow.size();

@@ -126,7 +126,8 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
     case Op::Atan2: r = angleOver(a, b); break;
     case Op::Sinh: r = monotone(elementary::sinh); break;
     case Op::Cosh:
-      r = {contains(a, 0) ? 1.0 : std::min(elementary::cosh(a.lo), elementary::cosh(a.hi)), std::max(elementary::cosh(a.lo), elementary::cosh(a.hi))};
+      r = {contains(a, 0) ? 1.0 : std::min(elementary::cosh(a.lo), elementary::cosh(a.hi)),
+           std::max(elementary::cosh(a.lo), elementary::cosh(a.hi))};
       break;
     case Op::Tanh: r = monotone(elementary::tanh); break;
     case Op::Exp: r = monotone(elementary::exp); break;

@@ -12,7 +12,7 @@ namespace reachlab::constraints {
 namespace {
 
 constexpr double kAway = 8;
-constexpr double kPart = 0.05;  // of a tick's way: wider ones are seen by the method, and refusing is hard
+constexpr double kPart = 0.05;               // of a tick's way: wider ones are seen by the method, and refusing is hard
 constexpr int kSamples = 9, kBoxes = 20000;  // across; stretches looked at on each line
 
 double median(std::vector<double>& all) {
@@ -47,7 +47,8 @@ std::optional<NarrowBand> findNarrowBand(const Constraint& surface, const std::a
       for (const int bend : graph.differentiate(graph.differentiate(r, k), k)) excess = graph.add(excess, graph.powInt(bend, 2));
       const double centre = start[static_cast<std::size_t>(k)], other = start[static_cast<std::size_t>(1 - k)];
       const Domain& d = surface.domain[static_cast<std::size_t>(k)];
-      const double lo = d.periodic ? centre - kAway : std::max(d.lo, centre - kAway), hi = d.periodic ? centre + kAway : std::min(d.hi, centre + kAway);
+      const double lo = d.periodic ? centre - kAway : std::max(d.lo, centre - kAway),
+                   hi = d.periodic ? centre + kAway : std::min(d.hi, centre + kAway);
       int boxes = kBoxes;
       const RootSearch search = findRoots(graph, excess, shape, lo, hi, boxes, 1e-12, k, other);
       const double speed = median(speeds[static_cast<std::size_t>(k)]);

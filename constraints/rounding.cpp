@@ -8,7 +8,7 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kUnit = 0x1p-53;              // of a result, by one operation
+constexpr double kUnit = 0x1p-53;               // of a result, by one operation
 constexpr double kUnitOfFunctions = 2 * kUnit;  // of sincos.h and elementary.h
 
 struct Value {

@@ -26,7 +26,8 @@ std::string fileOf(const std::string& hand, bool several, const std::string& dat
 
 }  // namespace
 
-std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject, std::vector<std::string>& taken) {
+std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject,
+                             std::vector<std::string>& taken) {
   std::vector<std::string> hands = splitHands(device);
   const bool several = hands.size() > 1;
   for (std::string& hand : hands) {

@@ -7,7 +7,8 @@
 namespace reachlab::devices {
 
 /// The device with what is kept for it where no mapping was asked for; the files are added to `taken`.
-std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject, std::vector<std::string>& taken);
+std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject,
+                             std::vector<std::string>& taken);
 
 /// Keeps the mappings that the device is asked for with; their files, none without a mapping. Throws ResourceError.
 std::vector<std::string> keepMappings(const std::string& device, const std::string& data, const std::string& subject);

@@ -51,8 +51,8 @@ class LiveDevice::Intervals final : public haptics::RunSink {
 
 LiveDevice::LiveDevice(const std::string& spec, const experiment::CompiledExperiment& experiment)
     : device_(makeDevice(spec, experiment, 1)), intervals_(std::make_unique<Intervals>()),
-      loop_(std::make_unique<haptics::HapticLoop>(std::make_unique<haptics::TickEngine>(experiment, haptics::engineOptions(*device_)), device_,
-                                                  intervals_.get())) {
+      loop_(std::make_unique<haptics::HapticLoop>(std::make_unique<haptics::TickEngine>(experiment, haptics::engineOptions(*device_)),
+                                                  device_, intervals_.get())) {
   newest_ = loop_->engine().state();
   loop_->start();
 }

@@ -11,10 +11,10 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kLoopTicks = 0.003;     // [s] that the ticks at both ends add to the round trip
-constexpr double kRoundTripMemory = 1;   // [s]
-constexpr double kFirstWord = 0.25;      // [s] beyond which a peer is late that has said nothing yet in this trial
-constexpr double kFrequencySlope = 1;    // [rad/s] a second: a synchronisation that jumps is felt
+constexpr double kLoopTicks = 0.003;    // [s] that the ticks at both ends add to the round trip
+constexpr double kRoundTripMemory = 1;  // [s]
+constexpr double kFirstWord = 0.25;     // [s] beyond which a peer is late that has said nothing yet in this trial
+constexpr double kFrequencySlope = 1;   // [rad/s] a second: a synchronisation that jumps is felt
 
 // The experiment with this station's hand first, the others in their order.
 experiment::Experiment ownHandFirst(const experiment::Experiment& experiment, int own) {
@@ -34,15 +34,17 @@ CopySettings copySettingsFor(const experiment::Experiment& experiment) {
   return settings;
 }
 
-double synchronisationLimit(const CopySettings& settings, double roundTrip) noexcept { return settings.loopShare / (roundTrip + kLoopTicks); }
+double synchronisationLimit(const CopySettings& settings, double roundTrip) noexcept {
+  return settings.loopShare / (roundTrip + kLoopTicks);
+}
 
 CoupledCopy::CoupledCopy(const experiment::Experiment& experiment, const constraints::Constraint& constraint, int own,
                          const CopySettings& settings)
     : settings_(settings), plant_(dynamics::makeSharedPlant(ownHandFirst(experiment, own), constraint)),
       peers_(experiment.hands.size() - 1), past_(kHistory) {
   if (plant_->placeCount() > kMaxCoordinates)
-    throw RefusedError(fmt::format("an object that stations share has up to {} coordinates, and this one has {}", kMaxCoordinates,
-                                   plant_->placeCount()));
+    throw RefusedError(
+        fmt::format("an object that stations share has up to {} coordinates, and this one has {}", kMaxCoordinates, plant_->placeCount()));
 }
 
 void CoupledCopy::resetPeers() noexcept {

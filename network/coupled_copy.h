@@ -14,10 +14,10 @@ inline constexpr int kMaxCoordinates = 64;  // of a shared object: what a sample
 
 /// One station's hand and copy at one tick, as the others get it. Plain; it crosses memory and network as it is.
 struct CopySample {
-  std::uint32_t sequence = 0;  // counts up with every sample sent; 0: none
-  double time = 0;             // [s] when it was taken, on the reader's clock
-  Vec3 hand, handVelocity;     // [m], [m/s] HIP as its own coupling sees it
-  double work = 0;             // [J] that this hand has done on its own copy in this trial
+  std::uint32_t sequence = 0;                             // counts up with every sample sent; 0: none
+  double time = 0;                                        // [s] when it was taken, on the reader's clock
+  Vec3 hand, handVelocity;                                // [m], [m/s] HIP as its own coupling sees it
+  double work = 0;                                        // [J] that this hand has done on its own copy in this trial
   std::array<double, kMaxCoordinates> places{}, rates{};  // generalised coordinates and their rates
 };
 
@@ -39,15 +39,15 @@ double synchronisationLimit(const CopySettings& settings, double roundTrip) noex
 
 /// How this copy stands to one peer, after a tick.
 struct PeerLine {
-  bool heard = false;         // some sample has come in this trial
-  bool lost = false;          // silent for too long; until the next trial
-  double age = 0;             // [s] tau of the newest sample
-  double usualAge = 0;        // [s] the median of ages on arrival
-  double fade = 0;            // phi: 1 held … 0 let go
-  double roundTrip = 0;       // [s] filtered over a second
-  double frequency = 0;       // [rad/s] omega now
-  double apart = 0;           // [m] RMS over the masses: this copy at the sample's time against the peer's
-  double loss = -1;           // share of its samples of the latest whole second that were not used: lost, or overtaken; -1: not known yet
+  bool heard = false;    // some sample has come in this trial
+  bool lost = false;     // silent for too long; until the next trial
+  double age = 0;        // [s] tau of the newest sample
+  double usualAge = 0;   // [s] the median of ages on arrival
+  double fade = 0;       // phi: 1 held … 0 let go
+  double roundTrip = 0;  // [s] filtered over a second
+  double frequency = 0;  // [rad/s] omega now
+  double apart = 0;      // [m] RMS over the masses: this copy at the sample's time against the peer's
+  double loss = -1;      // share of its samples of the latest whole second that were not used: lost, or overtaken; -1: not known yet
   std::uint64_t taken = 0, old = 0;  // samples used; such that were no newer than one before (duplicates, replays, overtaken)
 };
 
@@ -106,8 +106,8 @@ class CoupledCopy final : public dynamics::Plant {
   std::string stopReason() const override { return plant_->stopReason(); }
 
  private:
-  static constexpr int kAges = 63;       // arrivals that the median is of
-  static constexpr int kHistory = 512;   // ticks of this copy's own past
+  static constexpr int kAges = 63;      // arrivals that the median is of
+  static constexpr int kHistory = 512;  // ticks of this copy's own past
   struct Peer {
     CopySample newest;
     PeerLine line;
@@ -118,7 +118,7 @@ class CoupledCopy final : public dynamics::Plant {
     double silentSince = 0;        // [s] when the trial began, where nothing has been heard yet
     /// Of the second under way.
     struct Count {
-      double since = 0;  // [s]
+      double since = 0;                                        // [s]
       std::uint32_t first = 0, last = 0, stride = 0xffffffff;  // sequence numbers; not every tick need be sent
       int came = 0;
     } count;
@@ -135,10 +135,10 @@ class CoupledCopy final : public dynamics::Plant {
   CopySettings settings_;
   std::unique_ptr<dynamics::SharedPlant> plant_;
   std::vector<Peer> peers_;
-  double now_ = 0;       // [s]
+  double now_ = 0;  // [s]
   bool frozen_ = false;
-  bool begun_ = false;   // a step was made since the object was put up
-  double ledger_ = 0;    // [J]
+  bool begun_ = false;  // a step was made since the object was put up
+  double ledger_ = 0;   // [J]
   std::array<double, kMaxCoordinates> push_{}, difference_{};
   struct Past {
     double time = -1;

@@ -102,7 +102,8 @@ void benchNetwork(const BenchOptions& options) {
   }
   if (!options.methods.empty()) plan.couplings.clear();
   for (const std::string& name : options.methods) {
-    const auto found = std::find_if(network::kCouplings.begin(), network::kCouplings.end(), [&](network::Coupling c) { return nameOf(c) == name; });
+    const auto found =
+        std::find_if(network::kCouplings.begin(), network::kCouplings.end(), [&](network::Coupling c) { return nameOf(c) == name; });
     if (found == network::kCouplings.end()) {
       std::string allowed;
       for (const network::Coupling c : network::kCouplings) allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", nameOf(c));

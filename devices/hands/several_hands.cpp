@@ -64,7 +64,8 @@ class SeveralHands final : public haptics::HapticDevice {
   std::string collect(Ask&& ask) const {
     std::string all;
     for (const auto& device : devices_)
-      if (const std::string said = ask(*device); !said.empty()) all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", device->info().name, said);
+      if (const std::string said = ask(*device); !said.empty())
+        all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", device->info().name, said);
     return all;
   }
 

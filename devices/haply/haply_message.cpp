@@ -58,8 +58,9 @@ const Json* deviceIn(const Json& list, const std::string& id) {
 // What equals its identity may be left out, the place at the origin as well: then nothing else is in it but what we know.
 bool isKnownState(const Json* state) {
   if (state == nullptr || !state->is_object() || state->empty()) return false;
-  constexpr std::string_view known[] = {"cursor_velocity", "current_cursor_force", "current_cursor_position", "body_orientation", "control_mode",
-                                        "control_domain",  "angular_position",     "angular_velocity",        "transform",        "mode"};
+  constexpr std::string_view known[] = {
+      "cursor_velocity", "current_cursor_force", "current_cursor_position", "body_orientation", "control_mode",
+      "control_domain",  "angular_position",     "angular_velocity",        "transform",        "mode"};
   return std::all_of(state->items().begin(), state->items().end(),
                      [&](const auto& item) { return std::find(std::begin(known), std::end(known), item.key()) != std::end(known); });
 }

@@ -16,14 +16,15 @@
 namespace reachlab::devices {
 namespace {
 
-constexpr std::int64_t kLookEvery = 200'000;    // [ns]
-constexpr std::size_t kQueueTicks = 4096;       // that the instruments may be behind
-constexpr int kPriority = 40;                   // below the haptic thread's; without the right to it, as any thread
-constexpr std::int64_t kPatience = 500'000'000; // [ns] for the last ticks of a run
+constexpr std::int64_t kLookEvery = 200'000;     // [ns]
+constexpr std::size_t kQueueTicks = 4096;        // that the instruments may be behind
+constexpr int kPriority = 40;                    // below the haptic thread's; without the right to it, as any thread
+constexpr std::int64_t kPatience = 500'000'000;  // [ns] for the last ticks of a run
 
 class Link final : public record::InstrumentLink {
  public:
-  explicit Link(std::vector<std::unique_ptr<Instrument>> instruments) : instruments_(std::move(instruments)), present_(instruments_.size(), true) {
+  explicit Link(std::vector<std::unique_ptr<Instrument>> instruments)
+      : instruments_(std::move(instruments)), present_(instruments_.size(), true) {
     for (const auto& instrument : instruments_) names_ += (names_.empty() ? "" : "; ") + instrument->name();
   }
   ~Link() override { close(); }
@@ -172,7 +173,8 @@ class Link final : public record::InstrumentLink {
       // A note's tick is the last one before it; the value of an input is what came in, and its offset from the tick stands in the text.
       for (const InstrumentNote& note : notes_)
         keep({tick_, record::EventKind::Instrument, trialNow(), note.value,
-              fmt::format("{} {} at {:+.6f} s", instrument.name(), note.text, tickNs_ == 0 ? 0.0 : static_cast<double>(note.ns - tickNs_) * 1e-9)});
+              fmt::format("{} {} at {:+.6f} s", instrument.name(), note.text,
+                          tickNs_ == 0 ? 0.0 : static_cast<double>(note.ns - tickNs_) * 1e-9)});
     }
   }
 
@@ -190,7 +192,7 @@ class Link final : public record::InstrumentLink {
   int firstTrial_ = 1;
   std::atomic<bool> running_{false};
   std::atomic<std::uint64_t> pushed_{0}, taken_{0}, lost_{0};
-  std::uint64_t tick_ = 0;    // the I/O thread's last
+  std::uint64_t tick_ = 0;  // the I/O thread's last
   std::int64_t tickNs_ = 0;
   std::vector<record::RecordedEvent> found_;
   std::vector<InstrumentNote> notes_;

@@ -18,9 +18,9 @@ namespace {
 using Info = void*;
 using Outlet = void*;
 using Xml = void*;
-constexpr int kDouble = 2, kText = 3;    // lsl_channel_format_t
-constexpr double kIrregular = 0;         // LSL_IRREGULAR_RATE
-constexpr int kBufferedSeconds = 360;    // liblsl's own default
+constexpr int kDouble = 2, kText = 3;  // lsl_channel_format_t
+constexpr double kIrregular = 0;       // LSL_IRREGULAR_RATE
+constexpr int kBufferedSeconds = 360;  // liblsl's own default
 constexpr int kPushThrough = 1;
 
 struct Api {
@@ -51,8 +51,8 @@ struct Api {
 // One stream; both of its handles are given back.
 class Stream {
  public:
-  Stream(const Api& api, const char* name, const char* type, const std::vector<std::pair<const char*, const char*>>& channels, double rate, int format,
-         const std::string& source, const std::string& clock)
+  Stream(const Api& api, const char* name, const char* type, const std::vector<std::pair<const char*, const char*>>& channels, double rate,
+         int format, const std::string& source, const std::string& clock)
       : api_(api) {
     info_ = api.createInfo(name, type, static_cast<std::int32_t>(channels.size()), rate, format, (source + name).c_str());
     if (info_ == nullptr) throw ResourceError(fmt::format("liblsl: makes no stream {}", name));
@@ -93,11 +93,12 @@ class LabStreaming final : public Instrument {
     hand_.reset();
     markers_.reset();
     measureClock(notes);
-    const std::string clock = record::clockStatement(configuration) +
-                              fmt::format(" This stream's times are the ticks' by the monotonic clock, shifted by {:.9f} s into LSL's clock.", offset_);
+    const std::string clock =
+        record::clockStatement(configuration) +
+        fmt::format(" This stream's times are the ticks' by the monotonic clock, shifted by {:.9f} s into LSL's clock.", offset_);
     const std::string source = fmt::format("sub-{}_ses-{}_run-{}_", configuration.subject, configuration.session, configuration.run);
-    markers_ = std::make_unique<Stream>(api_, "reachlab-markers", "Markers", std::vector<std::pair<const char*, const char*>>{{"marker", ""}}, kIrregular,
-                                        kText, source, clock);
+    markers_ = std::make_unique<Stream>(api_, "reachlab-markers", "Markers",
+                                        std::vector<std::pair<const char*, const char*>>{{"marker", ""}}, kIrregular, kText, source, clock);
     const std::vector<std::pair<const char*, const char*>> channels{{"hand_x", "m"},    {"hand_y", "m"},    {"hand_z", "m"},
                                                                     {"hand_vx", "m/s"}, {"hand_vy", "m/s"}, {"hand_vz", "m/s"}};
     hand_ = std::make_unique<Stream>(api_, "reachlab-hand", "MoCap", channels, kTicksPerSecond, kDouble, source, clock);
@@ -106,12 +107,14 @@ class LabStreaming final : public Instrument {
   bool send(const Marker& marker) override {
     const std::string text = fmt::format("{} {}", nameOf(marker.mark), marker.trial);
     const char* data = text.c_str();
-    if (api_.pushTexts(markers_->outlet(), &data, timeOf(marker.ns), kPushThrough) != 0) throw ResourceError("liblsl: takes no marker any more");
+    if (api_.pushTexts(markers_->outlet(), &data, timeOf(marker.ns), kPushThrough) != 0)
+      throw ResourceError("liblsl: takes no marker any more");
     return true;
   }
 
   void hand(const HandAtTick& hand) override {
-    const std::array<double, 6> values{hand.position.x, hand.position.y, hand.position.z, hand.velocity.x, hand.velocity.y, hand.velocity.z};
+    const std::array<double, 6> values{hand.position.x, hand.position.y, hand.position.z,
+                                       hand.velocity.x, hand.velocity.y, hand.velocity.z};
     if (api_.pushNumbers(hand_->outlet(), values.data(), timeOf(hand.ns), kPushThrough) != 0)
       throw ResourceError("liblsl: takes no sample any more");
   }

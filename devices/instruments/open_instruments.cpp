@@ -31,7 +31,8 @@ std::unique_ptr<Instrument> open(const std::string& spec) {
     options.done();
     return openLabStreaming(spec);
   }
-  if (kind != "parallel" && kind != "rts" && kind != "byte") throw FaultError(Fault{"instrument", "is " + spec + ", which is unknown", kKnown});
+  if (kind != "parallel" && kind != "rts" && kind != "byte")
+    throw FaultError(Fault{"instrument", "is " + spec + ", which is unknown", kKnown});
   const std::string path = options.plain();
   if (path.empty()) throw FaultError(Fault{"instrument", kind + ": its port is missing", kind + ":/dev/…"});
   TriggerCodes codes = takeCodes(options);

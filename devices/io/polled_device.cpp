@@ -144,8 +144,8 @@ PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
   std::string why;
   if (thread_.join(kPatience)) why = shared_->transport->lossText();
   else thread_.leave();
-  throw ResourceError(fmt::format("{}: it was opened, but no report came within {} ms{}{}", info_.name, patienceMs,
-                                  why.empty() ? "" : ": ", why));
+  throw ResourceError(
+      fmt::format("{}: it was opened, but no report came within {} ms{}{}", info_.name, patienceMs, why.empty() ? "" : ": ", why));
 }
 
 PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, std::int64_t (*now)())

@@ -69,7 +69,8 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
   const experiment::CompiledExperiment compiled(asked, experiment);
   ReachDemand demand;
   if (asked.hands.size() > 1) {
-    demand = rigidBodyDemand(asked, trial::makeProtocolSettings(asked, compiled.constraint()), centre, "one of its hands may bear it alone");
+    demand =
+        rigidBodyDemand(asked, trial::makeProtocolSettings(asked, compiled.constraint()), centre, "one of its hands may bear it alone");
     demand.duration = asked.task->duration;
     return demand;
   }

@@ -34,8 +34,8 @@ ReachSource reachSourceOf(const std::string& argument) {
   ReachSource source{argument.substr(0, end), {}};
   DeviceOptions options(argument.substr(end), "device replay");
   ReachColumns& c = source.columns;
-  for (const auto& [key, value] : {std::pair{"time", &c.time}, {"x", &c.x}, {"y", &c.y}, {"z", &c.z}, {"point", &c.point},
-                                   {"trial_type", &c.trialType}})
+  for (const auto& [key, value] :
+       {std::pair{"time", &c.time}, {"x", &c.x}, {"y", &c.y}, {"z", &c.z}, {"point", &c.point}, {"trial_type", &c.trialType}})
     *value = options.take(key).value_or("");
   c.unit = options.word("unit", {"", "m", "cm", "mm"});
   c.timeUnit = options.word("time_unit", {"", "s", "ms"});
@@ -55,7 +55,7 @@ std::vector<std::string> reachFiles(const std::string& path) {
     std::sort(files.begin(), files.end());
     return files;
   }
-  if (!fs::exists(path, error)) 
+  if (!fs::exists(path, error))
     throw ResourceError(path + ": no such file or folder to replay; the reaches that come with the program are in " +
                         experiment::resourceFolder() + "/reaches");
   return {path};

@@ -32,7 +32,7 @@ class PlayedHand final : public haptics::HapticDevice, public haptics::BlindHand
  private:
   haptics::DeviceInfo info_;
   PlanReach plan_;
-  PlayedReach prepared_;  // the controlling thread's, until Cue::Place
+  PlayedReach prepared_;      // the controlling thread's, until Cue::Place
   bool firstIsThere_ = true;  // trial 0 as the constructor planned it
   PlayedReach playing_;
   std::size_t at_ = 0;

@@ -64,7 +64,7 @@ class FeedbackHand final : public haptics::HapticDevice {
   SteppedArm arm_;
   Reach prepared_, playing_;
   bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
-  TrialTrace trace_;  // entries below traceSteps_ stay as they are until the next Cue::Place
+  TrialTrace trace_;           // entries below traceSteps_ stay as they are until the next Cue::Place
   std::atomic<int> traceSteps_{0};
   bool going_ = false;
   int ticks_ = 0, steps_ = 0;                  // since the go signal; of the controller

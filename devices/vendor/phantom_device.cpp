@@ -119,7 +119,8 @@ void PhantomDevice::readDescription() {
   }
   info_.rendersForce = true;
   info_.drivesClock = options_.drivesClock;
-  if (options_.deadMan && hd_.getBooleanv == nullptr) refuse("it does not tell its safety switch (hdGetBooleanv), which dead-man=yes asks for");
+  if (options_.deadMan && hd_.getBooleanv == nullptr)
+    refuse("it does not tell its safety switch (hdGetBooleanv), which dead-man=yes asks for");
   info_.secondPath = "hdDisable(HD_FORCE_OUTPUT) from the watchdog's thread";
 }
 
@@ -233,8 +234,12 @@ std::vector<FoundDevice> findPhantom(const DeviceDriver& self) {
 }  // namespace
 
 DeviceDriver phantomDriver() {
-  return {"phantom", "phantom[:NAME][,clock=computer]", "PHANToM and Touch by the vendor's OpenHaptics (libHD.so); NAME as in its configuration",
-          false,     findPhantom,      makePhantom};
+  return {"phantom",
+          "phantom[:NAME][,clock=computer]",
+          "PHANToM and Touch by the vendor's OpenHaptics (libHD.so); NAME as in its configuration",
+          false,
+          findPhantom,
+          makePhantom};
 }
 
 }  // namespace reachlab::devices

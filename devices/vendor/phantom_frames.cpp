@@ -108,8 +108,7 @@ void PhantomFrames::writeFrame() noexcept {
   Vec3 force = stopping_ || stale ? Vec3{} : left_.force;
   const DeviceHealth health = health_.load(std::memory_order_relaxed);
   if (health == DeviceHealth::Lost || health == DeviceHealth::Failed || !isFinite(force)) force = {};
-  if (const double size = norm(force);
-      health == DeviceHealth::Warm && settings_.continuousForce > 0 && size > settings_.continuousForce)
+  if (const double size = norm(force); health == DeviceHealth::Warm && settings_.continuousForce > 0 && size > settings_.continuousForce)
     force = settings_.continuousForce / size * force;
   if (norm(force) > 0 && forceOff_.exchange(false, std::memory_order_acq_rel)) hd_.enable(hd::kForceOutput);
   const std::array<double, 3> newtons{force.x, force.y, force.z};

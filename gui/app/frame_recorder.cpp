@@ -79,7 +79,8 @@ void FrameRecorder::write(const std::stop_token& stop) {
   QString sentence = tr("%1 pictures, %2 a second, in %3").arg(written_).arg(kPerSecond).arg(folder_);
   if (leftOut_ > 0) sentence += tr("; %1 left out: the disk was too slow").arg(leftOut_);
   if (failed_ > 0) sentence += tr("; %1 could not be written").arg(failed_);
-  QMetaObject::invokeMethod(this, [this, sentence] { Q_EMIT ended(sentence); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this, [this, sentence] { Q_EMIT ended(sentence); }, Qt::QueuedConnection);
 }
 
 }  // namespace reachlab::gui::app

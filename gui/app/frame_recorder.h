@@ -40,7 +40,7 @@ class FrameRecorder : public QObject {
   scene::SceneView& view_;
   QTimer* timer_;
   QString folder_;
-  QSize size_;  // of the film, from its first picture on [pixel]
+  QSize size_;        // of the film, from its first picture on [pixel]
   std::mutex mutex_;  // guards what follows
   std::condition_variable_any changed_;
   std::deque<QImage> waiting_;

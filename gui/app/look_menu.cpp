@@ -26,7 +26,8 @@ namespace {
 using experiment::SceneLook;
 
 QString wordsOf(const std::string& part) {
-  for (const auto& [name, words] : {std::pair{"driven", "driven mass"}, {"middle", "masses between"}, {"last", "last mass"}, {"spring", "springs"}})
+  for (const auto& [name, words] :
+       {std::pair{"driven", "driven mass"}, {"middle", "masses between"}, {"last", "last mass"}, {"spring", "springs"}})
     if (part == name) return QObject::tr(words);
   return QString::fromStdString(part).replace(QLatin1Char('_'), QLatin1Char(' '));
 }
@@ -44,7 +45,9 @@ QIcon swatchOf(const QColor& colour) {
   return QIcon(picture);
 }
 
-scene::Camera cameraOf(const experiment::NamedCamera& named) { return {named.position, named.focus, named.up, named.angle, named.parallel}; }
+scene::Camera cameraOf(const experiment::NamedCamera& named) {
+  return {named.position, named.focus, named.up, named.angle, named.parallel};
+}
 
 // A switch of the experiment's look; set anew whenever the menu opens.
 void addSwitch(MainWindow& window, QMenu& menu, const QString& title, const char* name, bool SceneLook::*part) {
@@ -109,13 +112,15 @@ void listColours(MainWindow& window, QMenu& menu) {
   menu.clear();
   menu.setEnabled(!window.session().isPlan());
   for (const std::string& part : experiment::colouredParts())
-    QObject::connect(menu.addAction(swatchOf(drawnColour(window, part)), wordsOf(part) + QStringLiteral("…")), &QAction::triggered, &window, [&window, part] {
-      SceneLook look = window.look();
-      const QColor chosen = QColorDialog::getColor(drawnColour(window, part), &window, QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
-      if (!chosen.isValid()) return;
-      look.colours[part] = chosen.name().toStdString();
-      window.setLook(look);
-    });
+    QObject::connect(menu.addAction(swatchOf(drawnColour(window, part)), wordsOf(part) + QStringLiteral("…")), &QAction::triggered, &window,
+                     [&window, part] {
+                       SceneLook look = window.look();
+                       const QColor chosen = QColorDialog::getColor(drawnColour(window, part), &window,
+                                                                    QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
+                       if (!chosen.isValid()) return;
+                       look.colours[part] = chosen.name().toStdString();
+                       window.setLook(look);
+                     });
   menu.addSeparator();
   QObject::connect(menu.addAction(QObject::tr("The theme's own")), &QAction::triggered, &window, [&window] {
     SceneLook look = window.look();
@@ -151,7 +156,8 @@ void listCameras(MainWindow& window, QMenu& menu) {
 void addScenery(MainWindow& window, QMenu& menu) {
   QAction* open = menu.addAction(QObject::tr("Scene from a file…"));
   QObject::connect(open, &QAction::triggered, &window, [&window] {
-    const QString file = QFileDialog::getOpenFileName(&window, QObject::tr("Scene from a file"), {}, QObject::tr("Scenes (*.wrl *.gltf *.glb)"));
+    const QString file =
+        QFileDialog::getOpenFileName(&window, QObject::tr("Scene from a file"), {}, QObject::tr("Scenes (*.wrl *.gltf *.glb)"));
     if (file.isEmpty()) return;
     SceneLook look = window.look();
     look.sceneFile = file.toStdString();
@@ -185,7 +191,8 @@ void addMovie(MainWindow& window, QMenu& menu) {
   QObject::connect(&filming->button(), &QToolButton::clicked, recorder, &FrameRecorder::stop);
   QObject::connect(recorder, &FrameRecorder::progressed, filming, [filming](int written, int leftOut) {
     filming->tell(leftOut == 0 ? QObject::tr("filming: %1 pictures").arg(written)
-                               : QObject::tr("filming: %1 pictures, %2 left out").arg(written).arg(leftOut), -1);
+                               : QObject::tr("filming: %1 pictures, %2 left out").arg(written).arg(leftOut),
+                  -1);
   });
   QObject::connect(recorder, &FrameRecorder::ended, &window, [&window, filming, action](const QString& sentence) {
     filming->hide();

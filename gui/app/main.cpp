@@ -49,8 +49,11 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   r.what = "chain-moderate";
   r.device = "mouse";
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
-  app.add_option("experiment", r.what, "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]; or what was recorded: a dataset, a session, a log");
-  app.add_option("--device", r.device, "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [mouse]");
+  app.add_option(
+      "experiment", r.what,
+      "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]; or what was recorded: a dataset, a session, a log");
+  app.add_option("--device", r.device,
+                 "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [mouse]");
   app.add_option("--instrument", r.instruments,
                  "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
       ->expected(1)

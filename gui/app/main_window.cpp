@@ -90,7 +90,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   stackOnNarrowScreen(*this);
   firstLayout_ = saveState();
   layout_ = restoreLayout(*this);
-  if (inspecting()) switchLayout(WindowLayout::SetUp);  // nothing is open yet
+  if (inspecting()) switchLayout(WindowLayout::SetUp);                                // nothing is open yet
   if (docks_.stations != nullptr) docks_.stations->show(), docks_.stations->raise();  // whatever windows without it have remembered
   showExperiment();
   showStage();
@@ -238,7 +238,8 @@ void MainWindow::showStage() {
   // The keys do what the buttons do: a key that went astray begins no new run where one is over, or while a recording is looked at.
   actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && stage != Stage::Following && !inspecting());
   actions_.abort->setEnabled(stage == Stage::UnderWay);
-  for (QAction* action : {actions_.repeat, actions_.end}) action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
+  for (QAction* action : {actions_.repeat, actions_.end})
+    action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
   if (stage == Stage::Following) actions_.repeat->setEnabled(false);
 }
 
@@ -338,11 +339,11 @@ void MainWindow::joinStations() {
 void MainWindow::showStations() {
   if (docks_.stations == nullptr) return;
   using Stage = docks::StationsDock::Stage;
-  const Stage stage = session_.looksOn()                  ? Stage::LookingOn
-                      : session_.run() == nullptr         ? Stage::Closed
-                      : session_.isArming()              ? Stage::Arming
-                      : session_.run()->underWay()       ? Stage::UnderWay
-                                                         : Stage::BetweenTrials;
+  const Stage stage = session_.looksOn()           ? Stage::LookingOn
+                      : session_.run() == nullptr  ? Stage::Closed
+                      : session_.isArming()        ? Stage::Arming
+                      : session_.run()->underWay() ? Stage::UnderWay
+                                                   : Stage::BetweenTrials;
   docks_.stations->showStations(*session_.station(), stage, session_.standings());
 }
 
@@ -415,7 +416,8 @@ inspector::InspectorPage& MainWindow::inspector() {
   if (inspector_ == nullptr) {
     inspector_ = new inspector::InspectorPage;
     pages_->widget(1)->layout()->addWidget(inspector_);
-    connect(inspector_, &inspector::InspectorPage::reported, this, [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
+    connect(inspector_, &inspector::InspectorPage::reported, this,
+            [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
     connect(inspector_, &inspector::InspectorPage::said, this, [this](const QString& words) { message_->say(words); });
     connect(inspector_, &inspector::InspectorPage::told, this, [this](const QString& words) { message_->tell(words); });
   }
@@ -428,8 +430,7 @@ void MainWindow::inspect(const QString& path) {
 }
 
 void MainWindow::openFile() {
-  const QString chosen =
-      QFileDialog::getOpenFileName(this, tr("Open experiment, plan or recording"), {},
+  const QString chosen = QFileDialog::getOpenFileName(this, tr("Open experiment, plan or recording"), {},
                                                       tr("Experiments and plans (*.json);;Recordings (*.reach)"));
   if (!chosen.isEmpty()) openExperiment(chosen);
 }
@@ -561,7 +562,8 @@ void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
   experiment::Experiment changed = session_.experiment();
   changed.subjectScreen = screen;
   if (!mayEndRun(tr("Another picture for the subject"))) return;
-  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty()) message_->say(faults.join(QLatin1Char('\n')));
+  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty())
+    message_->say(faults.join(QLatin1Char('\n')));
 }
 
 void MainWindow::say(const QString& sentence) { message_->say(sentence); }

@@ -53,7 +53,7 @@ class MainWindow : public QMainWindow {
   plot::VelocityPlot& plot();
   docks::PredictionDock& predictions() { return *docks_.predictions; }
   docks::SessionDock& sessionDock() { return *docks_.session; }
-  docks::ConstraintChooser& chooser();  // made when first asked for
+  docks::ConstraintChooser& chooser();    // made when first asked for
   inspector::InspectorPage& inspector();  // made when first asked for
   bool inspecting() const { return layout_ == WindowLayout::Inspect; }
   SoundCues& sounds() { return sounds_; }
@@ -146,8 +146,8 @@ class MainWindow : public QMainWindow {
   EditHistory edits_;
   plot::LiveForecast forecast_;
   plot::LiveTrace trace_;
-  inspector::Inspector runFits_;        // of the run's trials, from their rows on the disk
-  std::vector<int> succeeded_;          // trials of the run, as recorded
+  inspector::Inspector runFits_;  // of the run's trials, from their rows on the disk
+  std::vector<int> succeeded_;    // trials of the run, as recorded
   TrialPacing pacing_;
   SoundCues sounds_;
   subject::SubjectWords words_;  // of the subject's screen
@@ -156,9 +156,9 @@ class MainWindow : public QMainWindow {
   bool gone_ = false;            // the go signal of the trial has been given, and heard
   docks::Docks docks_;
   TrialActions actions_;
-  QByteArray firstLayout_;  // of the docks
+  QByteArray firstLayout_;                                                         // of the docks
   WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
-  QString file_;  // what was opened or saved; empty: shipped or new
+  QString file_;                                                                   // what was opened or saved; empty: shipped or new
   DatasetAnalysis analysis_;
   std::unique_ptr<StatusLine> status_;
   MessageBar* message_ = nullptr;

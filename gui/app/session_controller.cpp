@@ -122,7 +122,8 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   if (follows()) asked.trials = 1;  // the conductor's count holds
   std::vector<std::string> mappings;
   asked.device = devices::withKeptMappings(asked.device, asked.place.data, asked.place.subject, mappings);
-  for (const std::string& file : mappings) onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
+  for (const std::string& file : mappings)
+    onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
   if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
   auto planned = std::make_unique<session::RecordedSession>(
       programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
@@ -301,7 +302,8 @@ void SessionController::poll() {
     if (!ended) return;
     tellInstruments();
     last_ = *ended;
-    if (const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr; next != nullptr && run()->trialsLeft() == 0 && !recorded_->isFast())
+    if (const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr;
+        next != nullptr && run()->trialsLeft() == 0 && !recorded_->isFast())
       restUntil_ = std::chrono::steady_clock::now() +
                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(next->restSeconds));
     Q_EMIT trialEnded();

@@ -141,7 +141,7 @@ class SessionController : public QObject {
   devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open
   plot::TraceSink trace_;                  // outlives the runs
   std::unique_ptr<record::InstrumentLink> instruments_;  // so do these
-  std::string backupOf_;  // the dataset that this is of
+  std::string backupOf_;                                 // the dataset that this is of
   std::optional<session::BackupWorker> backup_;
   session::BackupState::Kind backupTold_ = session::BackupState::Kind::Idle;
   std::optional<network::StationSetup> setup_;
@@ -150,8 +150,9 @@ class SessionController : public QObject {
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
   std::chrono::steady_clock::time_point restUntil_{};
-  std::mutex changing_;         // held by whoever changes the run that is open or looks whether there is one: the window, or the thread below
-  std::jthread endsOnSignal_;   // last: it looks at all of the above
+  // held by whoever changes the run that is open or looks whether there is one: the window, or the thread below
+  std::mutex changing_;
+  std::jthread endsOnSignal_;  // last: it looks at all of the above
 };
 
 /// What is worth a word before a session, as the window says it; empty: nothing.

@@ -13,9 +13,7 @@ bool isBeforeTheFirstReach(const haptics::TickState& state) {
   return state.trial <= 1 && (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Waiting);
 }
 
-bool isOver(SessionController& session) {
-  return !session.run()->underWay() && session.run()->trialsLeft() == 0 && !session.follows();
-}
+bool isOver(SessionController& session) { return !session.run()->underWay() && session.run()->trialsLeft() == 0 && !session.follows(); }
 
 // Between trials it is the conductor who does something, and perhaps a line that is waited for.
 void tellStations(SessionController& session, scene::OverlayState& overlay) {
@@ -25,9 +23,8 @@ void tellStations(SessionController& session, scene::OverlayState& overlay) {
   const QString next = session.isArming()  ? QStringLiteral("Waiting for the other stations")
                        : session.follows() ? QStringLiteral("The conductor begins the next trial")
                                            : QStringLiteral("Space: next trial");
-  (state.trial == 0 ? overlay.instruction : overlay.detail) = state.trial == 0 && !session.isArming() && !session.follows()
-                                                                  ? QStringLiteral("Press Space to begin")
-                                                                  : next;
+  (state.trial == 0 ? overlay.instruction : overlay.detail) =
+      state.trial == 0 && !session.isArming() && !session.follows() ? QStringLiteral("Press Space to begin") : next;
 }
 
 // What the stations do, as far as a picture does not say it.
@@ -35,8 +32,9 @@ scene::OverlayState lookersOverlay(SessionController& session) {
   using trial::Phase;
   scene::OverlayState overlay;
   const haptics::TickState* state = session.seen();
-  overlay.counter = state != nullptr && state->trial > 0 ? QStringLiteral("Trial %1").arg(state->trial) : QString::fromStdString(session.experiment().name);
-  overlay.instruction = state == nullptr                  ? QStringLiteral("Looking on: nothing has come yet")
+  overlay.counter = state != nullptr && state->trial > 0 ? QStringLiteral("Trial %1").arg(state->trial)
+                                                         : QString::fromStdString(session.experiment().name);
+  overlay.instruction = state == nullptr                 ? QStringLiteral("Looking on: nothing has come yet")
                         : state->phase == Phase::Waiting ? QStringLiteral("Looking on: the hands go to the start")
                         : state->phase == Phase::Armed   ? QStringLiteral("Looking on: every hand is at the start")
                         : state->phase == Phase::Moving  ? QStringLiteral("Looking on: they move")
@@ -61,10 +59,10 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
           QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
     if (session.station() != nullptr) tellStations(session, overlay);
     if (isOver(session)) {
-      overlay.detail = session.restLeft() > 0   ? QStringLiteral("the block is done: rest %1 s more").arg(std::ceil(session.restLeft()))
+      overlay.detail = session.restLeft() > 0     ? QStringLiteral("the block is done: rest %1 s more").arg(std::ceil(session.restLeft()))
                        : session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
-                       : session.isPlan()       ? QStringLiteral("the session is complete")
-                                                : QStringLiteral("the run is complete");
+                       : session.isPlan()         ? QStringLiteral("the session is complete")
+                                                  : QStringLiteral("the run is complete");
     }
   }
   const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there

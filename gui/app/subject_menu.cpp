@@ -43,9 +43,9 @@ void addLanguages(MainWindow& window, QMenu& menu) {
 
 void addShown(MainWindow& window, QMenu& menu) {
   using Screen = experiment::SubjectScreen;
-  const std::pair<const char*, bool Screen::*> parts[] = {{"Semaphore", &Screen::semaphore}, {"Target", &Screen::target},
-                                                          {"Masses and springs", &Screen::masses}, {"Words", &Screen::words},
-                                                          {"Score", &Screen::score},         {"Square for a light sensor", &Screen::photodiode}};
+  const std::pair<const char*, bool Screen::*> parts[] = {
+      {"Semaphore", &Screen::semaphore}, {"Target", &Screen::target}, {"Masses and springs", &Screen::masses},
+      {"Words", &Screen::words},         {"Score", &Screen::score},   {"Square for a light sensor", &Screen::photodiode}};
   for (const auto& [title, part] : parts) {
     QAction* action = menu.addAction(QLatin1String(title));
     action->setObjectName(QStringLiteral("subject ") + QLatin1String(title));

@@ -37,8 +37,9 @@ void wireMarking(docks::TrialsDock& dock, SessionController& session, MessageBar
   });
   QObject::connect(&dock, &docks::TrialsDock::excludeRequested, &dock, [&dock, &session, &message](int number, const QString& known) {
     bool fine = false;
-    const QString reason = QInputDialog::getText(&dock, QObject::tr("Exclude trial %1").arg(number),
-                                                 QObject::tr("Why it is not to count (nothing: it counts):"), QLineEdit::Normal, known, &fine);
+    const QString reason =
+        QInputDialog::getText(&dock, QObject::tr("Exclude trial %1").arg(number),
+                              QObject::tr("Why it is not to count (nothing: it counts):"), QLineEdit::Normal, known, &fine);
     if (!fine) return;
     change(dock, session, message, number, [&](record::TrialMark& mark) { mark.excluded = reason.trimmed().toStdString(); });
   });

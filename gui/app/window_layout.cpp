@@ -25,7 +25,8 @@ QString docksKey(WindowLayout layout) {
 QStringList docksOf(WindowLayout layout) {
   switch (layout) {
     case WindowLayout::SetUp: break;
-    case WindowLayout::Run: return {QStringLiteral("sessionDock"), QStringLiteral("plotDock"), QStringLiteral("trialsDock"), QStringLiteral("stationsDock")};
+    case WindowLayout::Run:
+      return {QStringLiteral("sessionDock"), QStringLiteral("plotDock"), QStringLiteral("trialsDock"), QStringLiteral("stationsDock")};
     case WindowLayout::Inspect: return {QStringLiteral("none")};
   }
   return {};
@@ -40,7 +41,8 @@ void stackOnNarrowScreen(QMainWindow& window) {
   auto* onto = window.findChild<QDockWidget*>(low ? QStringLiteral("sessionDock") : QStringLiteral("trialsDock"));
   if (onto == nullptr) return;
   for (QDockWidget* dock : window.findChildren<QDockWidget*>())
-    if ((narrow && window.dockWidgetArea(dock) == Qt::RightDockWidgetArea) || (low && dock->objectName() == QLatin1String("constraintDock")))
+    if ((narrow && window.dockWidgetArea(dock) == Qt::RightDockWidgetArea) ||
+        (low && dock->objectName() == QLatin1String("constraintDock")))
       window.tabifyDockWidget(onto, dock);
   if (low) onto->raise();
 }

@@ -25,7 +25,7 @@ struct Docks {
   DeviceDock* devices = nullptr;
   SignalDock* signal = nullptr;
   StationsDock* stations = nullptr;  // null where the window is none of several stations
-  std::vector<Dock*> all;  // these and those that need nothing but the experiment
+  std::vector<Dock*> all;            // these and those that need nothing but the experiment
 };
 
 /// Makes every dock and puts it in its place. `station`: the window is one of several stations.

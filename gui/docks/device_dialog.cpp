@@ -21,7 +21,8 @@ constexpr int kLookMs = 33;
 QString millimetres(double metres) { return QStringLiteral("%1").arg(1e3 * metres, 7, 'f', 2); }
 
 bool inWindowOnly(const QString& name) {
-  const devices::DeviceDriver* driver = devices::findDriver(name.section(QLatin1Char(':'), 0, 0).section(QLatin1Char(','), 0, 0).toStdString());
+  const devices::DeviceDriver* driver =
+      devices::findDriver(name.section(QLatin1Char(':'), 0, 0).section(QLatin1Char(','), 0, 0).toStdString());
   return driver != nullptr && driver->inWindowOnly;
 }
 
@@ -108,7 +109,8 @@ void DeviceDialog::openOrLetGo() {
     reach_ = info.workspaceRadius > 0 ? info.workspaceRadius : 0.15;
     force_ = info.rendersForce && info.maxForce > 0 ? info.maxForce : 1;
     const QString hint = QString::fromStdString(device_->calibrationHint());
-    tell(QString::fromStdString(info.name) + (hint.isEmpty() ? tr(": needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
+    tell(QString::fromStdString(info.name) +
+             (hint.isEmpty() ? tr(": needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
          false);
     timer_->start(kLookMs);
   } catch (const Error& fault) {

@@ -124,8 +124,11 @@ void DeviceDock::list() {
   for (const devices::FoundDevice& found : finding_.all()) {
     const devices::DeviceDriver* driver = devices::findDriver(found.kind);
     const bool needsNone = driver != nullptr && driver->isMade;
-    auto* row = new QTreeWidgetItem(needsNone ? made : found.present ? there : absent,
-                                    {QString::fromStdString(found.name), QString::fromStdString(found.present ? found.description : found.whyNot)});
+    auto* row =
+        new QTreeWidgetItem(needsNone       ? made
+                            : found.present ? there
+                                            : absent,
+                            {QString::fromStdString(found.name), QString::fromStdString(found.present ? found.description : found.whyNot)});
     row->setData(kName, Qt::UserRole, found.present);
     row->setToolTip(kName, driver != nullptr ? QString::fromStdString(driver->usage) : QString());
     row->setToolTip(kWords, QString::fromStdString(found.description));
@@ -143,12 +146,15 @@ void DeviceDock::showButtons() {
   take_->setEnabled(usable);
   look_->setEnabled(usable && !isInWindowOnly(*row));
   again_->setEnabled(!busy_);
-  hint_->setText(busy_ ? tr("A run has its devices; they are asked again when it has ended.") : chosen().isEmpty() ? QString() : row->text(kWords));
+  hint_->setText(busy_                ? tr("A run has its devices; they are asked again when it has ended.")
+                 : chosen().isEmpty() ? QString()
+                                      : row->text(kWords));
   hint_->setVisible(!hint_->text().isEmpty());
 }
 
 void DeviceDock::lookAt() {
-  dialog_ = new DeviceDialog(experiment::CompiledExperiment(shown()), withOptions(chosen()), [this](const QString& name) { Q_EMIT taken(name); }, this);
+  dialog_ = new DeviceDialog(
+      experiment::CompiledExperiment(shown()), withOptions(chosen()), [this](const QString& name) { Q_EMIT taken(name); }, this);
   dialog_->setAttribute(Qt::WA_DeleteOnClose);
   dialog_->open();
   dialog_->openOrLetGo();

@@ -43,7 +43,8 @@ void DeviceView::paintEvent(QPaintEvent*) {
 void DeviceView::drawPlace(QPainter& painter, const QRectF& frame, const QString& title, double right, double up, double forceRight,
                            double forceUp) const {
   painter.setPen(toQColor(colours::kFaintText));
-  painter.drawText(QRectF(frame.left(), frame.top(), frame.width(), kTitleHeight), title + QStringLiteral(", ± %1 mm").arg(1e3 * reach_, 0, 'f', 0));
+  painter.drawText(QRectF(frame.left(), frame.top(), frame.width(), kTitleHeight),
+                   title + QStringLiteral(", ± %1 mm").arg(1e3 * reach_, 0, 'f', 0));
   const QRectF field = frame.adjusted(0, kTitleHeight, 0, 0);
   painter.fillRect(field, toQColor(colours::kBase));
   const double scale = std::min(field.width(), field.height()) / 2 / (1.1 * reach_);

@@ -177,9 +177,10 @@ void SessionDock::check() {
   const QString age = age_->text().trimmed();
   const double years = QLocale::c().toDouble(age, &isNumber);
   const bool fineAge = age.isEmpty() || (isNumber && years >= 0 && years <= record::kMaxAge);
-  QStringList faults{mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
-                     mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to %2 years, or nothing").arg(age).arg(record::kMaxAge)),
-                     mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
+  QStringList faults{
+      mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
+      mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to %2 years, or nothing").arg(age).arg(record::kMaxAge)),
+      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
   faults.removeAll({});
   this->faults()->setFaults(faults);
 }

@@ -46,14 +46,13 @@ QString milliseconds(double seconds, int digits) { return QString::number(1e3 * 
 StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLiteral("stationsDock"), parent) {
   table_ = new QTableWidget(0, kColumns);
   table_->setObjectName(QStringLiteral("stations"));
-  table_->setHorizontalHeaderLabels({tr("line"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("loss\n[%]"), tr("clock\n[ms]"),
-                                     tr("age\n[ms]"), tr("device"), tr("software")});
-  const std::pair<Column, QString> tips[] = {
-      {kRoundTrip, tr("there and back; a trial is armed up to 120 ms")},
-      {kJitter, tr("standard deviation of the round trip")},
-      {kLoss, tr("samples of the last second that did not come, or came overtaken")},
-      {kOffset, tr("its clock less this one's")},
-      {kAge, tr("since its newest sample came")}};
+  table_->setHorizontalHeaderLabels({tr("line"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("loss\n[%]"),
+                                     tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
+  const std::pair<Column, QString> tips[] = {{kRoundTrip, tr("there and back; a trial is armed up to 120 ms")},
+                                             {kJitter, tr("standard deviation of the round trip")},
+                                             {kLoss, tr("samples of the last second that did not come, or came overtaken")},
+                                             {kOffset, tr("its clock less this one's")},
+                                             {kAge, tr("since its newest sample came")}};
   for (const auto& [column, tip] : tips) table_->horizontalHeaderItem(column)->setToolTip(tip);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(25);
@@ -100,18 +99,19 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
   for (const network::StationStanding& other : others) {
     if (!placed && other.station > own.station) fill(row++, own, true), placed = true;
     fill(row++, other, false);
-    for (const std::string& what : other.obstacles)
-      obstacles << tr("station %1: %2").arg(other.station).arg(QString::fromStdString(what));
+    for (const std::string& what : other.obstacles) obstacles << tr("station %1: %2").arg(other.station).arg(QString::fromStdString(what));
   }
   if (!placed) fill(row, own, true);
   const QString why = obstacles.join(QStringLiteral("; "));
-  const QString next = stage == Stage::LookingOn  ? tr("Looking on: nothing is recorded, and nobody waits for this window.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
-                       : stage == Stage::Closed     ? tr("No run is open here: Space opens one, and the others hear of this station.")
-                       : stage == Stage::UnderWay ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
-                       : !why.isEmpty()           ? tr("Not armed: %1.").arg(why)
-                       : stage == Stage::Arming   ? tr("Every line is good: the trial is being armed.")
-                       : own.conductor            ? tr("Every line is good. Space arms the next trial.")
-                                                  : tr("Every line is good. The conductor arms the next trial.");
+  const QString next = stage == Stage::LookingOn ? tr("Looking on: nothing is recorded, and nobody waits for this window.") +
+                                                       (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
+                       : stage == Stage::Closed ? tr("No run is open here: Space opens one, and the others hear of this station.")
+                       : stage == Stage::UnderWay
+                           ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
+                       : !why.isEmpty()         ? tr("Not armed: %1.").arg(why)
+                       : stage == Stage::Arming ? tr("Every line is good: the trial is being armed.")
+                       : own.conductor          ? tr("Every line is good. Space arms the next trial.")
+                                                : tr("Every line is good. The conductor arms the next trial.");
   sentence_->setText(here.insecure ? next + QLatin1Char(' ') + tr("Nothing is encrypted.") : next);
 }
 

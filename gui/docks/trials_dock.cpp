@@ -32,7 +32,8 @@ QString outcomeWords(const trial::TrialResult& result) {
 TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QStringLiteral("trialsDock"), parent) {
   table_ = new QTableWidget(0, kColumns);
   table_->setObjectName(QStringLiteral("trials"));
-  table_->setHorizontalHeaderLabels({QStringLiteral("trial"), QStringLiteral("outcome"), QStringLiteral("t [s]"), QStringLiteral("ε"), QString()});
+  table_->setHorizontalHeaderLabels(
+      {QStringLiteral("trial"), QStringLiteral("outcome"), QStringLiteral("t [s]"), QStringLiteral("ε"), QString()});
   table_->horizontalHeaderItem(kTime)->setToolTip(QStringLiteral("from the hand's onset to the end [s]"));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(23);
@@ -59,9 +60,10 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QString
     line->addWidget(made);
     return made;
   };
-  connect(button(tr("⚑ Flag"), "flagTrial", tr("to be looked at again: the chosen trial, else the newest")), &QToolButton::clicked, this, [this] {
-    if (const auto at = chosen()) Q_EMIT flagRequested(rows_[*at].number);
-  });
+  connect(button(tr("⚑ Flag"), "flagTrial", tr("to be looked at again: the chosen trial, else the newest")), &QToolButton::clicked, this,
+          [this] {
+            if (const auto at = chosen()) Q_EMIT flagRequested(rows_[*at].number);
+          });
   connect(button(tr("Exclude…"), "excludeTrial", tr("with a reason: the analysis leaves it out")), &QToolButton::clicked, this, [this] {
     if (const auto at = chosen()) Q_EMIT excludeRequested(rows_[*at].number, QString::fromStdString(rows_[*at].mark.excluded));
   });

@@ -56,7 +56,8 @@ Numbers numbersOf(const tinygltf::Model& model, int accessorIndex, int many) {
     throw Refused("a bufferView runs over its buffer's end");
   if (accessor.count > 0) {
     const std::size_t needed = (accessor.count - 1) * stride + element;
-    if (accessor.byteOffset > view.byteLength || needed > view.byteLength - accessor.byteOffset) throw Refused("an accessor runs over its bufferView's end");
+    if (accessor.byteOffset > view.byteLength || needed > view.byteLength - accessor.byteOffset)
+      throw Refused("an accessor runs over its bufferView's end");
   }
   return {buffer.data.data() + view.byteOffset + accessor.byteOffset, stride, accessor.count, accessor.componentType, many};
 }
@@ -170,7 +171,8 @@ int refuse(const std::string& what) {
 
 int main(int argc, char** argv) {
   if (argc != 2) return refuse("usage: reachlab-gltf FILE");
-  for (const auto& [what, most] : {std::pair{RLIMIT_AS, kMostMemory}, std::pair{RLIMIT_CPU, kMostSeconds}, std::pair{RLIMIT_CORE, rlim_t{0}}}) {
+  for (const auto& [what, most] :
+       {std::pair{RLIMIT_AS, kMostMemory}, std::pair{RLIMIT_CPU, kMostSeconds}, std::pair{RLIMIT_CORE, rlim_t{0}}}) {
     const rlimit limit{most, most};
     (void)setrlimit(what, &limit);
   }
@@ -181,7 +183,8 @@ int main(int argc, char** argv) {
     std::string error, warning;
     const std::string file = argv[1];
     const bool binary = file.size() > 4 && file.substr(file.size() - 4) == ".glb";
-    const bool good = binary ? loader.LoadBinaryFromFile(&model, &error, &warning, file) : loader.LoadASCIIFromFile(&model, &error, &warning, file);
+    const bool good =
+        binary ? loader.LoadBinaryFromFile(&model, &error, &warning, file) : loader.LoadASCIIFromFile(&model, &error, &warning, file);
     if (!good) return refuse(error.empty() ? "is no glTF 2.0 scene" : error);
     write(Scene(model).read(), stdout);
     return std::fflush(stdout) == 0 ? 0 : refuse("standard output is closed");

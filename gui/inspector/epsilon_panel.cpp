@@ -44,8 +44,8 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   table_->setHorizontalHeaderLabels({tr("criterion"), tr("ε paper"), tr("ε fitted")});
   table_->horizontalHeaderItem(kPaper)->setToolTip(
       tr("the paper's epsilon of the hand over the chosen trials that count, as in the report's tables [m/s]"));
-  table_->horizontalHeaderItem(kFitted)->setToolTip(
-      tr("the fitted epsilon, as in fits.csv: onset, duration and amplitude fitted to each trial; from ten trials of a person on, the mean over people [m/s]"));
+  table_->horizontalHeaderItem(kFitted)->setToolTip(tr(
+      "the fitted epsilon, as in fits.csv: onset, duration and amplitude fitted to each trial; from ten trials of a person on, the mean over people [m/s]"));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(22);
   table_->setSelectionMode(QAbstractItemView::NoSelection);

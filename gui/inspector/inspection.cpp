@@ -43,23 +43,24 @@ void Inspector::start(Work work) {
   const int turn = ++turn_;
   busy_ = true;
   // The one before is waited for on the new thread, not on the window's.
-  thread_ = std::jthread([this, turn, work, before = std::make_shared<std::jthread>(std::move(thread_))](const std::stop_token& stop) mutable {
-    if (before->joinable()) before->join();
-    before.reset();
-    QString fault;
-    try {
-      goOnUnless(stop);
-      work(turn, stop);
-    } catch (const GivenUp&) {
-    } catch (const std::exception& e) {
-      fault = QString::fromStdString(endingOf(e).sentence);
-    }
-    tell(turn, [this, fault] {
-      busy_ = false;
-      if (!fault.isEmpty()) Q_EMIT failed(fault);
-      Q_EMIT idle();
-    });
-  });
+  thread_ =
+      std::jthread([this, turn, work, before = std::make_shared<std::jthread>(std::move(thread_))](const std::stop_token& stop) mutable {
+        if (before->joinable()) before->join();
+        before.reset();
+        QString fault;
+        try {
+          goOnUnless(stop);
+          work(turn, stop);
+        } catch (const GivenUp&) {
+        } catch (const std::exception& e) {
+          fault = QString::fromStdString(endingOf(e).sentence);
+        }
+        tell(turn, [this, fault] {
+          busy_ = false;
+          if (!fault.isEmpty()) Q_EMIT failed(fault);
+          Q_EMIT idle();
+        });
+      });
 }
 
 void Inspector::cancel() { thread_.request_stop(); }
@@ -71,11 +72,10 @@ void Inspector::begin(std::vector<analyze::ChosenTrials> chosen) {
     tell(turn, [this, found = std::shared_ptr<const Inspection>(std::make_shared<Inspection>(*found))] { Q_EMIT read(found); });
     if (found->input.trials.empty()) return;
     const int count = static_cast<int>(found->input.trials.size());
-    found->study = std::make_shared<analyze::StudyResult>(
-        analyze::analyzeStudy(found->input, {}, [&](std::size_t done, std::size_t) {
-          goOnUnless(stop);
-          tell(turn, [this, done, count] { Q_EMIT progressed(tr("fitting"), static_cast<int>(done), count); });
-        }));
+    found->study = std::make_shared<analyze::StudyResult>(analyze::analyzeStudy(found->input, {}, [&](std::size_t done, std::size_t) {
+      goOnUnless(stop);
+      tell(turn, [this, done, count] { Q_EMIT progressed(tr("fitting"), static_cast<int>(done), count); });
+    }));
     goOnUnless(stop);
     tell(turn, [this, found = std::shared_ptr<const Inspection>(found)] { Q_EMIT judged(found); });
   });
@@ -88,14 +88,14 @@ void Inspector::report(const QString& path) {
       tell(turn, [this, what, done, of] { Q_EMIT progressed(what, static_cast<int>(done), static_cast<int>(of)); });
     };
     analyze::StudyBuilder builder({});
-    const analyze::DatasetIndex dataset = analyze::readDataset(
-        path,
-        {[&](analyze::TrialData&& trial, std::size_t condition) {
-           goOnUnless(stop);
-           builder.add(std::move(trial), condition);
-         },
-         [&](std::size_t count) { builder.takeBack(count); }},
-        "", [&](std::size_t done, std::size_t of, const std::string&) { told(tr("reading run"), done, of); });
+    const analyze::DatasetIndex dataset =
+        analyze::readDataset(path,
+                             {[&](analyze::TrialData&& trial, std::size_t condition) {
+                                goOnUnless(stop);
+                                builder.add(std::move(trial), condition);
+                              },
+                              [&](std::size_t count) { builder.takeBack(count); }},
+                             "", [&](std::size_t done, std::size_t of, const std::string&) { told(tr("reading run"), done, of); });
     const analyze::StudyResult study =
         builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { told(tr("fitting trial"), done, of); });
     std::string folder = path;

@@ -14,8 +14,8 @@ namespace reachlab::gui::inspector {
 /// Chosen trials as the analysis sees them: read, measured and, a little later, judged.
 struct Inspection {
   analyze::StudyInput input;
-  std::vector<analyze::TrialSignals> signals;             // one a trial
-  std::shared_ptr<const analyze::StudyResult> study;      // null until judged
+  std::vector<analyze::TrialSignals> signals;         // one a trial
+  std::shared_ptr<const analyze::StudyResult> study;  // null until judged
 };
 
 /// Reads and judges beside the window: the newest request wins, and what it replaces is given up. All signals come on the window's thread.

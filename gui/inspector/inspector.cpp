@@ -108,9 +108,8 @@ void InspectorPage::wire() {
   });
   connect(plot_, &ProfilePlot::marksMoved, this, &InspectorPage::marksDragged);
   connect(replay_, &ReplayView::said, this, &InspectorPage::said);
-  connect(replay_, &ReplayView::timeChanged, this, [this](double time) {
-    plot_->setCursor(axis_->currentIndex() == 0 ? std::optional(time) : std::nullopt);
-  });
+  connect(replay_, &ReplayView::timeChanged, this,
+          [this](double time) { plot_->setCursor(axis_->currentIndex() == 0 ? std::optional(time) : std::nullopt); });
   connect(marks_, &MarksPanel::edited, this, &InspectorPage::setMark);
   for (QComboBox* box : {signal_, axis_}) connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &InspectorPage::draw);
   for (QCheckBox* box : {predicted_, fitted_}) connect(box, &QCheckBox::toggled, this, &InspectorPage::draw);
@@ -211,7 +210,8 @@ void InspectorPage::showRead() {
     int row = -1;
     for (std::size_t r = 0; r < table_->recordings().runs.size() && row < 0; ++r) {
       const record::IndexedRun& run = table_->recordings().runs[r];
-      if (run.run == trial.key.run && run.subject == trial.key.subject && run.session == trial.key.session) row = table_->rowOf(run.path, trial.key.trial);
+      if (run.run == trial.key.run && run.subject == trial.key.subject && run.session == trial.key.session)
+        row = table_->rowOf(run.path, trial.key.trial);
     }
     inspectedRows_.push_back(row);
   }
@@ -241,8 +241,8 @@ void InspectorPage::showJudged() {
     }
     for (std::size_t i = 0; i < inspection_->input.trials.size(); ++i) {
       const analyze::TrialKey& key = inspection_->input.trials[i].key;
-      if (key.trial == trial.key.trial && key.run == trial.key.run && key.subject == trial.key.subject && key.session == trial.key.session &&
-          inspectedRows_[i] >= 0)
+      if (key.trial == trial.key.trial && key.run == trial.key.run && key.subject == trial.key.subject &&
+          key.session == trial.key.session && inspectedRows_[i] >= 0)
         table_->setErrors(inspectedRows_[i], errors);
     }
   }

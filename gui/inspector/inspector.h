@@ -93,7 +93,7 @@ class InspectorPage : public QWidget {
   std::shared_ptr<std::atomic<int>> openingDone_;  // logs of openingOf_
   std::shared_ptr<std::atomic<int>> openingOf_;
   std::shared_ptr<std::atomic<bool>> openingStop_;
-  std::map<std::string, record::RunLog> logs_;  // that are being looked at
+  std::map<std::string, record::RunLog> logs_;                         // that are being looked at
   std::map<std::string, experiment::CompiledExperiment> experiments_;  // by their text
   TrialTable* table_;
   TrialFilter* filter_;

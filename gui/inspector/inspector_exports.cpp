@@ -30,8 +30,9 @@ void InspectorPage::exportTable(const QString& file) {
 }
 
 void InspectorPage::saveFigure() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Export figure or lines"), QStringLiteral("trials.svg"),
-                                                    tr("Figure as SVG (*.svg);;Figure as PDF (*.pdf);;Figure as PNG (*.png);;Lines as CSV (*.csv)"));
+  const QString file =
+      QFileDialog::getSaveFileName(this, tr("Export figure or lines"), QStringLiteral("trials.svg"),
+                                   tr("Figure as SVG (*.svg);;Figure as PDF (*.pdf);;Figure as PNG (*.png);;Lines as CSV (*.csv)"));
   if (file.isEmpty()) return;
   try {
     exportTo(file);

@@ -55,7 +55,8 @@ void InspectorPage::showPicked() {
     const record::RunLog& log = logOf(table_->run(picked_).path);
     std::vector<ReplayView::Track> ghosts;
     for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
-      if (i != *line && inspectedRows_[i] >= 0 && table_->run(inspectedRows_[i]).condition == table_->run(picked_).condition) ghosts.push_back(trackOf(i));
+      if (i != *line && inspectedRows_[i] >= 0 && table_->run(inspectedRows_[i]).condition == table_->run(picked_).condition)
+        ghosts.push_back(trackOf(i));
     replay_->show(experimentOf(log), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line), std::move(ghosts));
     const record::IndexedRun& run = table_->run(picked_);
     const analyze::Movement& move = inspection_->signals[*line].movement;

@@ -95,7 +95,8 @@ std::vector<ProfilePlot::Prediction> predictionsOf(const analyze::StudyResult& s
   return out;
 }
 
-figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis, const std::vector<predict::Criterion>& criteria) {
+figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis,
+                        const std::vector<predict::Criterion>& criteria) {
   figure::Figure out;
   out.columns = 2;
   for (const Signal signal : {Signal::Hand, Signal::Object}) {
@@ -125,7 +126,8 @@ figure::Figure figureOf(const Inspection& inspection, std::size_t condition, Tim
         s.x = band.x = take(mean.x);
         s.y = take(mean.mean);
         s.width = figure::kThick;
-        for (int i = 0; i < mean.x.size(); ++i) band.low.push_back(mean.mean[i] - mean.sd[i]), band.high.push_back(mean.mean[i] + mean.sd[i]);
+        for (int i = 0; i < mean.x.size(); ++i)
+          band.low.push_back(mean.mean[i] - mean.sd[i]), band.high.push_back(mean.mean[i] + mean.sd[i]);
         panel.bands.push_back(band);
         panel.series.push_back(std::move(s));
       }

@@ -30,7 +30,8 @@ std::vector<ProfilePlot::Prediction> predictionsOf(const analyze::StudyResult& s
                                                    const std::vector<predict::Criterion>& criteria, bool fitted);
 
 /// All of it for print.
-figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis, const std::vector<predict::Criterion>& criteria);
+figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis,
+                        const std::vector<predict::Criterion>& criteria);
 /// The lines as they are drawn, one row a sample: trial, time, hand and object velocity.
 std::string linesCsv(const Inspection& inspection);
 

@@ -116,9 +116,7 @@ QString TrialTable::text(int row, int column) const {
     case kPeak: return t.result.onsetTick > 0 ? number(t.peakHandSpeed, 3) : QString();
     case kPaper: return optional(error(row, false));
     case kFitted: return optional(error(row, true));
-    case kMark:
-      try {
-        return markWords(mark(row));
+    case kMark: try { return markWords(mark(row));
       } catch (const Error&) {
         return tr("marks cannot be read");
       }

@@ -57,9 +57,9 @@ class TrialTable : public QAbstractTableModel {
 
   record::TrialIndex index_;
   std::vector<Place> places_;
-  std::vector<std::size_t> firstRow_;                               // of each run
-  mutable std::vector<std::optional<record::RunMarks>> marks_;      // one a run
-  std::vector<std::unique_ptr<TrialErrors>> errors_;                // one a row; null: not computed
+  std::vector<std::size_t> firstRow_;                           // of each run
+  mutable std::vector<std::optional<record::RunMarks>> marks_;  // one a run
+  std::vector<std::unique_ptr<TrialErrors>> errors_;            // one a row; null: not computed
   predict::Criterion criterion_ = predict::Criterion::MinHandJerk;
 };
 

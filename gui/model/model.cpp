@@ -106,7 +106,8 @@ Model readStream(std::string_view bytes, const std::string& file) {
     if (!takeNumber(line, part.colour[0]) || !takeNumber(line, part.colour[1]) || !takeNumber(line, part.colour[2]) ||
         !takeNumber(line, part.opacity) || !takeNumber(line, points) || !takeNumber(line, triangles) || !line.empty())
       throw broken();
-    if (points > bytes.size() / sizeof(Vec3) || triangles > (bytes.size() - points * sizeof(Vec3)) / sizeof part.triangles[0]) throw broken();
+    if (points > bytes.size() / sizeof(Vec3) || triangles > (bytes.size() - points * sizeof(Vec3)) / sizeof part.triangles[0])
+      throw broken();
     part.points.resize(points);
     part.triangles.resize(triangles);
     if (points > 0) std::memcpy(part.points.data(), bytes.data(), points * sizeof(Vec3));
@@ -126,7 +127,8 @@ Model readModel(const std::string& file, const Watch& watch) {
   const QFileInfo info(QString::fromStdString(file));
   if (!info.isFile()) throw ResourceError(file + ": there is no such file");
   if (static_cast<std::uintmax_t>(info.size()) > kMostBytes)
-    throw refusal(file, fmt::format("has {:.0f} MB", 1e-6 * static_cast<double>(info.size())), fmt::format("up to {:.0f} MB", 1e-6 * static_cast<double>(kMostBytes)));
+    throw refusal(file, fmt::format("has {:.0f} MB", 1e-6 * static_cast<double>(info.size())),
+                  fmt::format("up to {:.0f} MB", 1e-6 * static_cast<double>(kMostBytes)));
   const QString ending = info.suffix().toLower();
   if (ending == QLatin1String("wrl") || ending == QLatin1String("vrml")) return readVrml(readTextFile(file), file, watch);
   if (ending == QLatin1String("gltf") || ending == QLatin1String("glb")) return readGltf(file, watch);

@@ -47,36 +47,37 @@ void ModelReader::begin(const std::string& file) {
   Q_EMIT idle();
   if (file.empty()) return static_cast<void>(Q_EMIT ready());
   // The one before is waited for on the new thread, not on the window's.
-  thread_ = std::jthread([this, turn, file, before = std::make_shared<std::jthread>(std::move(thread_))](const std::stop_token& stop) mutable {
-    if (before->joinable()) before->join();
-    before.reset();
-    const QString what = tr("reading %1").arg(QFileInfo(QString::fromStdString(file)).fileName());
-    QElapsedTimer clock;
-    clock.start();
-    qint64 toldAt = kLongMs - kTellEveryMs;
-    const auto watch = [&](double share) {
-      if (stop.stop_requested()) throw GivenUp{};
-      if (clock.elapsed() < toldAt + kTellEveryMs) return;
-      toldAt = clock.elapsed();
-      const int percent = std::isfinite(share) ? static_cast<int>(100 * share) : -1;
-      tell(turn, [this, what, percent] { Q_EMIT progressed(what, percent); });
-    };
-    std::shared_ptr<const Model> read;
-    QString fault;
-    try {
-      read = std::make_shared<Model>(readModel(file, watch));
-    } catch (const GivenUp&) {
-    } catch (const std::exception& e) {
-      fault = QString::fromStdString(endingOf(e).sentence);
-    }
-    tell(turn, [this, read, fault] {
-      Q_EMIT idle();
-      if (!fault.isEmpty()) return static_cast<void>(Q_EMIT failed(fault));
-      if (!read) return;
-      model_ = read;
-      Q_EMIT ready();
-    });
-  });
+  thread_ =
+      std::jthread([this, turn, file, before = std::make_shared<std::jthread>(std::move(thread_))](const std::stop_token& stop) mutable {
+        if (before->joinable()) before->join();
+        before.reset();
+        const QString what = tr("reading %1").arg(QFileInfo(QString::fromStdString(file)).fileName());
+        QElapsedTimer clock;
+        clock.start();
+        qint64 toldAt = kLongMs - kTellEveryMs;
+        const auto watch = [&](double share) {
+          if (stop.stop_requested()) throw GivenUp{};
+          if (clock.elapsed() < toldAt + kTellEveryMs) return;
+          toldAt = clock.elapsed();
+          const int percent = std::isfinite(share) ? static_cast<int>(100 * share) : -1;
+          tell(turn, [this, what, percent] { Q_EMIT progressed(what, percent); });
+        };
+        std::shared_ptr<const Model> read;
+        QString fault;
+        try {
+          read = std::make_shared<Model>(readModel(file, watch));
+        } catch (const GivenUp&) {
+        } catch (const std::exception& e) {
+          fault = QString::fromStdString(endingOf(e).sentence);
+        }
+        tell(turn, [this, read, fault] {
+          Q_EMIT idle();
+          if (!fault.isEmpty()) return static_cast<void>(Q_EMIT failed(fault));
+          if (!read) return;
+          model_ = read;
+          Q_EMIT ready();
+        });
+      });
 }
 
 void ModelReader::cancel() { thread_.request_stop(); }

@@ -15,8 +15,8 @@ inline constexpr std::string_view kStreamHead = "reachlab-model 1\n";
 inline void write(const Model& model, std::FILE* out) {
   std::fwrite(kStreamHead.data(), 1, kStreamHead.size(), out);
   for (const ModelPart& part : model.parts) {
-    std::fprintf(out, "part %s %.17g %.17g %.17g %.17g %zu %zu\n", part.name.empty() ? "-" : part.name.c_str(), part.colour[0], part.colour[1],
-                 part.colour[2], part.opacity, part.points.size(), part.triangles.size());
+    std::fprintf(out, "part %s %.17g %.17g %.17g %.17g %zu %zu\n", part.name.empty() ? "-" : part.name.c_str(), part.colour[0],
+                 part.colour[1], part.colour[2], part.opacity, part.points.size(), part.triangles.size());
     std::fwrite(part.points.data(), sizeof(Vec3), part.points.size(), out);
     std::fwrite(part.triangles.data(), sizeof part.triangles[0], part.triangles.size(), out);
   }

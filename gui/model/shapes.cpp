@@ -62,7 +62,8 @@ void addSphere(ModelPart& part, const Transform& frame, double radius) {
     }
 }
 
-void addFrustum(ModelPart& part, const Transform& frame, double bottom, double top, double height, bool bottomClosed, bool topClosed, bool side) {
+void addFrustum(ModelPart& part, const Transform& frame, double bottom, double top, double height, bool bottomClosed, bool topClosed,
+                bool side) {
   const double low = -0.5 * height, high = 0.5 * height;
   if (side) {
     const auto first = static_cast<std::uint32_t>(part.points.size());

@@ -39,12 +39,41 @@ using NodePtr = std::shared_ptr<const Node>;
 const char* const kKnown =
     "Group, Transform, Shape, Appearance, Material, Box, Sphere, Cylinder, Cone, IndexedFaceSet, Coordinate, Anchor, Billboard, Collision";
 // Nothing of them is drawn.
-const char* const kPassedOver[] = {"WorldInfo", "NavigationInfo", "Viewpoint", "Background", "Fog", "DirectionalLight", "PointLight", "SpotLight",
-                                   "TimeSensor", "TouchSensor", "PlaneSensor", "SphereSensor", "CylinderSensor", "ProximitySensor",
-                                   "VisibilitySensor", "PositionInterpolator", "OrientationInterpolator", "ColorInterpolator",
-                                   "ScalarInterpolator", "CoordinateInterpolator", "NormalInterpolator", "Sound", "AudioClip", "Script",
-                                   "ImageTexture", "PixelTexture", "MovieTexture", "TextureTransform", "TextureCoordinate", "Normal", "Color",
-                                   "PointSet", "IndexedLineSet", "Text", "FontStyle"};
+const char* const kPassedOver[] = {"WorldInfo",
+                                   "NavigationInfo",
+                                   "Viewpoint",
+                                   "Background",
+                                   "Fog",
+                                   "DirectionalLight",
+                                   "PointLight",
+                                   "SpotLight",
+                                   "TimeSensor",
+                                   "TouchSensor",
+                                   "PlaneSensor",
+                                   "SphereSensor",
+                                   "CylinderSensor",
+                                   "ProximitySensor",
+                                   "VisibilitySensor",
+                                   "PositionInterpolator",
+                                   "OrientationInterpolator",
+                                   "ColorInterpolator",
+                                   "ScalarInterpolator",
+                                   "CoordinateInterpolator",
+                                   "NormalInterpolator",
+                                   "Sound",
+                                   "AudioClip",
+                                   "Script",
+                                   "ImageTexture",
+                                   "PixelTexture",
+                                   "MovieTexture",
+                                   "TextureTransform",
+                                   "TextureCoordinate",
+                                   "Normal",
+                                   "Color",
+                                   "PointSet",
+                                   "IndexedLineSet",
+                                   "Text",
+                                   "FontStyle"};
 
 class Reader {
  public:
@@ -76,7 +105,8 @@ class Reader {
     if (++nodes_ > kMostNodes) words_.fail({}, fmt::format("has more than {} nodes", kMostNodes), "a smaller scene");
     if (words_.tryTake("USE")) {
       const auto known = defined_.find(std::string(words_.word()));
-      if (known == defined_.end()) words_.fail("USE", fmt::format("means {}, which is not defined before", words_.shown()), "a name after DEF");
+      if (known == defined_.end())
+        words_.fail("USE", fmt::format("means {}, which is not defined before", words_.shown()), "a name after DEF");
       words_.take();
       return known->second;
     }
@@ -108,11 +138,11 @@ class Reader {
   using ReadNode = void (Reader::*)(Node&, int);
   static const std::map<std::string, ReadNode>& readers() {
     static const std::map<std::string, ReadNode> all{
-        {"Group", &Reader::readGroup},       {"Transform", &Reader::readTransform}, {"Anchor", &Reader::readGroup},
-        {"Billboard", &Reader::readGroup},   {"Collision", &Reader::readGroup},     {"Shape", &Reader::readShape},
-        {"Appearance", &Reader::readAppearance}, {"Material", &Reader::readMaterial}, {"Box", &Reader::readBox},
-        {"Sphere", &Reader::readSphere},     {"Cylinder", &Reader::readCylinder},   {"Cone", &Reader::readCone},
-        {"IndexedFaceSet", &Reader::readFaces}, {"Coordinate", &Reader::readCoordinate}};
+        {"Group", &Reader::readGroup},           {"Transform", &Reader::readTransform},  {"Anchor", &Reader::readGroup},
+        {"Billboard", &Reader::readGroup},       {"Collision", &Reader::readGroup},      {"Shape", &Reader::readShape},
+        {"Appearance", &Reader::readAppearance}, {"Material", &Reader::readMaterial},    {"Box", &Reader::readBox},
+        {"Sphere", &Reader::readSphere},         {"Cylinder", &Reader::readCylinder},    {"Cone", &Reader::readCone},
+        {"IndexedFaceSet", &Reader::readFaces},  {"Coordinate", &Reader::readCoordinate}};
     return all;
   }
 
@@ -131,7 +161,9 @@ class Reader {
     while (!words_.ended() && isNumber(words_.word())) words_.take();
   }
 
-  static bool isNumber(std::string_view word) { return !word.empty() && (word[0] == '-' || word[0] == '+' || word[0] == '.' || (word[0] >= '0' && word[0] <= '9')); }
+  static bool isNumber(std::string_view word) {
+    return !word.empty() && (word[0] == '-' || word[0] == '+' || word[0] == '.' || (word[0] >= '0' && word[0] <= '9'));
+  }
 
   void skipBlock(const std::string& what) { skipTo("}", what); }
   void skipList(const std::string& what) { skipTo("]", what); }
@@ -217,7 +249,8 @@ class Reader {
       if (words_.tryTake("NULL")) return true;
       NodePtr read = readNode(depth + 1);
       if (read->kind != (appearance ? Node::Kind::Look : Node::Kind::Geometry) && read->kind != Node::Kind::Nothing)
-        words_.fail(field, appearance ? "is no Appearance" : "is no geometry", appearance ? "Appearance" : "Box, Sphere, Cylinder, Cone, IndexedFaceSet");
+        words_.fail(field, appearance ? "is no Appearance" : "is no geometry",
+                    appearance ? "Appearance" : "Box, Sphere, Cylinder, Cone, IndexedFaceSet");
       (appearance ? node.appearance : node.geometry) = std::move(read);
       return true;
     });
@@ -366,13 +399,16 @@ class Reader {
         face.push_back(static_cast<std::uint32_t>(corner));
         continue;
       }
-      if (corner != -1) words_.fail("coordIndex", fmt::format("has the corner {}", corner), "a point's number from 0, or -1 at a face's end");
-      if (face.size() > 4 && !convex) words_.fail("convex", "is FALSE for a face of more than four corners", "faces that are cut into triangles");
+      if (corner != -1)
+        words_.fail("coordIndex", fmt::format("has the corner {}", corner), "a point's number from 0, or -1 at a face's end");
+      if (face.size() > 4 && !convex)
+        words_.fail("convex", "is FALSE for a face of more than four corners", "faces that are cut into triangles");
       for (std::size_t i = 2; i < face.size(); ++i) {
         if (counterClockwise) solid.triangles.push_back({face[0], face[i - 1], face[i]});
         else solid.triangles.push_back({face[0], face[i], face[i - 1]});
       }
-      if (solid.triangles.size() > kMostTriangles) words_.fail("coordIndex", fmt::format("makes more than {} triangles", kMostTriangles), "fewer");
+      if (solid.triangles.size() > kMostTriangles)
+        words_.fail("coordIndex", fmt::format("makes more than {} triangles", kMostTriangles), "fewer");
       face.clear();
     }
   }
@@ -399,7 +435,8 @@ void collect(const Node& node, const Transform& frame, const std::string& moving
     const Transform own = named ? Transform{} : frame;
     for (Vec3& p : part.points) p = own(p);
     part.name = name;
-    if (node.appearance && node.appearance->look) part.colour = node.appearance->look->colour, part.opacity = node.appearance->look->opacity;
+    if (node.appearance && node.appearance->look)
+      part.colour = node.appearance->look->colour, part.opacity = node.appearance->look->opacity;
     model.parts.push_back(std::move(part));
   }
   const Transform inner = named ? node.unmoved : frame * node.frame;

@@ -10,7 +10,9 @@ namespace reachlab::gui::model {
 /// The words of a VRML 2.0 text one by one: names, numbers, "texts", { } [ ]. Comments and commas are blanks.
 class VrmlWords {
  public:
-  VrmlWords(std::string_view text, std::string file, Watch watch = {}) : text_(text), file_(std::move(file)), watch_(std::move(watch)) { advance(); }
+  VrmlWords(std::string_view text, std::string file, Watch watch = {}) : text_(text), file_(std::move(file)), watch_(std::move(watch)) {
+    advance();
+  }
 
   /// Empty at the end.
   std::string_view word() const { return word_; }

@@ -59,7 +59,8 @@ QString orderPreview(const session::Plan& plan, int subjects) {
       QStringList names;
       for (const int k : session::blockOrder(plan, label.toStdString(), day))
         names << conditionOf(plan.blocks[static_cast<std::size_t>(k)]).toHtmlEscaped();
-      QString who = plan.counterbalance == session::Counterbalance::None ? PlanComposer::tr("every subject") : PlanComposer::tr("subject %1").arg(label);
+      QString who = plan.counterbalance == session::Counterbalance::None ? PlanComposer::tr("every subject")
+                                                                         : PlanComposer::tr("subject %1").arg(label);
       if (day != 0) who += PlanComposer::tr(", day %1").arg(day);
       lines << QStringLiteral("<b>%1</b>: %2").arg(who, names.join(QStringLiteral(" → ")));
     }
@@ -270,7 +271,7 @@ void PlanComposer::showList(int select) {
   list_->setRowCount(static_cast<int>(plan_.blocks.size()));
   for (int i = 0; i < list_->rowCount(); ++i) {
     const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(i)];
-    const QString texts[] = {QString::number(i + 1), QFileInfo(from(block.experiment)).completeBaseName(), conditionOf(block),
+    const QString texts[] = {QString::number(i + 1),        QFileInfo(from(block.experiment)).completeBaseName(),      conditionOf(block),
                              QString::number(block.trials), block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
     for (int column = 0; column < kColumns; ++column) {
       if (list_->item(i, column) == nullptr) list_->setItem(i, column, new QTableWidgetItem);

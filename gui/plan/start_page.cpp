@@ -83,7 +83,8 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   layout->addWidget(next_);
   layout->addLayout(buttons);
   for (QLineEdit* edit : {subject_, session_})
-    connect(edit, &QLineEdit::editingFinished, this, [this] { Q_EMIT placeEdited(subject_->text().trimmed(), session_->text().trimmed()); });
+    connect(edit, &QLineEdit::editingFinished, this,
+            [this] { Q_EMIT placeEdited(subject_->text().trimmed(), session_->text().trimmed()); });
   connect(go_, &QPushButton::clicked, this, [this] {
     if (resumes_) Q_EMIT resumeRequested();
     else Q_EMIT beginRequested();
@@ -121,9 +122,17 @@ void StartPage::show(const Shown& shown) {
   blocks_->setFixedHeight(blocks_->horizontalHeader()->sizeHint().height() + 4 + 25 * std::clamp(blocks_->rowCount(), 1, kMostRows));
   if (!shown.fault.isEmpty()) next_->setText(shown.fault);
   else if (next == nullptr) next_->setText(tr("Everything of this session is recorded: another subject, or another session."));
-  else if (resumes_) next_->setText(tr("Goes on in block %1, %2, with trial %3 of %4.").arg(next->block).arg(QString::fromStdString(next->condition)).arg(next->done + 1).arg(next->trials));
-  else next_->setText(tr("Begins with block %1, %2: %3 trials.").arg(next->block).arg(QString::fromStdString(next->condition)).arg(next->trials));
-  if (next != nullptr && !next->instructions.empty()) next_->setText(next_->text() + QStringLiteral("\n") + QString::fromStdString(next->instructions));
+  else if (resumes_)
+    next_->setText(tr("Goes on in block %1, %2, with trial %3 of %4.")
+                       .arg(next->block)
+                       .arg(QString::fromStdString(next->condition))
+                       .arg(next->done + 1)
+                       .arg(next->trials));
+  else
+    next_->setText(
+        tr("Begins with block %1, %2: %3 trials.").arg(next->block).arg(QString::fromStdString(next->condition)).arg(next->trials));
+  if (next != nullptr && !next->instructions.empty())
+    next_->setText(next_->text() + QStringLiteral("\n") + QString::fromStdString(next->instructions));
   const bool can = shown.fault.isEmpty() && next != nullptr;
   go_->setEnabled(can);
   go_->setText(resumes_ ? tr("Resume  (Space)") : tr("Begin  (Space)"));

@@ -6,7 +6,9 @@ namespace reachlab::gui::plot {
 
 // Of words and lines on the theme's ground: the same hues, darker on light.
 QColor colourOf(predict::Criterion criterion) {
-  const auto either = [](const QColor& onLight, const QColor& onDark) { return widgets::theme() == widgets::Theme::Light ? onLight : onDark; };
+  const auto either = [](const QColor& onLight, const QColor& onDark) {
+    return widgets::theme() == widgets::Theme::Light ? onLight : onDark;
+  };
   switch (criterion) {
     case predict::Criterion::MinHandJerk: return either({140, 110, 0}, {240, 228, 66});
     case predict::Criterion::MinTorqueChange: return either({160, 60, 115}, {204, 121, 167});

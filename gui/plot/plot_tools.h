@@ -51,7 +51,8 @@ template <typename Write>
 void askAndExport(QWidget* plot, const QString& title, const QString& suggested, Write write) {
   const QString file = QFileDialog::getSaveFileName(plot, title, suggested, QObject::tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));
   if (file.isEmpty() || write(file)) return;
-  QMessageBox::warning(plot, title, QObject::tr("%1 was not written: its name ends in .svg, .pdf or .csv, and its folder can be written to.").arg(file));
+  QMessageBox::warning(plot, title,
+                       QObject::tr("%1 was not written: its name ends in .svg, .pdf or .csv, and its folder can be written to.").arg(file));
 }
 
 }  // namespace reachlab::gui::plot

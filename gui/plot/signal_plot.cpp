@@ -155,7 +155,9 @@ void SignalPlot::fill() {
   d.changed = false;
   const Quantity what = quantity();
   const bool three = what == Quantity::Velocity || what == Quantity::Position;
-  const QString names[kLines] = {three ? QStringLiteral("x") : what == Quantity::Timing ? tr("period") : d.watched->currentText(),
+  const QString names[kLines] = {three                      ? QStringLiteral("x")
+                                 : what == Quantity::Timing ? tr("period")
+                                                            : d.watched->currentText(),
                                  what == Quantity::Timing ? tr("missed") : QStringLiteral("y"), QStringLiteral("z")};
   const int lines = three ? 3 : what == Quantity::Timing ? 2 : 1;
   const double latest = d.count > 0 ? d.at(d.count - 1).time : 0;

@@ -15,11 +15,11 @@ class SignalPlot : public QWidget {
   static constexpr int kCapacity = 4096;
   enum class Quantity { Velocity, Position, Force, PhasePlane, Timing };
   struct Point {
-    double time = 0;                                // [s] of the run
-    std::array<double, 3> position{}, velocity{};   // of what is watched
-    double force = 0;                               // [N] of the coupling
-    double period = 0;                              // [ms] a tick, by the computer's clock
-    double missed = 0;                              // ticks, since the point before
+    double time = 0;                               // [s] of the run
+    std::array<double, 3> position{}, velocity{};  // of what is watched
+    double force = 0;                              // [N] of the coupling
+    double period = 0;                             // [ms] a tick, by the computer's clock
+    double missed = 0;                             // ticks, since the point before
   };
   explicit SignalPlot(QWidget* parent = nullptr);
   ~SignalPlot() override;

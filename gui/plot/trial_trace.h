@@ -14,14 +14,14 @@ struct TracePoint {
   std::uint64_t tick = 0;
   std::int32_t trial = 0;
   trial::Phase phase = trial::Phase::Idle;
-  double trialTime = 0;          // [s] since onset
-  Vec3 hand, handVelocity;       // [m], [m/s]
-  Vec3 last, lastVelocity;       // of the last mass
-  double firstQ = 0, lastQ = 0;  // curve parameter of the first and last mass
-  double force = 0;              // [N]
+  double trialTime = 0;                     // [s] since onset
+  Vec3 hand, handVelocity;                  // [m], [m/s]
+  Vec3 last, lastVelocity;                  // of the last mass
+  double firstQ = 0, lastQ = 0;             // curve parameter of the first and last mass
+  double force = 0;                         // [N]
   Vec3 watched = {}, watchedVelocity = {};  // [m], [m/s] of the hand or mass that is watched
-  std::int64_t measuredNs = 0;   // by the computer's clock
-  std::uint32_t missed = 0;      // ticks since the point before
+  std::int64_t measuredNs = 0;              // by the computer's clock
+  std::uint32_t missed = 0;                 // ticks since the point before
 };
 
 /// Watches the runs of a session for the window's plot: every fifth tick, without waiting.

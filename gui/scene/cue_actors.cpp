@@ -42,7 +42,8 @@ Actor actorOf(vtkPolyDataMapper* mapper, const widgets::Colour& colour, double o
 
 struct CueActors::Impl {
   Impl(vtkRenderer& to, const ScenePlan& plan)
-      : renderer(to), look(plan.look), shift(plan.massShift), radius(plan.massRadius), unit(plan.unit), floor(plan.floor), handRadius(plan.handRadius) {}
+      : renderer(to), look(plan.look), shift(plan.massShift), radius(plan.massRadius), unit(plan.unit), floor(plan.floor),
+        handRadius(plan.handRadius) {}
 
   vtkRenderer& renderer;
   const PlanLook look;

@@ -36,7 +36,8 @@ struct GhostActors::Impl {
   }
 };
 
-GhostActors::GhostActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(new Impl{renderer, plan.massRadius, plan.massShift, plan.look.colours, {}}) {
+GhostActors::GhostActors(vtkRenderer& renderer, const ScenePlan& plan)
+    : impl_(new Impl{renderer, plan.massRadius, plan.massShift, plan.look.colours, {}}) {
   impl_->radius.push_back(plan.handRadius);
   impl_->shift.resize(plan.massRadius.size() + 1);
 }

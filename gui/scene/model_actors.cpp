@@ -92,7 +92,8 @@ void ModelActors::show(const SceneFrame& frame) {
     for (const Actor& actor : actors) actor->SetPosition(at.x, at.y, at.z);
   };
   place(impl_->hand, frame.hand);
-  for (std::size_t i = 0; i < std::min(frame.masses.size(), impl_->masses.size()); ++i) place(impl_->masses[i], frame.masses[i] + impl_->shift[i]);
+  for (std::size_t i = 0; i < std::min(frame.masses.size(), impl_->masses.size()); ++i)
+    place(impl_->masses[i], frame.masses[i] + impl_->shift[i]);
 }
 
 }  // namespace reachlab::gui::scene

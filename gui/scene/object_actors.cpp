@@ -50,7 +50,7 @@ void placeBody(vtkActor& actor, const Vec3& at, const std::array<double, 4>& q, 
 
 struct ObjectActors::Impl {
   vtkRenderer& renderer;
-  ScenePlan plan;  // without its meshes
+  ScenePlan plan;                                   // without its meshes
   std::vector<Actor> all, masses, springs, others;  // the others' pens, by hand; the own one's place is empty
   Actor hand;
   std::unique_ptr<CueActors> cues;
@@ -70,7 +70,8 @@ struct ObjectActors::Impl {
         if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {from.look.colours.rail, 0.30, 0})), shift);
     }
     if (!from.surface.quads.empty()) {
-      if (style == SurfaceStyle::Glass) add(makeSkin(from.surface, {from.look.colours.surface, from.look.surfaceOpacity, 0.3}))->PickableOff();
+      if (style == SurfaceStyle::Glass)
+        add(makeSkin(from.surface, {from.look.colours.surface, from.look.surfaceOpacity, 0.3}))->PickableOff();
       Actor lines =
           add(makeParameterLines(from.surface, {from.look.colours.surfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
       lines->PickableOff();

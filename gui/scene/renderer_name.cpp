@@ -17,8 +17,6 @@ const QString& rendererName() {
   return name;
 }
 
-bool drawsInSoftware() {
-  return rendererName().contains(QLatin1String("llvmpipe")) || rendererName().contains(QLatin1String("softpipe"));
-}
+bool drawsInSoftware() { return rendererName().contains(QLatin1String("llvmpipe")) || rendererName().contains(QLatin1String("softpipe")); }
 
 }  // namespace reachlab::gui::scene

@@ -91,10 +91,21 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
 }  // namespace
 
 widgets::Colour* partNamed(PartColours& c, const std::string& name) {
-  const std::pair<const char*, widgets::Colour*> parts[] = {
-      {"background_top", &c.backgroundTop}, {"background_bottom", &c.backgroundBottom}, {"rail", &c.rail}, {"surface", &c.surface},
-      {"surface_line", &c.surfaceLine}, {"start", &c.start}, {"target", &c.target}, {"driven", &c.driven}, {"middle", &c.middle}, {"last", &c.last},
-      {"hand", &c.hand}, {"spring", &c.spring}, {"coupling", &c.coupling}, {"force", &c.force}, {"trace", &c.trace}};
+  const std::pair<const char*, widgets::Colour*> parts[] = {{"background_top", &c.backgroundTop},
+                                                            {"background_bottom", &c.backgroundBottom},
+                                                            {"rail", &c.rail},
+                                                            {"surface", &c.surface},
+                                                            {"surface_line", &c.surfaceLine},
+                                                            {"start", &c.start},
+                                                            {"target", &c.target},
+                                                            {"driven", &c.driven},
+                                                            {"middle", &c.middle},
+                                                            {"last", &c.last},
+                                                            {"hand", &c.hand},
+                                                            {"spring", &c.spring},
+                                                            {"coupling", &c.coupling},
+                                                            {"force", &c.force},
+                                                            {"trace", &c.trace}};
   for (const auto& [known, colour] : parts)
     if (name == known) return colour;
   return nullptr;
@@ -106,7 +117,8 @@ PlanLook plannedLook(const experiment::Experiment& experiment) {
   using namespace widgets::colours;
   const experiment::SceneLook look = experiment::lookOf(experiment);
   PlanLook plan;
-  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven, kMiddle, kLast, kHand, kSpring, kCoupling, kRed, kTrace};
+  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven,
+                  kMiddle, kLast,      kHand, kSpring,  kCoupling,    kRed,   kTrace};
   for (const std::string& part : experiment::colouredParts()) {
     widgets::Colour* colour = partNamed(plan.colours, part);
     if (colour == nullptr) continue;

@@ -22,15 +22,15 @@ struct SpringPlan {
 
 /// Colours of the scene's parts: the theme's, and over them the experiment's.
 struct PartColours {
-  widgets::Colour backgroundTop, backgroundBottom, rail, surface, surfaceLine, start, target, driven, middle, last, hand, spring, coupling, force,
-      trace;
+  widgets::Colour backgroundTop, backgroundBottom, rail, surface, surfaceLine, start, target, driven, middle, last, hand, spring, coupling,
+      force, trace;
 };
 
 /// How it is drawn.
 struct PlanLook {
   PartColours colours;
   double surfaceOpacity = 0.42;
-  bool grid = false, shadow = false;     // at the height `floor`
+  bool grid = false, shadow = false;  // at the height `floor`
   bool trace = false, forceArrow = false;
 };
 
@@ -44,7 +44,7 @@ struct ScenePlan {
   CurveMesh curve;
   SurfaceMesh surface;
   std::vector<PlaceMark> places;  // where the formula is not smooth
-  Vec3 start, target;  // [m]
+  Vec3 start, target;             // [m]
   bool hasTask = false;
   bool targetShown = true;
   double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
@@ -57,13 +57,13 @@ struct ScenePlan {
   std::vector<MassRole> massRole;
   std::vector<Vec3> massShift;  // [m] added for the eye only
   std::vector<SpringPlan> springs;
-  std::vector<HandPlan> hands;  // empty: one hand
-  int ownHand = 0;              // which of them the frame's own hand is
+  std::vector<HandPlan> hands;                            // empty: one hand
+  int ownHand = 0;                                        // which of them the frame's own hand is
   bool body = false;                                      // drawn as a box that turns
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
   PlanLook look;
-  Box box;           // [m] of constraint and task
-  double floor = 0;  // [m] height of the grid, below all of it
+  Box box;                                    // [m] of constraint and task
+  double floor = 0;                           // [m] height of the grid, below all of it
   std::shared_ptr<const model::Model> model;  // scenery, and what stands for hand and masses; null: none
 };
 
@@ -86,7 +86,7 @@ struct OtherHand {
 
 /// One instant of it: what actors are moved to.
 struct SceneFrame {
-  Vec3 hand;                 // [m]
+  Vec3 hand;  // [m]
   std::vector<OtherHand> others;
   std::vector<Vec3> masses;  // [m] true places
   dynamics::BodyState body;

@@ -47,7 +47,8 @@ void SoftwareCanvas::setScale(double scale) {
 // Whether the picture's size was another.
 bool SoftwareCanvas::fit() {
   const double pixels = scale_ * devicePixelRatioF();
-  const int w = std::max(1, static_cast<int>(std::lround(width() * pixels))), h = std::max(1, static_cast<int>(std::lround(height() * pixels)));
+  const int w = std::max(1, static_cast<int>(std::lround(width() * pixels))),
+            h = std::max(1, static_cast<int>(std::lround(height() * pixels)));
   const int* now = window_->GetSize();
   if (now[0] == w && now[1] == h) return false;
   window_->SetSize(w, h);

@@ -26,14 +26,14 @@ Colour themed(const Colour& colour) {
   if (active == Theme::Dark) return colour;
   // Dark ink on light ground; the hues of Okabe and Ito, darker, so that lines keep 3 : 1 and words 4.5 : 1.
   static const std::pair<Colour, Colour> kLight[] = {
-      {kSkyTop, {0.90, 0.93, 0.97}},     {kSkyBottom, {0.76, 0.80, 0.86}},    {kRail, {0.34, 0.38, 0.44}},
-      {kSurface, {0.22, 0.46, 0.70}},    {kSurfaceLine, {0.08, 0.24, 0.42}},  {kStart, {0.38, 0.43, 0.50}},
-      {kTarget, {0.62, 0.46, 0.00}},     {kDriven, {0.05, 0.35, 0.68}},       {kMiddle, {0.42, 0.46, 0.52}},
-      {kLast, {0.75, 0.34, 0.00}},       {kHand, {0.12, 0.14, 0.18}},         {kSpring, {0.30, 0.34, 0.40}},
-      {kCoupling, {0.10, 0.42, 0.62}},   {kNeutral, {0.42, 0.46, 0.52}},      {kGreen, {0.02, 0.45, 0.18}},
-      {kRed, {0.75, 0.12, 0.10}},        {kText, {0.07, 0.09, 0.12}},         {kFaintText, {0.28, 0.32, 0.38}},
-      {kWindow, {0.925, 0.935, 0.95}},   {kBase, {0.985, 0.988, 0.995}},      {kButton, {0.86, 0.88, 0.91}},
-      {kAccent, {0.08, 0.38, 0.72}},     {kLampNeutral, {0.42, 0.46, 0.52}},  {kLampGreen, {0.02, 0.52, 0.20}},
+      {kSkyTop, {0.90, 0.93, 0.97}},   {kSkyBottom, {0.76, 0.80, 0.86}},   {kRail, {0.34, 0.38, 0.44}},
+      {kSurface, {0.22, 0.46, 0.70}},  {kSurfaceLine, {0.08, 0.24, 0.42}}, {kStart, {0.38, 0.43, 0.50}},
+      {kTarget, {0.62, 0.46, 0.00}},   {kDriven, {0.05, 0.35, 0.68}},      {kMiddle, {0.42, 0.46, 0.52}},
+      {kLast, {0.75, 0.34, 0.00}},     {kHand, {0.12, 0.14, 0.18}},        {kSpring, {0.30, 0.34, 0.40}},
+      {kCoupling, {0.10, 0.42, 0.62}}, {kNeutral, {0.42, 0.46, 0.52}},     {kGreen, {0.02, 0.45, 0.18}},
+      {kRed, {0.75, 0.12, 0.10}},      {kText, {0.07, 0.09, 0.12}},        {kFaintText, {0.28, 0.32, 0.38}},
+      {kWindow, {0.925, 0.935, 0.95}}, {kBase, {0.985, 0.988, 0.995}},     {kButton, {0.86, 0.88, 0.91}},
+      {kAccent, {0.08, 0.38, 0.72}},   {kLampNeutral, {0.42, 0.46, 0.52}}, {kLampGreen, {0.02, 0.52, 0.20}},
       {kTrace, {0.70, 0.08, 0.44}}};
   for (const auto& [dark, light] : kLight)
     if (same(dark, colour)) return light;
@@ -79,23 +79,23 @@ void applyTheme(QApplication& application) {
   QApplication::setPalette(palette);
   const auto either = [](const char* light, const char* dark) { return QString::fromLatin1(theme() == Theme::Light ? light : dark); };
   // Fusion draws an empty box darker than the dark it stands on.
-  application.setStyleSheet(QStringLiteral(
-      "QDockWidget { titlebar-close-icon: none; font-weight: 600; }"
-      "QDockWidget::title { background: %1; padding: 6px 9px; }"
-      "QToolTip { border: 1px solid %2; padding: 4px; }"
-      "QLineEdit, QAbstractSpinBox, QComboBox { padding: 2px 5px; min-height: 20px; }"
-      "QLabel[role=\"fault\"] { color: %3; }"
-      "QLabel[role=\"quiet\"] { color: %4; }"
-      "QCheckBox::indicator:unchecked, QTableView::indicator:unchecked { width: 11px; height: 11px; border: 1px solid #6b7788;"
-      " border-radius: 2px; background: %5; }"
-      "QPushButton { padding: 5px 14px; }"
-      "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; }"
-      "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; }"
-      "QStatusBar { background: %7; } QStatusBar QLabel { color: %4; padding: 0 6px; }"
-      "QSplitter::handle { background: %1; }")
-                                .arg(either("#d3d8e0", "#262c37"), either("#8a94a3", "#46505f"), either("#a01810", "#ff9d8c"),
-                                     either("#39424f", "#a8b5c7"), either("#ffffff", "#11151c"), either("#b9c0ca", "#2d333f"),
-                                     either("#e1e5eb", "#181c23"), toQColor(kNeutral).name()));
+  application.setStyleSheet(
+      QStringLiteral(
+          "QDockWidget { titlebar-close-icon: none; font-weight: 600; }"
+          "QDockWidget::title { background: %1; padding: 6px 9px; }"
+          "QToolTip { border: 1px solid %2; padding: 4px; }"
+          "QLineEdit, QAbstractSpinBox, QComboBox { padding: 2px 5px; min-height: 20px; }"
+          "QLabel[role=\"fault\"] { color: %3; }"
+          "QLabel[role=\"quiet\"] { color: %4; }"
+          "QCheckBox::indicator:unchecked, QTableView::indicator:unchecked { width: 11px; height: 11px; border: 1px solid #6b7788;"
+          " border-radius: 2px; background: %5; }"
+          "QPushButton { padding: 5px 14px; }"
+          "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; }"
+          "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; }"
+          "QStatusBar { background: %7; } QStatusBar QLabel { color: %4; padding: 0 6px; }"
+          "QSplitter::handle { background: %1; }")
+          .arg(either("#d3d8e0", "#262c37"), either("#8a94a3", "#46505f"), either("#a01810", "#ff9d8c"), either("#39424f", "#a8b5c7"),
+               either("#ffffff", "#11151c"), either("#b9c0ca", "#2d333f"), either("#e1e5eb", "#181c23"), toQColor(kNeutral).name()));
 }
 
 }  // namespace reachlab::gui::widgets

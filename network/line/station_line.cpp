@@ -250,10 +250,9 @@ StationStanding StationLine::standingOf(int station) const {
   // Overtaken samples are dropped by design, so their share says nothing; how long nothing comes does.
   if (gap > kMostGap) say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * gap, 1e3 * kMostGap));
   if (offsets_[index].jumpNs != 0 && now - offsets_[index].jumpNs < kJumpNs)
-    say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump, 1e3 * kMostJump));
-  s.light = !s.obstacles.empty()                                             ? Light::Stop
-            : s.roundTrip > 0.5 * kMostRoundTrip || gap > 0.5 * kMostGap ? Light::Fair
-                                                                             : Light::Good;
+    say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump,
+                    1e3 * kMostJump));
+  s.light = !s.obstacles.empty() ? Light::Stop : s.roundTrip > 0.5 * kMostRoundTrip || gap > 0.5 * kMostGap ? Light::Fair : Light::Good;
   return s;
 }
 
@@ -291,7 +290,8 @@ std::vector<record::Channel> lineChannels(int station, int stations) {
     add(line + "fade", "n/a", "", fmt::format("1 while station {}'s hand is held, 0 when it is let go", other));
     add(line + "synchronisation", "rad/s", "_rad_per_s", fmt::format("rate at which this copy is drawn to station {}'s", other));
     add(line + "round_trip", "s", "_s", "there and back, filtered over a second");
-    add(line + "loss", "n/a", "", fmt::format("share of station {}'s samples of the latest whole second that were not used: lost, or overtaken", other));
+    add(line + "loss", "n/a", "",
+        fmt::format("share of station {}'s samples of the latest whole second that were not used: lost, or overtaken", other));
   }
   return channels;
 }

@@ -125,7 +125,8 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   /// All outlive the sink's use. `own`: from 0. Of the ticks one in `sendEvery` is sent.
   StationSink(LineMemory& memory, CoupledCopy& copy, int own, int sendEvery = 1)
       : memory_(memory), copy_(copy), own_(own), sendEvery_(sendEvery), places_(static_cast<std::uint32_t>(copy.placeCount())),
-        rates_(static_cast<std::uint32_t>(copy.rateCount())), lineColumns_(1 + 6 * static_cast<std::size_t>(copy.peerCount())), given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
+        rates_(static_cast<std::uint32_t>(copy.rateCount())), lineColumns_(1 + 6 * static_cast<std::size_t>(copy.peerCount())),
+        given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}

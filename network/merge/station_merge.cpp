@@ -32,7 +32,7 @@ struct Station {
   std::vector<std::int32_t> trials;       // under way at it
   std::vector<trial::Phase> phases;
   std::size_t lineColumns = 0;
-  std::vector<double> lines;               // how its copy stood to the others after each tick, as fillLines has it
+  std::vector<double> lines;  // how its copy stood to the others after each tick, as fillLines has it
   std::vector<GivenSample> given;
   record::Replay replay;
 

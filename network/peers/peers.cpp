@@ -183,7 +183,8 @@ std::string permissionsOf(const std::string& name, int days) {
 void makeFolder(const std::string& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_empty(folder, error))
-    throw FaultError(Fault{"peers", fmt::format("{} is there already", folder), "a new or empty folder: certificates are never overwritten"});
+    throw FaultError(
+        Fault{"peers", fmt::format("{} is there already", folder), "a new or empty folder: certificates are never overwritten"});
   fs::create_directories(folder, error);
   if (error) throw ResourceError(fmt::format("{}: cannot be made: {}", folder, error.message()));
   fs::permissions(folder, fs::perms::owner_all, error);
@@ -231,7 +232,8 @@ PeerFolder lookAt(const std::string& folder, bool needsKey) {
         found.fault = "the certificate is not of this key";
       if (has("identity_ca.pem")) {
         const Certificate authority = readCertificate(folder + "/identity_ca.pem");
-        if (X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) != 1) found.fault = "the certificate is not of this authority";
+        if (X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) != 1)
+          found.fault = "the certificate is not of this authority";
       }
     } else if (has("request.pem")) {
       const Bio in = openForReading(folder + "/request.pem");
@@ -244,10 +246,11 @@ PeerFolder lookAt(const std::string& folder, bool needsKey) {
   } catch (const Error& error_) {
     found.fault = error_.what();
   }
-  found.complete = has("identity.pem") && has("identity_ca.pem") && has("permissions_ca.pem") && has("governance.p7s") && has("permissions.p7s") &&
-                   (!needsKey || has("key.pem"));
+  found.complete = has("identity.pem") && has("identity_ca.pem") && has("permissions_ca.pem") && has("governance.p7s") &&
+                   has("permissions.p7s") && (!needsKey || has("key.pem"));
   struct stat status {};
-  if (needsKey && ::stat((folder + "/key.pem").c_str(), &status) == 0 && (status.st_mode & 077) != 0) found.fault = "others may read its key.pem";
+  if (needsKey && ::stat((folder + "/key.pem").c_str(), &status) == 0 && (status.st_mode & 077) != 0)
+    found.fault = "others may read its key.pem";
   return found;
 }
 
@@ -275,8 +278,8 @@ void initStation(const std::string& folder, const std::string& name) {
   makeFolder(folder);
   const Key key = makeKey();
   const Request request(need(X509_REQ_new(), "a request cannot be made"));
-  X509_NAME_add_entry_by_txt(X509_REQ_get_subject_name(request.get()), "CN", MBSTRING_UTF8, reinterpret_cast<const unsigned char*>(name.c_str()),
-                             -1, -1, 0);
+  X509_NAME_add_entry_by_txt(X509_REQ_get_subject_name(request.get()), "CN", MBSTRING_UTF8,
+                             reinterpret_cast<const unsigned char*>(name.c_str()), -1, -1, 0);
   X509_REQ_set_pubkey(request.get(), key.get());
   if (X509_REQ_sign(request.get(), key.get(), EVP_sha256()) == 0) fail("a request cannot be signed");
   writeKey(key, folder + "/key.pem");
@@ -302,7 +305,8 @@ std::string addStation(const std::string& folder, const std::string& requestFile
 
 std::vector<PeerFolder> listPeers(const std::string& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error)) throw FaultError(Fault{"peers", fmt::format("{} is no folder", folder), "a folder of certificates"});
+  if (!fs::is_directory(folder, error))
+    throw FaultError(Fault{"peers", fmt::format("{} is no folder", folder), "a folder of certificates"});
   std::vector<PeerFolder> all{lookAt(folder, true)};
   std::vector<std::string> answered;
   for (const auto& entry : fs::directory_iterator(folder, error))

@@ -10,14 +10,14 @@ namespace reachlab::network {
 /// What a folder of certificates is.
 struct PeerFolder {
   std::string name;
-  bool conductor = false;      // holds the authorities
-  bool complete = false;       // certificate and permissions are there
-  std::string validUntil;      // of the certificate, as OpenSSL writes it; empty where there is none
-  std::string fault;           // what is wrong with it, in words; empty: nothing
+  bool conductor = false;  // holds the authorities
+  bool complete = false;   // certificate and permissions are there
+  std::string validUntil;  // of the certificate, as OpenSSL writes it; empty where there is none
+  std::string fault;       // what is wrong with it, in words; empty: nothing
 };
 
 struct PeersOptions {
-  int days = 3650;        // that certificates and permissions are valid
+  int days = 3650;  // that certificates and permissions are valid
 };
 
 /// Makes the authorities and the conductor's own certificate in `folder`. Throws FaultError (a name that is none, a folder in use), ResourceError.

@@ -20,8 +20,8 @@ StationSetup lookingOn(StationSetup setup, const experiment::Experiment& experim
 LookerOn::LookerOn(const StationSetup& setup, const experiment::CompiledExperiment& experiment)
     : setup_(lookingOn(setup, experiment.experiment())),
       plant_(dynamics::makeSharedPlant(experiment.experiment(), experiment.constraint())),
-      line_(std::make_unique<StationLine>(setup_.line, sharedHash(experiment.experiment()))), state_(std::make_unique<haptics::TickState>()),
-      begun_(now()) {}
+      line_(std::make_unique<StationLine>(setup_.line, sharedHash(experiment.experiment()))),
+      state_(std::make_unique<haptics::TickState>()), begun_(now()) {}
 
 LookerNews LookerOn::poll() {
   LookerNews news;

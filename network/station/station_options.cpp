@@ -29,9 +29,12 @@ void addStationOptions(CLI::App& command, StationSetup& setup) {
   command.add_option(named("interface"), line.interface, "Network interface [the system's choice]");
   command.add_option(named("peer"), line.peers, "Address of another station beyond this network; several times. No multicast then")
       ->allow_extra_args(false);
-  command.add_option(named("domain"), line.domain, "Stations of one domain hear each other")->check(CLI::Range(0, 230))->capture_default_str();
+  command.add_option(named("domain"), line.domain, "Stations of one domain hear each other")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
   command.add_option(named("wait"), setup.wait, "Seconds to wait for the others")->check(CLI::Range(1.0, 86400.0))->capture_default_str();
-  command.add_option(named("rate"), setup.rate, "How often a second this station's state is sent; less where the line or the computer is slow")
+  command
+      .add_option(named("rate"), setup.rate, "How often a second this station's state is sent; less where the line or the computer is slow")
       ->check(CLI::IsMember({1000, 500, 250, 125}))
       ->capture_default_str();
 }

@@ -14,11 +14,12 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kGoodFor = 0.5;          // [s] the lines are heard before a trial
-constexpr double kPatience = 3;           // [s] for every station's word on a trial
-constexpr double kLongerTrip = 0.25, kLongerBy = 0.005;  // share and [s] by which a round trip may become longer until it is simulated again
-constexpr double kOldWords = 0.05;        // [s] in which it is known whether a trial told of has ended already
-constexpr std::size_t kMostHeard = 64;    // events of stations that do not say who they are
+constexpr double kGoodFor = 0.5;  // [s] the lines are heard before a trial
+constexpr double kPatience = 3;   // [s] for every station's word on a trial
+// share and [s] by which a round trip may become longer until it is simulated again
+constexpr double kLongerTrip = 0.25, kLongerBy = 0.005;
+constexpr double kOldWords = 0.05;      // [s] in which it is known whether a trial told of has ended already
+constexpr std::size_t kMostHeard = 64;  // events of stations that do not say who they are
 
 double now() { return static_cast<double>(os::now()) * 1e-9; }
 
@@ -30,10 +31,10 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 StationSetup forExperiment(StationSetup setup, const experiment::Experiment& experiment) {
   const int hands = static_cast<int>(experiment.hands.size());
-  if (hands < 2)
-    throw FaultError(Fault{"hands", fmt::format("are {}", std::max(hands, 1)), "an experiment with a hand for each station"});
+  if (hands < 2) throw FaultError(Fault{"hands", fmt::format("are {}", std::max(hands, 1)), "an experiment with a hand for each station"});
   if (setup.line.station > hands)
-    throw FaultError(Fault{"number", fmt::format("is {}, and the experiment has {} hands", setup.line.station, hands), fmt::format("1 to {}", hands)});
+    throw FaultError(
+        Fault{"number", fmt::format("is {}, and the experiment has {} hands", setup.line.station, hands), fmt::format("1 to {}", hands)});
   setup.line.stations = hands;
   return setup;
 }
@@ -81,9 +82,7 @@ void StationRun::begin(session::RecordedRun& run) {
 
 std::uint64_t StationRun::seedHere(std::uint64_t seed) const { return seededBits(seed, static_cast<std::uint64_t>(own_)); }
 
-void StationRun::armNext() {
-  wanted_ = isConductor() && !stopping_;
-}
+void StationRun::armNext() { wanted_ = isConductor() && !stopping_; }
 
 void StationRun::abort() {
   if (isArming()) wanted_ = false, stage_ = Stage::Idle;
@@ -241,7 +240,8 @@ void StationRun::follow(StationNews& news) {
     for (const std::string& one : line_->obstacles()) why += "; " + one;
     return inVain(fmt::format("the conductor armed no trial within {:.0f} s{}", setup_.wait, why), news);
   }
-  if (begun_ && line_->conductorSilence() > setup_.wait) inVain(fmt::format("the conductor was not heard of for {:.0f} s", setup_.wait), news);
+  if (begun_ && line_->conductorSilence() > setup_.wait)
+    inVain(fmt::format("the conductor was not heard of for {:.0f} s", setup_.wait), news);
 }
 
 // Not at every look again.
@@ -286,7 +286,8 @@ void StationRun::keepVerdict(StationNews& news) {
   run_->note(fmt::format("trial {}: outcome {} by the conductor, station {}; {} here, where the copies were {:.6g} m apart at its end",
                          run_->numberOf(*ended_), judged, verdict_->station, here, sink_->lastApart()));
   if (verdict_->outcome != ended_->result.outcome)
-    news.words.push_back(fmt::format("trial {}: {} by the conductor's copy, which counts; {} by the copy here", verdict_->trial, judged, here));
+    news.words.push_back(
+        fmt::format("trial {}: {} by the conductor's copy, which counts; {} by the copy here", verdict_->trial, judged, here));
   ended_.reset();
 }
 

@@ -122,13 +122,13 @@ class StationRun {
   session::RecordedRun* run_ = nullptr;
   OtherHands others_;
   Stage stage_ = Stage::Idle;
-  double until_ = 0;   // [s] that this stage may take
+  double until_ = 0;    // [s] that this stage may take
   double settled_ = 0;  // [s] when what was told before this station came is known to hold; 0: nothing was told
   std::string said_;
   std::future<LineCheck> checking_;  // the conductor's, on a thread of its own
   MeasuredLine checkedFor_;          // of that or of the last that was well
   double frequency_ = 0;             // [rad/s] omega_o that was found; 0: nothing was checked yet
-  std::deque<LineEvent> heard_;  // of stations that have not said yet who they are
+  std::deque<LineEvent> heard_;      // of stations that have not said yet who they are
   std::int32_t armed_ = 0, armAsked_ = 0, putUp_ = 0, trialsBefore_ = 0;
   trial::PlannedTrial planned_;
   bool wanted_ = false, begun_ = false, finished_ = false, stopping_ = false, aborted_ = false, finishTold_ = false, closed_ = false;

@@ -30,7 +30,8 @@ void CopiesOverLines::tick(std::span<const dynamics::HandSegment> hands, std::sp
     CoupledCopy& copy = *copies_[i];
     copy.beginTick(now);
     for (std::size_t peer = 0; peer + 1 < stations; ++peer)
-      lines_[i * (stations - 1) + peer].receive(now, [&](const CopySample& sample) { copy.take(static_cast<int>(peer), sample, roundTrip_); });
+      lines_[i * (stations - 1) + peer].receive(now,
+                                                [&](const CopySample& sample) { copy.take(static_cast<int>(peer), sample, roundTrip_); });
     (void)copy.step(hands[i], kTickSeconds);
   }
   for (std::size_t i = 0; i < stations; ++i) {
@@ -46,7 +47,8 @@ void CopiesOverLines::tick(std::span<const dynamics::HandSegment> hands, std::sp
 double CopiesOverLines::speedSquares() const {
   double sum = 0;
   for (std::size_t i = 0; i < copies_.size(); ++i)
-    for (int k = 0; k < copies_[i]->rateCount(); ++k) sum += samples_[i].rates[static_cast<std::size_t>(k)] * samples_[i].rates[static_cast<std::size_t>(k)];
+    for (int k = 0; k < copies_[i]->rateCount(); ++k)
+      sum += samples_[i].rates[static_cast<std::size_t>(k)] * samples_[i].rates[static_cast<std::size_t>(k)];
   return sum;
 }
 

@@ -14,13 +14,13 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kEnd = 6.5;             // [s] as long as the study's hands are limp
-constexpr int kSubsteps = 10;            // of a hand in a tick
-constexpr double kPush = 0.1;            // [m/s] of the first hand
-constexpr double kFarAway = 1;           // [m] a hand there has been thrown
-constexpr double kFrequencyStep = 0.5;   // [rad/s]
-constexpr double kMostFrequency = 10;    // [rad/s]: stronger synchronisation is felt as drag
-constexpr int kSeeds = 2;                // of losses and jitter
+constexpr double kEnd = 6.5;            // [s] as long as the study's hands are limp
+constexpr int kSubsteps = 10;           // of a hand in a tick
+constexpr double kPush = 0.1;           // [m/s] of the first hand
+constexpr double kFarAway = 1;          // [m] a hand there has been thrown
+constexpr double kFrequencyStep = 0.5;  // [rad/s]
+constexpr double kMostFrequency = 10;   // [rad/s]: stronger synchronisation is felt as drag
+constexpr int kSeeds = 2;               // of losses and jitter
 
 /// A hand that lets itself be moved, about where it held the object at first.
 struct LimpHand {
@@ -87,7 +87,8 @@ double letBe(std::vector<LimpHand> hands, Step&& step, Force&& force) {
   return growth.ratio();
 }
 
-double growthAlone(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const std::vector<LimpHand>& hands) {
+double growthAlone(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
+                   const std::vector<LimpHand>& hands) {
   const auto plant = dynamics::makeSharedPlant(experiment, constraint);
   plant->placeAtRest(experiment.task->start);
   return letBe(
@@ -141,8 +142,10 @@ LineCheck checkLine(const experiment::Experiment& experiment, const constraints:
     if (check.stable || tried.frequency >= most) break;
     tried.frequency = std::min(most, tried.frequency + kFrequencyStep);
   }
-  const std::string over = fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * line.roundTrip, 1e3 * line.jitter, 100 * line.loss);
-  const std::string how = std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth) : "thrown out of the hands";
+  const std::string over =
+      fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * line.roundTrip, 1e3 * line.jitter, 100 * line.loss);
+  const std::string how = std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth)
+                                                      : "thrown out of the hands";
   check.sentence = fmt::format("simulated with limp hands over this line ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
                                check.stable ? "comes to rest" : "does not come to rest", how, check.frequency);
   return check;

@@ -131,14 +131,18 @@ std::string formatStudy(const StudyTables& tables) {
   for (const StudyObject object : kObjects) {
     if (const auto any = std::find_if(tables.cells.begin(), tables.cells.end(), [&](const StudyCell& c) { return c.object == object; });
         any != tables.cells.end())
-      text += formatObject(tables.cells, object, fmt::format("{} ({:.2f} N): stable, mm, N", nameOf(object), any->force), [](const StudyCell& c) {
-                return fmt::format("{}/{} {:.2f} {:.2f}", c.stable, c.runs, 1e3 * c.apart, c.forceError);
-              }) + "\n";
+      text += formatObject(
+                  tables.cells, object, fmt::format("{} ({:.2f} N): stable, mm, N", nameOf(object), any->force),
+                  [](const StudyCell& c) { return fmt::format("{}/{} {:.2f} {:.2f}", c.stable, c.runs, 1e3 * c.apart, c.forceError); }) +
+              "\n";
     if (!tables.shares.empty())
-      text += formatObject(tables.shares, object, fmt::format("{}, random set-ups: stable, J, s above", nameOf(object)), [](const StudyShare& s) {
-                const std::string share = fmt::format("{:.1f} %", percentStable(s));
-                return s.coupling == Coupling::Design ? fmt::format("{} {:.2f} {:.2f}", share, s.ledgerWorst, s.ledgerDuration) : share;
-              }) + "\n";
+      text += formatObject(tables.shares, object, fmt::format("{}, random set-ups: stable, J, s above", nameOf(object)),
+                           [](const StudyShare& s) {
+                             const std::string share = fmt::format("{:.1f} %", percentStable(s));
+                             return s.coupling == Coupling::Design ? fmt::format("{} {:.2f} {:.2f}", share, s.ledgerWorst, s.ledgerDuration)
+                                                                   : share;
+                           }) +
+              "\n";
   }
   return text;
 }

@@ -11,8 +11,8 @@ namespace reachlab::network {
 struct StudyPlan {
   std::vector<double> roundTrips{0, 0.01, 0.05, 0.1, 0.2};  // [s]
   std::vector<Coupling> couplings{kCouplings.begin(), kCouplings.end()};
-  int seeds = 8;     // of losses and jitter, a cell
-  int setups = 40;   // random ones, an object; 0: none
+  int seeds = 8;    // of losses and jitter, a cell
+  int setups = 40;  // random ones, an object; 0: none
   double loss = 0.05, jitterShare = 0.1;
   std::uint64_t seed = 5;  // of the random set-ups
 };

@@ -24,7 +24,9 @@ constexpr double kStart = 0;
 // Where person h means to be [m]: out together (the second 0.1 s later), back (the first later), a tug of war.
 double intended(int h, double t) {
   constexpr double kReach = 0.2, kTug = 0.03, kLate = 0.1;
-  const auto reach = [](double since, double duration) { return since <= 0 ? 0.0 : since >= duration ? 1.0 : minimumJerk(since / duration); };
+  const auto reach = [](double since, double duration) {
+    return since <= 0 ? 0.0 : since >= duration ? 1.0 : minimumJerk(since / duration);
+  };
   double place = kReach * (reach(t - 0.2 - (h == 1 ? kLate : 0), 1.35) - reach(t - 2.4 - (h == 0 ? kLate : 0), 1.0));
   if (t > 4) place += (h == 1 ? -kTug : kTug) * (reach(t - 4, 0.4) - reach(t - 5.2, 0.4));
   return place;
@@ -183,8 +185,7 @@ class Server final : public Stations {
   double forceAtClient(const Body& body) const {
     double sum = 0;
     for (std::size_t i = 0; i < springs_.stiffness.size(); ++i)
-      sum += springs_.stiffness[i] * (body.x - toClient_.newest.places[i]) +
-             springs_.damping[i] * (body.v - toClient_.newest.rates[i]);
+      sum += springs_.stiffness[i] * (body.x - toClient_.newest.places[i]) + springs_.damping[i] * (body.v - toClient_.newest.rates[i]);
     return sum;
   }
   bool sendsForce_;
@@ -198,8 +199,8 @@ class Server final : public Stations {
 class Copies final : public Stations {
  public:
   Copies(const StudySetup& setup, const CopySettings& settings)
-      : copies_(setup.experiment, constraints::makeConstraint(setup.experiment.constraint), std::array{kStart}, settings, conditionsOf(setup),
-                setup.roundTrip, setup.seed) {}
+      : copies_(setup.experiment, constraints::makeConstraint(setup.experiment.constraint), std::array{kStart}, settings,
+                conditionsOf(setup), setup.roundTrip, setup.seed) {}
   void tick(const Bodies& bodies, double now) override {
     const std::array hands{bodies[0].segment(), bodies[1].segment()};
     const std::array ends{bodies[0].sample(), bodies[1].sample()};
@@ -347,9 +348,7 @@ double conduct(const StudySetup& setup, Stations& stations, const std::function<
   return growth.ratio();
 }
 
-bool isThrown(const Bodies& bodies) {
-  return !(std::max(std::abs(bodies[0].x), std::abs(bodies[1].x)) < kFarAway);
-}
+bool isThrown(const Bodies& bodies) { return !(std::max(std::abs(bodies[0].x), std::abs(bodies[1].x)) < kFarAway); }
 
 }  // namespace
 

@@ -17,16 +17,18 @@ StudyInput readChosen(std::span<const ChosenTrials> chosen, const std::function<
     const record::RunConfiguration& c = log.configuration();
     auto known = parsed.find({c.experimentText, c.definitionText});
     if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
-    RunSource run{c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, record::readMarks(some.log)};
+    RunSource run{
+        c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, record::readMarks(some.log)};
     for (const int number : some.trials) {
       const auto trial = std::find_if(log.trials().begin(), log.trials().end(), [&](const auto& t) { return t.trial == number; });
       if (trial != log.trials().end()) run.trials.push_back(*trial);
     }
-    addRun(run, known->second, index, {[&](TrialData&& trial, std::size_t condition) {
-                                         input.trials.push_back(std::move(trial));
-                                         input.conditionOf.push_back(condition);
-                                       },
-                                       {}});
+    addRun(run, known->second, index,
+           {[&](TrialData&& trial, std::size_t condition) {
+              input.trials.push_back(std::move(trial));
+              input.conditionOf.push_back(condition);
+            },
+            {}});
   }
   input.conditions = index.conditions;
   return input;

@@ -48,9 +48,10 @@ struct Conclusion {
   std::optional<double> signFlipP;  // of the nearest rival, from six people on
   std::vector<double> score;        // Y of each candidate: mean over conditions of the mean over trials, over people
   std::vector<TTest> against;       // of each candidate: score - best's score
-  std::vector<std::pair<std::size_t, std::size_t>> notToldApart;  // pairs with p above the level after Holm's correction, or too small a difference
-  double r2 = 0, ceiling = 0;                                     // of the best candidate; of people's own means
-  std::vector<std::optional<std::size_t>> each;                   // what each person was decided for; parallel to the people given
+  // pairs with p above the level after Holm's correction, or too small a difference
+  std::vector<std::pair<std::size_t, std::size_t>> notToldApart;
+  double r2 = 0, ceiling = 0;                    // of the best candidate; of people's own means
+  std::vector<std::optional<std::size_t>> each;  // what each person was decided for; parallel to the people given
   bool decided() const { return follows.has_value(); }
   /// The closest candidate is told from `candidate`: p below the level, and a score that is lower by kLeastDifference or more.
   bool told(std::size_t candidate) const { return against[candidate].p < level && against[candidate].mean >= kLeastDifference; }

@@ -186,7 +186,8 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(logs[i]);
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks}, known->second);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks},
+                known->second);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");

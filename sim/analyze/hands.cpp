@@ -63,7 +63,8 @@ std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const reco
   for (int hand = 1; hand <= table.hands; ++hand) {
     const std::string name = hand == 1 ? "hand" : fmt::format("hand{}", hand);
     const std::size_t place = table.indexOf(name + "_pos_x"), velocity = table.indexOf(name + "_vel_x"),
-                      force = table.indexOf(hand == 1 ? "coupling_force_x" : name + "_coupling_force_x"), work = table.indexOf(name + "_work");
+                      force = table.indexOf(hand == 1 ? "coupling_force_x" : name + "_coupling_force_x"),
+                      work = table.indexOf(name + "_work");
     HandSignals& signals = hands[static_cast<std::size_t>(hand - 1)];
     const auto vector = [&](std::size_t row, std::size_t column) {
       return Vec3{rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
@@ -95,17 +96,32 @@ void addRun(const record::RunLog& run, TableText& table) {
       const HandMeasures& m = together.hands[hand];
       table.cell(c.subject).cell(c.session).whole(c.run).whole(trial.trial).cell(c.condition).cell(trial::nameOf(trial.result.outcome));
       table.whole(static_cast<long long>(hand + 1)).cell(hand == 0 ? c.deviceName : c.otherHands[hand - 1].name);
-      for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag, m.lagCorrelation, together.internalForce,
-                                 together.peakInternalForce})
+      for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag, m.lagCorrelation,
+                                 together.internalForce, together.peakInternalForce})
         table.number(value);
       table.endRow();
     }
   }
 }
 
-const std::vector<std::string> kColumns{"subject",       "session",       "run",        "trial",     "condition",          "outcome",
-                                        "hand",          "device",        "peak_speed_m_per_s", "path_m",  "peak_force_n", "mean_force_n",
-                                        "work_j",        "positive_work_j", "share_of_positive_work", "lag_s",      "lag_correlation", "internal_force_rms_n",
+const std::vector<std::string> kColumns{"subject",
+                                        "session",
+                                        "run",
+                                        "trial",
+                                        "condition",
+                                        "outcome",
+                                        "hand",
+                                        "device",
+                                        "peak_speed_m_per_s",
+                                        "path_m",
+                                        "peak_force_n",
+                                        "mean_force_n",
+                                        "work_j",
+                                        "positive_work_j",
+                                        "share_of_positive_work",
+                                        "lag_s",
+                                        "lag_correlation",
+                                        "internal_force_rms_n",
                                         "internal_force_peak_n"};
 
 }  // namespace

@@ -11,14 +11,15 @@ namespace reachlab::analyze {
 
 /// One hand in one trial, over the movement (the task's own window).
 struct HandMeasures {
-  double peakSpeed = 0;              // [m/s]
-  double path = 0;                   // [m]
+  double peakSpeed = 0;                 // [m/s]
+  double path = 0;                      // [m]
   double peakForce = 0, meanForce = 0;  // [N] coupling force on the object
-  double work = 0;                   // [J] done on the object from arming to the trial's end: about 0 from rest to rest
-  double positiveWork = 0;           // [J] the sum of what it has put in, without what it has taken out, over the movement
-  double share = 0;                  // of the positive work of all; NaN where there is none
-  double lag = 0;                    // [s] behind the first hand, by the largest correlation of their speeds within half a second; NaN: none
-  double lagCorrelation = 0;         // there
+  double work = 0;                      // [J] done on the object from arming to the trial's end: about 0 from rest to rest
+  double positiveWork = 0;              // [J] the sum of what it has put in, without what it has taken out, over the movement
+  double share = 0;                     // of the positive work of all; NaN where there is none
+  // [s] behind the first hand, by the largest correlation of their speeds within half a second; NaN: none
+  double lag = 0;
+  double lagCorrelation = 0;  // there
 };
 struct TogetherMeasures {
   std::vector<HandMeasures> hands;

@@ -37,9 +37,9 @@ struct TrialData {
   std::vector<Vec3> along;
   bool closed = false;  // the path is a closed curve
   // What a person marked beside the recording (record/trial_marks.h).
-  std::string excluded;                                          // why the trial is not to count; empty: it counts
+  std::string excluded;                                            // why the trial is not to count; empty: it counts
   double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's
-  Vec3 start, target;   // [m] of the object
+  Vec3 start, target;                                              // [m] of the object
 };
 
 }  // namespace reachlab::analyze

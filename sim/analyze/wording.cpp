@@ -102,7 +102,8 @@ std::string describeConclusion(const Conclusion& c, const Names& names) {
       return nothing(
           fmt::format("{} is the closest of these, but describes the movements badly (R² {:.3f}; people's own means reach {:.3f})", best,
                       c.r2, c.ceiling));
-    case Obstacle::NothingToCompare: return nothing("fewer than two candidates were asked for or can be predicted here, so there is nothing to compare");
+    case Obstacle::NothingToCompare:
+      return nothing("fewer than two candidates were asked for or can be predicted here, so there is nothing to compare");
     case Obstacle::None: break;
   }
   return {};

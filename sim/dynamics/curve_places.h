@@ -29,7 +29,7 @@ struct CurvePlaces {
   constraints::Domain domain;
   double speedScale;  // [m] typical |r_phi|
   int count, room;
-  constraints::Period period;                    // whole turns of it are taken off phi, where it has become large, and counted here
+  constraints::Period period;  // whole turns of it are taken off phi, where it has become large, and counted here
   std::array<double, kMassCapacity<N>> turns{};
   int ticks = 0;
 

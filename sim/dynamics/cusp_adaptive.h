@@ -202,7 +202,8 @@ class CuspAdaptive {
     const int n = system.states();
     const double rest = dt - at[n];
     const constraints::CurvePoint p = evaluate(system.curveOf(mass), at[mass]);
-    const double square = dot(p.rPhi, p.rPhi), speed = std::sqrt(square), turn = norm(p.rPhiPhi) * std::abs(at[system.rates() + mass] * rest);
+    const double square = dot(p.rPhi, p.rPhi), speed = std::sqrt(square),
+                 turn = norm(p.rPhiPhi) * std::abs(at[system.rates() + mass] * rest);
     if (!(turn < kTurn * square) || !(std::abs(rest) < 0.1 * dt)) return false;
     State sum(n), begin(n);
     for (int i = 0; i < n; ++i) begin[i] = plain[i] = at[i];

@@ -61,8 +61,8 @@ class OscillatorCore {
   double dt_ = 0;
   bool damped_ = false;  // the hand's velocity matters
   std::vector<Group> groups_;
-  std::vector<FreeGroup> free_;         // empty where it does not apply
-  Eigen::MatrixXd toModes_, toMasses_;  // empty for a parallel object
+  std::vector<FreeGroup> free_;                   // empty where it does not apply
+  Eigen::MatrixXd toModes_, toMasses_;            // empty for a parallel object
   std::vector<std::array<double, 2>> endShapes_;  // toMasses_, rows 1 and N, mode by mode; empty for few masses
 };
 

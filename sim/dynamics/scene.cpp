@@ -151,19 +151,22 @@ void requireDigits(const constraints::Constraint& c, const std::vector<double>& 
   if (excess.empty()) return;
   std::nth_element(excess.begin(), excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2), excess.end());
   if (excess[excess.size() / 2] > 1)
-    throw RefusedError(fmt::format("the formula loses its digits: roundings inside it move the mass by {:.2g} m about the start, for large "
-                                   "numbers cancel in it; write it so that they do not arise",
-                                   rounding));
+    throw RefusedError(
+        fmt::format("the formula loses its digits: roundings inside it move the mass by {:.2g} m about the start, for large "
+                    "numbers cancel in it; write it so that they do not arise",
+                    rounding));
 }
 
 /// Each tick rounds phi once.
 void requireNearZero(const constraints::Constraint& c, const constraints::Curve& curve, double start) {
-  if (!(std::isfinite(c.domain[0].lo) && std::isfinite(c.domain[0].hi) && !c.domain[0].periodic) && constraints::findPeriod(c).turn > 0) return;
+  if (!(std::isfinite(c.domain[0].lo) && std::isfinite(c.domain[0].hi) && !c.domain[0].periodic) && constraints::findPeriod(c).turn > 0)
+    return;
   const constraints::CurvePoint p = evaluate(curve, start);
   if (roundingOfPhi(p, start) > allowedRounding(p))
-    throw RefusedError(fmt::format("the start phi = {} is so far from 0 that a rounding of phi moves the mass by {:.2g} m, in every tick; "
-                                   "shift the formula's phi, or choose a start nearer 0",
-                                   start, roundingOfPhi(p, start)));
+    throw RefusedError(
+        fmt::format("the start phi = {} is so far from 0 that a rounding of phi moves the mass by {:.2g} m, in every tick; "
+                    "shift the formula's phi, or choose a start nearer 0",
+                    start, roundingOfPhi(p, start)));
 }
 
 /// The modes' estimate knows nothing of a curve's or a surface's bends: where there is a task its reach is measured.
@@ -196,9 +199,10 @@ void requireSharedCurve(const constraints::CurveRegularity& regularity, double s
                                      describe(place, constraints::ConstraintKind::Curve)));
   if (!regularity.whole) throw RefusedError("several hands need a curve that is smooth throughout; on this one use one hand");
   if (speedRatio < kEvenly)
-    throw RefusedError(fmt::format("several hands are computed by rk4 in phi, and on this curve |r_phi| falls to {:.2g} of its largest "
-                                   "(a cusp, or nearly one); use one hand, or a curve where it stays above {}",
-                                   speedRatio, kEvenly));
+    throw RefusedError(
+        fmt::format("several hands are computed by rk4 in phi, and on this curve |r_phi| falls to {:.2g} of its largest "
+                    "(a cusp, or nearly one); use one hand, or a curve where it stays above {}",
+                    speedRatio, kEvenly));
 }
 
 // What one step a tick errs is measured with the first hand alone, along the reach.
@@ -209,12 +213,13 @@ void estimateShared(Scene& scene, experiment::Experiment experiment, double step
   if (const auto measured = measureRk4Error(*alone, *experiment.task, scene.constraint, step)) scene.choice.predictedError = *measured;
   constexpr double kAccurate = 1e-6, kUseless = 1e-4;  // [m]
   if (scene.choice.predictedError > kUseless)
-    throw RefusedError(fmt::format("several hands are computed by rk4, one step a tick, which errs by {:.2g} m here; use one hand, or a "
-                                   "softer object or coupling",
-                                   scene.choice.predictedError));
+    throw RefusedError(
+        fmt::format("several hands are computed by rk4, one step a tick, which errs by {:.2g} m here; use one hand, or a "
+                    "softer object or coupling",
+                    scene.choice.predictedError));
   if (scene.choice.predictedError > kAccurate)
-    scene.choice.warnings.push_back(fmt::format("several hands are computed by rk4, one step a tick: predicted error {:.2g} m",
-                                                scene.choice.predictedError));
+    scene.choice.warnings.push_back(
+        fmt::format("several hands are computed by rk4, one step a tick: predicted error {:.2g} m", scene.choice.predictedError));
 }
 
 void compileShared(Scene& scene, const experiment::Experiment& experiment, double step) {
@@ -300,9 +305,10 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
     if (!isFinite(evaluate(constraint.surface, start[0], start[1]).r))
       throw RefusedError(fmt::format("the surface has no value at the start u = {}, v = {}; choose another start", start[0], start[1]));
     if (const auto band = branches->smooth() ? constraints::findNarrowBand(constraint, {start[0], start[1]}) : std::nullopt)
-      throw RefusedError(fmt::format("about {} = {:.6g} the surface turns within {:.2g} of it, less than the way of a tick, and a mass would be "
-                                     "carried across unseen; write a wider place",
-                                     band->parameter == 0 ? "u" : "v", band->at, band->width));
+      throw RefusedError(
+          fmt::format("about {} = {:.6g} the surface turns within {:.2g} of it, less than the way of a tick, and a mass would be "
+                      "carried across unseen; write a wider place",
+                      band->parameter == 0 ? "u" : "v", band->at, band->width));
     const auto quadric = branches->smooth() ? fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]}) : std::nullopt;
     if (quadric && provesQuadric(constraint, *quadric)) {
       choice.form = "surface of second degree in world coordinates, 6 states";

@@ -251,7 +251,8 @@ class HeldObject final : public SharedPlant {
       Hand& hand = hands_[h];
       for (std::size_t i = 0; i < count; ++i) {
         const Vec3 moved = r_[i] - before_[i] + (geometry_.arm(hand.springs.fpOffset) - points_[h]);
-        hand.work += 0.5 * dot(startForce_[h * count + i] + forceOn(hand, static_cast<int>(i), hand.end.position, hand.end.velocity), moved);
+        hand.work +=
+            0.5 * dot(startForce_[h * count + i] + forceOn(hand, static_cast<int>(i), hand.end.position, hand.end.velocity), moved);
       }
     }
   }
@@ -305,8 +306,8 @@ struct FreeMasses : Unturned {
   void locate(std::span<const double> places, std::span<const double> rates, std::vector<Vec3>& r, std::vector<Vec3>& v) noexcept {
     for (int i = 0; i < count; ++i) r[i] = at3(places, i), v[i] = at3(rates, i);
   }
-  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force, const Vec3&,
-                  std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force,
+                  const Vec3&, std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
     for (int i = 0; i < count; ++i) put3(dPlaces, i, at3(rates, i)), put3(dRates, i, force[i] / model.mass[i]);
   }
   void observe(std::span<const double>, std::span<const double>, std::span<const double> dRates, std::span<MassState> masses) noexcept {
@@ -340,8 +341,8 @@ struct CurveMasses : Unturned {
       v[i] = rates[i] * points[i].rPhi;
     }
   }
-  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force, const Vec3&,
-                  std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force,
+                  const Vec3&, std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const constraints::CurvePoint& p = points[i];
       dPlaces[i] = rates[i];

@@ -205,7 +205,8 @@ std::string SurfaceSystem::endReason() const {
   if (metLine < 0) return "the mass reached the end of the constraint's domain";
   const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(metLine)];
   if (line.passable)
-    return fmt::format("the mass met a place of the surface that is never crossed: {}: {}", nameOf(constraints::PlaceKind::Jump), line.because);
+    return fmt::format("the mass met a place of the surface that is never crossed: {}: {}", nameOf(constraints::PlaceKind::Jump),
+                       line.because);
   return fmt::format(
       "the mass is beside a place of the surface that is never crossed: {}: {} (its argument is {:.2g} from {:g}; nearer, the formula loses "
       "the digits of the speed)",

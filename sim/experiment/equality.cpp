@@ -82,9 +82,8 @@ bool operator==(const Experiment& a, const Experiment& b) {
                velocityEstimator, arm, subjectScreen, text] = a;
   return schemaVersion == b.schemaVersion && name == b.name && isSameConstraint(constraint, b.constraint) && same(object, b.object) &&
          same(coupling, b.coupling) && same(hands, b.hands) && same(task, b.task) && method == b.method && handMass == b.handMass &&
-         forceLimit == b.forceLimit &&
-         forceLimitEndsTrial == b.forceLimitEndsTrial && same(timing, b.timing) && same(velocityEstimator, b.velocityEstimator) &&
-         same(arm, b.arm) && subjectScreen == b.subjectScreen && text == b.text;
+         forceLimit == b.forceLimit && forceLimitEndsTrial == b.forceLimitEndsTrial && same(timing, b.timing) &&
+         same(velocityEstimator, b.velocityEstimator) && same(arm, b.arm) && subjectScreen == b.subjectScreen && text == b.text;
 }
 
 }  // namespace reachlab::experiment

@@ -36,9 +36,9 @@ struct Coupling {
 
 /// One of several hands on one object, each coupled by Eq. (8) for itself: to one mass, or to every mass by a spring of its own.
 struct Hand {
-  int mass = 1;                           // from 1; 0: to all, and both lists have a number for each
+  int mass = 1;                            // from 1; 0: to all, and both lists have a number for each
   std::vector<double> stiffness, damping;  // [N/m], [N s/m]; one number where one mass is held
-  Vec3 fpOffset;                          // [m] where it holds a body, body frame
+  Vec3 fpOffset;                           // [m] where it holds a body, body frame
 };
 
 struct Tolerance {

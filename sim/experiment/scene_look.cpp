@@ -49,14 +49,16 @@ void readColours(FaultList& faults, const JsonNode& node, std::map<std::string, 
     if (value == nullptr) continue;
     reader.text(part, colours[part]);
     if (value->kind == JsonNode::Kind::String && !isColour(colours[part]))
-      faults.add(*value, "look.colours." + part, fmt::format("is \"{}\"", colours[part]), "\"#rrggbb\": two hexadecimal digits each of red, green, blue");
+      faults.add(*value, "look.colours." + part, fmt::format("is \"{}\"", colours[part]),
+                 "\"#rrggbb\": two hexadecimal digits each of red, green, blue");
   }
   reader.finish();
 }
 
 Json lookJson(const SceneLook& look) {
   const auto array = [](const Vec3& v) { return Json::array({v.x, v.y, v.z}); };
-  Json json = {{"surface_opacity", look.surfaceOpacity}, {"depth_cue", look.depthCue}, {"trace", look.trace}, {"force_arrow", look.forceArrow}};
+  Json json = {
+      {"surface_opacity", look.surfaceOpacity}, {"depth_cue", look.depthCue}, {"trace", look.trace}, {"force_arrow", look.forceArrow}};
   if (!look.sceneFile.empty()) json["scene_file"] = look.sceneFile;
   if (!look.colours.empty()) json["colours"] = look.colours;
   if (!look.cameras.empty()) json["cameras"] = Json::array();
@@ -73,8 +75,9 @@ Json lookJson(const SceneLook& look) {
 }  // namespace
 
 const std::vector<std::string>& colouredParts() {
-  static const std::vector<std::string> names{"background_top", "background_bottom", "rail", "surface", "surface_line", "start", "target",
-                                              "driven", "middle", "last", "hand", "spring", "coupling", "force", "trace"};
+  static const std::vector<std::string> names{
+      "background_top", "background_bottom", "rail",  "surface", "surface_line", "start", "target", "driven", "middle", "last", "hand",
+      "spring",         "coupling",          "force", "trace"};
   return names;
 }
 

@@ -8,7 +8,7 @@
 namespace reachlab {
 class FaultList;
 struct JsonNode;
-}
+}  // namespace reachlab
 
 namespace reachlab::experiment {
 

@@ -18,8 +18,8 @@ std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& exp
 
 RunConductor::RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : device_(std::move(device)), engine_(std::move(engine)), options_(options), trials_(std::move(trials)),
-      planned_(trials_.size()), first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
+    : device_(std::move(device)), engine_(std::move(engine)), options_(options), trials_(std::move(trials)), planned_(trials_.size()),
+      first_(std::make_unique<TickState>(engine_->state())), latest_(first_.get()) {}
 
 RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
@@ -27,8 +27,7 @@ RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std
 
 RunConductor::RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(*device)), std::move(device), std::move(trials), options) {
-}
+    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(*device)), std::move(device), std::move(trials), options) {}
 
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();

@@ -26,9 +26,10 @@ Blend fadeOut(double x) noexcept { return {1 - minimumJerk(x), -minimumJerkRate(
 void requireHands(const experiment::Experiment& experiment, const EngineOptions& options) {
   const std::size_t hands = std::max<std::size_t>(experiment.hands.size(), 1), devices = options.others.size() + 1;
   if (hands != devices)
-    throw FaultError(Fault{"device", fmt::format("is {} device{} where the experiment has {} hand{}", devices, devices == 1 ? "" : "s", hands,
-                                                 hands == 1 ? "" : "s"),
-                           "a device for each of the experiment's hands"});
+    throw FaultError(Fault{
+        "device",
+        fmt::format("is {} device{} where the experiment has {} hand{}", devices, devices == 1 ? "" : "s", hands, hands == 1 ? "" : "s"),
+        "a device for each of the experiment's hands"});
 }
 
 ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOptions& options) {
@@ -40,8 +41,7 @@ ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOpti
 }  // namespace
 
 EngineOptions engineOptions(const DeviceInfo& device) {
-  return {device.maxForce,       device.virtualHand, device.rendersForce, device.maxContinuousForce,
-          device.thermalSeconds, device.guards,      {}};
+  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds, device.guards, {}};
 }
 
 EngineOptions engineOptions(const HapticDevice& device) {

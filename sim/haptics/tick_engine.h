@@ -20,10 +20,10 @@ namespace reachlab::haptics {
 struct TickInput {
   DeviceSample device;
   trial::Command command = trial::Command::None;
-  trial::PlannedTrial planned;    // of the trial that NextTrial puts up
-  std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
-  std::int64_t measuredNs = 0;    // for the record only
-  bool deviceFault = false;       // latched on a device; its samples are then not valid
+  trial::PlannedTrial planned;                // of the trial that NextTrial puts up
+  std::uint32_t missedTicks = 0;              // whole periods that were skipped before this tick
+  std::int64_t measuredNs = 0;                // for the record only
+  bool deviceFault = false;                   // latched on a device; its samples are then not valid
   std::span<const DeviceSample> others = {};  // of the second hand on; as many as the experiment has
 };
 
@@ -33,9 +33,9 @@ struct EngineOptions {
   bool virtualHand = false;
   /// DeviceInfo::rendersForce: then an experiment's limit can only lower the device's. Where no force is felt it takes its place.
   bool rendersForce = false;
-  double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
-  double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
-  GuardSettings guards = {};   // DeviceInfo::guards
+  double continuousForce = 0;              // [N] DeviceInfo::maxContinuousForce
+  double thermalSeconds = 10;              // [s] DeviceInfo::thermalSeconds
+  GuardSettings guards = {};               // DeviceInfo::guards
   std::vector<EngineOptions> others = {};  // of the second hand on
 };
 EngineOptions engineOptions(const DeviceInfo& device);
@@ -98,14 +98,14 @@ class TickEngine {
     ForceSafety safety;
     GuardSettings guards;
     PassivityObserver observer;
-    Vec3 fpInBody;  // [m] the FP from what `fixedPoint` says, as the object is put up
-    Vec3 fpOffset;            // [m] HIP minus FP at arming, fixed in world axes
-    Vec3 anchor;              // [m] the hand after a gap: seen minus true, at the gap
-    int anchorTicks = 0;      // left of the blend
-    Vec3 lastSeen, lastRaw;   // [m] where the hand was last seen by the coupling, and by the device
-    bool broken = false;      // the device gave something that is not finite; until the next trial
-    bool lost = true;         // at the tick before
-    bool clamped = false;     // at the tick before, by the force limit
+    Vec3 fpInBody;           // [m] the FP from what `fixedPoint` says, as the object is put up
+    Vec3 fpOffset;           // [m] HIP minus FP at arming, fixed in world axes
+    Vec3 anchor;             // [m] the hand after a gap: seen minus true, at the gap
+    int anchorTicks = 0;     // left of the blend
+    Vec3 lastSeen, lastRaw;  // [m] where the hand was last seen by the coupling, and by the device
+    bool broken = false;     // the device gave something that is not finite; until the next trial
+    bool lost = true;        // at the tick before
+    bool clamped = false;    // at the tick before, by the force limit
   };
 
   dynamics::HandSample takeHand(Port& port, const DeviceSample& device, std::uint32_t missedTicks) noexcept;
@@ -131,8 +131,8 @@ class TickEngine {
   bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters
   trial::ProtocolSettings settings_;
-  Port port_;                  // of the first hand
-  std::vector<Port> others_;   // of the second hand on
+  Port port_;                                                // of the first hand
+  std::vector<Port> others_;                                 // of the second hand on
   std::array<Vec3, experiment::kMaxHands - 1> otherHips_{};  // [m] raw
   trial::ProtocolState protocol_;
   dynamics::StepStatus forceStatus_ = dynamics::StepStatus::Ok;

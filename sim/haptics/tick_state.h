@@ -23,17 +23,17 @@ struct LoopFaults {
 
 /// What is known of one hand after one tick.
 struct HandState {
-  DeviceSample device;          // raw
-  dynamics::HandSample hand;    // what the coupling saw
-  Vec3 couplingForce;           // [N] on the object, unclamped
-  Vec3 feedbackForce;           // [N] to the device, unclamped (the negative)
-  Vec3 deviceForce;             // [N] to the device, after the safety layer
-  bool clamped = false;         // the safety layer gave less than it was asked for
-  bool rendersForce = false;    // the device: what follows is of interest
+  DeviceSample device;        // raw
+  dynamics::HandSample hand;  // what the coupling saw
+  Vec3 couplingForce;         // [N] on the object, unclamped
+  Vec3 feedbackForce;         // [N] to the device, unclamped (the negative)
+  Vec3 deviceForce;           // [N] to the device, after the safety layer
+  bool clamped = false;       // the safety layer gave less than it was asked for
+  bool rendersForce = false;  // the device: what follows is of interest
   DeviceState deviceState = DeviceState::Off;
   std::uint8_t interventions = 0;  // bits of `intervention`
-  double portEnergy = 0;  // [J] given by the hand to the program in this trial, as the passivity observer counts
-  double work = 0;        // [J] done by the hand on the object in this trial; counted where several hold it
+  double portEnergy = 0;           // [J] given by the hand to the program in this trial, as the passivity observer counts
+  double work = 0;                 // [J] done by the hand on the object in this trial; counted where several hold it
 };
 
 /// Everything that is known after one tick; published to the window and turned into a row of the recording. Plain; copies are cheap
@@ -67,7 +67,8 @@ inline const HandState& handOf(const TickState& state, int hand) noexcept {
 inline void copyState(const TickState& from, TickState& to) noexcept {
   const auto* used = reinterpret_cast<const char*>(from.masses.data() + from.massCount);
   std::memcpy(static_cast<void*>(&to), &from, static_cast<std::size_t>(used - reinterpret_cast<const char*>(&from)));
-  if (from.handCount > 1) std::memcpy(to.others.data(), from.others.data(), static_cast<std::size_t>(from.handCount - 1) * sizeof(HandState));
+  if (from.handCount > 1)
+    std::memcpy(to.others.data(), from.others.data(), static_cast<std::size_t>(from.handCount - 1) * sizeof(HandState));
 }
 
 }  // namespace reachlab::haptics

@@ -16,7 +16,7 @@ constexpr std::uint32_t kRowTicks = 10;  // a row of the recording every so many
 experiment::Experiment withoutEnd(experiment::Experiment experiment) {
   if (!experiment.task) return experiment;
   experiment.task->duration = experiment::kMaxDuration;  // the longest that is allowed: a trial that does end is put up again
-  experiment.task->rest = experiment::kNoStartRest;  // its hand never rests
+  experiment.task->rest = experiment::kNoStartRest;      // its hand never rests
   return experiment;
 }
 

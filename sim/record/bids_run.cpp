@@ -65,7 +65,8 @@ void motionTsv(const RunLog& run, const TakePiece& take, int hand) {
 std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand) {
   const auto whose = [&](const Channel& channel) {
     for (int other = 2; other <= table.hands; ++other)
-      if (channel.name.starts_with(fmt::format("hand{}_", other)) || channel.name.starts_with(fmt::format("device{}_", other))) return other;
+      if (channel.name.starts_with(fmt::format("hand{}_", other)) || channel.name.starts_with(fmt::format("device{}_", other)))
+        return other;
     return 1;
   };
   std::vector<std::size_t> columns;

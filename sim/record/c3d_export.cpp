@@ -17,7 +17,7 @@ namespace {
 constexpr double kMillimetres = 1000;  // in a metre: what most programs take C3D's points to be in
 
 struct Columns {
-  std::vector<std::size_t> points;   // of each one's x; y and z follow
+  std::vector<std::size_t> points;  // of each one's x; y and z follow
   std::vector<std::size_t> signals;
 };
 

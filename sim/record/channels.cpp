@@ -76,7 +76,8 @@ double* putVector(double* at, const Vec3& v) noexcept {
 }
 
 double* putHand(double* at, const haptics::HandState& hand) noexcept {
-  for (const Vec3& v : {hand.hand.position, hand.hand.velocity, hand.device.position, hand.couplingForce, hand.feedbackForce, hand.deviceForce})
+  for (const Vec3& v :
+       {hand.hand.position, hand.hand.velocity, hand.device.position, hand.couplingForce, hand.feedbackForce, hand.deviceForce})
     at = putVector(at, v);
   *at++ = hand.device.valid ? 1 : 0;
   *at++ = hand.work;
@@ -117,7 +118,8 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   if (portEnergy)
     addScalar(out, {"port_energy", "port_energy_j", "MISC", "hand", "J",
                     "energy that the hand has given to the program in this trial (passivity observer); below 0 it was given some"});
-  if (table.hands > 1) addScalar(out, {"hand_work", "hand_work_j", "MISC", "hand", "J", "work done by the hand on the object in this trial"});
+  if (table.hands > 1)
+    addScalar(out, {"hand_work", "hand_work_j", "MISC", "hand", "J", "work done by the hand on the object in this trial"});
   for (int hand = 2; hand <= table.hands; ++hand) addHand(out, hand);
   return table;
 }

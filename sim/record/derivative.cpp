@@ -16,9 +16,8 @@ std::string describeDerivative(const std::string& folder, const std::string& nam
   j["Name"] = name;
   j["BIDSVersion"] = "1.9.0";
   j["DatasetType"] = "derivative";
-  j["GeneratedBy"] = nlohmann::ordered_json::array(
-      {{{"Name", software.empty() ? "reachlab" : software.substr(0, space)},
-        {"Version", space == std::string::npos ? "n/a" : software.substr(space + 1)}}});
+  j["GeneratedBy"] = nlohmann::ordered_json::array({{{"Name", software.empty() ? "reachlab" : software.substr(0, space)},
+                                                     {"Version", space == std::string::npos ? "n/a" : software.substr(space + 1)}}});
   j["SourceDatasets"] = nlohmann::ordered_json::array({{{"URL", source}}});
   writeFileAtomically(path, j.dump(2) + "\n");
   return path;

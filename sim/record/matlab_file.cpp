@@ -59,9 +59,7 @@ Variable structure(const char* name, const std::vector<std::string>& fields) {
   std::array<std::size_t, 2> size{1, 1};
   return owned(Mat_VarCreateStruct(name, 2, size.data(), names.data(), static_cast<unsigned>(names.size())));
 }
-void setField(Variable& whole, std::size_t field, Variable value) {
-  Mat_VarSetStructFieldByIndex(whole.get(), field, 0, value.release());
-}
+void setField(Variable& whole, std::size_t field, Variable value) { Mat_VarSetStructFieldByIndex(whole.get(), field, 0, value.release()); }
 
 Variable tableOf(const char* name, const ColumnTable& table, bool pairs) {
   std::vector<std::string> names;
@@ -154,7 +152,9 @@ std::vector<std::string> write(const std::vector<RunLog>& runs, const std::strin
 
 }  // namespace
 
-std::vector<std::string> writeMatlab5(const std::vector<RunLog>& runs, const std::string& folder) { return write(runs, folder, MAT_FT_MAT5); }
+std::vector<std::string> writeMatlab5(const std::vector<RunLog>& runs, const std::string& folder) {
+  return write(runs, folder, MAT_FT_MAT5);
+}
 std::vector<std::string> writeMatlab73(const std::vector<RunLog>& runs, const std::string& folder) {
   return write(runs, folder, MAT_FT_MAT73);
 }
@@ -164,7 +164,11 @@ std::u16string utf16Of(const std::string& text, bool pairs) {
   std::u16string out;
   for (std::size_t at = 0; at < text.size();) {
     const auto lead = static_cast<unsigned char>(text[at++]);
-    const int more = lead < 0x80 ? 0 : lead >= 0xc2 && lead < 0xe0 ? 1 : lead >= 0xe0 && lead < 0xf0 ? 2 : lead >= 0xf0 && lead < 0xf5 ? 3 : -1;
+    const int more = lead < 0x80                   ? 0
+                     : lead >= 0xc2 && lead < 0xe0 ? 1
+                     : lead >= 0xe0 && lead < 0xf0 ? 2
+                     : lead >= 0xf0 && lead < 0xf5 ? 3
+                                                   : -1;
     char32_t code = more <= 0 ? lead : lead & (0x3fu >> more);
     bool right = more >= 0;
     for (int k = 0; right && k < more; ++k) {
@@ -172,7 +176,8 @@ std::u16string utf16Of(const std::string& text, bool pairs) {
       if (right) code = (code << 6) | (static_cast<unsigned char>(text[at++]) & 0x3fu);
     }
     constexpr std::array<char32_t, 4> kLeast{0, 0x80, 0x800, 0x10000};
-    if (!right || code < kLeast[static_cast<std::size_t>(more)] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) || (!pairs && code >= 0x10000))
+    if (!right || code < kLeast[static_cast<std::size_t>(more)] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ||
+        (!pairs && code >= 0x10000))
       code = kUnknown;
     if (code >= 0x10000) {
       out += static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));

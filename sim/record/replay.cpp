@@ -72,9 +72,7 @@ void compareTrials(const RunLog& log, Replay& replay) {
 
 }  // namespace
 
-Replay replayRun(const RunLog& log) {
-  return replayRun(log, {});
-}
+Replay replayRun(const RunLog& log) { return replayRun(log, {}); }
 
 Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const RunConfiguration& c = log.configuration();
@@ -92,8 +90,8 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const ChannelTable scene = makeChannelTable(recorded, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body ||
       c.table.hands != scene.hands)
-    throw FaultError(Fault{
-        "table", "has not the masses and hands of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
+    throw FaultError(
+        Fault{"table", "has not the masses and hands of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
   const std::vector<TrialSetup> setups = log.setups();
   RowCheck rows(log);
   TrialTracker tracker(c.firstTrial);

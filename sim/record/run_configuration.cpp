@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kSchemaVersion = 1;  // of the configuration's keys: one whose meaning changes is another version
+constexpr int kSchemaVersion = 1;                // of the configuration's keys: one whose meaning changes is another version
 constexpr const char* kFurtherName = "station";  // of the channels behind those of the scene
 
 }  // namespace
@@ -61,12 +61,14 @@ void checkConfiguration(const RunConfiguration& c) {
   for (const auto& [key, label] : {std::pair{"subject", c.subject}, std::pair{"session", c.session}, std::pair{"task", c.task}})
     if (const auto fault = labelFault(label, key)) faults.push_back(*fault);
   const std::size_t columns = rowWidth(c.table);
-  const bool further = c.table.size() > columns && std::all_of(c.table.channels.begin() + static_cast<std::ptrdiff_t>(columns), c.table.channels.end(),
-                                                               [](const Channel& channel) { return channel.name.starts_with(kFurtherName); });
+  const bool further =
+      c.table.size() > columns && std::all_of(c.table.channels.begin() + static_cast<std::ptrdiff_t>(columns), c.table.channels.end(),
+                                              [](const Channel& channel) { return channel.name.starts_with(kFurtherName); });
   if (c.table.size() != columns && !further)
     faults.push_back({"table", fmt::format("has {} channels", c.table.size()), fmt::format("{}, as its masses and hands have", columns)});
   if (static_cast<int>(c.otherHands.size()) + 1 != c.table.hands)
-    faults.push_back({"other_hands", fmt::format("has {} hands", c.otherHands.size()), fmt::format("{}, as the table has", c.table.hands - 1)});
+    faults.push_back(
+        {"other_hands", fmt::format("has {} hands", c.otherHands.size()), fmt::format("{}, as the table has", c.table.hands - 1)});
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
 

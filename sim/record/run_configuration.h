@@ -70,7 +70,7 @@ struct RunConfiguration {
   double samplingHz = 100;       // of the sample rows
   std::uint32_t sampleEveryTicks = 10;
   Participant participant;
-  std::string notes;  // by the experimenter
+  std::string notes;                   // by the experimenter
   std::vector<HandDevice> otherHands;  // of the second hand on
   ChannelTable table;
 };

@@ -42,7 +42,8 @@ enum class EventKind : std::uint8_t {
   Note = 12,          // by the experimenter
   DeviceState = 13,   // of a device that renders force; `value` is its haptics::DeviceState, `text` its name
   Intervention = 14,  // of the safety layer, `text` its name; `value` 1 when it begins, 0 when it has ended
-  Instrument = 15,    // sent to another instrument or received from it, `text` says which; `value` of what was sent: [s] after the tick's clock
+  // sent to another instrument or received from it, `text` says which; `value` of what was sent: [s] after the tick's clock
+  Instrument = 15,
 };
 std::string_view nameOf(EventKind kind);
 

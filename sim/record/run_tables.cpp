@@ -38,7 +38,8 @@ void eachSampleColumn(const RunLog& run, const std::function<void(std::size_t, s
 }
 
 std::string clockStatement(const RunConfiguration& c) {
-  const std::string began = c.startedUtc.empty() ? "at a time that was not recorded" : "at " + c.startedUtc + " by the system's clock (UTC)";
+  const std::string began =
+      c.startedUtc.empty() ? "at a time that was not recorded" : "at " + c.startedUtc + " by the system's clock (UTC)";
   if (c.clock == "virtual")
     return "Times are seconds since the run's first tick, counted in ticks of 1 ms of a virtual clock that ran as fast as it could; the run began " +
            began + ".";

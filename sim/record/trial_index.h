@@ -10,9 +10,9 @@ namespace reachlab::record {
 
 /// A recorded run as a list of trials needs it.
 struct IndexedRun {
-  std::string path;             // of its log
-  std::uint64_t bytes = 0;      // of the file when it was read, and when that
-  std::int64_t changedNs = 0;   // was last written: another size or time is another run
+  std::string path;            // of its log
+  std::uint64_t bytes = 0;     // of the file when it was read, and when that
+  std::int64_t changedNs = 0;  // was last written: another size or time is another run
   std::string subject, session, condition, experiment, device, startedUtc;
   int run = 0, block = 0, day = 0;
   bool practice = false, healthy = true;
@@ -21,9 +21,9 @@ struct IndexedRun {
 
 /// The trials of a dataset, a session or a single log, without their samples.
 struct TrialIndex {
-  std::vector<IndexedRun> runs;          // by the name of their logs
-  std::vector<std::string> unreadable;   // logs that are left out, a sentence each
-  std::size_t read = 0;                  // logs that had to be opened: the others were known from the index file
+  std::vector<IndexedRun> runs;         // by the name of their logs
+  std::vector<std::string> unreadable;  // logs that are left out, a sentence each
+  std::size_t read = 0;                 // logs that had to be opened: the others were known from the index file
   std::size_t trialCount() const;
 };
 

@@ -7,9 +7,9 @@ namespace reachlab::record {
 
 /// What a person says of a recorded trial, while the run goes on or long after. SI, seconds since the trial was armed.
 struct TrialMark {
-  int trial = 0;                        // as recorded
-  bool flagged = false;                 // to be looked at again; counts like any other
-  std::string excluded = {};            // why it is not to count; empty: it counts
+  int trial = 0;                                  // as recorded
+  bool flagged = false;                           // to be looked at again; counts like any other
+  std::string excluded = {};                      // why it is not to count; empty: it counts
   std::optional<double> onset = {}, offset = {};  // [s] of the movement, where the rule's were moved by hand
   std::string note = {};
   bool empty() const { return !flagged && excluded.empty() && !onset && !offset && note.empty(); }

@@ -35,7 +35,6 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
   return facts;
 }
 
-
 void TrialTracker::begin(const RecordedTick& tick, std::int32_t number) {
   trial_ = {};
   trial_.trial = number;

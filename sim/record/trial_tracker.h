@@ -56,7 +56,7 @@ class TrialTracker {
   bool clamped_ = false, valid_ = true;
   haptics::DeviceState deviceState_ = haptics::DeviceState::Off;
   std::array<std::uint64_t, haptics::intervention::kCount> lastActive_{};  // tick at which each bit was last set; 0: it is not under way
-  bool intervened_ = false;  // one of them is under way
+  bool intervened_ = false;                                                // one of them is under way
   dynamics::StepStatus status_ = dynamics::StepStatus::Ok;
   Vec3 lastPosition_;
   std::int64_t goNs_ = 0;  // clock at the go signal

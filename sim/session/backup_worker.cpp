@@ -16,7 +16,8 @@ BackupState backUpNow(const std::string& dataset, const std::string& backup) {
                         report.runs == 1 ? " is" : "s are", report.copiedFiles, report.copiedFiles == 1 ? "" : "s",
                         1e-6 * static_cast<double>(report.copiedBytes))};
   } catch (const std::exception& error) {
-    return {BackupState::Kind::Failed, fmt::format("backup {}: not made: {}; the recording itself is safe", backup, endingOf(error).sentence)};
+    return {BackupState::Kind::Failed,
+            fmt::format("backup {}: not made: {}; the recording itself is safe", backup, endingOf(error).sentence)};
   }
 }
 

@@ -69,7 +69,8 @@ void readOrderSeed(ObjectReader& reader, Plan& plan) {
 void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Fault>& faults) {
   if (block.experiment.empty()) faults.push_back({key + ".experiment", "is empty", "a file, or the name of a shipped experiment"});
   if (!block.changes.empty() && block.condition.empty())
-    faults.push_back({key + ".condition", "is not given where the experiment is changed", "a name that tells these trials from the others"});
+    faults.push_back(
+        {key + ".condition", "is not given where the experiment is changed", "a name that tells these trials from the others"});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
   checkNumber(key + ".pause_s", block.pauseSeconds, atLeastZero("s"), faults);
   checkNumber(key + ".rest_s", block.restSeconds, atLeastZero("s"), faults);

@@ -12,7 +12,7 @@ namespace reachlab::session {
 
 /// A series of trials with the same settings; recorded as one run.
 struct PlanBlock {
-  std::string experiment;  // file (beside the plan) or shipped name
+  std::string experiment;                  // file (beside the plan) or shipped name
   std::vector<experiment::Patch> changes;  // to that file; the condition then has a name
   int trials = 1;
   bool practice = false;                        // recorded too, left out of statistics

@@ -137,9 +137,9 @@ void RecordedRun::openLog() {
   record::removeLeftovers(options_.place.data);
   takeFreeRun(block_, options_.place, options_.numberAskedFor);
   completeConfiguration();
-  recorder_ =
-      std::make_unique<record::Recorder>(block_.logPath, block_.configuration,
-                                         record::RecorderOptions{.threaded = !options_.virtualClock, .diskReserve = options_.diskReserve, .further = options_.further});
+  recorder_ = std::make_unique<record::Recorder>(
+      block_.logPath, block_.configuration,
+      record::RecorderOptions{.threaded = !options_.virtualClock, .diskReserve = options_.diskReserve, .further = options_.further});
 }
 
 // A repeat is not repeated.

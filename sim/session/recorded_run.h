@@ -28,10 +28,10 @@ struct RecordedRunOptions {
   std::shared_ptr<haptics::LoopClock> clock;  // LoopOptions::clock
   /// Makes the engine where it is none of one experiment on its own (a station's copy); empty: the experiment's.
   std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
-  std::vector<record::Channel> furtherChannels;      // behind those of the scene, named "station…"
+  std::vector<record::Channel> furtherChannels;     // behind those of the scene, named "station…"
   const record::FurtherColumns* further = nullptr;  // what stands in them; outlives the run
-  std::vector<haptics::RunSink*> watchers;    // see every tick as well (a plot), may lose them, outlive the run
-  record::InstrumentLink* instruments = nullptr;  // beside the haptic device; outlive the run
+  std::vector<haptics::RunSink*> watchers;          // see every tick as well (a plot), may lose them, outlive the run
+  record::InstrumentLink* instruments = nullptr;    // beside the haptic device; outlive the run
 };
 
 /// One run, recorded: an experiment on a device, trial after trial, into a log of its own, and into the dataset at the end. The one place

@@ -23,8 +23,8 @@ SessionStanding standingOf(const SessionRequest& request, const Programme& progr
   const std::vector<BlockProgress> progress = readProgress(request.place, standing.unreadable);
   for (const BlockToRun& block : session.blocks) {
     const record::RunConfiguration& c = block.configuration;
-    BlockStanding one{c.block, c.condition, c.experimentName, c.practice, static_cast<int>(block.trials.size()), 0, block.restSeconds,
-                      block.instructions};
+    BlockStanding one{c.block, c.condition,       c.experimentName,  c.practice, static_cast<int>(block.trials.size()),
+                      0,       block.restSeconds, block.instructions};
     for (const BlockProgress& recorded : progress)
       if (recorded.configuration.planText == c.planText && recorded.configuration.block == c.block &&
           recorded.configuration.experimentName == c.experimentName)

@@ -19,10 +19,10 @@ enum class Reason : std::uint8_t {
   EndOfConstraint,
   Computation,
   Program,
-  Early,    // onset before the go signal, or in a catch trial
-  Timing,   // more ticks were missed in the movement than the experiment allows
-  NoStart,  // a simulated or replayed hand was never at the start
-  PeerLost, // another station that moves the same object fell silent
+  Early,     // onset before the go signal, or in a catch trial
+  Timing,    // more ticks were missed in the movement than the experiment allows
+  NoStart,   // a simulated or replayed hand was never at the start
+  PeerLost,  // another station that moves the same object fell silent
 };
 inline constexpr Reason kLastReason = Reason::PeerLost;
 std::string_view nameOf(Outcome outcome);  // "success", "failure", "aborted", "interrupted"

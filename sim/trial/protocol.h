@@ -78,7 +78,7 @@ struct ProtocolInput {
   bool clamped = false;     // at the tick before
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::span<const dynamics::MassState> masses;
-  std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
+  std::uint32_t missedTicks = 0;         // whole periods that were skipped before this tick
   std::span<const Vec3> otherHips = {};  // [m] raw, of the second hand on; what stands above of one hand is then of all of them: the
                                          // fastest, all valid, any broken or clamped
 };

@@ -140,7 +140,8 @@ TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
   ASSERT_EQ(analyzeStudy(openDataset(folder.path()).input, quick()).trials.size(), 2u);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
     if (entry.path().filename().string().ends_with("_events.tsv"))
-      for (const std::string& text : {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
+      for (const std::string& text :
+           {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
         std::ofstream(entry.path(), std::ios::binary) << text;
         EXPECT_THROW(analyzeStudy(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
       }

@@ -16,7 +16,8 @@ TEST(Effects, OfConditionsAreCorrectedTogetherByHolm) {
   for (std::size_t condition = 0; condition < 3; ++condition)
     for (int person = 0; person < 5; ++person)
       for (int trial = 0; trial < 20; ++trial)
-        attempts.push_back({std::string(1, static_cast<char>('a' + person)), "1", 1, condition, trial < kSuccesses[condition] + person % 3});
+        attempts.push_back(
+            {std::string(1, static_cast<char>('a' + person)), "1", 1, condition, trial < kSuccesses[condition] + person % 3});
   std::vector<double> own, told;
   for (const Effect& effect : effectsOf(successTable(attempts), 3))
     if (!effect.ofDay) own.push_back(effect.logit.p), told.push_back(effect.p);

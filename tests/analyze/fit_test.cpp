@@ -145,8 +145,8 @@ TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
 
 // An even and an odd number of trials, so that their median duration is one of them or lies between two.
 TEST(PersonFit, OfAllTrialsDoesNotDependOnTheirOrder) {
-  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)),
-                                          of({Criterion::MinHandJerk, Criterion::MinHandForceChange}));
+  const CandidateSet set =
+      makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk, Criterion::MinHandForceChange}));
   for (const int count : {12, 13}) {
     std::vector<FitWindow> windows;
     std::vector<double> durations;

@@ -77,7 +77,8 @@ TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   EXPECT_EQ(one.out.find("there may be more"), std::string::npos) << one.out;
   EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate place"),
             std::string::npos);
-  EXPECT_NE(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out.find("no kink, jump, pole, end or cusp"), std::string::npos);
+  EXPECT_NE(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out.find("no kink, jump, pole, end or cusp"),
+            std::string::npos);
   EXPECT_EQ(check("point", "curve", R"(["1", "2", "3"])", "[0, 1]").exitCode, 2);
   const Ended infinite = check("hole", "curve", R"j(["1/(phi - 0.3)", "phi", "0"])j", "[0, 1]");
   EXPECT_EQ(infinite.exitCode, 2);

@@ -136,7 +136,8 @@ TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
 TEST(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
   const Folder folder;
   const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder.string();
-  const Ended first = reach("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);
+  const Ended first =
+      reach("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);
   ASSERT_EQ(first.exitCode, 0) << first.err;
   EXPECT_EQ(Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-premium15.json"))["scale"], 1.25);
   EXPECT_EQ(Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-omni.json"))["mirror_x"], true);
@@ -166,8 +167,9 @@ TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
 
 TEST(Devices, TwoPhantomsAreTwoHandsOfOneExperiment) {
   const Folder folder;
-  const Ended run = reach("run chain-two-hands --device \"phantom:Left + phantom:Right\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
-                          kFakes + " FAKE_HD_DEVICES=Left,Right timeout -s INT 30");
+  const Ended run =
+      reach("run chain-two-hands --device \"phantom:Left + phantom:Right\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+            kFakes + " FAKE_HD_DEVICES=Left,Right timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
   EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
 }
@@ -185,9 +187,9 @@ std::map<int, std::pair<double, double>> diaryOf(const std::filesystem::path& fi
 TEST(Devices, TwoOmegasAreTwoHandsOfOneExperiment) {
   const Folder folder;
   const std::string diary = folder / "diary";
-  const Ended run = reach("run chain-two-hands --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " +
-                              folder.string(),
-                          kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
+  const Ended run = reach(
+      "run chain-two-hands --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+      kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
   EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
   const auto felt = diaryOf(diary);
@@ -216,7 +218,8 @@ TEST(Devices, APhantomLostInMidTrialInterruptsIt) {
 TEST(Devices, OneOfTwoOmegasLostInMidTrialInterruptsItAndTakesTheForceFromBoth) {
   const Folder folder;
   const std::string diary = folder / "diary";
-  expectLost(reach("run chain-two-hands --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+  expectLost(reach("run chain-two-hands --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " +
+                       folder.string(),
                    kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_LOST_AFTER=2.2 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30"),
              "device omega.3 4712 is lost");
   EXPECT_EQ(diaryOf(diary)[0].second, 0) << "the one that is still there";
@@ -236,7 +239,8 @@ TEST(Devices, AnInverse3WhoseServiceEndsInMidTrialInterruptsIt) {
     service.end();
   });
   const Folder folder;
-  expectLost(reach("run chain-slow --device haply:port=" + std::to_string(service.port()) + " --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+  expectLost(reach("run chain-slow --device haply:port=" + std::to_string(service.port()) +
+                       " --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
                    "timeout -s INT 30"),
              "Haply Inverse3");
 }

@@ -16,7 +16,8 @@ TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
   ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
   ::fcntl(wire, F_SETFL, O_NONBLOCK);
   const Folder folder;
-  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder.string() + " --instrument byte:" + name);
+  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder.string() +
+                            " --instrument byte:" + name);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   std::string bytes(16, '\0');
   bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(wire, bytes.data(), bytes.size()))));
@@ -30,9 +31,15 @@ TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
   for (const record::RecordedEvent& event : sent) {
     EXPECT_GT(event.value, 0);
     const record::RecordedTrial& trial = log.trials().at(static_cast<std::size_t>(event.trial - 1));
-    if (event.text.ends_with(" out go")) { EXPECT_EQ(event.tick, trial.goTick); }
-    if (event.text.ends_with(" out onset")) { EXPECT_EQ(event.tick, trial.result.onsetTick); }
-    if (event.text.ends_with(" out success")) { EXPECT_EQ(event.tick, trial.lastTick); }
+    if (event.text.ends_with(" out go")) {
+      EXPECT_EQ(event.tick, trial.goTick);
+    }
+    if (event.text.ends_with(" out onset")) {
+      EXPECT_EQ(event.tick, trial.result.onsetTick);
+    }
+    if (event.text.ends_with(" out success")) {
+      EXPECT_EQ(event.tick, trial.lastTick);
+    }
   }
   ::close(wire);
   ::close(slave);

@@ -146,7 +146,8 @@ TEST(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
   for (const std::string& what : {folder.string(), folder.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
     const Ended ended = reach("validate " + what);
     EXPECT_EQ(ended.exitCode, 2);
-    EXPECT_NE(ended.err.find("allowed: an experiment file, a constraint definition, a session plan or a study"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("allowed: an experiment file, a constraint definition, a session plan or a study"), std::string::npos)
+        << ended.err;
   }
   EXPECT_NE(reach("validate chain-modrate").err.find("did you mean chain-moderate?"), std::string::npos);
   const Ended old = reach("validate " + folder.write("old.json", lineExperiment("2", "2", "0.01", "1", "1")));

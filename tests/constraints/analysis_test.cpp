@@ -153,8 +153,9 @@ TEST(Usable, APeriodThatTheFormulaHasNotIsRefused) {
     try {
       makeConstraint(parseDefinition(R"({"schema_version": 1, "name": "made", "kind": ")" + kind + R"(", ")" + kind + R"(": [)" + formulas +
                                          R"(], "shape": {}, "domain": )" + domain + R"(, "periodic": )" + periodic +
-                                         R"(, "at_end": "stop", "start": )" + (kind == "curve" ? "[0.1]" : "[0.1, 0.1]") + R"(, "target": )" +
-                                         (kind == "curve" ? "[0.2]" : "[0.2, 0.2]") + R"(, "sentence": "s", "source": "s"})",
+                                         R"(, "at_end": "stop", "start": )" + (kind == "curve" ? "[0.1]" : "[0.1, 0.1]") +
+                                         R"(, "target": )" + (kind == "curve" ? "[0.2]" : "[0.2, 0.2]") +
+                                         R"(, "sentence": "s", "source": "s"})",
                                      "made"));
     } catch (const FaultError& e) {
       return std::string(e.what());
@@ -171,7 +172,8 @@ TEST(Usable, APeriodThatTheFormulaHasNotIsRefused) {
             std::string::npos);
   EXPECT_NE(told("curve", R"f("0.1*phi", "0.1*sqrt(7 - phi)", "0")f", turn, "true").find("but r has a value at phi = "), std::string::npos);
   const std::string band = R"f("(0.1 + 0.05*v*cos(u/2))*cos(u)", "(0.1 + 0.05*v*cos(u/2))*sin(u)", "0.05*v*sin(u/2)")f";
-  EXPECT_EQ(told("surface", band, "[" + turn + ", [-1, 1]]", "[true, false]"), "accepted") << "Moebius' band comes back the other way round";
+  EXPECT_EQ(told("surface", band, "[" + turn + ", [-1, 1]]", "[true, false]"), "accepted")
+      << "Moebius' band comes back the other way round";
   EXPECT_NE(told("surface", R"f("0.1*cos(u)", "0.1*sin(u)", "0.1*v")f", "[" + turn + ", [0, 1]]", "true").find("periodic[1]: is true"),
             std::string::npos);
 }

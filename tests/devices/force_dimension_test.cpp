@@ -170,7 +170,8 @@ TEST_F(TwoForceDimensions, OneThatIsLostLeavesTheOtherToBeTold) {
 
 TEST_F(TwoForceDimensions, OneTwiceIsRefusedBeforeItIsOpened) {
   experiment = experiment::readExperiment("chain-two-hands");
-  for (const char* twice : {"forcedimension:1 + forcedimension:1", "forcedimension + forcedimension:1", "hid + hid", "haply:A,port=1 + haply:A"})
+  for (const char* twice :
+       {"forcedimension:1 + forcedimension:1", "forcedimension + forcedimension:1", "hid + hid", "haply:A,port=1 + haply:A"})
     EXPECT_THROW(open(twice), FaultError) << twice;
   EXPECT_EQ(fakeDhd(1).forces, 0);
   EXPECT_NO_THROW(open("virtual:omni + virtual:omni")) << "there are as many as are asked for";

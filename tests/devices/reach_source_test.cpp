@@ -67,13 +67,16 @@ TEST_F(OthersFiles, WhatIsWrongWithATableIsSaid) {
   const std::string file = write("t.csv", "T,X,Y,Z\n0,1,2,3\n0.5,4,5,6\n");
   EXPECT_NE(refusalOf(file).find("t.csv:1: time_s: column is missing"), std::string::npos);
   EXPECT_NE(refusalOf(file + ",time=T,x=X,y=Y,z=Z").find("t.csv:1: T: the unit of time is not told; allowed: s, ms"), std::string::npos);
-  EXPECT_NE(refusalOf(file + ",time=T,time_unit=s,x=X,y=Y,z=Z").find("X: the unit of length is not told; allowed: m, cm, mm"), std::string::npos);
-  EXPECT_NE(refusalOf(file + ",time=T,time_unit=s,x=A,y=Y,z=Z,unit=m").find("A: column is missing; allowed: T, X, Y, Z"), std::string::npos);
+  EXPECT_NE(refusalOf(file + ",time=T,time_unit=s,x=X,y=Y,z=Z").find("X: the unit of length is not told; allowed: m, cm, mm"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(file + ",time=T,time_unit=s,x=A,y=Y,z=Z,unit=m").find("A: column is missing; allowed: T, X, Y, Z"),
+            std::string::npos);
   EXPECT_NE(refusalOf(file + ",unit=inch").find("unit=inch"), std::string::npos);
   EXPECT_NE(refusalOf(file + ",colour=red").find("colour is not known"), std::string::npos);
   EXPECT_NE(refusalOf(file + ",rate=0").find("rate=0"), std::string::npos);
   EXPECT_NE(refusalOf(write("inch.csv", "time_s,x_in,y_in,z_in\n0,1,2,3\n")).find("x_m: column is missing"), std::string::npos);
-  EXPECT_NE(refusalOf(write("comma.csv", "time_s;x_m;y_m;z_m\n0;1,5;2;3\n")).find("comma.csv:2: x_m: '1,5' is not a number"), std::string::npos);
+  EXPECT_NE(refusalOf(write("comma.csv", "time_s;x_m;y_m;z_m\n0;1,5;2;3\n")).find("comma.csv:2: x_m: '1,5' is not a number"),
+            std::string::npos);
 }
 
 struct Bids {
@@ -121,7 +124,9 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
 }
 
 TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
-  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") { return refusalOf(writeBids(*this, folder, bids) + options); };
+  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") {
+    return refusalOf(writeBids(*this, folder, bids) + options);
+  };
   EXPECT_EQ(refusal({}), "read");
   EXPECT_NE(refusal({}, "").find("has 2 tracked points, and none is named; allowed: point= with one of hand, elbow"), std::string::npos);
   EXPECT_NE(refusal({}, ",point=foot").find("has no x, y and z of type POS for the point foot"), std::string::npos);
@@ -135,7 +140,8 @@ TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
   EXPECT_NE(refusal(bids).find("SamplingFrequency: is missing or no number"), std::string::npos);
   bids = {};
   bids.motion = "hx\thy\thz\tex\tey\tez\n" + bids.motion;
-  EXPECT_NE(refusal(bids).find("_motion.tsv:1: column 1: 'hx' is not a number; allowed: a number or n/a (motion.tsv has no header)"), std::string::npos);
+  EXPECT_NE(refusal(bids).find("_motion.tsv:1: column 1: 'hx' is not a number; allowed: a number or n/a (motion.tsv has no header)"),
+            std::string::npos);
   bids.motion = "1\t2\t3\n";
   EXPECT_NE(refusal(bids).find("_motion.tsv:1: has 3 cells; allowed: 6, as its channels"), std::string::npos);
   bids = {};
@@ -164,8 +170,9 @@ TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
   EXPECT_NE(refusalOf(file).find("has 2 points, and none is named; allowed: point= with one of WRIST, INDEX"), std::string::npos);
   EXPECT_NE(refusalOf(file + ",point=NOSE").find("has no point NOSE; allowed: point= with one of WRIST, INDEX"), std::string::npos);
   for (std::size_t frame = 20; frame < 40; ++frame) c3d.seen[2 * frame + 1] = 0;
-  EXPECT_NE(refusalOf(write("gap.c3d", c3dBytes(c3d)) + ",point=INDEX").find("not seen for 0.210 s from 0.190 s; allowed: gaps of up to 0.1 s"),
-            std::string::npos);
+  EXPECT_NE(
+      refusalOf(write("gap.c3d", c3dBytes(c3d)) + ",point=INDEX").find("not seen for 0.210 s from 0.190 s; allowed: gaps of up to 0.1 s"),
+      std::string::npos);
   c3d.pointUnit = "furlong";
   EXPECT_NE(refusalOf(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST").find("the unit of length is 'furlong'"), std::string::npos);
   EXPECT_EQ(refusalOf(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST,unit=mm"), "read");

@@ -34,7 +34,8 @@ TEST(Registry, AnUnknownDeviceIsRefusedWithAllThatThereAre) {
     makeDevice("joystick", experiment, 1);
     FAIL();
   } catch (const FaultError& error) {
-    for (const DeviceDriver& driver : deviceDrivers()) EXPECT_NE(std::string(error.what()).find(driver.name), std::string::npos) << driver.name;
+    for (const DeviceDriver& driver : deviceDrivers())
+      EXPECT_NE(std::string(error.what()).find(driver.name), std::string::npos) << driver.name;
   }
 }
 

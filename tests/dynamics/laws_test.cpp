@@ -222,7 +222,8 @@ TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
     e.constraint.name = "slotted-ring";
     e.constraint.definition = std::string(R"j({"schema_version": 1, "name": "slotted-ring", "kind": "curve",
       "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0.01*atan2(sin(phi), cos(phi))"], "shape": {}, "domain": ["-pi", "pi"], "periodic": true,
-      "at_end": ")j") + (bounce ? "bounce" : "stop") + R"j(", "start": [0.1], "target": [1], "sentence": "s", "source": "s"})j";
+      "at_end": ")j") + (bounce ? "bounce" : "stop") +
+                              R"j(", "start": [0.1], "target": [1], "sentence": "s", "source": "s"})j";
     const Scene scene = freeScene(e, {3}, {1});
     const double before = scene.plant->energy({});
     const StepStatus status = run(*scene.plant, noHand, 0.3);

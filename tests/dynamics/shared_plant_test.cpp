@@ -24,7 +24,8 @@ struct SmoothHand {
     const auto hermite = [&](const Vec3& a, const Vec3& da, const Vec3& b, const Vec3& db) {
       return std::array<Vec3, 4>{a, dt * da, 3 * (b - a) - dt * (2 * da + db), 2 * (a - b) + dt * (da + db)};
     };
-    const Vec3 a0{-size * omega * omega * std::sin(omega * t + phase), 0, 0}, a1{-size * omega * omega * std::sin(omega * (t + dt) + phase), 0, 0};
+    const Vec3 a0{-size * omega * omega * std::sin(omega * t + phase), 0, 0},
+        a1{-size * omega * omega * std::sin(omega * (t + dt) + phase), 0, 0};
     const auto r = hermite(at(t), speed(t), at(t + dt), speed(t + dt)), v = hermite(speed(t), a0, speed(t + dt), a1);
     for (std::size_t k = 0; k < 4; ++k) s.position[k] = r[k], s.velocity[k] = v[k];
     return s;
@@ -106,8 +107,8 @@ TEST(SharedPlant, AChainHeldFromBothEndsIsSymmetric) {
 // What the hands do is what the object holds and the dampers have taken: here no damper but the hands' own, whose work is the hands'.
 // The trapezium rule over a tick errs by up to 4e-5 of it here.
 TEST(SharedPlant, WorkOfTheHandsIsTheObjectsEnergy) {
-  for (const std::vector<experiment::Hand>& hands :
-       {std::vector<experiment::Hand>{{1, {600}, {0}, {}}, {5, {600}, {0}, {}}}, {{0, {50, 0, 100, 0, 0}, {1, 0, 0, 0, 0}, {}}, {4, {200}, {5}, {}}}}) {
+  for (const std::vector<experiment::Hand>& hands : {std::vector<experiment::Hand>{{1, {600}, {0}, {}}, {5, {600}, {0}, {}}},
+                                                     {{0, {50, 0, 100, 0, 0}, {1, 0, 0, 0, 0}, {}}, {4, {200}, {5}, {}}}}) {
     Scene scene = compileScene(withHands("chain-moderate", hands));
     SmoothHand left, right;
     left.offset = right.offset = masses(*scene.plant, {})[0].r;
@@ -145,7 +146,8 @@ TEST(SharedPlant, DifferencesOfABodysPlacesAreWhatTurnsItThere) {
   Scene scene = compileScene(e);
   SharedPlant& plant = *scene.shared;
   const double half = 0.05;
-  const std::vector<double> turned{0.1, 0, 0, std::cos(half), 0, 0, std::sin(half)}, opposite{0.1, 0, 0, -std::cos(half), 0, 0, -std::sin(half)};
+  const std::vector<double> turned{0.1, 0, 0, std::cos(half), 0, 0, std::sin(half)},
+      opposite{0.1, 0, 0, -std::cos(half), 0, 0, -std::sin(half)};
   std::vector<double> by(6), same(6);
   plant.placeAtRest(std::array{0.0, 0.0, 0.0});
   plant.difference(turned, by);

@@ -40,11 +40,13 @@ std::string faultOf(const std::string& text) {
 }  // namespace
 
 TEST(ExperimentReader, ATasksPlaceMayBeAConstant) {
-  const Experiment read = parseExperiment(replaced(replaced(kGood, "6.283185307179586", "\"2*pi\""), "\"start\": [0]", "\"start\": [\"-pi/4\"]"), "x.json");
+  const Experiment read =
+      parseExperiment(replaced(replaced(kGood, "6.283185307179586", "\"2*pi\""), "\"start\": [0]", "\"start\": [\"-pi/4\"]"), "x.json");
   EXPECT_EQ(read.task->target, std::vector<double>{2 * std::numbers::pi});
   EXPECT_EQ(read.task->start, std::vector<double>{-std::numbers::pi / 4});
   EXPECT_EQ(faultOf(toJson(read)), "no fault") << "written back as numbers";
-  EXPECT_NE(faultOf(replaced(kGood, "6.283185307179586", "\"2*phi\"")).find("x.json:7:38: task.target[0]: unknown name 'phi'"), std::string::npos)
+  EXPECT_NE(faultOf(replaced(kGood, "6.283185307179586", "\"2*phi\"")).find("x.json:7:38: task.target[0]: unknown name 'phi'"),
+            std::string::npos)
       << faultOf(replaced(kGood, "6.283185307179586", "\"2*phi\""));
   EXPECT_NE(faultOf(replaced(kGood, "6.283185307179586", "\"1/0\"")).find("task.target[0]: "), std::string::npos);
 }

@@ -96,7 +96,9 @@ TEST_F(ShippedSchema, RefusesWhatTheReaderRefuses) {
       [](Json& j) { j["look"]["depth_cue"] = "fog"; },
       [](Json& j) { j["look"]["colours"]["mass7"] = "#ffffff"; },
       [](Json& j) { j["look"]["colours"]["last"] = "orange"; },
-      [](Json& j) { j["look"]["cameras"] = {{{"name", "above"}}}; },
+      [](Json& j) {
+        j["look"]["cameras"] = {{{"name", "above"}}};
+      },
       [](Json& j) {
         j["constraint"]["curve"] = {"0", "0", "phi"};
       },

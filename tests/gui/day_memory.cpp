@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
   while (seconds < 3600 * hours) {
     window.nextTrial();
     if (window.session().run() == nullptr) return std::fprintf(stderr, "day_memory: %s\n", window.message().toUtf8().constData()), 1;
-    if (!QTest::qWaitFor([&] { return !window.session().underWay(); }, 600'000)) return std::fprintf(stderr, "day_memory: a trial does not end\n"), 1;
+    if (!QTest::qWaitFor([&] { return !window.session().underWay(); }, 600'000))
+      return std::fprintf(stderr, "day_memory: a trial does not end\n"), 1;
     ++trials;
     if (window.session().run()->trialsLeft() > 0) continue;
     seconds += secondsOf(window.session().run()->latest().tick);

@@ -37,7 +37,7 @@ class ArmFirmware {
   std::atomic<int> most{0};  // [mA] largest current so far
   std::atomic<int> last{0};  // [mA] largest of the last command
   std::atomic<int> answers{0}, silences{0};
-  std::atomic<int> wraps{0};  // of its encoders past the ends of 16 bits
+  std::atomic<int> wraps{0};        // of its encoders past the ends of 16 bits
   std::atomic<bool> middle{false};  // of its way
   std::atomic<bool> moves{true};
   std::atomic<bool> garbles{false}, shortens{false}, replays{false};  // bytes at random; 10 of 64; what it said at the start

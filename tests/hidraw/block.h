@@ -28,7 +28,8 @@ inline Block judge(const test::Ended& run) {
 }
 
 /// A point on a short spring: a hand that moves by a minimum-jerk law brings it there.
-inline constexpr const char* kPoint = R"({ "schema_version": 1, "name": "point", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+inline constexpr const char* kPoint =
+    R"({ "schema_version": 1, "name": "point", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
   "object": { "kind": "point", "masses_kg": [0.5], "stiffness_n_per_m": [] },
   "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 40 },
   "task": { "start": [0], "target": [6.283185307179586], "duration_s": 1.35,

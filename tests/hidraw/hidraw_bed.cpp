@@ -25,7 +25,8 @@ constexpr const char* kUsb = "/devices/pci0000:00/0000:00:14.0/usb1/1-1";
 
 std::string hidNode(int vendor, int product) { return fmt::format("{}/1-1:1.0/0003:{:04X}:{:04X}.0001", kUsb, vendor, product); }
 
-std::string describe(int node, int vendor, int product, const std::string& serial, const std::string& title, const std::string& descriptor) {
+std::string describe(int node, int vendor, int product, const std::string& serial, const std::string& title,
+                     const std::string& descriptor) {
   const std::string hid = hidNode(vendor, product);
   return fmt::format(
       "P: {hid}/hidraw/hidraw{node}\nN: hidraw{node}\nE: DEVNAME=/dev/hidraw{node}\nE: MAJOR=240\nE: MINOR={node}\nE: SUBSYSTEM=hidraw\n"
@@ -62,9 +63,11 @@ gboolean HidrawBed::handleIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client,
   if (_IOC_TYPE(request) != 'H') return FALSE;
   const unsigned number = _IOC_NR(request);
   GError* error = nullptr;
-  UMockdevIoctlData* const data =
-      umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0,
-                                  number == kSize ? 4 : number == kDescriptor ? 4 + 4096 : _IOC_SIZE(request), &error);
+  UMockdevIoctlData* const data = umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0,
+                                                              number == kSize         ? 4
+                                                              : number == kDescriptor ? 4 + 4096
+                                                                                      : _IOC_SIZE(request),
+                                                              &error);
   glong result = -1;
   int code = EPIPE;
   const auto give = [&](gsize at, Bytes bytes) {

@@ -71,7 +71,8 @@ class StickFirmware {
   }
   double share(double t) const {
     if (!moves) return -0.8;
-    const double within = std::fmod(t, 6.0), s = std::clamp((within - 2.5) / 1.35, 0.0, 1.0), back = std::clamp((within - 5) / 0.9, 0.0, 1.0);
+    const double within = std::fmod(t, 6.0), s = std::clamp((within - 2.5) / 1.35, 0.0, 1.0),
+                 back = std::clamp((within - 5) / 0.9, 0.0, 1.0);
     const auto law = [](double u) { return u * u * u * (10 + u * (6 * u - 15)); };
     return -0.8 + 1.6 * (law(s) - law(back));
   }
@@ -111,7 +112,11 @@ class StickFirmware {
 class StickOverHidraw : public ::testing::Test {
  protected:
   std::unique_ptr<StickFirmware> firmware;
-  test::HidrawBed bed{0x045E, 0x001B, "FFB2", "Sidewinder", test::pidDescriptor(),
+  test::HidrawBed bed{0x045E,
+                      0x001B,
+                      "FFB2",
+                      "Sidewinder",
+                      test::pidDescriptor(),
                       {[this](const test::PidBytes& report) { return firmware && firmware->setFeature(report); },
                        [this](std::uint8_t number) { return firmware ? firmware->getFeature(number) : test::PidBytes{}; }}};
   experiment::Experiment experiment = experiment::readExperiment("chain-slow");

@@ -78,7 +78,8 @@ struct Orders {
         continue;
       }
       double number = 0, more = 0, percent = 0;
-      if (std::sscanf(line_.c_str(), "line %lf %lf %lf", &number, &more, &percent) == 3) delay = number, jitter = more, loss = percent / 100;
+      if (std::sscanf(line_.c_str(), "line %lf %lf %lf", &number, &more, &percent) == 3)
+        delay = number, jitter = more, loss = percent / 100;
       if (std::sscanf(line_.c_str(), "cut %lf", &number) == 1)
         cutUntil = Clock::now() + std::chrono::microseconds(static_cast<long>(1e3 * number));
       if (std::sscanf(line_.c_str(), "twice %lf", &number) == 1) twice = number / 100;

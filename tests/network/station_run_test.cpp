@@ -216,7 +216,8 @@ TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
       },
       5);
   EXPECT_FALSE(refused.begun);
-  EXPECT_TRUE(refused.problem.starts_with("no trial was armed: simulated with limp hands over this line (round trip 100.0 ms")) << refused.problem;
+  EXPECT_TRUE(refused.problem.starts_with("no trial was armed: simulated with limp hands over this line (round trip 100.0 ms"))
+      << refused.problem;
   EXPECT_FALSE(sent(EventKind::Arm));
   EXPECT_FALSE(station_->isArming());
 }

@@ -17,7 +17,7 @@
 namespace reachlab::predict {
 namespace {
 
-constexpr double kTooLow = 3;        // the real error over what is said
+constexpr double kTooLow = 3;         // the real error over what is said
 constexpr double kReference = 1e-11;  // what the reference has to be known to, of the peak
 
 struct TrueMotion {

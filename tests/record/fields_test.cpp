@@ -118,7 +118,8 @@ TEST(RunConfiguration, OfAnotherVersionIsRefused) {
       configurationFromJson(json.dump(), "a log");
       ADD_FAILURE() << version << " is read";
     } catch (const FaultError& error) {
-      EXPECT_EQ(std::string(error.what()).find("a log: configuration.schema_version: is " + version.dump() + "; allowed: 1"), 0u) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("a log: configuration.schema_version: is " + version.dump() + "; allowed: 1"), 0u)
+          << error.what();
     }
   }
 }

@@ -110,7 +110,8 @@ TEST_F(Backups, CopyOnlyWhatIsNew) {
   const BackupReport report = backUp(dataset_, backup_);
   EXPECT_EQ(report.runs, 2u);
   EXPECT_TRUE(fs::exists(inBackup(logOf(2))));
-  EXPECT_EQ(contentOf(inBackup(dataset_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv")), contentOf(dataset_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"))
+  EXPECT_EQ(contentOf(inBackup(dataset_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv")),
+            contentOf(dataset_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"))
       << "a table that the runs share is brought up to date";
 }
 

@@ -161,10 +161,11 @@ TEST(BlockOrder, OfTwoConditionsIsTurnedRoundForEverySecondSubject) {
 // What a subject has begun with is gone on with, by a later program too. Each seed has the six orders in turns of its own.
 TEST(BlockOrder, OfASeedAndSubjectIsForEver) {
   const auto orders = [](int seed) {
-    const Plan plan = parsePlan(fmt::format(R"({{ "schema_version": 1, "order_seed": {}, "counterbalance": "permute", "trials": 1, "blocks": [
+    const Plan plan =
+        parsePlan(fmt::format(R"({{ "schema_version": 1, "order_seed": {}, "counterbalance": "permute", "trials": 1, "blocks": [
         {{ "experiment": "chain-slow" }}, {{ "experiment": "chain-moderate" }}, {{ "experiment": "chain-fast" }} ] }})",
-                                            seed),
-                                "p.json");
+                              seed),
+                  "p.json");
     std::string all;
     for (const char* subject : {"01", "02", "03", "04", "05", "06"})
       for (const int block : blockOrder(plan, subject, 0)) all += static_cast<char>('0' + block);

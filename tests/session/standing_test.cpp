@@ -30,8 +30,17 @@ TEST(Plan, WithRestAndInstructionsReadsBackEqual) {
   plan.name = "mine";
   plan.orderSeed = 12;
   plan.counterbalance = Counterbalance::Permute;
-  plan.blocks.push_back({.experiment = "chain-slow", .trials = 3, .practice = true, .pauseSeconds = 1.5, .condition = "slow", .day = 2,
-                         .foreperiodMin = 0.5, .foreperiodMax = 1, .catchShare = 0.1, .repeatAborted = true, .restSeconds = 90,
+  plan.blocks.push_back({.experiment = "chain-slow",
+                         .trials = 3,
+                         .practice = true,
+                         .pauseSeconds = 1.5,
+                         .condition = "slow",
+                         .day = 2,
+                         .foreperiodMin = 0.5,
+                         .foreperiodMax = 1,
+                         .catchShare = 0.1,
+                         .repeatAborted = true,
+                         .restSeconds = 90,
                          .instructions = "Read \"this\",\nthen begin."});
   const Plan read = parsePlan(toJson(plan), "mine.json");
   EXPECT_EQ(toJson(read), toJson(plan));

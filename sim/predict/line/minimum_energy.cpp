@@ -156,7 +156,8 @@ Span<Real> makeShortSpan(const ControlProblem& system, const SparseRows& a, cons
 template <class Real>
 class Doubling {
  public:
-  Doubling(std::pmr::memory_resource* memory, int size) : turned_(memory, size, size), product_(memory, size, size), sum_(memory, size, size) {}
+  Doubling(std::pmr::memory_resource* memory, int size)
+      : turned_(memory, size, size), product_(memory, size, size), sum_(memory, size, size) {}
   void apply(Span<Real>& span) {
     transpose(span.e, turned_);
     multiply(span.e, span.w, product_);
@@ -286,8 +287,8 @@ class Movement {
       : size_(system.size), count_(intervals), terms_(countTerms(a.norm() * halfWidth, kRounding / condition)), memory_(half.memory()),
         scaled_(memory_, system, a, halfWidth), inverse_(makeInverses<Real>(memory_, terms_ + 1)), half_(std::move(half)),
         halfTurned_(transpose(half_)), whole_(whole), gain_(makeImpulse<Real>(scaled_, system, -1.0, inverse_, terms_, memory_)),
-        adjoint_(memory_, count_, size_), atBegin_(memory_, count_, size_), atEnd_(memory_, count_, size_),
-        row_(memory_, 2, size_), lane_(memory_, 5 * 2 * size_, 1), control_(memory_, lanesFor<kBatchLanes>(count_) * terms_, kBatchLanes),
+        adjoint_(memory_, count_, size_), atBegin_(memory_, count_, size_), atEnd_(memory_, count_, size_), row_(memory_, 2, size_),
+        lane_(memory_, 5 * 2 * size_, 1), control_(memory_, lanesFor<kBatchLanes>(count_) * terms_, kBatchLanes),
         state(memory_, count_, size_) {}
 
   // u = b^T adjoint, the adjoint backwards from `weights` at T; the states under it, from rest. What they arrive at.
@@ -359,7 +360,7 @@ class Movement {
   std::pmr::vector<Real> inverse_;
   LaneMatrix<Real> half_, halfTurned_;
   const LaneMatrix<Real>& whole_;
-  LaneMatrix<Real> gain_;                              // of the adjoint in the control's terms: (-half A)^k b / k!, in rows
+  LaneMatrix<Real> gain_;                             // of the adjoint in the control's terms: (-half A)^k b / k!, in rows
   LaneMatrix<Real> adjoint_, atBegin_, atEnd_, row_;  // in the middles, and what the control adds up to both ends, in rows
   LaneMatrix<Real> lane_, control_;
 
@@ -401,7 +402,8 @@ void fillProfile(const ScaledSystem<double>& scaled, const std::vector<Differenc
     auto difference = differences.begin();
     for (int o = 0; o < profile.outputs; ++o) {
       for (; difference != differences.end() && difference->output == o; ++difference)
-        for (int b = 0; b < kCount; ++b) position[b] += difference->factor * (difference->state < n ? x[difference->state * kCount + b] : u[b]);
+        for (int b = 0; b < kCount; ++b)
+          position[b] += difference->factor * (difference->state < n ? x[difference->state * kCount + b] : u[b]);
       for (int b = 0; b < kCount; ++b) profile.of(first + b * kBatchLanes, o)[k] = unit * position[b];
     }
     scaled.advance<kCount>(x, u, inverse[k + 1], next);
@@ -420,7 +422,8 @@ PiecewiseSeries makeProfile(const ControlProblem& system, const SparseRows& a, c
   const std::pmr::vector<double> inverse = makeInverses<double>(memory, profile.terms + 1);
   LaneMatrix<double> lanes(memory, 2 * 2 * system.size, 1);
   int first = 0;
-  for (; first + kBatchLanes < intervals; first += 2 * kBatchLanes) fillProfile<2>(scaled, differences, inverse, movement, first, lanes, profile);
+  for (; first + kBatchLanes < intervals; first += 2 * kBatchLanes)
+    fillProfile<2>(scaled, differences, inverse, movement, first, lanes, profile);
   if (first < intervals) fillProfile<1>(scaled, differences, inverse, movement, first, lanes, profile);
   return profile;
 }

@@ -22,9 +22,7 @@ struct PiecewiseSeries {
   std::vector<LaneBatch> coefficient;  // [batch of intervals][output][term]
 
   /// The terms of one output in the batch with this interval, which has the lane interval % kBatchLanes.
-  LaneBatch* of(int interval, int output) {
-    return &coefficient[(static_cast<size_t>(interval / kBatchLanes) * outputs + output) * terms];
-  }
+  LaneBatch* of(int interval, int output) { return &coefficient[(static_cast<size_t>(interval / kBatchLanes) * outputs + output) * terms]; }
   const LaneBatch* of(int interval, int output) const { return const_cast<PiecewiseSeries*>(this)->of(interval, output); }
   /// Position, velocity and acceleration of one output at t in [0, T].
   PredictedHand evaluate(int output, double t) const;

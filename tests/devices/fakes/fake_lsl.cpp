@@ -75,5 +75,4 @@ double lsl_local_clock() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double>(now).count() + fakeLsl().clockAhead;
 }
-
 }

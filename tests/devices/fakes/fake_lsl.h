@@ -17,7 +17,7 @@ struct FakeLsl {
   };
   std::mutex mutex;
   std::vector<Stream> streams;
-  int alive = 0;           // handles that were not given back
+  int alive = 0;  // handles that were not given back
   bool takesNothing = false;
   double clockAhead = 1000;  // [s] of the monotonic clock
 };

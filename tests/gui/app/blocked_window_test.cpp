@@ -25,7 +25,8 @@ class BlockedWindow : public AtTheWindow {
 TEST_F(BlockedWindow, ThatStandsStillForTwoSecondsCostsNoTick) {
   MainWindow& window = open();
   QTest::keyClick(&window, Qt::Key_Space);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run() != nullptr && window.session().run()->latest().phase == trial::Phase::Moving; }, 20000));
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return window.session().run() != nullptr && window.session().run()->latest().phase == trial::Phase::Moving; }, 20000));
   const haptics::LoopReport before = window.session().run()->report();
   constexpr std::int64_t kBlockNs = 2'000'000'000;
   os::sleepUntil(os::now() + kBlockNs);  // no event is taken, nothing is drawn

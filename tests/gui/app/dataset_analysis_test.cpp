@@ -19,11 +19,14 @@ QString lastOf(const QSignalSpy& spy) { return spy.isEmpty() ? QString() : spy.l
 TEST(DatasetAnalysis, WritesTheReportAndSaysWhereItIs) {
   const QTemporaryDir folder;
   const QString data = folder.filePath(QStringLiteral("data"));
-  ASSERT_EQ(QProcess::execute(kReach, {QStringLiteral("run"), QStringLiteral("dingwell"), QStringLiteral("--device"), QStringLiteral("simulated"), QStringLiteral("--trials"),
-                                       QStringLiteral("2"), QStringLiteral("--seed"), QStringLiteral("1"), QStringLiteral("--fast"), QStringLiteral("--data"), data}),
-            0);
+  ASSERT_EQ(
+      QProcess::execute(kReach, {QStringLiteral("run"), QStringLiteral("dingwell"), QStringLiteral("--device"), QStringLiteral("simulated"),
+                                 QStringLiteral("--trials"), QStringLiteral("2"), QStringLiteral("--seed"), QStringLiteral("1"),
+                                 QStringLiteral("--fast"), QStringLiteral("--data"), data}),
+      0);
   DatasetAnalysis analysis(kReach);
-  QSignalSpy reported(&analysis, &DatasetAnalysis::reported), told(&analysis, &DatasetAnalysis::told), said(&analysis, &DatasetAnalysis::said);
+  QSignalSpy reported(&analysis, &DatasetAnalysis::reported), told(&analysis, &DatasetAnalysis::told),
+      said(&analysis, &DatasetAnalysis::said);
   analysis.begin(data);
   ASSERT_TRUE(reported.wait(kPatienceMs)) << lastOf(said).toStdString();
   EXPECT_TRUE(QFileInfo::exists(lastOf(reported)));

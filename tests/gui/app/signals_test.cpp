@@ -19,7 +19,8 @@
 namespace reachlab::gui::app {
 namespace {
 
-enum class Stage { Resting, Checking, InATrial, Between, Busy };  // Busy: in a trial, and the window's thread comes back from nothing any more
+// Busy: in a trial, and the window's thread comes back from nothing any more
+enum class Stage { Resting, Checking, InATrial, Between, Busy };
 
 // The program as main() starts it, in a process of its own: not tests by themselves, run by the one below.
 class SignalledWindow : public ::testing::Test {
@@ -103,8 +104,8 @@ TEST_P(WindowSignals, EndItWithTheTrialMarkedAndTheLogClosed) {
 
 INSTANTIATE_TEST_SUITE_P(AtAnyStage, WindowSignals,
                          ::testing::Values(std::tuple{"Resting", SIGINT}, std::tuple{"Checking", SIGTERM}, std::tuple{"InATrial", SIGINT},
-                                           std::tuple{"InATrial", SIGHUP}, std::tuple{"Between", SIGTERM},
-                                           std::tuple{"Busy", SIGINT}, std::tuple{"Busy", SIGTERM}, std::tuple{"Busy", SIGHUP}));
+                                           std::tuple{"InATrial", SIGHUP}, std::tuple{"Between", SIGTERM}, std::tuple{"Busy", SIGINT},
+                                           std::tuple{"Busy", SIGTERM}, std::tuple{"Busy", SIGHUP}));
 
 TEST(WindowProgram, RefusesASeedThatWouldBecomeAnother) {
   for (const char* seed : {"-1", "18446744073709551616", "1e3"}) {

@@ -26,21 +26,26 @@ TEST(LiveDevice, CountsTheTimesBetweenItsReports) {
 }
 
 TEST(DeviceDialog, TheMouseIsSeenInTheWindowItself) {
-  DeviceDialog dialog(chain(), QStringLiteral("mouse"), [](const QString&) {}, nullptr);
+  DeviceDialog dialog(
+      chain(), QStringLiteral("mouse"), [](const QString&) {}, nullptr);
   EXPECT_FALSE(dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"))->isEnabled());
 }
 
 TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
   QString taken;
-  DeviceDialog dialog(chain(), QStringLiteral("virtual:premium15"), [&](const QString& name) { taken = name; }, nullptr);
+  DeviceDialog dialog(
+      chain(), QStringLiteral("virtual:premium15"), [&](const QString& name) { taken = name; }, nullptr);
   dialog.show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&dialog));
   auto* button = dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"));
   QTest::mouseClick(button, Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return dialog.words().contains(QStringLiteral("reports/s")) && !dialog.words().contains(QStringLiteral(" 0.0 reports/s")); }, 20000));
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return dialog.words().contains(QStringLiteral("reports/s")) && !dialog.words().contains(QStringLiteral(" 0.0 reports/s")); },
+      20000));
   EXPECT_FALSE(dialog.findChild<QLineEdit*>(QStringLiteral("deviceName"))->isEnabled());
   QTest::qWait(1500);
-  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty()) dialog.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/device.png"));
+  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
+    dialog.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/device.png"));
   QTest::mouseClick(button, Qt::LeftButton);
   EXPECT_TRUE(dialog.words().isEmpty());
   QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("deviceTake")), Qt::LeftButton);
@@ -48,10 +53,12 @@ TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
 }
 
 TEST(DeviceDialog, ADeviceThatCannotBeHadIsSaidInItsWords) {
-  DeviceDialog dialog(chain(), QStringLiteral("hid:NOWHERE"), [](const QString&) {}, nullptr);
+  DeviceDialog dialog(
+      chain(), QStringLiteral("hid:NOWHERE"), [](const QString&) {}, nullptr);
   dialog.openOrLetGo();
   bool said = false;
-  for (const QLabel* label : dialog.findChildren<QLabel*>()) said = said || label->text().contains(QStringLiteral("no WoodenHaptics or Polhem arm"));
+  for (const QLabel* label : dialog.findChildren<QLabel*>())
+    said = said || label->text().contains(QStringLiteral("no WoodenHaptics or Polhem arm"));
   EXPECT_TRUE(said);
 }
 

@@ -74,9 +74,7 @@ class Inspecting : public ::testing::Test {
     EXPECT_NE(found, nullptr) << name;
     return found;
   }
-  QPoint cell(int viewRow, int column = 0) const {
-    return page_.view().visualRect(page_.view().model()->index(viewRow, column)).center();
-  }
+  QPoint cell(int viewRow, int column = 0) const { return page_.view().visualRect(page_.view().model()->index(viewRow, column)).center(); }
   void choose(int first, int last) {
     QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, {}, cell(first));
     QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, Qt::ShiftModifier, cell(last));
@@ -144,7 +142,8 @@ TEST_F(Inspecting, LineRowAndReplayGoTogether) {
   const std::size_t column = run.configuration().table.indexOf("mass5_pos_x");
   std::size_t row = 0;
   while (row + 1 < rows.size() && secondsBetween(trial.armedTick, std::max(trial.armedTick, rows.ticks[row + 1])) <= since) ++row;
-  const double low = std::min(rows.at(row, column), rows.at(row + 1, column)), high = std::max(rows.at(row, column), rows.at(row + 1, column));
+  const double low = std::min(rows.at(row, column), rows.at(row + 1, column)),
+               high = std::max(rows.at(row, column), rows.at(row + 1, column));
   EXPECT_GE(page_.replay().view().frame().masses[4].x, low - 1e-12);
   EXPECT_LE(page_.replay().view().frame().masses[4].x, high + 1e-12);
 }
@@ -187,12 +186,14 @@ TEST_F(Inspecting, MarksAreMovedByTheMouseAndStandBesideTheRecording) {
   const analyze::Movement move = page_.inspection()->signals[0].movement;
   const double first = page_.inspection()->input.trials[0].first;
   QPoint from, to;
-  ASSERT_TRUE(QTest::qWaitFor([&] {  // a busy machine is still laying the axes out
-    const QPoint known = from, knownTo = to;
-    from = page_.plot().pixelOf(0, 0), to = page_.plot().pixelOf(0.12, 0);
-    QTest::qWait(60);
-    return from == known && to == knownTo && page_.plot().pixelOf(0, 0) == from && page_.plot().pixelOf(0.12, 0) == to;
-  }, 10'000));
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {  // a busy machine is still laying the axes out
+        const QPoint known = from, knownTo = to;
+        from = page_.plot().pixelOf(0, 0), to = page_.plot().pixelOf(0.12, 0);
+        QTest::qWait(60);
+        return from == known && to == knownTo && page_.plot().pixelOf(0, 0) == from && page_.plot().pixelOf(0.12, 0) == to;
+      },
+      10'000));
   const double dragged = page_.plot().timeAt(to) - page_.plot().timeAt(from);
   QWidget* canvas = page_.plot().childAt(from);
   from = canvas->mapFrom(&page_.plot(), from);
@@ -231,7 +232,8 @@ TEST_F(Inspecting, ATrialIsExcludedOnlyWithAReason) {
   const record::RunMarks marks = record::readMarks(log());
   ASSERT_EQ(marks.trials.size(), 1u);
   EXPECT_EQ(marks.trials[0].excluded, "talked");
-  EXPECT_TRUE(find<QLabel>("inspectedWords")->text().contains(QStringLiteral("excluded: talked"))) << find<QLabel>("inspectedWords")->text().toStdString();
+  EXPECT_TRUE(find<QLabel>("inspectedWords")->text().contains(QStringLiteral("excluded: talked")))
+      << find<QLabel>("inspectedWords")->text().toStdString();
   auto* filter = find<QLineEdit>("inspectorFilter");
   QTest::keyClicks(filter, QStringLiteral("excluded sub-01"));
   ASSERT_EQ(page_.view().model()->rowCount(), 1);

@@ -109,7 +109,9 @@ TEST(Vrml, RefusesDamagedFilesInWords) {
       {"", "does not begin as a VRML 2.0 file"},
       {"#VRML V1.0 ascii\nSeparator { }", "does not begin as a VRML 2.0 file"},
       {std::string(300, '\0'), "does not begin"},
-      {"\x7f" "ELF\x02\x01\x01", "does not begin"},
+      {"\x7f"
+       "ELF\x02\x01\x01",
+       "does not begin"},
       {vrml(""), "has nothing to draw"},
       {vrml("Group { }"), "has nothing to draw"},
       {vrml("Shape {"), "ends in the middle"},
@@ -195,17 +197,18 @@ class Gltf : public ::testing::Test {
     std::string bytes(reinterpret_cast<const char*>(places), sizeof places);
     bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
     const QByteArray coded = QByteArray(bytes.data(), static_cast<int>(bytes.size())).toBase64();
-    return {{"asset", {{"version", "2.0"}}},
-            {"scene", 0},
-            {"scenes", {{{"nodes", {0}}}}},
-            {"nodes", {{{"name", "mass2"}, {"mesh", 0}, {"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}}}},
-            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
-            {"materials", {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.4, 0.6, 0.5}}}}}}},
-            {"accessors",
-             {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {0.1, 0.1, 0}}},
-              {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
-            {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
-            {"buffers", {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + coded.toStdString()}}}}};
+    return {
+        {"asset", {{"version", "2.0"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"nodes", {{{"name", "mass2"}, {"mesh", 0}, {"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
+        {"materials", {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.4, 0.6, 0.5}}}}}}},
+        {"accessors",
+         {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {0.1, 0.1, 0}}},
+          {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
+        {"buffers", {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + coded.toStdString()}}}}};
   }
   std::string fileOf(const std::string& text, const char* name = "scene.gltf") {
     const QString path = folder_.filePath(QLatin1String(name));

@@ -23,7 +23,9 @@ struct Difference {
 
 Difference differenceOf(const QImage& a, const QImage& b) {
   const QSize cells(a.width() / 8, a.height() / 8);
-  const auto small = [&](const QImage& i) { return i.scaled(cells, Qt::IgnoreAspectRatio, Qt::SmoothTransformation).convertToFormat(QImage::Format_RGB32); };
+  const auto small = [&](const QImage& i) {
+    return i.scaled(cells, Qt::IgnoreAspectRatio, Qt::SmoothTransformation).convertToFormat(QImage::Format_RGB32);
+  };
   const QImage p = small(a), q = small(b);
   Difference d;
   for (int y = 0; y < cells.height(); ++y)
@@ -55,7 +57,8 @@ class Figures : public ::testing::Test {
     const Vec3 way = plan.target - plan.start;
     frame.hand = plan.start + share * way;
     const double step = frame.masses.size() > 1 ? 0.35 / static_cast<double>(frame.masses.size() - 1) : 0;
-    for (std::size_t i = 0; i < frame.masses.size(); ++i) frame.masses[i] = plan.start + std::max(0.0, share - 0.04 - step * static_cast<double>(i)) * way;
+    for (std::size_t i = 0; i < frame.masses.size(); ++i)
+      frame.masses[i] = plan.start + std::max(0.0, share - 0.04 - step * static_cast<double>(i)) * way;
     view_.showFrame(frame);
   }
   QImage picture() { return view_.grabScene().convertToFormat(QImage::Format_RGB32); }
@@ -119,7 +122,8 @@ TEST_F(Figures, MassesAreToldFromTheGroundAndFromOneAnotherByEveryEye) {
     return lightOf(QColor(image.pixel(static_cast<int>(p.x()), static_cast<int>(p.y()))));
   };
   const SceneFrame frame = view_.frame();
-  const Light first = light(frame.masses.front() - 0.4 * view_.plan().massRadius.front() * Vec3{1, 0, 0}), last = light(frame.masses.back());
+  const Light first = light(frame.masses.front() - 0.4 * view_.plan().massRadius.front() * Vec3{1, 0, 0}),
+              last = light(frame.masses.back());
   const Light ground = lightOf(QColor(image.pixel(240, 20)));
   using Eye = Light (*)(const Light&);
   for (const Eye eye : {Eye([](const Light& c) { return c; }), Eye(toDeuteranope), Eye(toProtanope)}) {

@@ -150,7 +150,9 @@ TEST(LightTheme, KeepsItsContrast) {
     const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
     return 0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue) + 0.05;
   };
-  const auto contrast = [&](const Colour& a, const Colour& b) { return std::max(luminance(a) / luminance(b), luminance(b) / luminance(a)); };
+  const auto contrast = [&](const Colour& a, const Colour& b) {
+    return std::max(luminance(a) / luminance(b), luminance(b) / luminance(a));
+  };
   for (const Theme theme : {Theme::Dark, Theme::Light}) {
     setTheme(theme);
     for (const Colour& ground : {colours::kWindow, colours::kBase, colours::kSkyTop}) {
@@ -161,7 +163,8 @@ TEST(LightTheme, KeepsItsContrast) {
       EXPECT_GE(contrast(themed(part), themed(colours::kSkyTop)), 3) << static_cast<int>(theme) << ": " << part.red << " " << part.green;
     for (int i = 0; i < predict::kCriterionCount; ++i) {  // lines of a plot, and words of a list
       const QColor ink = plot::colourOf(static_cast<predict::Criterion>(i));
-      EXPECT_GE(contrast({ink.redF(), ink.greenF(), ink.blueF()}, themed(colours::kBase)), 4.5) << static_cast<int>(theme) << ": criterion " << i;
+      EXPECT_GE(contrast({ink.redF(), ink.greenF(), ink.blueF()}, themed(colours::kBase)), 4.5)
+          << static_cast<int>(theme) << ": criterion " << i;
     }
   }
   setTheme(Theme::Dark);
