@@ -62,7 +62,6 @@ class MainWindow : public QMainWindow {
   const scene::OverlayState& overlay() const;
   /// How the scene is drawn, as the experiment has it.
   experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }
-  /// In the bar at the top.
   /// At the top of the window: what is wrong, and what went as it was asked for.
   void say(const QString& sentence);
   void tell(const QString& sentence);
