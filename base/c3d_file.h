@@ -37,8 +37,8 @@ struct C3dFile {
 /// points or channels, 2^31 frames).
 std::string c3dBytes(const C3dFile& file);
 
-/// Reads the points and the events: floats or scaled integers of Intel, MIPS and DEC processors. Throws FaultError `FILE: what; allowed: …` on bytes that are
-/// no such file.
+/// Reads the points and the events: floats or scaled integers of Intel, MIPS and DEC processors. Throws FaultError
+/// `FILE: what; allowed: …` on bytes that are no such file.
 C3dFile readC3d(std::string_view bytes, const std::string& origin);
 
 }  // namespace reachlab

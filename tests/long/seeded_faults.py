@@ -7,15 +7,16 @@
     tests/long/seeded_faults.py --seed 7 --count 20 --only 13 sim/trial   # the 13th of the same draw again
 
 A fault is a comparison, a sign (or * against /), a constant, or a statement left out. The same seed, folders and sources give the same
-faults, and a changed line changes no other. It works on a copy of the sources in build/faults (made anew from the working tree at each start, its objects kept). All faults of a
-draw stand in one build, each behind a switch that is read when a program starts (fault_sites.py, fault_switch.h; --check compares what is
-done behind a switch with the fault written out). Every test is run once without a fault: it tells how long it takes, which faults it comes
-by, and is left out when it fails. Then each fault is put in force, and the tests that come by it are run, the nearest and shortest first,
-until one fails, twice, and passes without the fault; ten times the usual time is a failure. A fault that no test comes by lives. What bears
-no switch (constants that the compiler must know) is built alone. A fault that does not compile is drawn again; one whose object file is bit
-for bit the old one changes nothing and is not counted; nor is one listed in equivalent_faults.txt with the reason why it changes nothing that
-anybody could see. What was noticed is noted in build/faults/build/judged.jsonl and not tried again by a later start, as long as the file with
-the fault is the same. Exit 1 when less than --least of the rest was noticed.
+faults, and a changed line changes no other. It works on a copy of the sources in build/faults (made anew from the working tree at each
+start, its objects kept). All faults of a draw stand in one build, each behind a switch that is read when a program starts (fault_sites.py,
+fault_switch.h; --check compares what is done behind a switch with the fault written out). Every test is run once without a fault: it tells
+how long it takes, which faults it comes by, and is left out when it fails. Then each fault is put in force, and the tests that come by it
+are run, the nearest and shortest first, until one fails, twice, and passes without the fault; ten times the usual time is a failure. A
+fault that no test comes by lives. What bears no switch (constants that the compiler must know) is built alone. A fault that does not
+compile is drawn again; one whose object file is bit for bit the old one changes nothing and is not counted; nor is one listed in
+equivalent_faults.txt with the reason why it changes nothing that anybody could see. What was noticed is noted in
+build/faults/build/judged.jsonl and not tried again by a later start, as long as the file with the fault is the same. Exit 1 when less than
+--least of the rest was noticed.
 """
 import argparse
 import concurrent.futures

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Two stations and what can happen to them and to the line between them (needs root, for network namespaces):
   station_faults.py BUILD [CASE ...]
-Judged by what the logs hold, tick by tick: over a line of 25 +- 2.5 or 50 +- 5 ms each way that loses 5 % the copies keep together; who is lost ends the trial as peer_lost within 150 ms of its last sample, with zero force from there
-on; a line that is cut for 30 ms goes on, for 90 ms fades and recovers and is marked; a clock that steps, frames that come twice or once more
-change nothing; certificates that are not right, and other versions, are refused before a trial. Every log replays to the bit. Exits 1 otherwise."""
+Judged by what the logs hold, tick by tick: over a line of 25 +- 2.5 or 50 +- 5 ms each way that loses 5 % the copies keep together; who is
+lost ends the trial as peer_lost within 150 ms of its last sample, with zero force from there on; a line that is cut for 30 ms goes on, for
+90 ms fades and recovers and is marked; a clock that steps, frames that come twice or once more change nothing; certificates that are not
+right, and other versions, are refused before a trial. Every log replays to the bit. Exits 1 otherwise."""
 import csv
 import glob
 import json

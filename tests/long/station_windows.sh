@@ -1,8 +1,9 @@
 #!/bin/bash
-# Two windows on one machine move the five masses from both ends, under a virtual display with a window manager: at first two simulated people,
-# until two trials have succeeded; a third window looks on for a trial. Then the conductor's hand is the mouse, moved by real events along the way of
-# the simulated person's, and the other's a simulated partner, until a trial has succeeded. Both logs are computed again, and made into one. Last the partner's window is closed, and the conductor's arms nothing and says why. Prints what came of it;
-# exits 1 when something is not as it should be.
+# Two windows on one machine move the five masses from both ends, under a virtual display with a window manager: at first two simulated
+# people, until two trials have succeeded; a third window looks on for a trial. Then the conductor's hand is the mouse, moved by real events
+# along the way of the simulated person's, and the other's a simulated partner, until a trial has succeeded. Both logs are computed again,
+# and made into one. Last the partner's window is closed, and the conductor's arms nothing and says why. Prints what came of it; exits 1
+# when something is not as it should be.
 #   tests/long/station_windows.sh [BUILD [PICTURES]]   PICTURES: a folder for pictures on the way
 set -euo pipefail
 cd "$(dirname "$0")/../.."
