@@ -105,10 +105,12 @@ struct GivenSample {
   CopySample sample;
 };
 
-/// How a station's copy stands to the others, as channels of a recording: its ledger; of every other station, in their order, how far the two
-/// copies are apart, the newest sample's age, fade, synchronisation, round trip and loss. `station`: from 1, of so many.
+/// How a station's copy stands to the others, as channels of a recording: its ledger; of every other station, in their order, how far the
+/// two copies are apart, the newest sample's age, fade, synchronisation, round trip and loss. `station`: from 1, of so many.
 std::vector<record::Channel> lineChannels(int station, int stations);
-inline constexpr std::size_t kMostLineColumns = 1 + 6 * (kMaxStations - 1);
+/// How many they are with so many peers; so it is also where those of the next peer begin, with how far the copies are apart.
+constexpr std::size_t lineColumns(int peers) { return 1 + 6 * static_cast<std::size_t>(peers); }
+inline constexpr std::size_t kMostLineColumns = lineColumns(kMaxStations - 1);
 /// What stands in them after a tick, before what came then is taken; NaN: not known.
 void fillLines(const CoupledCopy& copy, double* columns) noexcept;
 
@@ -125,7 +127,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   /// All outlive the sink's use. `own`: from 0. Of the ticks one in `sendEvery` is sent.
   StationSink(LineMemory& memory, CoupledCopy& copy, int own, int sendEvery = 1)
       : memory_(memory), copy_(copy), own_(own), sendEvery_(sendEvery), places_(static_cast<std::uint32_t>(copy.placeCount())),
-        rates_(static_cast<std::uint32_t>(copy.rateCount())), lineColumns_(1 + 6 * static_cast<std::size_t>(copy.peerCount())),
+        rates_(static_cast<std::uint32_t>(copy.rateCount())), lineColumns_(lineColumns(copy.peerCount())),
         given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   void announce(std::int32_t, const trial::PlannedTrial&) override {}

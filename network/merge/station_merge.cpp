@@ -77,7 +77,7 @@ Station readStation(const std::string& path) {
     s.phases.push_back(state.phase);
     std::array<double, kMostLineColumns> columns{};
     fillLines(copy, columns.data());
-    s.lineColumns = 1 + 6 * static_cast<std::size_t>(copy.peerCount());
+    s.lineColumns = lineColumns(copy.peerCount());
     s.lines.insert(s.lines.end(), columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(s.lineColumns));
   });
   if (!s.replay.identical())
@@ -197,8 +197,8 @@ double rmsApart(const Station& s) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < s.phases.size(); ++i) {
     if (s.phases[i] != trial::Phase::Moving) continue;
-    for (std::size_t peer = 0; 1 + 6 * peer < s.lineColumns; ++peer)
-      if (const double apart = s.lines[i * s.lineColumns + 1 + 6 * peer]; !std::isnan(apart)) squares += apart * apart, ++count;
+    for (int peer = 0; lineColumns(peer) < s.lineColumns; ++peer)
+      if (const double apart = s.lines[i * s.lineColumns + lineColumns(peer)]; !std::isnan(apart)) squares += apart * apart, ++count;
   }
   return count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
 }
