@@ -280,7 +280,7 @@ std::vector<record::Channel> lineChannels(int station, int stations) {
   const auto add = [&](const std::string& name, const char* units, const char* columnUnit, const std::string& description) {
     channels.push_back({name, "n/a", "MISC", "n/a", units, description, name + columnUnit});
   };
-  const std::string here = fmt::format("station{}", station);
+  const std::string here = fmt::format("{}{}", record::kFurtherName, station);
   add(here + "_ledger", "J", "_j", "what the hands have put in, as far as this station knows, less what its copy of the object holds");
   for (int other = 1; other <= stations; ++other) {
     if (other == station) continue;

@@ -15,8 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kSchemaVersion = 1;                // of the configuration's keys: one whose meaning changes is another version
-constexpr const char* kFurtherName = "station";  // of the channels behind those of the scene
+constexpr int kSchemaVersion = 1;  // of the configuration's keys: one whose meaning changes is another version
 
 }  // namespace
 

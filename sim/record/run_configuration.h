@@ -88,8 +88,11 @@ experiment::CompiledExperiment recordedExperiment(const RunConfiguration& config
 /// The same for who only tells what it said: its constraint is not compiled. Throws FaultError when its text cannot be understood.
 experiment::Experiment recordedValues(const RunConfiguration& configuration);
 
+/// How the names begin of channels behind those of the scene (FurtherColumns).
+inline constexpr std::string_view kFurtherName = "station";
+
 /// What a configuration from a file says of itself holds: labels are labels (they become names of files), every count within its bounds, and
-/// the table has the channels that its counts ask for. Throws FaultError.
+/// the table has the channels that its counts ask for, and behind them none but further ones. Throws FaultError.
 void checkConfiguration(const RunConfiguration& configuration);
 
 /// Labels are letters and digits only (BIDS), at most 60: what is wrong with the one under `key`, if anything.

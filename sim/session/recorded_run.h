@@ -28,7 +28,7 @@ struct RecordedRunOptions {
   std::shared_ptr<haptics::LoopClock> clock;  // LoopOptions::clock
   /// Makes the engine where it is none of one experiment on its own (a station's copy); empty: the experiment's.
   std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
-  std::vector<record::Channel> furtherChannels;     // behind those of the scene, named "station…"
+  std::vector<record::Channel> furtherChannels;     // behind those of the scene, named kFurtherName…
   const record::FurtherColumns* further = nullptr;  // what stands in them; outlives the run
   std::vector<haptics::RunSink*> watchers;          // see every tick as well (a plot), may lose them, outlive the run
   record::InstrumentLink* instruments = nullptr;    // beside the haptic device; outlive the run
