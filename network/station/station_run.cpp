@@ -46,12 +46,15 @@ MeasuredLine worstLine(const StationLine& line) {
   return worst;
 }
 
+std::string wordsOf(trial::Outcome outcome, trial::Reason reason) {
+  return std::string(trial::nameOf(outcome)) + (reason == trial::Reason::None ? "" : fmt::format(" ({})", trial::nameOf(reason)));
+}
+
 }  // namespace
 
 std::string wordsOf(const LineEvent& ended) {
-  const bool reason = ended.reason != trial::Reason::None;
-  return fmt::format("station {}: trial {} {}{}{}, copies apart {:.3f} mm RMS", ended.station, ended.trial, trial::nameOf(ended.outcome),
-                     reason ? ", " : "", reason ? trial::nameOf(ended.reason) : "", 1e3 * ended.apart);
+  return fmt::format("station {}: trial {} {}, copies apart {:.3f} mm RMS", ended.station, ended.trial,
+                     wordsOf(ended.outcome, ended.reason), 1e3 * ended.apart);
 }
 
 StationRun::StationRun(const StationSetup& setup, const experiment::CompiledExperiment& experiment)
@@ -279,10 +282,7 @@ void StationRun::tellEnd(const haptics::ConductedTrial& trial) {
 // The conductor's copy is judged for all; each station keeps that beside what its own copy came to, and how far apart the two were then.
 void StationRun::keepVerdict(StationNews& news) {
   if (!ended_ || !verdict_ || verdict_->trial != ended_->trial + trialsBefore_) return;
-  const auto words = [](trial::Outcome outcome, trial::Reason reason) {
-    return std::string(trial::nameOf(outcome)) + (reason == trial::Reason::None ? "" : " (" + std::string(trial::nameOf(reason)) + ")");
-  };
-  const std::string judged = words(verdict_->outcome, verdict_->reason), here = words(ended_->result.outcome, ended_->result.reason);
+  const std::string judged = wordsOf(verdict_->outcome, verdict_->reason), here = wordsOf(ended_->result.outcome, ended_->result.reason);
   run_->note(fmt::format("trial {}: outcome {} by the conductor, station {}; {} here, where the copies were {:.6g} m apart at its end",
                          run_->numberOf(*ended_), judged, verdict_->station, here, sink_->lastApart()));
   if (verdict_->outcome != ended_->result.outcome)
