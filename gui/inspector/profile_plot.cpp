@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/plot/plot_tools.h"
 #include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
@@ -26,15 +27,6 @@ namespace reachlab::gui::inspector {
 namespace {
 
 constexpr double kNear = 7;  // pixels: what a click means
-
-QwtText axisTitle(const QString& text) {
-  QwtText title(text);
-  QFont font;
-  font.setPointSizeF(10);
-  title.setFont(font);
-  title.setColor(widgets::toQColor(widgets::colours::kFaintText));
-  return title;
-}
 
 std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QPen& pen, double z, const QString& title = {}) {
   auto curve = std::make_unique<QwtPlotCurve>(title);
@@ -147,8 +139,8 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
 ProfilePlot::~ProfilePlot() = default;
 
 void ProfilePlot::setTitles(const QString& x, const QString& y) {
-  impl_->plot->setAxisTitle(QwtPlot::xBottom, axisTitle(x));
-  impl_->plot->setAxisTitle(QwtPlot::yLeft, axisTitle(y));
+  impl_->plot->setAxisTitle(QwtPlot::xBottom, plot::axisTitle(x));
+  impl_->plot->setAxisTitle(QwtPlot::yLeft, plot::axisTitle(y));
 }
 
 void ProfilePlot::setLines(const std::vector<Line>& lines) {
