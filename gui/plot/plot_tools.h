@@ -9,6 +9,8 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
+#include <QSaveFile>
+#include <QTextStream>
 
 #include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
@@ -37,9 +39,19 @@ class Zoomer : public QwtPlotZoomer {
   }
 };
 
-/// As SVG or PDF, by the file's ending. False when it is neither, or cannot be written.
-inline bool exportFigure(QwtPlot& plot, const QString& file) {
+/// By the file's ending as SVG or PDF, or as CSV of what `write` puts into a text stream. False: another ending, or it cannot be written.
+template <typename Write>
+bool exportPlot(QwtPlot& plot, const QString& file, Write write) {
   const QString ending = QFileInfo(file).suffix().toLower();
+  if (ending == QLatin1String("csv")) {
+    QSaveFile out(file);
+    if (!out.open(QIODevice::WriteOnly)) return false;
+    QTextStream text(&out);
+    text.setRealNumberPrecision(17);
+    write(text);
+    text.flush();
+    return out.commit();
+  }
   if (ending != QLatin1String("svg") && ending != QLatin1String("pdf")) return false;
   QwtPlotRenderer renderer;
   renderer.renderDocument(&plot, file, ending, QSizeF(180, 80), 150);

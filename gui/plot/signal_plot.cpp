@@ -10,10 +10,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileInfo>
 #include <QHBoxLayout>
-#include <QSaveFile>
-#include <QTextStream>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QVector>
@@ -196,12 +193,7 @@ void SignalPlot::fill() {
 }
 
 bool SignalPlot::exportTo(const QString& file) {
-  const QString ending = QFileInfo(file).suffix().toLower();
-  if (ending == QLatin1String("csv")) {
-    QSaveFile out(file);
-    if (!out.open(QIODevice::WriteOnly)) return false;
-    QTextStream text(&out);
-    text.setRealNumberPrecision(17);
+  return exportPlot(*impl_->plot, file, [this](QTextStream& text) {
     text << "time_s,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,coupling_force_n,tick_period_ms,missed_ticks\n";
     for (int i = 0; i < impl_->count; ++i) {
       const Point& p = impl_->at(i);
@@ -210,10 +202,7 @@ bool SignalPlot::exportTo(const QString& file) {
         for (const double value : *three) text << ',' << value;
       text << ',' << p.force << ',' << p.period << ',' << p.missed << '\n';
     }
-    text.flush();
-    return out.commit();
-  }
-  return exportFigure(*impl_->plot, file);
+  });
 }
 
 }  // namespace reachlab::gui::plot

@@ -12,8 +12,6 @@
 #include <qwt_scale_widget.h>
 
 #include <QCheckBox>
-#include <QSaveFile>
-#include <QTextStream>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QVector>
@@ -231,25 +229,20 @@ void VelocityPlot::setPredictions(const std::vector<Line>& lines) {
 
 bool VelocityPlot::exportTo(const QString& file) {
   Impl& d = *impl_;
-  if (QFileInfo(file).suffix().toLower() != QLatin1String("csv")) return exportFigure(*d.plot, file);
-  QSaveFile out(file);
-  if (!out.open(QIODevice::WriteOnly)) return false;
-  QTextStream text(&out);
-  text.setRealNumberPrecision(17);
-  text << "line,time_s,velocity_m_per_s\n";
-  const auto put = [&](const QString& name, const QwtPlotCurve& curve) {
-    for (std::size_t i = 0; i < curve.dataSize(); ++i) {
-      const QPointF p = curve.sample(static_cast<int>(i));
-      text << '"' << name << "\"," << p.x() << ',' << p.y() << '\n';
-    }
-  };
-  put(d.hand->title().text(), *d.hand);
-  put(d.last->title().text(), *d.last);
-  put(d.hand->title().text() + tr(", trial before"), *d.handBefore);
-  put(d.last->title().text() + tr(", trial before"), *d.lastBefore);
-  for (const auto& prediction : d.predictions) put(prediction->title().text(), *prediction);
-  text.flush();
-  return out.commit();
+  return exportPlot(*d.plot, file, [&](QTextStream& text) {
+    text << "line,time_s,velocity_m_per_s\n";
+    const auto put = [&](const QString& name, const QwtPlotCurve& curve) {
+      for (std::size_t i = 0; i < curve.dataSize(); ++i) {
+        const QPointF p = curve.sample(static_cast<int>(i));
+        text << '"' << name << "\"," << p.x() << ',' << p.y() << '\n';
+      }
+    };
+    put(d.hand->title().text(), *d.hand);
+    put(d.last->title().text(), *d.last);
+    put(d.hand->title().text() + tr(", trial before"), *d.handBefore);
+    put(d.last->title().text() + tr(", trial before"), *d.lastBefore);
+    for (const auto& prediction : d.predictions) put(prediction->title().text(), *prediction);
+  });
 }
 
 std::pair<double, double> VelocityPlot::shownTimes() const {
