@@ -1,0 +1,72 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "sim/session/recorded_session.h"
+#include "tests/haptics/scripted_device.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::session::test {
+
+inline constexpr const char* kEasy =
+    R"({ "schema_version": 1, "name": "easy", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  "object": { "kind": "point", "masses_kg": [0.5], "stiffness_n_per_m": [] },
+  "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 40 },
+  "task": { "start": [0], "target": [6.283185307179586], "duration_s": 0.4, "timeout_s": 0.1, "rest_s": 0,
+            "tolerance": { "position_m": 0.05, "velocity_m_per_s": 5, "time_s": 0.3 } } })";
+
+inline const std::atomic<bool> kNeverStop{false};
+
+/// A hand that moves in real time, or by tick count.
+class Hand final : public haptics::HapticDevice {
+ public:
+  Hand(double to, bool isVirtual) : reach_(-0.1, to, 300), isVirtual_(isVirtual) {}
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info = reach_.info();
+    info.virtualHand = isVirtual_;
+    info.version = "7";
+    info.maxForce = 9;
+    return info;
+  }
+  void cue(haptics::Cue cue) noexcept override { reach_.cue(cue); }
+  haptics::DeviceSample read() noexcept override { return reach_.read(); }
+  void write(const Vec3& force) noexcept override { reach_.write(force); }
+
+ private:
+  haptics::test::ScriptedDevice reach_;
+  bool isVirtual_;
+};
+
+inline std::unique_ptr<haptics::HapticDevice> goodHand() { return std::make_unique<Hand>(0.1, true); }
+/// Every trial of it is aborted: no onset.
+inline std::unique_ptr<haptics::HapticDevice> stillHand() { return std::make_unique<Hand>(-0.1, true); }
+
+/// A dataset of its own, and three trials of an easy reach on the virtual clock.
+class Recorded : public testing::Test {
+ protected:
+  Recorded() {
+    request_.place.data = folder_ / "data";
+    request_.device = "scripted";
+    request_.trials = 3;
+    request_.seed = 1;
+    request_.fast = true;
+  }
+  BlockToRun block() const { return planSession(request_, easy_).blocks.at(0); }
+  RecordedRunOptions options() const {
+    return {.place = request_.place, .numberAskedFor = request_.run.has_value(), .virtualClock = request_.fast};
+  }
+  std::vector<record::RunLog> logs() const {
+    std::vector<record::RunLog> logs;
+    for (const RunOnDisk& run : recordedRuns(request_.place)) logs.push_back(record::RunLog::open(run.path));
+    return logs;
+  }
+
+  record::TemporaryFolder folder_{"recorded"};
+  SessionRequest request_;
+  Programme easy_ = programmeOf(experiment::openExperimentText(kEasy, "easy.json"));
+};
+
+}  // namespace reachlab::session::test
