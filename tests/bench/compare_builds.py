@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sets two builds of `reach` side by side: every shipped experiment, simulated by both, and the largest difference between their rows.
+"""Sets two builds of `reach` side by side: every shipped experiment of one hand by both, and the largest difference between their rows.
 
     tests/bench/compare_builds.py OLD/cli/reach NEW/cli/reach [--limit 1e-13]
 
@@ -68,7 +68,7 @@ def main():
                 bad.append(f"{name} --hand {hand}: exit {old_code} before, {new_code} now")
                 continue
             if old_code != 0:
-                continue  # a closed way has no chord
+                continue  # a closed way has no chord, and simulate moves one hand
             worst = differences(old, new)
             cells = " | ".join("{:.1e}, {:.1e}".format(*worst.get(k, (0, 0))) if worst.get(k, (0, 0))[0] else "0" for k in kinds)
             print(f"| {name} | {hand} | {new.count(chr(10)) - 2} | {cells} |", flush=True)

@@ -19,7 +19,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
 OLD_C_LIBRARY = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX512VL"}
 TASK = {"start": [0.3], "target": [0.9], "duration_s": 1.2, "tolerance": {"position_m": 0.02, "velocity_m_per_s": 0.1, "time_s": 0.6}}
 # Every function of the language that is not on a shipped curve.
@@ -45,8 +44,6 @@ def experiments(reach, folder):
     for line in must([reach, "list", "experiments"]).splitlines():
         if line.strip():
             yield line.split()[0], line.split()[0]
-    for file in sorted((SOURCE / "resources/experiments/two-hands").glob("*.json")):  # not listed
-        yield file.stem, file.stem
     for name, curve in FORMULAS.items():
         file = folder / f"{name}.json"
         file.write_text(json.dumps({"schema_version": 1, "constraint": {"curve": curve}, "task": TASK,
