@@ -9,22 +9,11 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/dev}
 pictures=${2:-}
-for tool in Xvfb openbox xdotool import; do
-  command -v "$tool" > /dev/null || { echo "station_windows: $tool is missing; packaging/packages-test.txt names its package" >&2; exit 2; }
-done
+source tests/gui/window_driving.sh
+need Xvfb openbox xdotool import
 [[ -z $pictures ]] || mkdir -p "$pictures"
-work=$(mktemp -d)
-export QT_QPA_PLATFORM=xcb LIBGL_ALWAYS_SOFTWARE=1 XDG_RUNTIME_DIR=$work
-unset DISPLAY
-trap 'kill $(jobs -p) 2> /dev/null || true; wait 2> /dev/null || true; rm -rf "$work"' EXIT
-# Trials that count however busy this machine is.
-sed 's/"schema_version": 1,/"schema_version": 1, "timing": { "max_missed_ticks": 10000000, "max_gap_s": 7200 },/' \
-  resources/experiments/two-hands/chain-two-hands.json > "$work/chain-two-hands.json"
-Xvfb -displayfd 3 -screen 0 2400x1060x24 -noreset 3> "$work/display" 2> /dev/null & server=$!
-until [[ -s $work/display ]]; do kill -0 $server; sleep 0.1; done
-export DISPLAY=:$(< "$work/display")
-openbox 2> /dev/null &
-sleep 0.5
+patient two-hands/chain-two-hands > /dev/null
+begin_display 2400x1060
 
 # begin NUMBER X ARGUMENTS…: one station's window, in its half of the screen.
 begin() {

@@ -7,13 +7,9 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/dev}
 pictures=${2:-}
-for tool in Xorg xrandr openbox xdotool xwininfo import; do
-  command -v "$tool" > /dev/null || { echo "window_monitors: $tool is missing; packages xserver-xorg-core, xserver-xorg-video-dummy, x11-xserver-utils, x11-utils, openbox, xdotool, imagemagick" >&2; exit 2; }
-done
+source tests/gui/window_driving.sh
+need Xorg xrandr openbox xdotool xwininfo import
 [[ -z $pictures ]] || mkdir -p "$pictures"
-work=$(mktemp -d)
-export QT_QPA_PLATFORM=xcb LIBGL_ALWAYS_SOFTWARE=1 XDG_RUNTIME_DIR=$work
-trap 'kill $(jobs -p) 2> /dev/null || true; wait 2> /dev/null || true; rm -rf "$work"' EXIT
 cat > "$work/xorg.conf" << 'C'
 Section "Device"
   Identifier "card"
@@ -35,35 +31,21 @@ Section "Screen"
   EndSubSection
 EndSection
 C
-Xorg -displayfd 3 -config "$work/xorg.conf" -logfile "$work/xorg.log" -noreset -novtswitch -sharevts -nolisten tcp 3> "$work/display" > /dev/null 2>&1 &
-for _ in $(seq 100); do [[ -s $work/display ]] && break; sleep 0.1; done
-[[ -s $work/display ]] || { echo "window_monitors: no X server: $(grep -m1 '(EE)' "$work/xorg.log")" >&2; exit 2; }
-export DISPLAY=:$(< "$work/display")
+begin_server Xorg -config "$work/xorg.conf" -logfile "$work/xorg.log" -novtswitch -sharevts -nolisten tcp
 xrandr --addmode DUMMY1 1280x1024
 both() {  # the second call has the server look at what is connected now
   xrandr --output DUMMY0 --mode 1920x1080 --pos 0x0 --output DUMMY1 --mode 1280x1024 --pos 1920x0
   xrandr > /dev/null
 }
 both
-openbox > /dev/null 2>&1 &
-sleep 1
+begin_manager
 
-named() {
-  local found
-  for _ in $(seq 150); do
-    found=$(xdotool search --onlyvisible --name "$1" 2> /dev/null | tail -1) && [[ -n $found ]] && { echo "$found"; return; }
-    sleep 0.2
-  done
-  echo "window_monitors: no window named $1" >&2
-  return 1
-}
 begin() {
   "$build/gui/reachlab" dingwell --device simulated --data "$work/data" --seed 1 2> /dev/null & window=$!
-  main=$(named 'Reachlab$')
+  main=$(window_named 'Reachlab$')
   xdotool windowactivate --sync "$main"
   sleep 3
 }
-end() { kill $window; wait $window 2> /dev/null || true; }
 place() { xwininfo -id "$1" | sed -n 's/.*Absolute upper-left [XY]: *\|^  Width: \|^  Height: //p' | paste -sd' '; }
 picture() { [[ -z $pictures ]] || import -silent -window root -depth 8 PNG24:"$pictures/$scale-$1.png"; }
 choose() {  # the monitor by its place in the menu, from 0; the keys go to the window that has them
@@ -93,23 +75,23 @@ for scale in 1 1.5 2; do
   read -r x y w h <<< "$(place "$main")"
   [[ $x -ge 0 && $((x + w)) -le 1920 && $((y + h)) -le 1080 ]] || fault+=" the window stands at $x $y $w $h;"
   xdotool key F11; sleep 2
-  subject=$(named subject)
+  subject=$(window_named subject)
   is "the subject's screen, unasked," "$subject" "$second"
   picture unasked
   choose 0
-  is "the subject's screen, sent to the first monitor," "$(named subject)" "$first"
-  end
+  is "the subject's screen, sent to the first monitor," "$(window_named subject)" "$first"
+  close_window
   begin
   xdotool key F11; sleep 2
-  is "the subject's screen, at the next start," "$(named subject)" "$first"
+  is "the subject's screen, at the next start," "$(window_named subject)" "$first"
   choose 1
-  is "the subject's screen, sent to the second monitor," "$(named subject)" "$second"
+  is "the subject's screen, sent to the second monitor," "$(window_named subject)" "$second"
   picture chosen
   xrandr --output DUMMY1 --off; sleep 3
   kill -0 $window 2> /dev/null || fault+=" it fell when the monitor was switched off;"
-  is "the subject's screen, its monitor switched off," "$(named subject)" "$first"
+  is "the subject's screen, its monitor switched off," "$(window_named subject)" "$first"
   picture off
-  end
+  close_window
   both; sleep 1
   echo "${fault:+BAD }scale $scale: window $w x $h at $x, $y${fault:+;$fault}"
   [[ -z $fault ]] || bad=1

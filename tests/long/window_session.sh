@@ -7,17 +7,10 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/dev}
 pictures=${2:-}
-for tool in Xvfb openbox xdotool import; do
-  command -v "$tool" > /dev/null || { echo "window_session: $tool is missing; packaging/packages-test.txt names its package" >&2; exit 2; }
-done
+source tests/gui/window_driving.sh
+need Xvfb openbox xdotool import
 [[ -z $pictures ]] || mkdir -p "$pictures"
-work=$(mktemp -d)
-export QT_QPA_PLATFORM=xcb LIBGL_ALWAYS_SOFTWARE=1 XDG_RUNTIME_DIR=$work
-unset DISPLAY
-trap 'kill $(jobs -p) 2> /dev/null || true; wait 2> /dev/null || true; rm -rf "$work"' EXIT
-for pace in slow moderate fast; do  # trials that count however busy this machine is
-  sed 's/"schema_version": 1,/"schema_version": 1, "timing": { "max_missed_ticks": 10000000, "max_gap_s": 7200 },/' "resources/experiments/chain-$pace.json" > "$work/chain-$pace.json"
-done
+for pace in slow moderate fast; do patient "chain-$pace" > /dev/null; done
 cat > "$work/short.json" << 'P'
 { "schema_version": 1, "name": "short", "order_seed": 2013, "counterbalance": "permute", "pause_s": 0.2, "foreperiod_s": [0.1, 0.3],
   "blocks": [
@@ -26,18 +19,9 @@ cat > "$work/short.json" << 'P'
     { "experiment": "chain-fast.json", "trials": 5, "condition": "fast", "rest_s": 3, "instructions": "And now fast." }] }
 P
 
-named() {
-  local found
-  for _ in $(seq 300); do
-    found=$(xdotool search --onlyvisible --name "$1" 2> /dev/null | tail -1) && [[ -n $found ]] && { echo "$found"; return; }
-    sleep 0.2
-  done
-  echo "window_session: no window named $1" >&2
-  return 1
-}
 begin() {
   "$build/gui/reachlab" "$@" 2> "$work/said" & window=$!
-  id=$(named 'Reachlab$')
+  id=$(window_named 'Reachlab$')
   xdotool windowactivate --sync "$id"
   sleep 3
 }
@@ -64,12 +48,7 @@ waits() {  # waits SECONDS FOR_HOW_MANY_JUDGED
 bad=0
 for size in 1366x768@1 1920x1080@1.5 1920x1080@2; do
   export QT_SCALE_FACTOR=${size#*@} XDG_CONFIG_HOME=$work/config-$size XDG_CACHE_HOME=$work/cache-$size
-  rm -f "$work/display"
-  Xvfb -displayfd 3 -screen 0 "${size%@*}x24" -noreset 3> "$work/display" 2> /dev/null & server=$!
-  until [[ -s $work/display ]]; do sleep 0.1; done
-  export DISPLAY=:$(< "$work/display")
-  openbox 2> /dev/null & manager=$!
-  sleep 0.5
+  begin_display "${size%@*}"
   data=$work/data-$size
   fault=
   begin "$work/short.json" --data "$data" --device simulated --subject 01 --seed 1
@@ -95,17 +74,16 @@ for size in 1366x768@1 1920x1080@1.5 1920x1080@2; do
   sleep 3
   picture 5-end
   key ctrl+e
-  kill $window; wait $window 2> /dev/null || true
+  close_window
   read -r all judged conditions <<< "$(count)"
   [[ $conditions -eq 3 ]] || fault+=" $conditions conditions;"
   [[ $judged -ge 14 ]] || fault+=" $judged trials judged;"
   begin "$data"
   key ctrl+a; sleep 10
   picture 6-inspect
-  kill $window; wait $window 2> /dev/null || true
+  close_window
   echo "${fault:+BAD }$size: $all trials, $judged judged, $conditions conditions, $before before the crash${fault:+;$fault}"
   [[ -z $fault ]] || bad=1
-  kill $manager $server 2> /dev/null || true
-  wait $manager $server 2> /dev/null || true
+  end_display
 done
 exit $bad

@@ -5,18 +5,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/dev}
-for tool in Xvfb openbox xdotool pulseaudio parec /usr/bin/python3; do
-  command -v "$tool" > /dev/null || { echo "window_sounds: $tool is missing; packaging/packages-all.txt names its package" >&2; exit 2; }
-done
-work=$(mktemp -d)
-export XDG_RUNTIME_DIR=$work XDG_CONFIG_HOME=$work XDG_CACHE_HOME=$work QT_QPA_PLATFORM=xcb LIBGL_ALWAYS_SOFTWARE=1
-export PULSE_SERVER=unix:$work/pulse.sock
-unset DISPLAY
-Xvfb -displayfd 3 -screen 0 1366x768x24 -noreset 3> "$work/display" 2> /dev/null &
-trap 'kill $(jobs -p) 2> /dev/null || true; wait 2> /dev/null || true; rm -rf "$work"' EXIT
-until [[ -s $work/display ]]; do sleep 0.1; done
-export DISPLAY=:$(< "$work/display")
-openbox > /dev/null 2>&1 &
+source tests/gui/window_driving.sh
+need Xvfb openbox xdotool pulseaudio parec /usr/bin/python3
+export XDG_CONFIG_HOME=$work XDG_CACHE_HOME=$work PULSE_SERVER=unix:$work/pulse.sock
+begin_display 1366x768
 pulseaudio -n --exit-idle-time=-1 -L "module-native-protocol-unix socket=$work/pulse.sock auth-anonymous=1" \
   -L "module-null-sink sink_name=t rate=44100" 2> /dev/null &
 until [[ -S $work/pulse.sock ]]; do sleep 0.1; done
@@ -26,8 +18,7 @@ listen() {
   mkdir -p "$work/reachlab"
   printf '[sound]\nvolume=%s\n' "$2" > "$work/reachlab/reachlab.conf"
   "$build/gui/reachlab" "$3" --device "simulated:noise=$4" --trials "${6:-1}" --data "$work/data-$1" --seed 1 2> /dev/null & window=$!
-  id=
-  until [[ -n $id ]]; do sleep 0.3; id=$(xdotool search --onlyvisible --name 'Reachlab$' 2> /dev/null | tail -1 || true); done
+  id=$(window_named 'Reachlab$')
   xdotool windowactivate --sync "$id"
   sleep 4
   # With little latency: what a null sink rendered ahead, as silence, its monitor does not take back when a sound begins.
@@ -40,18 +31,18 @@ listen() {
   kill $ear $window
   wait $ear $window 2> /dev/null || true
 }
-sed 's/"schema_version": 1,/"schema_version": 1, "timing": { "max_missed_ticks": 10000000, "max_gap_s": 7200 },/' resources/experiments/dingwell.json > "$work/easy.json"
+easy=$(patient dingwell)
 # No noisy hand comes to rest within a tenth of a micrometre.
-/usr/bin/python3 - "$work" <<'P'
+/usr/bin/python3 - "$easy" "$work/hard.json" <<'P'
 import json, re, sys
-text = open(sys.argv[1] + "/easy.json").read()
+text = open(sys.argv[1]).read()
 hard = json.loads(re.sub(r"^\s*//.*$", "", text, flags=re.M))
 hard["task"]["tolerance"] = {"position_m": 1e-7, "velocity_m_per_s": 1e-7, "time_s": hard["task"]["tolerance"]["time_s"]}
-json.dump(hard, open(sys.argv[1] + "/hard.json", "w"))
+json.dump(hard, open(sys.argv[2], "w"))
 P
-listen success 0.8 "$work/easy.json" 0 15
+listen success 0.8 "$easy" 0 15
 listen failure 0.8 "$work/hard.json" 1 20 3  # fails only when its time is up; a busy machine swallows one short tone or another
-listen silent 0 "$work/easy.json" 0 15
+listen silent 0 "$easy" 0 15
 /usr/bin/python3 - "$work" <<'P'
 import sys
 import wave
