@@ -61,6 +61,8 @@ StationRun::StationRun(const StationSetup& setup, const experiment::CompiledExpe
     : setup_(forExperiment(setup, experiment.experiment())), own_(setup.line.station - 1), experiment_(experiment.experiment()),
       line_(std::make_unique<StationLine>(setup_.line, sharedHash(experiment.experiment()))), until_(now() + setup.wait) {}
 
+StationRun::~StationRun() { closing_.request_stop(); }
+
 void StationRun::prepare(session::RecordedRunOptions& options) {
   options.makeEngine = [this](const experiment::CompiledExperiment& e, const haptics::EngineOptions& engine) {
     CoupledCopy* copy = nullptr;
@@ -162,7 +164,9 @@ void StationRun::check() {
   stage_ = Stage::Checking;
   if (checking_.valid()) return;  // asked for before a trial that was taken back
   checkedFor_ = worstLine(*line_);
-  checking_ = std::async(std::launch::async, [experiment = experiment_, line = checkedFor_] { return checkLine(experiment, line); });
+  checking_ = std::async(std::launch::async, [experiment = experiment_, line = checkedFor_, stop = closing_.get_token()] {
+    return checkLine(experiment, line, stop);
+  });
 }
 
 void StationRun::awaitCheck(StationNews& news) {
@@ -341,6 +345,7 @@ void StationRun::noteEnd(const LineEvent& event, StationNews& news) {
 
 std::string StationRun::close() {
   if (closed_) return {};
+  closing_.request_stop();
   std::string said;
   if (run_ != nullptr) {
     keepTheLast();

@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ class StationRun {
  public:
   /// Starts the endpoint. Throws FaultError: an experiment without a hand for each station, or not for this one; ResourceError.
   StationRun(const StationSetup& setup, const experiment::CompiledExperiment& experiment);
+  ~StationRun();
   StationRun(const StationRun&) = delete;
   StationRun& operator=(const StationRun&) = delete;
 
@@ -125,6 +127,7 @@ class StationRun {
   double until_ = 0;    // [s] that this stage may take
   double settled_ = 0;  // [s] when what was told before this station came is known to hold; 0: nothing was told
   std::string said_;
+  std::stop_source closing_;         // what is being computed is not waited for any more
   std::future<LineCheck> checking_;  // the conductor's, on a thread of its own
   MeasuredLine checkedFor_;          // of that or of the last that was well
   double frequency_ = 0;             // [rad/s] omega_o that was found; 0: nothing was checked yet

@@ -62,15 +62,17 @@ std::vector<LimpHand> pushedHands(const experiment::Experiment& experiment, cons
   return hands;
 }
 
-// `step` takes the object a tick on and answers the speed squares of all of it; `force` on a hand. Infinite: a hand was thrown.
+// `step` takes the object a tick on and answers the speed squares of all of it; `force` on a hand. Infinite: a hand was thrown, or
+// nobody waits for the answer any more.
 template <class Step, class Force>
-double letBe(std::vector<LimpHand> hands, Step&& step, Force&& force) {
+double letBe(std::vector<LimpHand> hands, const std::stop_token& stop, Step&& step, Force&& force) {
   Growth growth(0, kEnd);
   std::vector<dynamics::HandSegment> segments(hands.size());
   std::vector<dynamics::HandSample> samples(hands.size());
   std::vector<Vec3> forces(hands.size());
   const int ticks = static_cast<int>(kEnd / kTickSeconds + 0.5);
   for (int k = 1; k <= ticks; ++k) {
+    if (stop.stop_requested()) return std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < hands.size(); ++i) {
       hands[i].advance(forces[i]);
       segments[i] = hands[i].segment(), samples[i] = hands[i].sample();
@@ -87,12 +89,12 @@ double letBe(std::vector<LimpHand> hands, Step&& step, Force&& force) {
   return growth.ratio();
 }
 
-double growthAlone(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
-                   const std::vector<LimpHand>& hands) {
+double growthAlone(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const std::vector<LimpHand>& hands,
+                   const std::stop_token& stop) {
   const auto plant = dynamics::makeSharedPlant(experiment, constraint);
   plant->placeAtRest(experiment.task->start);
   return letBe(
-      hands,
+      hands, stop,
       [&](const auto& segments, const auto& samples, double) {
         for (std::size_t i = 1; i < segments.size(); ++i) plant->setHand(static_cast<int>(i), segments[i], samples[i]);
         (void)plant->step(segments[0], kTickSeconds);
@@ -104,7 +106,7 @@ double growthAlone(const experiment::Experiment& experiment, const constraints::
 }
 
 double growthOver(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const std::vector<LimpHand>& hands,
-                  const MeasuredLine& line, const CopySettings& settings) {
+                  const MeasuredLine& line, const CopySettings& settings, const std::stop_token& stop) {
   // Uniform jitter either way makes this standard deviation of the round trip.
   const LineConditions conditions{line.roundTrip / 2, std::sqrt(1.5) * line.jitter, line.loss};
   double worst = 0;
@@ -112,7 +114,7 @@ double growthOver(const experiment::Experiment& experiment, const constraints::C
     CopiesOverLines copies(experiment, constraint, experiment.task->start, settings, conditions, line.roundTrip,
                            static_cast<std::uint64_t>(seed));
     worst = std::max(worst, letBe(
-                                hands,
+                                hands, stop,
                                 [&](const auto& segments, const auto& samples, double t) {
                                   copies.tick(segments, samples, t);
                                   return copies.speedSquares();
@@ -129,30 +131,35 @@ MeasuredLine MeasuredLine::worse(const MeasuredLine& a, const MeasuredLine& b) {
 }
 
 LineCheck checkLine(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const MeasuredLine& line,
-                    const CopySettings& settings) {
+                    const CopySettings& settings, const std::stop_token& stop) {
   const std::vector<LimpHand> hands = pushedHands(experiment, constraint);
-  const double alone = growthAlone(experiment, constraint, hands);
+  const double alone = growthAlone(experiment, constraint, hands, stop);
   const double most = std::min(kMostFrequency, synchronisationLimit(settings, line.roundTrip));
   LineCheck check;
   CopySettings tried = settings;
   while (true) {
     check.frequency = tried.frequency;
-    check.growth = growthOver(experiment, constraint, hands, line, tried);
+    check.growth = growthOver(experiment, constraint, hands, line, tried, stop);
     check.stable = Growth::isStable(check.growth, alone);
-    if (check.stable || tried.frequency >= most) break;
+    if (check.stable || tried.frequency >= most || stop.stop_requested()) break;
     tried.frequency = std::min(most, tried.frequency + kFrequencyStep);
   }
   const std::string over =
       fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * line.roundTrip, 1e3 * line.jitter, 100 * line.loss);
-  const std::string how = std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth)
-                                                      : "thrown out of the hands";
+  const bool ended = !check.stable && stop.stop_requested();
+  const std::string how = ended                         ? "ended before it was known"
+                          : std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth)
+                                                        : "thrown out of the hands";
   check.sentence = fmt::format("simulated with limp hands over this line ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
-                               check.stable ? "comes to rest" : "does not come to rest", how, check.frequency);
+                               check.stable ? "comes to rest"
+                               : ended      ? "may come to rest or not"
+                                            : "does not come to rest",
+                               how, check.frequency);
   return check;
 }
 
-LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line) {
-  return checkLine(experiment, constraints::makeConstraint(experiment.constraint), line, copySettingsFor(experiment));
+LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line, const std::stop_token& stop) {
+  return checkLine(experiment, constraints::makeConstraint(experiment.constraint), line, copySettingsFor(experiment), stop);
 }
 
 }  // namespace reachlab::network

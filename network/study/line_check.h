@@ -1,4 +1,5 @@
 #pragma once
+#include <stop_token>
 #include <string>
 
 #include "network/coupled_copy.h"
@@ -18,16 +19,16 @@ struct MeasuredLine {
 struct LineCheck {
   bool stable = false;
   double frequency = 0;  // [rad/s] omega_o with which it comes to rest; not stable: the last that was tried
-  double growth = 0;     // speed after some seconds over that at first
+  double growth = 0;     // speed after some seconds over that at first; infinite: a hand was thrown, or the check was ended
   std::string sentence;  // what was found, with the numbers
 };
 
-/// Limp hands (1 kg on 20 N/m and 5 N s/m), pushed apart at the start, over lines all as bad as `line`. Where the motion grows omega_o is raised
-/// from `settings`' by steps of 0.5 rad/s, as far as the round trip allows. Takes a tenth of a second or several; a function of its arguments alone.
-/// Throws as CoupledCopy.
+/// Limp hands (1 kg on 20 N/m and 5 N s/m), pushed apart at the start, over lines all as bad as `line`. Where the motion grows omega_o is
+/// raised from `settings`' by steps of 0.5 rad/s, as far as the round trip allows. Takes a tenth of a second or several seconds; a function
+/// of its arguments alone, but that a requested `stop` ends it at once: not stable, as far as is known. Throws as CoupledCopy.
 LineCheck checkLine(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const MeasuredLine& line,
-                    const CopySettings& settings);
+                    const CopySettings& settings, const std::stop_token& stop = {});
 /// With the settings of the experiment's object.
-LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line);
+LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line, const std::stop_token& stop = {});
 
 }  // namespace reachlab::network

@@ -38,6 +38,17 @@ TEST(LineCheck, RefusesWithTheNumbersWhatNoSynchronisationHolds) {
   EXPECT_NE(check.sentence.find("does not come to rest"), std::string::npos) << check.sentence;
 }
 
+// A check may take several seconds, which is too long for who ends the program. The chain comes to rest as it is, and more could be tried.
+TEST(LineCheck, EndsAtOnceWhenItIsAskedToAndTriesNothingMore) {
+  const experiment::Experiment e = experiment::readExperiment("chain-two-hands");
+  std::stop_source ended;
+  ended.request_stop();
+  const LineCheck check = checkLine(e, kLan, ended.get_token());
+  EXPECT_FALSE(check.stable) << check.sentence;
+  EXPECT_EQ(check.frequency, copySettingsFor(e).frequency) << "the first that is tried";
+  EXPECT_NE(check.sentence.find("may come to rest or not: ended before it was known"), std::string::npos) << check.sentence;
+}
+
 TEST(LineCheck, IsAFunctionOfItsArguments) {
   const experiment::Experiment e = experiment::readExperiment("parallel-two-hands");
   EXPECT_EQ(checkLine(e, kFar).growth, checkLine(e, kFar).growth);
