@@ -56,7 +56,11 @@ class Recorded : public testing::Test {
   }
   BlockToRun block() const { return planSession(request_, easy_).blocks.at(0); }
   RecordedRunOptions options() const {
-    return {.place = request_.place, .numberAskedFor = request_.run.has_value(), .virtualClock = request_.fast};
+    RecordedRunOptions options;
+    options.place = request_.place;
+    options.numberAskedFor = request_.run.has_value();
+    options.virtualClock = request_.fast;
+    return options;
   }
   std::vector<record::RunLog> logs() const {
     std::vector<record::RunLog> logs;
