@@ -21,10 +21,11 @@ std::string columnDictionary(std::string_view csv, std::span<const ColumnMeaning
     const auto found = std::find_if(meanings.begin(), meanings.end(), [&](const ColumnMeaning& m) {
       return m.column.ends_with('*') ? column.starts_with(m.column.substr(0, m.column.size() - 1)) : column == m.column;
     });
-    auto& entry = dictionary[std::string(column)];
+    nlohmann::ordered_json entry = nlohmann::ordered_json::object();  // made whole before its first key: its own allocation may fail
     entry["Description"] = found == meanings.end() ? "" : found->meaning;
     if (const std::string unit = unitOfColumn(column); !unit.empty()) entry["Units"] = unit;
     if (column == "subject" || column == "session") entry["Format"] = "string";
+    dictionary[std::string(column)] = std::move(entry);
   }
   return dictionary.dump(2) + "\n";
 }
