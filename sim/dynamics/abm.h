@@ -24,19 +24,19 @@ inline constexpr double kSparedShare = 0.5;  // of the largest good correction: 
 /// S numbers in rows of lanes; S = 0: as many as there are. Lanes beyond the last number hold zeros.
 template <int S>
 struct Rows {
-  static constexpr int kWidth = S == 0 ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
+  static constexpr int kWidth = S == 0 || Numbers<S>::kHalves ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
   static constexpr int kCapacity = ((S == 0 ? kMaxStates : S) + kWidth - 1) / kWidth;
   static constexpr bool kFull = S > 0;  // Numbers have room for whole rows
   using Lanes = reachlab::Lanes<kWidth>;
 
   static constexpr int count(int states) noexcept { return S == 0 ? (states + kWidth - 1) / kWidth : kCapacity; }
   static Lanes load(const Numbers<S>& y, int c) noexcept {
-    if constexpr (kFull) return loadLanes<Lanes>(&y[c * kWidth]);
+    if constexpr (kFull) return loadLanes<Lanes>(y.values.data() + c * kWidth);
     return gather(y, c * kWidth, std::make_index_sequence<kWidth>());
   }
   static void store(const Lanes& row, Numbers<S>& y, int c) noexcept {
     if constexpr (kFull) {
-      storeLanes(row, &y[c * kWidth]);
+      storeLanes(row, y.values.data() + c * kWidth);
       return;
     }
     for (int i = 0; i < kWidth; ++i)
@@ -153,8 +153,9 @@ class AbmWith {
     constexpr int kWidth = Rows::kWidth, kHalf = System::kStates / 2;
     if constexpr (kHalf > 0 && Rows::kCapacity == 1) {
       deviation[0] = mulAdd(factor, Rows::template shifted<kHalf>(deviation[0], std::make_index_sequence<kWidth>()), deviation[0]);
-    } else if constexpr (kHalf > 0 && kHalf % kWidth == 0) {
-      for (int c = 0; c < kHalf / kWidth; ++c) deviation[c] = mulAdd(factor, deviation[c + kHalf / kWidth], deviation[c]);
+    } else if constexpr (kHalf > 0 && (kHalf % kWidth == 0 || System::State::kHalves)) {
+      constexpr int kRows = Rows::kCapacity / 2;
+      for (int c = 0; c < kRows; ++c) deviation[c] = mulAdd(factor, deviation[c + kRows], deviation[c]);
     } else {
       for (int i = 0; i < n / 2; ++i) {
         const int from = n / 2 + i;

@@ -55,7 +55,7 @@ void QuadricSystem::meetEnd(const State& beyond, State& y, bool bounce) const no
       const double part = dot(v, across);
       if (low ? part < 0 : part > 0) v -= (2 * part / dot(across, across)) * across;
     }
-    y.values = {p.r.x, p.r.y, p.r.z, v.x, v.y, v.z};
+    y.assign(p.r.x, p.r.y, p.r.z, v.x, v.y, v.z);
   }
 }
 

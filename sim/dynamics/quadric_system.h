@@ -65,7 +65,7 @@ struct QuadricSystem {
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     const constraints::SurfacePoint p = constraints::evaluate(surface, q[0], q[1]);
     const Vec3 v = qRate[0] * p.rU + qRate[1] * p.rV;
-    y.values = {p.r.x, p.r.y, p.r.z, v.x, v.y, v.z};
+    y.assign(p.r.x, p.r.y, p.r.z, v.x, v.y, v.z);
     parameters = {q[0], q[1]};
     ticks = 0;
   }
