@@ -25,21 +25,31 @@ std::vector<Quad> initialState(const BenchScene& scene, const System&) {
   return y;
 }
 
+// Place and velocity in the world, of a state in the sphere's own numbers.
+void appendCartesian(const BenchScene& scene, const std::vector<Quad>& y, std::vector<Quad>& states) {
+  Quad r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
+  SphereShape{scene.experiment.constraint.shape.at("R")}.evaluate(y[0], y[1], r, ru, rv, ruu, ruv, rvv);
+  states.insert(states.end(), r, r + 3);
+  for (int i = 0; i < 3; ++i) states.push_back(ru[i] * y[2] + rv[i] * y[3]);
+}
+
 template <class System>
 Reference integrate(const BenchScene& scene, const System& system, const ReferenceSettings& settings) {
   Reference out;
-  out.stateSize = 2 * System::kCoordinates, out.massCount = System::kMasses, out.samples = sampleCount(scene);
+  out.stateSize = scene.cartesian ? 6 : 2 * System::kCoordinates;
+  out.massCount = System::kMasses, out.samples = sampleCount(scene);
   const auto rate = [&](const Quad& t, const Quad* y, Quad* dy) {
     Quad r[3], v[3];
     evaluate(scene.hand, t, r, v);
     system.rate(y, r, v, dy);
   };
-  Extrapolation<Quad, decltype(rate)> integrator(rate, out.stateSize, settings.columns, settings.tolerance);
+  Extrapolation<Quad, decltype(rate)> integrator(rate, 2 * System::kCoordinates, settings.columns, settings.tolerance);
   std::vector<Quad> y = initialState(scene, system), r(3 * out.massCount);
   for (int k = 0; k < out.samples; ++k) {
     if (k > 0) integrator.advance(Quad(k - 1) / 100, Quad(k) / 100, y);
     system.positions(y.data(), r.data());
-    out.states.insert(out.states.end(), y.begin(), y.end());
+    if (scene.cartesian) appendCartesian(scene, y, out.states);
+    else out.states.insert(out.states.end(), y.begin(), y.end());
     out.positions.insert(out.positions.end(), r.begin(), r.end());
   }
   return out;
@@ -72,7 +82,7 @@ double largestDifference(const std::vector<Quad>& a, const std::vector<Quad>& b)
 }  // namespace
 
 Reference computeReference(const BenchScene& scene) {
-  if (scene.cartesian) return greatCircle(scene, scene.experiment.constraint.shape.at("R"));
+  if (scene.cartesian && scene.hand.kind == HandLaw::Kind::None) return greatCircle(scene, scene.experiment.constraint.shape.at("R"));
   if (scene.experiment.constraint.name != "line") return extrapolatedReference(scene);
   return scene.experiment.object.masses.size() > 10 ? modalChainReference(scene) : exponentialReference(scene);
 }

@@ -122,6 +122,19 @@ BenchScene pastPole(std::string name, std::string title, double tilt) {
   return s;
 }
 
+// From rest, drawn over the same arc by a hand on its chord.
+BenchScene pulledPastPole(std::string name, std::string title, double tilt) {
+  BenchScene s = pastPole(std::move(name), std::move(title), tilt);
+  s.rate.clear();
+  double r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
+  SphereShape{s.experiment.constraint.shape.at("R")}.evaluate(s.start[0], s.start[1], r, ru, rv, ruu, ruv, rvv);
+  s.hand.kind = HandLaw::Kind::Straight;
+  s.hand.duration = kReach;
+  s.hand.from = {r[0], r[1], r[2]};
+  s.hand.by = {0, -2 * r[1], 0};
+  return s;
+}
+
 }  // namespace
 
 std::vector<BenchScene> benchScenes() {
@@ -154,6 +167,7 @@ std::vector<BenchScene> benchScenes() {
   all.push_back(onEllipse("S7c", "through the tip of a flat ellipse", 0.1, 1e-4, kPi / 4, 0));
   all.push_back(pastPole("S7d", "geodesic 1e-3 rad past a pole", 1e-3));
   all.push_back(pastPole("S7e", "geodesic 1e-6 rad past a pole", 1e-6));
+  all.push_back(pulledPastPole("S7f", "bead pulled 1e-3 rad past a pole", 1e-3));
 
   BenchScene chain = onEllipse("S8", "chain of 5 on an ellipse", 0.1, 0.06, 0, 0);
   chain.experiment.object.kind = experiment::ObjectKind::Chain;

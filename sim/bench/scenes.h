@@ -15,7 +15,7 @@ struct BenchScene {
   HandLaw hand;                     // kind None: nobody holds the object
   double duration = 1.35;           // [s]
   std::vector<double> start, rate;  // common constraint parameters and rates of all masses; rate empty: at rest
-  bool cartesian = false;           // the path crosses a pole, where the chart's own numbers say nothing: state = r and v
+  bool cartesian = false;           // the path passes a pole, where the chart's own numbers say nothing: state = r and v
 };
 
 /// All of them, in the table's order.

@@ -35,6 +35,7 @@ auto visitSystem(const BenchScene& scene, F&& f) {
     return f(SurfaceBead<SaddleShape, true>{
         {shape.at("width_m"), shape.at("depth_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
   if (n == "S7d" || n == "S7e") return f(SurfaceBead<SphereShape, false>{{shape.at("R")}, mass, 0, 0, 0});
+  if (n == "S7f") return f(SurfaceBead<SphereShape, true>{{shape.at("R")}, mass, 0, coupling.stiffness, coupling.damping});
   if (n == "S8")
     return f(CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
   throw FaultError(Fault{"scene", "is " + n + ", which has no right-hand side here"});

@@ -12,7 +12,7 @@ std::optional<Contender> makeLimit(const BenchScene& scene);
 
 Contender makeExactLimit(const BenchScene& scene);      // S1, S7a, S7b: dense matrix
 Contender makeModalLimit(const BenchScene& scene);      // S1b50, S1b500: modes
-Contender makeMultistepLimit(const BenchScene& scene);  // S2a, S2b, S3, S4, S8: Adams-Bashforth-Moulton of order 6
+Contender makeMultistepLimit(const BenchScene& scene);  // S2a, S2b, S3, S4, S7f, S8: Adams-Bashforth-Moulton of order 6
 Contender makeSmallLimit(const BenchScene& scene);      // S6: RK4; S7d, S7e: RK4 in Cartesian coordinates
 
 /// Steps a form through a reach: Form has `start(scene)`, `step(segment)`, `state(double*)`, `positions(double*)`, kStates, kMasses.

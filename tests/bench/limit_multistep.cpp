@@ -41,6 +41,7 @@ struct AdamsForm {
       for (int j = 3; j >= 1; --j) dq += correct[j] * oldV[j - 1][i], dv += correct[j] * oldA[j - 1][i];
       q[i] += dq + correct[0] * vp[i], v[i] += dv + correct[0] * a[i];
     }
+    if constexpr (requires { model.settle(q, v); }) model.settle(q, v);
     model.rate(q, v, force, a);
     remember(a);
   }
@@ -154,6 +155,30 @@ struct SaddleModel {
   void positions(const double* s, double* r) const { r[0] = a * s[0], r[1] = a * s[1], r[2] = h * s[0] * (s[0] * s[0] - 3 * s[1] * s[1]); }
 };
 
+/// On a sphere about the origin, in world coordinates: m r'' = F - (k_h + b_h d/dt) r less its part along r, and v.v towards the middle.
+struct SphereModel {
+  static constexpr int kStates = 6, kMasses = 1, kHandDegree = 5;
+  double inverse, mass, kHand, bHand, drag;  // 1/R^2
+  void rate(const double* q, const double* v, const Vec3& f, double* acceleration) const {
+    const double inverseMass = 1 / mass, pull[3] = {f.x, f.y, f.z};
+    double a[3], inward = 0;
+    for (int i = 0; i < 3; ++i) a[i] = (pull[i] - kHand * q[i]) * inverseMass - drag * v[i];
+    for (int i = 0; i < 3; ++i) inward += q[i] * a[i] + v[i] * v[i];
+    inward *= inverse;
+    for (int i = 0; i < 3; ++i) acceleration[i] = a[i] - inward * q[i];
+  }
+  /// One Newton step back onto the sphere: a force inwards drives the mass from it, by a factor of 1e8 within the reach.
+  void settle(double* q, double* v) const {
+    double square = 0, outward = 0;
+    for (int i = 0; i < 3; ++i) square += q[i] * q[i], outward += v[i] * q[i];
+    for (int i = 0; i < 3; ++i) v[i] -= outward * inverse * q[i], q[i] += (0.5 - 0.5 * square * inverse) * q[i];
+  }
+  void state(const double* q, const double* v, double* out) const {
+    for (int i = 0; i < 3; ++i) out[i] = q[i], out[3 + i] = v[i];
+  }
+  void positions(const double* s, double* r) const { r[0] = s[0], r[1] = s[1], r[2] = s[2]; }
+};
+
 /// Five masses on the ellipse in the lanes of one vector; lanes 5 to 7 rest at phi = 0 and pull on nothing.
 struct EllipseChainModel {
   static constexpr int kStates = 10, kMasses = 5, kHandDegree = 7;
@@ -185,6 +210,10 @@ Contender makeAdams(const BenchScene& scene, const Model& model) {
   AdamsForm<T, K, Model> form{.model = model};
   if constexpr (K == 2)
     for (int i = 0; i < K; ++i) form.q[i] = scene.start[i];
+  if constexpr (K == 3) {
+    double ru[3], rv[3], ruu[3], ruv[3], rvv[3];
+    SphereShape{scene.experiment.constraint.shape.at("R")}.evaluate(scene.start[0], scene.start[1], form.q, ru, rv, ruu, ruv, rvv);
+  }
   return makeLimitContender(scene, form);
 }
 
@@ -198,6 +227,9 @@ Contender makeMultistepLimit(const BenchScene& scene) {
       return makeAdams<double, 2>(scene, TorusModel{s.shape.bigR, s.shape.small, s.mass, s.kHand, s.bHand, (s.bHand + s.lambda) / s.mass});
     else if constexpr (std::is_same_v<System, SurfaceBead<SaddleShape, true>>)
       return makeAdams<double, 2>(scene, SaddleModel{s.shape.a, s.shape.h, s.mass, s.kHand, s.bHand, (s.bHand + s.lambda) / s.mass});
+    else if constexpr (std::is_same_v<System, SurfaceBead<SphereShape, true>>)
+      return makeAdams<double, 3>(
+          scene, SphereModel{1 / (s.shape.radius * s.shape.radius), s.mass, s.kHand, s.bHand, (s.bHand + s.lambda) / s.mass});
     else if constexpr (std::is_same_v<System, CurveChain<EllipseShape, 5, 6>>)
       return makeAdams<V8, 1>(scene, EllipseChainModel{s.shape.a, s.shape.b, s.mass, s.k, s.b, s.kHand, s.bHand});
     else throw FaultError(Fault{"scene", "is " + scene.name + ", which has no multistep form"});

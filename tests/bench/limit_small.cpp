@@ -83,7 +83,7 @@ std::optional<Contender> makeLimit(const BenchScene& scene) {
   const std::string& n = scene.name;
   if (n == "S1" || n == "S7a" || n == "S7b") return makeExactLimit(scene);
   if (n == "S1b50" || n == "S1b500") return makeModalLimit(scene);
-  if (n == "S2a" || n == "S2b" || n == "S3" || n == "S4" || n == "S8") return makeMultistepLimit(scene);
+  if (n == "S2a" || n == "S2b" || n == "S3" || n == "S4" || n == "S7f" || n == "S8") return makeMultistepLimit(scene);
   if (n == "S6" || n == "S7d" || n == "S7e") return makeSmallLimit(scene);
   return std::nullopt;
 }
