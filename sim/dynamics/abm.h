@@ -81,6 +81,11 @@ class AbmWith {
 
   [[gnu::flatten]] StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next,
                                    StepReport& report) noexcept {
+    if constexpr (requires { system.glide(dt, y, next); })
+      if (system.glide(dt, y, next)) {  // exact, and leaves the history behind
+        restart();
+        return StepStatus::Ok;
+      }
     if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
     if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
     if constexpr (requires { system.careful; })

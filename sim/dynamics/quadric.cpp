@@ -19,7 +19,20 @@ double sampleAt(const constraints::Domain& domain, double start, double fraction
   return lo + (hi - lo) * fraction;
 }
 
+constexpr double kRound = 1e-13;  // of A: as round as ten fitted coefficients can be
+
 }  // namespace
+
+std::optional<Sphere> sphereOf(const Quadric& quadric) {
+  const std::array<double, 6>& a = quadric.a;
+  const double most = kRound * std::abs(a[0]);
+  if (!(std::abs(a[1] - a[0]) <= most && std::abs(a[2] - a[0]) <= most)) return std::nullopt;
+  if (!(std::abs(a[3]) <= most && std::abs(a[4]) <= most && std::abs(a[5]) <= most)) return std::nullopt;
+  const Vec3 toMiddle = quadric.b * (-0.5 / a[0]);  // F = a |d - toMiddle|^2 - a R^2
+  const double square = dot(toMiddle, toMiddle) - quadric.c / a[0];
+  if (!(square > 0)) return std::nullopt;
+  return Sphere{quadric.centre + toMiddle, std::sqrt(square)};
+}
 
 std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
                                   const std::array<double, 2>& start) {

@@ -27,6 +27,14 @@ struct Quadric {
   }
 };
 
+/// A ball's surface.
+struct Sphere {
+  Vec3 middle;        // [m]
+  double radius = 0;  // [m]
+};
+/// The sphere that a quadric is, to rounding; nothing for every other form.
+std::optional<Sphere> sphereOf(const Quadric& quadric);
+
 /// F and its gradient vanish together somewhere near the samples: a cone's apex, or the line in which two planes meet.
 bool hasApex(const Quadric& quadric);
 

@@ -6,7 +6,8 @@
 namespace reachlab::dynamics {
 
 /// A point on a surface of second degree in world coordinates, y = (r, v): r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and
-/// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for.
+/// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for. On a sphere where nothing pulls, the motion
+/// is a great circle in closed form.
 struct QuadricSystem {
   static constexpr int kStates = 6;
   static constexpr bool kSecondOrder = true;
@@ -24,11 +25,22 @@ struct QuadricSystem {
   bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
+  std::optional<Sphere> sphere;
+  bool gliding = false;  // on a sphere, and nothing pulls
 
   QuadricSystem(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& q)
-      : springs(model), quadric(q), surface(constraint.surface), domain(constraint.domain) {}
+      : springs(model), quadric(q), surface(constraint.surface), domain(constraint.domain), sphere(sphereOf(q)) {
+    setGliding();
+  }
   static constexpr int states() noexcept { return 6; }
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  void setExtraForce(const Vec3& force) noexcept {
+    springs.extraForce = force;
+    setGliding();
+  }
+  void setCoupled(const ObjectModel& model, bool coupled) noexcept {
+    springs.setCoupled(model, coupled);
+    setGliding();
+  }
   Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
   Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
@@ -42,6 +54,22 @@ struct QuadricSystem {
     dy.assign(v.x, v.y, v.z, a.x, a.y, a.z);
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
+
+  /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where something pulls, or where the
+  /// turn is too large for the series.
+  bool glide(double dt, const State& y, State& next) const noexcept {
+    if (!gliding) return false;
+    const Vec3 d = Vec3{y[0], y[1], y[2]} - sphere->middle, v{y[3], y[4], y[5]};
+    const double share = dt / sphere->radius, turn2 = fusedDot(v, v) * (share * share);
+    if (!(turn2 <= kMostTurn2)) return false;
+    // cos x - 1 and sin x / x to rounding; x^2 = turn2. What is added is small, so that its rounding, the same at each tick, adds up to
+    // nothing.
+    const double less = turn2 * mulAdd(mulAdd(mulAdd(turn2, 1.0 / 40320, -1.0 / 720), turn2, 1.0 / 24), turn2, -0.5);
+    const double sine = mulAdd(mulAdd(mulAdd(mulAdd(turn2, 1.0 / 362880, -1.0 / 5040), turn2, 1.0 / 120), turn2, -1.0 / 6), turn2, 1.0);
+    const Vec3 r = mulAdd(sine * dt, v, less * d), w = mulAdd(-(sine * (turn2 / dt)), d, less * v);
+    next.assign(y[0] + r.x, y[1] + r.y, y[2] + r.z, v.x + w.x, v.y + w.y, v.z + w.z);
+    return true;
+  }
 
   /// Back onto the surface every few ticks: rounding's drift, far below what a multistep history notices. Lost where the normal turned
   /// round within the step: a cone's apex, beyond which nothing says where to go.
@@ -92,6 +120,14 @@ struct QuadricSystem {
 
   /// Follows the parameters to r by Gauss-Newton from where they were; far off, from the nearest of a grid.
   void follow(const Vec3& r) const noexcept;
+
+ private:
+  static constexpr double kMostTurn2 = 0.01;  // [rad^2], where the next terms are 3e-17
+
+  void setGliding() noexcept {
+    gliding = sphere && springs.handStiffness[0] == 0 && springs.handDamping[0] == 0 && springs.viscosity == 0 &&
+              springs.gravity == Vec3{} && springs.extraForce == Vec3{};
+  }
 };
 
 }  // namespace reachlab::dynamics

@@ -36,7 +36,8 @@ class SystemPlant : public PlantBase {
   void setCoupled(bool coupled) noexcept override {
     if (coupled == coupled_) return;
     coupled_ = coupled;
-    system_.springs.setCoupled(model_, coupled);
+    if constexpr (requires { system_.setCoupled(model_, coupled); }) system_.setCoupled(model_, coupled);
+    else system_.springs.setCoupled(model_, coupled);
     method_.restart();
   }
   void restart() noexcept override { method_.restart(); }

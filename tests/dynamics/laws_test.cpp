@@ -85,6 +85,42 @@ TEST(Poles, GreatCirclesPassThem) {
   }
 }
 
+// A sphere off the origin: after a hundred seconds the place is that of the great circle, and no equation of motion was solved.
+TEST(Poles, WhereNothingPullsOnASphereItsGreatCircleIsFollowedInClosedForm) {
+  const Scene scene = freeScene(onSurface("0.3+0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)-0.2", "0.1*sin(v)"), {0.3, 0.2}, {4, 1.5});
+  const Vec3 middle{0.3, -0.2, 0};
+  const MassState begin = observed(*scene.plant)[0];
+  ASSERT_EQ(run(*scene.plant, noHand, 100), StepStatus::Ok);
+  EXPECT_EQ(scene.plant->rhsEvaluations(), 0u);
+  EXPECT_EQ(scene.plant->errorEstimate(), 0);
+  const double turn = norm(begin.v) / 0.1;
+  const Vec3 expected = middle + std::cos(100 * turn) * (begin.r - middle) + (std::sin(100 * turn) / turn) * begin.v;
+  EXPECT_LT(norm(observed(*scene.plant)[0].r - expected), 1e-12);
+}
+
+// Held, let go, held again, and let go with something that still pulls: as by sub-steps of the equations of motion.
+TEST(Poles, LettingGoOnASphereAndTakingHoldAgainIsAsByTheEquationsOfMotion) {
+  enum class Pull { Nothing, Force, Friction };
+  for (const Pull pull : {Pull::Nothing, Pull::Force, Pull::Friction}) {
+    experiment::Experiment e = onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)");
+    e.object.viscosity = pull == Pull::Friction ? 0.8 : 0;
+    const auto hand = [](double t) { return HandSample{{0.1, 0.05 + 0.1 * t, 0.05 - 0.2 * t}, {0, 0.1, -0.2}, true}; };
+    const auto place = [&](const char* method) {
+      const Scene scene = compileScene(e, {method, 1e-3, 0});
+      scene.plant->place(std::array{0.1, 0.2}, std::array{1.0, 0.5});
+      if (pull == Pull::Force) scene.plant->setExtraForce({0, 0.4, 0.3});
+      for (const bool held : {true, false, true, false}) {
+        scene.plant->setCoupled(held);
+        EXPECT_EQ(run(*scene.plant, hand, 0.4), StepStatus::Ok);
+      }
+      return observed(*scene.plant)[0];
+    };
+    const MassState ours = place("auto"), other = place("adaptive");
+    EXPECT_LT(norm(ours.r - other.r), 1e-11) << static_cast<int>(pull);
+    EXPECT_LT(norm(ours.v - other.v), 1e-10) << static_cast<int>(pull);
+  }
+}
+
 // The same body of revolution by a formula that is no quadric: near the pole it is followed in a polar chart.
 TEST(Poles, AreFoundOnTheWayOnSurfacesOfAnyShape) {
   const char* radius = "(0.1+0.02*cos(2*v))";

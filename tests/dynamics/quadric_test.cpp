@@ -62,6 +62,19 @@ TEST(Quadric, HoldsTheSphereAndPointsOutward) {
     }
 }
 
+TEST(Quadric, KnowsASphereWithItsMiddleAndRadiusFromEveryOtherForm) {
+  const std::optional<Quadric> round = fitQuadric(sphere(), kRound, {0, 1}), oblong = fitQuadric(ellipsoid(), kAnywhere, {0.4, 1.2});
+  ASSERT_TRUE(round && oblong);
+  const std::optional<Sphere> ball = sphereOf(*round);
+  ASSERT_TRUE(ball);
+  EXPECT_LT(norm(ball->middle), 1e-15);
+  EXPECT_NEAR(ball->radius, 0.1, 1e-15);
+  EXPECT_FALSE(sphereOf(*oblong));
+  Quadric tilted = *round;  // only a product tells this one
+  tilted.a[5] = 0.1 * tilted.a[0];
+  EXPECT_FALSE(sphereOf(tilted));
+}
+
 TEST(Quadric, HoldsAnEllipsoidAwayFromTheOriginEvenWithoutADomain) {
   const std::optional<Quadric> q = fitQuadric(ellipsoid(), kAnywhere, {0.4, 1.2});
   ASSERT_TRUE(q);
