@@ -139,6 +139,20 @@ TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
   EXPECT_NE(message({.name = "../secret", .curve = {}, .surface = {}, .shape = {}}).find("there is no constraint"), std::string::npos);
 }
 
+TEST(Definition, SaysOfAPlaceThatIsNoConstantWhatInItIsNotKnown) {
+  try {
+    parseDefinition(R"j({"schema_version": 1, "name": "ring", "kind": "curve", "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0"], "shape": {},
+      "domain": [0, "2*pi"], "periodic": true, "start": ["pj/4"], "target": [1], "sentence": "s", "source": "s"})j",
+                    "d.json");
+    FAIL();
+  } catch (const FaultError& error) {
+    ASSERT_FALSE(error.faults.empty());
+    EXPECT_EQ(error.faults[0].key, "start[0]") << error.what();
+    EXPECT_NE(error.faults[0].what.find("pj"), std::string::npos) << error.what();
+    EXPECT_EQ(error.faults[0].place.value_or(FilePlace{}).line, 2) << error.what();
+  }
+}
+
 TEST(Definition, HasTheSameFaultsAsAValueAndAsAFile) {
   const auto keysOf = [](const std::vector<Fault>& faults) {
     std::vector<std::string> keys;

@@ -117,6 +117,21 @@ INSTANTIATE_TEST_SUITE_P(
                               "\"parallel\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600, 60]",
                               "coupling: stands beside a parallel object"}));
 
+// The first element says what is meant; the faults of the others are told as of that.
+TEST(ExperimentReader, TakesAnInertiaForAMatrixWhereItsFirstElementIsARow) {
+  const auto told = [](const std::string& inertia) {
+    return faultOf(
+        R"({"schema_version": 1, "constraint": {"name": "free"}, "object": {"kind": "body", "masses_kg": [1], "inertia_kg_m2": )" +
+        inertia + R"(}, "coupling": {"stiffness_n_per_m": 600}})");
+  };
+  EXPECT_EQ(told("[0.1, 0.1, 0.1]"), "no fault");
+  EXPECT_EQ(told("[[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]]"), "no fault");
+  EXPECT_NE(told("[[0.1, 0, 0], 0.1, 0.1]").find("inertia_kg_m2[1]: is a number; allowed: an array of 3 numbers"), std::string::npos);
+  EXPECT_NE(told("[0.1, [0, 0.1, 0], 0.1]").find("inertia_kg_m2[1]: is an array"), std::string::npos);
+  EXPECT_NE(told("[[0.1, 0, 0]]").find("inertia_kg_m2: has 1 rows; allowed: 3 rows"), std::string::npos);
+  EXPECT_NE(told("[]").find("inertia_kg_m2: has 0 elements"), std::string::npos);
+}
+
 TEST(ExperimentReader, NamesEveryFaultAtOnce) {
   std::string text = replaced(kGood, "[0.6, 0.6]", "[0.6, -1]");
   text = replaced(text, "\"position_m\": 0.012", "\"position_m\": 0");
