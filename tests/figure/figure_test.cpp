@@ -176,6 +176,35 @@ TEST(Figure, BearsHolesEmptySeriesAndHugeValues) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+// The paper is painted white first.
+TEST(Figure, WritesItsTitleInBlack) {
+  Figure figure;
+  figure.panels.resize(1);
+  const std::regex black("rgb\\(0%, ?0%, ?0%\\)");
+  EXPECT_FALSE(std::regex_search(renderSvg(figure), black)) << "nothing but a place that stays white";
+  figure.title = "Chain on an ellipse";
+  EXPECT_TRUE(std::regex_search(renderSvg(figure), black)) << renderSvg(figure).substr(0, 600);
+}
+
+TEST(Figure, PutsItsLegendBelowAPanelThatErrorBarsFill) {
+  const auto heightOf = [](bool bars) {
+    Figure figure;
+    Panel panel;
+    panel.y.from = 0, panel.y.to = 1;
+    Series series;
+    series.label = "mean";
+    for (int i = 0; i <= 10; ++i) {
+      series.x.push_back(i), series.y.push_back(0.5);
+      if (bars) series.errorLow.push_back(0), series.errorHigh.push_back(1);
+    }
+    panel.series = {series};
+    figure.panels = {panel};
+    const std::string svg = renderSvg(figure);
+    return std::stod(svg.substr(svg.find("height=\"") + 8));
+  };
+  EXPECT_GT(heightOf(true), heightOf(false) + 5) << "[pt]; beside the points alone it has room";
+}
+
 // The last row of subjects may be shorter than the others: no axes from -1 to 1 stand there.
 TEST(Figure, LeavesRoomForALabelThatIsLongerThanItsAxis) {
   const auto widthOf = [](const std::string& label) {
