@@ -146,8 +146,7 @@ twoSquare:
   r[i->out] = r[i->a] * r[i->a];
   NEXT;
 #undef NEXT
-stop:
-  return;
+stop:;
 }
 
 const HandlerTable& handlers() noexcept {
