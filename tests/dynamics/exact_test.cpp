@@ -54,6 +54,33 @@ TEST(ExactPlant, ModesAndMatrixAgree) {
   for (int i = 0; i < 20; ++i) EXPECT_NEAR(ma[i].r.x, mb[i].r.x, tolerance);
 }
 
+// In space a hand pulls along all three axes at once, each another way. 1e-8 m is what RK4 errs by in half a second.
+TEST(ExactPlant, EveryOtherMethodMovesAChainInSpaceAsItDoes) {
+  experiment::Experiment e = makeChain(3, 0.5, 400, {600, 5});
+  e.constraint.name = "free";
+  e.object.damping.assign(2, 2);
+  e.object.gravity = {1, -9.81, 0.5};
+  const HandFunction hand = [](double t) {
+    const MinimumJerk law = heldMinimumJerk(t / 0.8);
+    return HandSample{law.value * Vec3{0.1, 0.06, -0.08}, law.rate / 0.8 * Vec3{0.1, 0.06, -0.08}, true};
+  };
+  const auto after = [&](const char* method) {
+    const Scene scene = compileScene(e, {method, 1e-3, 0});
+    scene.plant->placeAtRest(std::array{0.0, 0.0, 0.0});
+    EXPECT_EQ(run(*scene.plant, hand, 0.5), StepStatus::Ok) << method;
+    return observed(*scene.plant, hand(0.5));
+  };
+  const auto exact = after("exact");
+  for (const char* method : {"rk4", "abm", "adaptive", "stiff"}) {
+    const auto other = after(method);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      EXPECT_LT(norm(other[i].r - exact[i].r), 1e-8) << method << " mass " << i + 1;
+      EXPECT_LT(norm(other[i].v - exact[i].v), 1e-6) << method << " mass " << i + 1;
+      EXPECT_LT(norm(other[i].a - exact[i].a), 1e-4) << method << " mass " << i + 1;
+    }
+  }
+}
+
 TEST(ExactPlant, AnHourOfTheUndampedChainKeepsItsEnergy) {
   const Scene scene = compileScene(makeChain(5, 0.6, 600));
   scene.plant->place(std::array{0.0}, std::array{10.0});

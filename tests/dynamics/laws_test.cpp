@@ -251,6 +251,39 @@ TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
   EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10);
 }
 
+// Straight on either side, so that the way from a corner is known.
+TEST(Corners, AMassThatIsPutOnOneLeavesItTheWayItMoves) {
+  for (const double rate : {-1.0, 1.0})
+    for (const double at : {0.0, 1.0}) {
+      const Scene scene = freeScene(onCurve(bead(), "phi/10", "0.05*abs(phi) + 0.03*abs(phi - 1)", "0"), {at}, {rate});
+      ASSERT_EQ(run(*scene.plant, noHand, 0.1), StepStatus::Ok);
+      const MassState mass = observed(*scene.plant)[0];
+      EXPECT_NEAR(mass.q[0], at + 0.1 * rate, 1e-10);
+      EXPECT_NEAR(mass.r.y, 0.05 * std::abs(mass.q[0]) + 0.03 * std::abs(mass.q[0] - 1), 1e-12);
+    }
+}
+
+// Beside its corner such a curve is a straight line, along which a chain is pulled apart and damped as on any other.
+TEST(Corners, AChainBesideOneMovesAsOnTheStraightLine) {
+  experiment::Experiment straight = makeChain(3, 0.5, 400, {600, 5});
+  straight.object.damping = {5, 2};
+  const HandFunction hand = [](double t) {
+    const MinimumJerk law = heldMinimumJerk(t / 0.8);
+    return HandSample{{0.1 + 0.1 * law.value, 0.05 + 0.05 * law.value, 0}, law.rate / 0.8 * Vec3{0.1, 0.05, 0}, true};
+  };
+  const auto after = [&](const char* y) {
+    const Scene scene = compileScene(onCurve(straight, "phi/10", y, "0"));
+    scene.plant->placeAtRest(std::array{1.0});
+    EXPECT_EQ(run(*scene.plant, hand, 0.5), StepStatus::Ok) << y;
+    return observed(*scene.plant, hand(0.5));
+  };
+  const auto a = after("0.05*phi"), b = after("0.05*abs(phi)");
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LT(norm(a[i].r - b[i].r), 1e-9) << i;
+    EXPECT_LT(norm(a[i].v - b[i].v), 1e-8) << i;
+  }
+}
+
 // A period joins what is one place; the two sides of a jump are two, and no `at_end` carries a mass across.
 TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
   for (const bool bounce : {false, true}) {
@@ -290,6 +323,31 @@ TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
             StepStatus::Ok);
   EXPECT_NEAR(scene.plant->energy(hand) / before, 1, kEnergyDrift) << "the spring turns and moves it, and takes nothing";
   EXPECT_GT(norm(scene.plant->body().angularVelocity), 0.1) << "the force has a moment about the centre";
+}
+
+// Euler's top, its axes of inertia turned against the body's: what nothing turns keeps R I R^T omega in the world.
+TEST(Body, OfAnyInertiaKeepsItsAngularMomentum) {
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Body, {2}, {}, {600, 0});
+  e.constraint.name = "free";
+  e.object.inertia = {{{0.02, 0.002, -0.004}, {0.002, 0.03, 0.001}, {-0.004, 0.001, 0.025}}};
+  const Scene scene = freeScene(e, {0, 0, 0}, {0, 0, 0});
+  scene.plant->setAngularVelocity({1, 2, 3});
+  const auto momentum = [&] {
+    const BodyState body = scene.plant->body();
+    const auto& [w, x, y, z] = body.orientation;
+    const std::array<Vec3, 3> axes{Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},  // the body's, in the world
+                                   Vec3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                                   Vec3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    Vec3 sum;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) sum += e.object.inertia[i][j] * dot(axes[j], body.angularVelocity) * axes[i];
+    return sum;
+  };
+  const Vec3 before = momentum();
+  const Vec3 turn = scene.plant->body().angularVelocity;
+  ASSERT_EQ(run(*scene.plant, noHand, 2), StepStatus::Ok);
+  EXPECT_LT(norm(momentum() - before), 1e-10 * norm(before));
+  EXPECT_GT(norm(scene.plant->body().angularVelocity - turn), 0.1) << "it tumbles";
 }
 
 }  // namespace
