@@ -52,6 +52,12 @@ TEST_F(ForceDimension, IsListedByTheNameThatOpensIt) {
   EXPECT_FALSE(fakeDhd().open) << "left as it was";
 }
 
+TEST_F(ForceDimension, IsNamedWithItsSerialNumberWhereItTellsOne) {
+  EXPECT_EQ(open()->info().name, "omega.3 4711");
+  fakeDhd().tellsSerial = false;
+  EXPECT_EQ(open()->info().name, "omega.3");
+}
+
 TEST_F(ForceDimension, NoneThereIsSaidInTheLibrarysWords) {
   test::fakeDhdCount() = 0;
   const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));

@@ -35,6 +35,16 @@ TEST(OpenSerialArm, KnowsTheHomePoseOfThePublishedModel) {
   EXPECT_NEAR(home.z, 0.205, 1e-12);
 }
 
+TEST(OpenSerialArm, EveryJointIsCalibratedAtARightAngleOfIts) {
+  for (const ArmModel& model : armModels()) {
+    const auto& counts = model.calibrationCounts;
+    for (const double angle : jointAngles(model, {double(counts[0]), double(counts[1]), double(counts[2])})) {
+      const double quarters = angle / (std::numbers::pi / 2);
+      EXPECT_NEAR(quarters, std::round(quarters), 1e-12) << model.name;
+    }
+  }
+}
+
 TEST(OpenSerialArm, PlaceAndAnglesAreEachOthersInverse) {
   for (const ArmModel& model : armModels()) {
     Places places;

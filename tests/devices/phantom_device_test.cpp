@@ -264,6 +264,38 @@ TEST_F(Phantom, ASampledDeviceGivesItsNewestPlaceAndTakesTheNewestForce) {
   EXPECT_EQ(fakeHd().violations, 0);
 }
 
+TEST_F(Phantom, ASampledDeviceKnowsHowOldTheSampleBehindItsForceWas) {
+  PhantomDevice::Options sampled;
+  sampled.drivesClock = false;
+  PhantomDevice device(sampled);
+  test::stepFakeHd();
+  const haptics::DeviceSample sample = device.read();
+  EXPECT_EQ(device.times().age.max(), 0) << "no force has gone out yet";
+  os::sleepUntil(sample.takenNs + 3'000'000);
+  device.write({1, 0, 0});
+  test::stepFakeHd();
+  const double age = device.times().age.max();
+  EXPECT_GE(age, 3e6);
+  EXPECT_LE(age, static_cast<double>(os::now() - sample.takenNs));
+}
+
+TEST_F(Phantom, AnOpenSafetySwitchReleasesItWhereItIsAskedFor) {
+  for (const bool deadMan : {true, false}) {
+    test::resetFakeHd();
+    PhantomDevice::Options options;
+    options.deadMan = deadMan;
+    PhantomDevice device(options);
+    Ticks ticks{&device, 0, {}, {}};
+    device.startClock(tick, &ticks);
+    for (const bool closed : {true, false, true}) {
+      fakeHd().devices[""].switchClosed = closed;
+      test::stepFakeHd();
+      EXPECT_EQ(ticks.sample.released, deadMan && !closed);
+    }
+    EXPECT_EQ(fakeHd().violations, 0);
+  }
+}
+
 TEST_F(Phantom, ASecondDeviceIsOpenedWhileTheSchedulerStandsStill) {
   fakeHd().devices["Left"], fakeHd().devices["Right"];
   PhantomDevice::Options sampled;

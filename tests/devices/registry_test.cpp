@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/error.h"
 #include "base/fault.h"
 #include "devices/make_device.h"
 #include "devices/options.h"
@@ -37,6 +38,15 @@ TEST(Registry, AnUnknownDeviceIsRefusedWithAllThatThereAre) {
     for (const DeviceDriver& driver : deviceDrivers())
       EXPECT_NE(std::string(error.what()).find(driver.name), std::string::npos) << driver.name;
   }
+}
+
+// What is asked for is read before the arm is looked for, which is not connected.
+TEST(HidOptions, TheLargestCurrentIsFromTenMilliamperesToSixAmperes) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  for (const char* good : {"0.01", "0.012", "6"})
+    EXPECT_THROW(makeDevice(std::string("hid:no-such-arm,max-current=") + good, experiment, 1), ResourceError) << good;
+  for (const char* bad : {"0.0099", "6.01", "0", "-1"})
+    EXPECT_THROW(makeDevice(std::string("hid:no-such-arm,max-current=") + bad, experiment, 1), FaultError) << bad;
 }
 
 TEST(DeviceOptions, TakeWhatIsKnownAndRefuseTheRest) {

@@ -71,7 +71,8 @@ TEST_F(PidStick, TwoEffectsAreMadeStartedAndTurnedByTheDescriptor) {
     EXPECT_EQ(firmware->gain, 255);
     EXPECT_EQ(firmware->effects[1].axes, 1);
     EXPECT_EQ(firmware->effects[2].axes, 2);
-    EXPECT_NE(firmware->effects[1].direction, firmware->effects[2].direction);
+    EXPECT_EQ(firmware->effects[1].direction, 63) << "a quarter of a turn, of which the field has 255 parts: along x";
+    EXPECT_EQ(firmware->effects[2].direction, 0) << "along y";
     wish.force = {1, 5, -0.5};  // up is not its business
     ASSERT_EQ(stick.exchange(wish, sample), Exchange::Report);
     EXPECT_EQ(firmware->felt(), (std::pair{0.5, -0.25})) << "of 2 N at full magnitude";

@@ -40,6 +40,15 @@ TEST(VirtualDevice, AHeldHandleGivesWayToAForceAsItsStiffnessSays) {
   EXPECT_NEAR(device.truePlace().x, 3.0 / 300, 1e-9) << "F/k at rest";
 }
 
+TEST(VirtualDevice, TellsTheMassAndTheFrictionThatItMovesWith) {
+  DeviceModel model = *findDeviceModel("premium15");
+  model.mass = 0.11, model.friction = 0.12, model.viscosity = 0.13;
+  const haptics::DeviceInfo info = VirtualDevice(model, {}, std::make_unique<StillHand>()).info();
+  EXPECT_EQ(info.apparentMass, 0.11);
+  EXPECT_EQ(info.coulombFriction, 0.12);
+  EXPECT_EQ(info.viscosity, 0.13);
+}
+
 TEST(VirtualDevice, AFreeHandleGainsTheForcesImpulse) {
   VirtualDevice device(frictionless(), {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
   device.read();

@@ -57,6 +57,7 @@ void resetFakeDhd() {
     for (int i = 0; i < 3; ++i) device.position[i] = 0, device.force[i] = 0;
     device.open = device.forceOn = device.hangs = false;
     device.callsUntilFailure = -1;
+    device.tellsSerial = true;
     device.positions = device.forces = device.error = device.failOnce = 0;
     device.most = 0;
   }
@@ -114,6 +115,7 @@ const char* dhdErrorGetLastStr() { return last == 5 ? "no device found" : last =
 int dhdGetSystemType(char) { return 33; }
 const char* dhdGetSystemName(char) { return "omega.3"; }
 int dhdGetSerialNumber(std::uint16_t* serial, char id) {
+  if (!fakeDhd(id).tellsSerial) return -1;
   *serial = static_cast<std::uint16_t>(4711 + id);
   return 0;
 }

@@ -16,6 +16,7 @@ struct FakeDhd {
   std::atomic<int> failOnce{0};            // the next call fails with it
   std::atomic<int> callsUntilFailure{-1};  // how many calls succeed before one fails with a communication error; -1: none fails
   std::atomic<bool> hangs{false};          // dhdGetPosition does not return while it is set
+  std::atomic<bool> tellsSerial{true};     // false: dhdGetSerialNumber fails
 };
 FakeDhd& fakeDhd(int id = 0);  // 0 to 3
 /// How many of them are connected.

@@ -227,7 +227,11 @@ void hdGetDoublev(std::uint32_t what, double* values) {
   }
 }
 void hdGetIntegerv(std::uint32_t, std::int32_t* value) { *value = 0; }
-void hdGetBooleanv(std::uint32_t, std::uint8_t* value) { *value = 1; }
+void hdGetBooleanv(std::uint32_t what, std::uint8_t* value) {
+  const std::lock_guard lock(mutex);
+  if (what != 0x2001) return state.errors.push_back(0x0100);
+  if (const FakeHdDevice* device = currentDevice()) *value = device->switchClosed ? 1 : 0;
+}
 const char* hdGetString(std::uint32_t what) {
   const std::lock_guard lock(mutex);
   if (fails("hdGetString")) return nullptr;

@@ -12,7 +12,7 @@ struct FakeHdDevice {
   double position[3] = {0, 0, 0};  // [mm]
   double force[3] = {0, 0, 0};     // [N] in effect since the last frame's end
   int frames = 0;
-  bool open = false, forceOutput = false;
+  bool open = false, forceOutput = false, switchClosed = true;
 };
 
 /// An error that waits, and whose it is; converts from the bare code: whose is not told.
