@@ -61,7 +61,6 @@ class PartnerHand final : public haptics::HapticDevice {
   }
   void write(const Vec3& force) noexcept override { force_ = isFinite(force) ? force : Vec3{}; }
   void see(std::span<const dynamics::MassState> masses) noexcept override {
-    if (mass_ >= masses.size()) return;
     seen_[at_] = masses[mass_].r;
     at_ = (at_ + 1) % seen_.size();
   }
