@@ -29,15 +29,19 @@ RunWriter::RunWriter(const std::string& path, const RunConfiguration& configurat
   keepReserve();
 }
 
+std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve) {
+  const std::uint64_t reserve = std::min(diskReserve, disk.size / 20);
+  if (disk.size == 0 || disk.free >= reserve) return {};
+  return fmt::format(
+      "{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free; what was recorded is safe: free space, "
+      "keep less free, or choose another folder",
+      path, static_cast<double>(disk.free) * 1e-6, static_cast<double>(reserve) * 1e-6);
+}
+
 // What a full disk would take with it is more than this recording.
 void RunWriter::keepReserve() {
-  const os::DiskSpace disk = os::diskSpace(log_.path());
-  const std::uint64_t reserve = std::min(diskReserve_, disk.size / 20);
-  if (disk.size == 0 || disk.free >= reserve) return;
-  throw ResourceError(
-      fmt::format("{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free; what was recorded is safe: free space, "
-                  "keep less free, or choose another folder",
-                  log_.path(), static_cast<double>(disk.free) * 1e-6, static_cast<double>(reserve) * 1e-6));
+  if (const std::string fault = reserveFault(log_.path(), os::diskSpace(log_.path()), diskReserve_); !fault.empty())
+    throw ResourceError(fault);
 }
 
 void RunWriter::announce(const TrialSetup& setup) {

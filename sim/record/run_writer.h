@@ -3,10 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "base/os.h"
 #include "sim/record/records.h"
 #include "sim/record/tick_ring.h"
 
 namespace reachlab::record {
+
+/// Why nothing more is written beside `path`: its disk has less than `diskReserve` [bytes] left, or than a twentieth of it where that is
+/// less. Empty while there is enough, or where nothing is known of the disk.
+std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve);
 
 /// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
 class RunWriter {

@@ -12,6 +12,7 @@
 #include "sim/record/records.h"
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
+#include "sim/record/run_writer.h"
 #include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
 
@@ -220,6 +221,19 @@ TEST(AtomicFile, LeftoversOfAKilledProgramAreRemovedAndNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(old));
   EXPECT_TRUE(std::filesystem::exists(young)) << "another program may be writing it this moment";
   EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+TEST(Recorder, SaysHowMuchIsLeftOfTheDiskAndHowMuchOfItIsKeptFree) {
+  constexpr std::uint64_t kMega = 1'000'000;
+  EXPECT_EQ(reserveFault("a.reach", {500 * kMega, 100'000 * kMega}, 500 * kMega), "");
+  EXPECT_EQ(
+      reserveFault("a.reach", {123 * kMega, 100'000 * kMega}, 500 * kMega),
+      "a.reach: 123 MB are left on the disk, less than the 500 MB that are kept free; what was recorded is safe: free space, keep less "
+      "free, or choose another folder");
+  EXPECT_EQ(reserveFault("a.reach", {5 * kMega, 100 * kMega}, 500 * kMega), "") << "a twentieth of a small disk is enough";
+  EXPECT_TRUE(
+      reserveFault("a.reach", {4 * kMega, 100 * kMega}, 500 * kMega).starts_with("a.reach: 4 MB are left on the disk, less than the 5 MB"));
+  EXPECT_EQ(reserveFault("a.reach", {}, 500 * kMega), "") << "a disk of which nothing is known";
 }
 
 TEST(Recorder, StopsBeforeTheDiskIsFull) {
