@@ -93,6 +93,13 @@ std::string commonName(const X509_NAME* subject) {
   return text;
 }
 
+/// Of a name that has no entries yet.
+void setCommonName(X509_NAME* subject, const std::string& name) {
+  constexpr int kToItsEnd = -1;
+  constexpr int kAsTheLast = -1;
+  X509_NAME_add_entry_by_txt(subject, "CN", MBSTRING_UTF8, reinterpret_cast<const unsigned char*>(name.c_str()), kToItsEnd, kAsTheLast, 0);
+}
+
 /// `issuer` and its key sign; without an issuer the certificate signs itself, as an authority.
 Certificate makeCertificate(const std::string& name, const Key& key, const X509* issuer, const Key& issuerKey, int days) {
   Certificate made(need(X509_new(), "a certificate cannot be made"));
@@ -106,7 +113,7 @@ Certificate makeCertificate(const std::string& name, const Key& key, const X509*
   X509_gmtime_adj(X509_getm_notAfter(certificate), kDay * days);
   X509_set_pubkey(certificate, key.get());
   X509_NAME* subject = X509_get_subject_name(certificate);
-  X509_NAME_add_entry_by_txt(subject, "CN", MBSTRING_UTF8, reinterpret_cast<const unsigned char*>(name.c_str()), -1, -1, 0);
+  setCommonName(subject, name);
   X509_set_issuer_name(certificate, issuer == nullptr ? subject : X509_get_subject_name(issuer));
   X509V3_CTX context;
   X509V3_set_ctx_nodb(&context);
@@ -278,8 +285,7 @@ void initStation(const std::string& folder, const std::string& name) {
   makeFolder(folder);
   const Key key = makeKey();
   const Request request(need(X509_REQ_new(), "a request cannot be made"));
-  X509_NAME_add_entry_by_txt(X509_REQ_get_subject_name(request.get()), "CN", MBSTRING_UTF8,
-                             reinterpret_cast<const unsigned char*>(name.c_str()), -1, -1, 0);
+  setCommonName(X509_REQ_get_subject_name(request.get()), name);
   X509_REQ_set_pubkey(request.get(), key.get());
   if (X509_REQ_sign(request.get(), key.get(), EVP_sha256()) == 0) fail("a request cannot be signed");
   writeKey(key, folder + "/key.pem");
