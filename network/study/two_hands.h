@@ -73,7 +73,8 @@ StudyOutcome runTwoHands(const StudySetup& setup, Coupling coupling, const CopyS
 enum class StudyObject { Chain, Parallel };
 experiment::Experiment makeStudyExperiment(StudyObject object, double handStiffness = 600, double handDamping = 0, double chainDamping = 0);
 
-/// The i-th of the study's random set-ups: hands, arms, coupling, damping. Depends on (object, seed, i) alone.
+/// The i-th of the study's random set-ups: hands, arms, coupling, damping. Depends on (object, seed, i) alone. A chain's coupling: 200 to
+/// 600 N/m, and in every other set-up up to 5 N s/m (parallel springs: up to half of that).
 StudySetup makeRandomSetup(StudyObject object, std::uint64_t seed, int index);
 
 }  // namespace reachlab::network

@@ -49,6 +49,19 @@ TEST(LineCheck, EndsAtOnceWhenItIsAskedToAndTriesNothingMore) {
   EXPECT_NE(check.sentence.find("may come to rest or not: ended before it was known"), std::string::npos) << check.sentence;
 }
 
+// The hands are pushed along the way to the target, wherever in the room that is.
+TEST(LineCheck, IsTheSameForAnObjectThatStandsElsewhere) {
+  const auto growthAt = [](const char* y) {
+    experiment::Experiment e = experiment::readExperiment("chain-two-hands");
+    e.constraint = {};
+    e.constraint.curve = {"phi/10", y, "0"};
+    e.task->start = {-1}, e.task->target = {1};
+    return checkLine(e, kLan).growth;
+  };
+  EXPECT_GT(growthAt("0"), 0);
+  EXPECT_NEAR(growthAt("0.5") / growthAt("0"), 1, 1e-6);
+}
+
 TEST(LineCheck, IsAFunctionOfItsArguments) {
   const experiment::Experiment e = experiment::readExperiment("parallel-two-hands");
   EXPECT_EQ(checkLine(e, kFar).growth, checkLine(e, kFar).growth);

@@ -51,8 +51,10 @@ TEST_F(Looker, SeesTheConductorsCopyAndEveryHand) {
   card.station = 2, card.conductor = true;
   ASSERT_TRUE(memory().cardsIn.tryPush(card));
   hear(2, M_PI, 0.02);
+  const std::uint64_t before = looker_->state()->tick;
   (void)looker_->poll();
   const haptics::TickState& state = *looker_->state();
+  EXPECT_GT(state.tick, before) << "what is shown is known to be new";
   EXPECT_EQ(state.trial, 3);
   EXPECT_EQ(state.phase, trial::Phase::Moving);
   EXPECT_EQ(state.massCount, 5);

@@ -56,6 +56,25 @@ TEST_F(Study, TheSameSeedsGiveTheSameTable) {
   EXPECT_EQ(studyCsv(runNetworkStudy(plan)), studyCsv(runNetworkStudy(plan)));
 }
 
+// What the study says its set-ups are drawn from, and that the whole of it is drawn from.
+TEST(RandomSetups, AreDrawnFromTheirRanges) {
+  double mostDamping = 0, leastStiffness = 1e9, mostStiffness = 0;
+  for (int i = 0; i < 300; ++i) {
+    const StudySetup chain = makeRandomSetup(StudyObject::Chain, 1, i);
+    const experiment::Coupling& coupling = *chain.experiment.coupling;
+    EXPECT_GE(coupling.stiffness, 200);
+    EXPECT_LE(coupling.stiffness, 600);
+    EXPECT_LE(coupling.damping, 5);
+    if (i % 2 == 0) EXPECT_EQ(coupling.damping, 0);
+    EXPECT_LE(makeRandomSetup(StudyObject::Parallel, 1, i).experiment.object.damping[0], 2.5);
+    mostDamping = std::max(mostDamping, coupling.damping);
+    leastStiffness = std::min(leastStiffness, coupling.stiffness), mostStiffness = std::max(mostStiffness, coupling.stiffness);
+  }
+  EXPECT_GT(mostDamping, 4.8);
+  EXPECT_LT(leastStiffness, 210);
+  EXPECT_GT(mostStiffness, 590);
+}
+
 // A part of the study's random set-ups; `reach bench --network` has them all.
 TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
   StudyPlan plan;

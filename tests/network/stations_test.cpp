@@ -112,7 +112,8 @@ class StationsOnClocks : public testing::Test {
     stations_.clear();
     for (int i = 0; i < 2; ++i) {
       std::filesystem::remove(logOf(i));
-      stations_.push_back(std::make_unique<Station>(experiment_, i, i == 0, kClocks[static_cast<std::size_t>(i)], logOf(i)));
+      stations_.push_back(std::make_unique<Station>(experiment_, i, conducts_[static_cast<std::size_t>(i)],
+                                                    kClocks[static_cast<std::size_t>(i)], logOf(i)));
     }
     std::array<std::multimap<std::int64_t, OwnState>, 2> under;
     std::array<bool, 2> on{true, true};
@@ -174,6 +175,7 @@ class StationsOnClocks : public testing::Test {
   }
   const record::TemporaryFolder folder_{"stations-on-clocks"};
   const experiment::CompiledExperiment experiment_{experiment::readExperiment("chain-two-hands")};
+  std::array<bool, 2> conducts_{true, false};
   std::vector<std::unique_ptr<Station>> stations_;
 };
 
@@ -316,6 +318,14 @@ TEST_F(StationsOnClocks, LogsThatAreOfNoOneRunAreRefused) {
   };
   EXPECT_NE(sayOf({logOf(0)}).find("one of each station"), std::string::npos);
   EXPECT_NE(sayOf({logOf(0), logOf(0)}).find("two are of station 1"), std::string::npos);
+  conducts_ = {false, false};
+  run(good);
+  EXPECT_NE(sayOf({logOf(0), logOf(1)}).find("0 are of a conductor; allowed: one"), std::string::npos);
+  conducts_ = {true, true};
+  run(good);
+  EXPECT_NE(sayOf({logOf(0), logOf(1)}).find("2 are of a conductor; allowed: one"), std::string::npos);
+  conducts_ = {true, false};
+  run(good);
   // Another run's second station.
   const std::string first = folder_ / "first.reach";
   std::filesystem::copy(logOf(0), first);
