@@ -42,6 +42,13 @@ TEST(Simulate, ARowAtUntilIsNotWrittenTwice) {
   EXPECT_EQ(table.rows.size(), 4u);
 }
 
+TEST(Simulate, AMethodThatIsNoneIsRefusedWithThoseThatThereAre) {
+  const Ended ended = reach("simulate chain-fast --hand hold --until 0.1 --method euler");
+  EXPECT_EQ(ended.exitCode, 2) << ended.out;
+  for (const char* word : {"--method", "euler", "auto", "rk4", "exact", "abm", "adaptive", "stiff"})
+    EXPECT_NE(ended.err.find(word), std::string::npos) << word << " in " << ended.err;
+}
+
 TEST(Simulate, AFallingPointFollowsTheClosedForm) {
   const Folder folder;
   const std::string file = folder.write("fall.json", onePoint(R"({"name": "free"})", R"(, "gravity_m_per_s2": [0, -9.81, 0])", ""));

@@ -117,6 +117,23 @@ TEST(HardCases, DampersThatBreakRk4AreTakenByAuto) {
   for (int i = 0; i < 3; ++i) EXPECT_LT(norm(a[i].r - b[i].r), 1e-9) << "Radau against the explicit pair";
 }
 
+// Sixteen thousand turns on, phi itself is rounded by 1e-11: the same place, followed by the same method.
+TEST(HardCases, TheStiffMethodFollowsACurveManyTurnsOnAsWell) {
+  experiment::Experiment e = onCurve(makeChain(2, 0.1, 600), "0.1*cos(phi)", "0.06*sin(phi)", "0");
+  const auto hand = [](double t) {
+    const double s = 0.3 + heldMinimumJerk(t / 1.35).value, rate = heldMinimumJerk(t / 1.35).rate / 1.35;
+    return HandSample{{0.1 * std::cos(s), 0.06 * std::sin(s), 0}, {-0.1 * std::sin(s) * rate, 0.06 * std::cos(s) * rate, 0}, true};
+  };
+  const auto after = [&](double turns) {
+    const Scene scene = compileScene(e, {"stiff", 1e-3, 0});
+    scene.plant->placeAtRest(std::array{0.3 + turns * 2 * std::numbers::pi});
+    EXPECT_EQ(run(*scene.plant, hand, 0.2), StepStatus::Ok) << turns;
+    return observed(*scene.plant, hand(0.2));
+  };
+  const auto here = after(0), far = after(16000);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(norm(here[i].r - far[i].r), 1e-8) << i;
+}
+
 // The L-stable method's systems are dense: a longer chain is taken by the explicit pair as far as its cap reaches, then refused.
 TEST(HardCases, LongStiffChainsOnACurveAreTakenOrRefusedInWords) {
   const auto damped = [](double b) {

@@ -251,6 +251,21 @@ TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
   EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10);
 }
 
+// A straight curve with ends goes by the propagator: where the masses of a chain meet one, they have the speeds they came with.
+TEST(Ends, AChainOnALineMeetsItsEndWithItsSpeed) {
+  experiment::Experiment e = makeChain(3, 0.5, 400);
+  e.constraint.name = "rail";
+  e.constraint.definition = R"j({"schema_version": 1, "name": "rail", "kind": "curve", "curve": ["0.1*phi", "0", "0"], "shape": {},
+    "domain": [0, 2], "at_end": "stop", "start": [0.5], "target": [1.5], "sentence": "s", "source": "s"})j";
+  const Scene scene = freeScene(e, {1}, {3});
+  EXPECT_EQ(scene.choice.method, "exact");
+  EXPECT_EQ(run(*scene.plant, noHand, 1), StepStatus::AtEnd);
+  for (const MassState& mass : observed(*scene.plant)) {
+    EXPECT_NEAR(mass.r.x, 0.2, 1e-12);
+    EXPECT_NEAR(mass.v.x, 0.3, 1e-12);
+  }
+}
+
 // Straight on either side, so that the way from a corner is known.
 TEST(Corners, AMassThatIsPutOnOneLeavesItTheWayItMoves) {
   for (const double rate : {-1.0, 1.0})
