@@ -147,6 +147,31 @@ TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
       }
 }
 
+// The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
+TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
+  const TemporaryFolder folder;
+  std::vector<record::RunLog> runs;
+  runs.push_back(record::RunLog::open(recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1})));
+  record::writeBids(runs, folder.path());
+  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  std::filesystem::path motion;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+    const std::string name = entry.path().string();
+    if (name.ends_with("_motion.tsv")) motion = entry.path();
+    if (!name.ends_with("_motion.json")) continue;
+    auto about = nlohmann::json::parse(std::ifstream(entry.path()));
+    ASSERT_EQ(about.erase("SamplingFrequency"), 1u);
+    std::ofstream(entry.path()) << about.dump();
+  }
+  EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 100);
+  std::ifstream rows(motion);
+  std::string first, second;
+  std::getline(rows, first), std::getline(rows, second);
+  rows.close();
+  std::ofstream(motion) << first << '\n';
+  EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 100);
+}
+
 TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/fault.h"
+#include "sim/analyze/figures.h"
 #include "sim/analyze/tables.h"
 #include "sim/analyze/wording.h"
 #include "tests/analyze/synthetic.h"
@@ -149,6 +150,9 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
   for (Vec3& p : still.trials[0].hand) p = {};
 
   EXPECT_EQ(analyzeStudy(one, quickOptions()).results[0].used, 1u);
+  const std::string caption = paperFigure(analyzeStudy(one, quickOptions()), 0).caption;
+  EXPECT_NE(caption.find("Thin: 1 trial, "), std::string::npos) << caption;
+  EXPECT_NE(paperFigure(analyzeStudy(empty, quickOptions()), 0).caption.find("predictions only"), std::string::npos);
   EXPECT_FALSE(analyzeStudy(one, quickOptions()).overall.decided());
   for (StudyInput* input : {&empty, &still}) {
     const StudyResult study = analyzeStudy(*input, quickOptions());

@@ -156,11 +156,24 @@ TEST_F(Study, SaysHowFarItIs) {
   const Ended status = reach("study status " + at("a"));
   EXPECT_EQ(status.exitCode, 0);
   EXPECT_EQ(status.out.substr(0, 36), "chunks=5 of=20 trials=30 of=120 rate") << status.out;
+  // Five chunks of six trials, a second apart: 24 trials in 4 s, and 90 are left.
+  auto when = std::filesystem::file_time_type::clock::now();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(at("a") + "/chunks"))
+    if (entry.is_regular_file()) std::filesystem::last_write_time(entry.path(), when -= std::chrono::seconds(1));
+  const std::string paced = reach("study status " + at("a")).out;
+  EXPECT_NE(paced.find(" rate_per_s=6 left_s=15 "), std::string::npos) << paced;
   const Ended again = run("a", "--shard 1/4");
   EXPECT_EQ(again.exitCode, 2);
   EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
   EXPECT_EQ(run("a", "--resume").exitCode, 0);
   EXPECT_NE(reach("study status " + at("a")).out.find("tables=yes"), std::string::npos);
+  // Of one that lacks a single chunk there is no report.
+  EXPECT_EQ(reach("study report " + at("a")).exitCode, 0);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(at("a") + "/chunks"))
+    if (entry.path().filename() == "00000007.chunk") std::filesystem::remove(entry.path());
+  const Ended report = reach("study report " + at("a"));
+  EXPECT_EQ(report.exitCode, 2);
+  EXPECT_NE(report.err.find("1 of 20 chunks are not there yet"), std::string::npos) << report.err;
 }
 
 TEST_F(Study, TellsWhatIsWrongWhereItStands) {
