@@ -115,5 +115,24 @@ TEST(ExactPlant, ObjectForceIsTheMassesAccelerations) {
   EXPECT_NEAR(scene.plant->couplingForce(reachAt(0.7)).x, 3 * masses[0].a.x + 3 * masses[1].a.x, 1e-13);
 }
 
+// With every damper that there is and a force from outside; the difference over two steps of 0.1 ms errs by their square.
+TEST(ExactPlant, AccelerationsAreTheRatesOfTheVelocities) {
+  experiment::Experiment e = makeChain(3, 0.6, 600, {600, 3});
+  e.object.damping = {20, 50};
+  e.object.viscosity = 0.5;
+  constexpr double kStep = 1e-4;
+  const Scene scene = compileScene(e, {"exact", kStep, 0});
+  scene.plant->placeAtRest(std::array{0.0});
+  scene.plant->setExtraForce({2, 0, 0});
+  std::array<std::vector<MassState>, 3> at;
+  int step = 0;
+  for (auto& masses : at) {
+    for (const int until = step == 0 ? 3000 : step + 1; step < until; ++step)
+      ASSERT_EQ(scene.plant->step(makeSegment(reachAt, step * kStep, kStep), kStep), StepStatus::Ok);
+    masses = observed(*scene.plant, reachAt(step * kStep));
+  }
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(at[1][i].a.x, (at[2][i].v.x - at[0][i].v.x) / (2 * kStep), 1e-4) << "mass " << i + 1;
+}
+
 }  // namespace
 }  // namespace reachlab::dynamics
