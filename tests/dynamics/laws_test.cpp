@@ -299,6 +299,71 @@ TEST(Corners, AChainBesideOneMovesAsOnTheStraightLine) {
   }
 }
 
+
+// The exact step is taken back to the moment at which the mass meets the end: hand and mass keep between them what they had.
+TEST(Ends, OfALineStopAMassThatAHandPullsWithItsSpeed) {
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+  e.constraint.name = "rod";
+  e.constraint.definition = R"j({"schema_version": 1, "name": "rod", "kind": "curve", "curve": ["0.1*phi", "0", "0"], "shape": {},
+      "domain": [-1, 1], "periodic": false, "at_end": "stop", "start": [0], "target": [0.5], "sentence": "s", "source": "s"})j";
+  const Scene scene = compileScene(e, {"exact", 1e-3, 0});
+  scene.plant->placeAtRest(std::array{0.0});
+  const HandSample hand{observed(*scene.plant)[0].r + Vec3{1, 0, 0}, {}, true};
+  const double before = scene.plant->energy(hand);
+  ASSERT_EQ(run(
+                *scene.plant, [&](double) { return hand; }, 1),
+            StepStatus::AtEnd);
+  EXPECT_NEAR(observed(*scene.plant)[0].q[0], 1, 1e-9);
+  EXPECT_GT(observed(*scene.plant)[0].v.x, 0.1);
+  EXPECT_NEAR(scene.plant->energy(hand) / before, 1, 1e-6) << "a cubic through both ends of the step";
+}
+
+// However steep the curve becomes there.
+TEST(Ends, AreMetFromEitherSideAlike) {
+  for (const auto& [y, mirrored] : {std::pair{"sqrt(phi)/5", "sqrt(-phi)/5"}, {"log(phi)/50", "log(-phi)/50"}, {"phi^0.3/5", "(-phi)^0.3/5"},
+                                    {"asin(phi - 1)/10", "asin(-phi - 1)/10"}}) {
+    std::vector<MassState> met;
+    std::vector<StepStatus> status;
+    std::vector<double> fraction;
+    for (const double side : {1.0, -1.0}) {
+      experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "phi/10", side > 0 ? y : mirrored, "0");
+      e.task.emplace().start = {0.2 * side};
+      e.task->target = {0.4 * side};
+      const Scene scene = freeScene(e, {0.2 * side}, {-2 * side});
+      status.push_back(run(*scene.plant, noHand, 0.5));
+      met.push_back(observed(*scene.plant)[0]);
+      fraction.push_back(scene.plant->lastStepFraction());
+    }
+    EXPECT_EQ(status[0], status[1]) << y;
+    EXPECT_NEAR(met[0].q[0], -met[1].q[0], 1e-9) << y;
+    EXPECT_NEAR(met[0].r.y, met[1].r.y, 1e-9) << y;
+    EXPECT_NEAR(fraction[0], fraction[1], 1e-6) << y;
+  }
+}
+
+// On a surface of second degree, whose lines of u and v meet aslant: only the speed through the edge turns round.
+TEST(Ends, AnElasticEdgeLeavesTheSpeedAlongIt) {
+  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+  e.constraint.name = "bowl";
+  e.constraint.definition = R"j({"schema_version": 1, "name": "bowl", "kind": "surface", "surface": ["0.1*u", "0.1*v", "0.05*(u^2 + v^2)"],
+      "shape": {}, "domain": [[-1, 1], [-1, 1]], "periodic": false, "at_end": "bounce", "start": [0, 0], "target": [0.5, 0.5],
+      "sentence": "s", "source": "s"})j";
+  const Scene scene = freeScene(e, {0.5, 0.5}, {3, 0.5});
+  EXPECT_NE(scene.choice.form.find("second degree"), std::string::npos) << scene.choice.form;
+  MassState before = observed(*scene.plant)[0], after = before;
+  for (int tick = 0; tick < 1000 && after.qRate[0] > 0; ++tick) {
+    before = after;
+    ASSERT_EQ(scene.plant->step(makeSegment(noHand, tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
+    after = observed(*scene.plant)[0];
+  }
+  ASSERT_LT(after.qRate[0], 0) << "it was thrown back";
+  const auto alongEdge = [&](const MassState& mass) {
+    const Vec3 edge = constraints::evaluate(scene.constraint.surface, mass.q[0], mass.q[1]).rV;
+    return dot(mass.v, edge) / norm(edge);
+  };
+  EXPECT_NEAR(alongEdge(after), alongEdge(before), 5e-3) << "[m/s], of 0.3: what a tick's bend changes";
+}
+
 // A period joins what is one place; the two sides of a jump are two, and no `at_end` carries a mass across.
 TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
   for (const bool bounce : {false, true}) {
