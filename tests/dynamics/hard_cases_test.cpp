@@ -90,6 +90,47 @@ TEST(HardCases, WhatHasNoMotionIsRefusedInWords) {
   EXPECT_THROW((void)compileScene(wrong), RefusedError) << "a spring is missing";
 }
 
+std::string refusalOf(const experiment::Experiment& e) {
+  try {
+    (void)compileScene(e);
+  } catch (const RefusedError& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+TEST(HardCases, ALineThatHasNoPlaceAtTheStartIsRefused) {
+  experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "1e10*phi", "0", "0");
+  e.task.emplace().start = {1e300};
+  e.task->target = {2e300};
+  EXPECT_NE(refusalOf(e).find("has no finite value there"), std::string::npos) << refusalOf(e);
+}
+
+// c + phi is rounded by 2^-53 of it; allowed are 1e-9 m, and 1e-13 of how far away the place is.
+TEST(HardCases, RoundingsInsideAFormulaMayMoveAMassByTenToTheMinus13OfItsPlace) {
+  for (const double away : {0.0, 1e6})
+    for (const double share : {0.9, 1.2}) {
+      experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "away + phi/10", "(c + phi) - c", "0");
+      e.constraint.shape = {{"away", away}, {"c", share * (1e-9 + 1e-13 * away) * 0x1p53}};
+      e.task.emplace().start = {0};
+      e.task->target = {1};
+      EXPECT_EQ(refusalOf(e).find("loses its digits") != std::string::npos, share > 1) << away << " " << share << " " << refusalOf(e);
+    }
+}
+
+// Looked at about the start, three to either side: noise that is not everywhere, and a formula that ends within, are judged by most places.
+TEST(HardCases, WhetherAFormulaLosesItsDigitsIsJudgedAllAboutTheStart) {
+  const auto refused = [](const std::string& y) {
+    experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "phi/10", y, "0");
+    e.task.emplace().start = {0};
+    e.task->target = {0.5};
+    return refusalOf(e).find("loses its digits") != std::string::npos;
+  };
+  EXPECT_TRUE(refused("(1e9 + phi) - 1e9"));
+  EXPECT_TRUE(refused("(1e9 + phi) - 1e9 + sqrt(phi + 2.9)"));
+  EXPECT_FALSE(refused("(1e9*exp(-100*(phi + 3)^2) + phi) - 1e9*exp(-100*(phi + 3)^2)"));
+}
+
 TEST(HardCases, SpringsOfNoStiffnessLeaveMassesAlone) {
   const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Chain, {1, 1}, {0}));
   scene.plant->place(std::array{0.0}, std::array{1.0});
