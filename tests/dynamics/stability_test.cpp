@@ -94,5 +94,17 @@ TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
 
 TEST(Stability, AutoTakesTheExactPropagatorForAnyLinearScene) { EXPECT_EQ(compileScene(makeChain(5, 0.01, 1e8)).choice.method, "exact"); }
 
+TEST(Stability, TheFastestModeIsOfTheObjectOnItsCoupling) {
+  EXPECT_NEAR(compileScene(makeExperiment(experiment::ObjectKind::Point, {1}, {}, {0.25, 0})).choice.fastestMode, 0.5, 1e-12);
+  EXPECT_NEAR(compileScene(makeExperiment(experiment::ObjectKind::Point, {4}, {}, {900, 0})).choice.fastestMode, 15, 1e-12);
+}
+
+TEST(Stability, ALinearSceneSaysHowManyStatesItHas) {
+  experiment::Experiment e = makeChain(5, 0.6, 600);
+  EXPECT_EQ(compileScene(e).choice.form, "line, 10 states");
+  e.constraint.name = "free";
+  EXPECT_EQ(compileScene(e).choice.form, "free space, 30 states");
+}
+
 }  // namespace
 }  // namespace reachlab::dynamics
