@@ -3,12 +3,14 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <thread>
 
 #include "base/error.h"
 #include "base/os.h"
 #include "sim/haptics/haptic_loop.h"
+#include "sim/haptics/loop_core.h"
 #include "sim/haptics/run_conductor.h"
 #include "tests/until.h"
 #include "tests/haptics/armed_at_once.h"
@@ -44,6 +46,7 @@ class FailingDevice : public HapticDevice {
   }
   void write(const Vec3& force) noexcept override {
     hangIf(hangsInWrite);
+    if (whileItIsTold && force != Vec3{}) whileItIsTold();
     lastForce = norm(force);
     if (norm(force) > most) most = norm(force);
   }
@@ -56,6 +59,8 @@ class FailingDevice : public HapticDevice {
     released_ = true;
     changed_.notify_all();
   }
+
+  std::function<void()> whileItIsTold;  // of a force
 
   std::atomic<bool> hangsInRead{false}, hangsInWrite{false}, frozen{false}, jump{false};
   std::atomic<double> lastForce{0}, most{0};
@@ -165,6 +170,19 @@ TEST_F(LoopSafety, WhenTheCallReturnsNoForceFollows) {
   device->letGo();
   ASSERT_TRUE(until([&] { return device->lastForce == 0; }));
   std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(device->lastForce, 0);
+}
+
+// Another thread has told the device zero just then: what it is told afterwards must be zero too.
+TEST_F(LoopSafety, AFaultThatComesWhileTheDeviceIsToldItsForceLeavesNoForce) {
+  LoopCore core(std::make_unique<TickEngine>(experiment, EngineOptions{}), device, nullptr);
+  ASSERT_TRUE(core.commands.tryPush({trial::Command::NextTrial, {}}));
+  std::int64_t now = 0;
+  for (int tick = 0; tick < 5000 && device->lastForce < 1.2; ++tick) ASSERT_TRUE(core.tick(0, now += LoopCore::kPeriodNs));
+  ASSERT_GT(device->lastForce, 1.2);
+  device->whileItIsTold = [&] { core.latch(DeviceFault::Stalled); };
+  ASSERT_TRUE(core.tick(0, now += LoopCore::kPeriodNs));
+  EXPECT_EQ(core.fault, DeviceFault::Stalled);
   EXPECT_EQ(device->lastForce, 0);
 }
 
