@@ -105,6 +105,7 @@ TEST(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
   expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = -1; }), "mass_count");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 3; }), "channels");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 50; }), "parameter_count");
+  expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 4; }), "parameter_count");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 2; }), "channels");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["body"] = true; }), "channels");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["channels"] = json::array(); }), "channels");

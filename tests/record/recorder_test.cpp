@@ -70,6 +70,18 @@ TEST(Recorder, GoesOnCountingTrialsInAResumedBlock) {
   for (std::size_t row = 0; row < rows.size(); ++row) EXPECT_EQ(rows.at(row, column), 9);
 }
 
+TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
+  const TemporaryFolder folder("unannounced");
+  Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
+  MadeRun run;
+  for (std::uint64_t tick = 0; tick < 2 * MadeRun::kTicksPerTrial; ++tick)
+    recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? trial::Command::NextTrial : trial::Command::None, 0);
+  recorder.close();
+  const RunLog log = RunLog::open(folder / "a_log.reach");
+  ASSERT_EQ(log.trials().size(), 2u);
+  for (const RecordedTrial& trial : log.trials()) EXPECT_EQ(trial.planned.index, trial.trial - 1);
+}
+
 TEST(Recorder, NoticesThatItsFileWasTakenAway) {
   const TemporaryFolder folder("gone");
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
