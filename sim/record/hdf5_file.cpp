@@ -74,7 +74,7 @@ void addNumbers(hid_t group, const std::string& name, std::span<const double> va
   const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
   const Handle layout = numberLayout(rows);
   const Handle set(H5Dcreate2(group, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose);
-  if (rows > 0) done(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  done(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   if (channel == nullptr) return;
   addAttribute(set, "units", channel->units == "n/a" ? "" : channel->units);
   addAttribute(set, "description", channel->description);
@@ -87,7 +87,7 @@ void addTexts(hid_t group, const std::string& name, const std::vector<std::strin
   const Handle set(H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   std::vector<const char*> pointers;
   for (const std::string& text : texts) pointers.push_back(text.c_str());
-  if (rows > 0) done(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()));
+  done(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()));
 }
 
 void addTable(hid_t file, const char* name, const ColumnTable& table) {

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <charconv>
 #include <fstream>
@@ -10,6 +12,8 @@
 #include "sim/record/append_file.h"
 #include "sim/record/bids.h"
 #include "sim/record/column_dictionary.h"
+#include "sim/record/hdf5_file.h"
+#include "sim/record/matlab_file.h"
 #include "base/table_text.h"
 #include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
@@ -237,6 +241,29 @@ TEST(TableText, QuotesForCsvAndKeepsTsvOnOneLine) {
   tsv.cell("a\tb\nc").number(0.1).number(std::nan("")).cell("").endRow();
   EXPECT_EQ(csv.text(), "\"a,\"\"b\"\"\",0.10000000000000001,\n");
   EXPECT_EQ(tsv.text(), "a b c\t0.1\tn/a\tn/a\n");
+}
+
+TEST_F(Exported, ARunOfNoTrialHasTablesWithoutRows) {
+  const std::string empty = folder_ / "sourcedata/sub-02_ses-01_task-made_run-01_log.reach";
+  writeMadeRun(empty, 0, configuration_);
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(empty));
+  for (const auto& write : {writeHdf5, writeMatlab5, writeMatlab73}) EXPECT_EQ(write(runs, folder_ / "").size(), 1u);
+}
+
+// A disk that takes no more than so many bytes of a file: nothing is left that looks like an export.
+TEST_F(Exported, AMatlabFileThatDoesNotReadBackIsGivenUp) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto signal = ::signal(SIGXFSZ, SIG_IGN);
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path_));
+  const rlimit small{8192, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW((void)writeMatlab5(runs, folder_ / ""), ResourceError);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  ::signal(SIGXFSZ, signal);
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "")) EXPECT_NE(entry.path().extension(), ".mat") << entry.path();
 }
 
 }  // namespace
