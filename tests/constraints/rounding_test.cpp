@@ -30,5 +30,18 @@ TEST(Rounding, OfArcsNearTheirEndsIsToldAsItIs) {
   }
 }
 
+// What is exact hands no error on, also where a function is steepest.
+TEST(Rounding, OfAnExactNumberIsNone) {
+  const auto told = [](const std::string& y) {
+    std::map<std::string, double> shape{{"c", 1e6}, {"a", 0}, {"b", 1}};
+    std::erase_if(shape, [&](const auto& one) { return y.find("(" + one.first) == std::string::npos; });
+    return computeRounding(makeConstraint({.name = {}, .curve = {"phi", y, "0"}, .surface = {}, .shape = shape}), 0.3);
+  };
+  const double alone = told("(c + phi) - c");
+  EXPECT_NEAR(alone, 1e6 * 0x1p-53, 1e-3 * alone);
+  for (const char* exact : {"sqrt(a)", "acos(b)", "asin(b)", "(a)*(b)", "(a)/(b)", "(a)^(b)"})
+    EXPECT_NEAR(told("(c + phi) - c + " + std::string(exact)), alone, 1e-3 * alone) << exact;
+}
+
 }  // namespace
 }  // namespace reachlab::constraints

@@ -57,6 +57,17 @@ std::vector<Edit> edits() {
          e.constraint.shape.clear();
          e.task.reset();
        }},
+      {"inertia with too great products", "object.inertia_kg_m2",  // its first two minors are positive, its determinant is not
+       [](Experiment& e) {
+         e.object = {};
+         e.object.kind = ObjectKind::Body;
+         e.object.masses = {1};
+         for (std::size_t i = 0; i < 3; ++i)
+           for (std::size_t j = 0; j < 3; ++j) e.object.inertia[i][j] = i == j ? 0.01 : -0.006;
+         e.constraint.name = "free";
+         e.constraint.shape.clear();
+         e.task.reset();
+       }},
       {"two coordinates on a line", "task.start",
        [](Experiment& e) {
          e.task->start = {0, 1};
