@@ -12,7 +12,8 @@ void QuadricSystem::follow(const Vec3& r) const noexcept {
       const double limit = std::min(1.0, 0.5 / std::max(std::abs(step[0]), std::abs(step[1])));
       q[0] += limit * step[0];
       q[1] += limit * step[1];
-      if (std::abs(step[0]) + std::abs(step[1]) < 1e-15 * (1 + std::abs(q[0]) + std::abs(q[1]))) break;
+      const double size = 1 + std::abs(q[0]) + std::abs(q[1]);
+      if (std::abs(step[0]) + std::abs(step[1]) < 1e-15 * size) break;
     }
     return q;
   };
