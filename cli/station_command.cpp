@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <thread>
-#include <utility>
 
 #include "base/fault.h"
 #include "base/os.h"
@@ -67,27 +65,6 @@ int conduct(const StationRequest& request) {
   return StopRequest::exitCode();
 }
 
-const char* wordOf(std::uint8_t phase) {
-  constexpr std::array kWords{"idle", "waiting", "armed", "moving", "done"};
-  return phase < kWords.size() ? kWords[phase] : "unknown";
-}
-
-// Of every station the newest that came, and how far its copy was then from the first's.
-void show(const network::LookerOn& looker) {
-  const double now = static_cast<double>(os::now()) * 1e-9;
-  bool first = true;
-  for (std::size_t i = 0; i < looker.newest().size(); ++i) {
-    const network::HeardState& state = looker.newest()[i];
-    const network::CopySample& sample = state.sample;
-    if (sample.sequence == 0) continue;
-    fmt::print("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", i + 1, state.trial,
-               wordOf(state.phase), now - sample.time, sample.hand.x, sample.hand.y, sample.hand.z, sample.work);
-    if (!std::exchange(first, false)) fmt::print(" apart_m={:.6f}", looker.apart(static_cast<int>(i)));
-    fmt::print("\n");
-  }
-  std::fflush(stdout);
-}
-
 /// Until the conductor's last word.
 int watchStations(const StationRequest& request) {
   const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
@@ -104,7 +81,8 @@ int watchStations(const StationRequest& request) {
     if (news.finished) return 0;
     if (!news.problem.empty()) throw ResourceError(news.problem);
     if (std::chrono::steady_clock::now() - shown < every) continue;
-    show(looker);
+    fmt::print("{}", network::describeNewest(looker, static_cast<double>(os::now()) * 1e-9));
+    std::fflush(stdout);
     shown = std::chrono::steady_clock::now();
   }
   return StopRequest::exitCode();

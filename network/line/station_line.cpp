@@ -263,12 +263,10 @@ std::optional<bool> StationLine::isConductor(std::uint32_t station) const {
 
 std::string StationLine::describe() const {
   std::string text;
-  for (int i = 0; i < options_.stations; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    if (i + 1 == options_.station || cardNs_[index] == 0) continue;
-    const StationCard& card = cards_[index];
-    const LineStatus& line = memory_->status[index];
-    text += fmt::format("station {} ({}, {}{}): round trip {:.2f} ms, jitter {:.2f} ms, loss {:.1f} %, clock {:+.6f} s\n", i + 1,
+  for (const StationCard& card : cards_) {
+    if (card.station == 0 || static_cast<int>(card.station) == options_.station) continue;
+    const LineStatus& line = memory_->status[card.station - 1];
+    text += fmt::format("station {} ({}, {}{}): round trip {:.2f} ms, jitter {:.2f} ms, loss {:.1f} %, clock {:+.6f} s\n", card.station,
                         card.name.data(), card.device.data(), card.conductor ? ", conductor" : "", 1e3 * line.roundTrip.load(),
                         1e3 * line.jitter.load(), 100 * line.loss.load(), line.offset.load());
   }

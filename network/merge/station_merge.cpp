@@ -27,14 +27,14 @@ struct Station {
   record::RunLog log;
   int number = 0;  // from 1
   bool conductor = false;
-  std::vector<record::RecordedTick> ticks;
-  std::vector<haptics::HandState> hands;  // after each tick
-  std::vector<std::int32_t> trials;       // under way at it
-  std::vector<trial::Phase> phases;
+  std::vector<record::RecordedTick> ticks = {};
+  std::vector<haptics::HandState> hands = {};  // after each tick
+  std::vector<std::int32_t> trials = {};       // under way at it
+  std::vector<trial::Phase> phases = {};
   std::size_t lineColumns = 0;
-  std::vector<double> lines;  // how its copy stood to the others after each tick, as fillLines has it
-  std::vector<GivenSample> given;
-  record::Replay replay;
+  std::vector<double> lines = {};  // how its copy stood to the others after each tick, as fillLines has it
+  std::vector<GivenSample> given = {};
+  record::Replay replay = {};
 
   /// The peer's place among this station's peers.
   int peerOf(int station) const { return station < number ? station - 1 : station - 2; }
@@ -62,7 +62,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 Station readStation(const std::string& path) {
-  Station s{record::RunLog::open(path), 0, false, {}, {}, {}, {}, 0, {}, {}, {}};
+  Station s{.log = record::RunLog::open(path)};
   s.number = stationOf(s.log);
   if (s.number == 0) refuse("is of no station", "logs of reach station", path);
   s.conductor = isConductor(s.log);

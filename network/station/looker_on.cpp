@@ -76,4 +76,22 @@ double LookerOn::apart(int station) const {
                                  {newest_[static_cast<std::size_t>(station)].sample.places.data(), count});
 }
 
+std::string describeNewest(const LookerOn& looker, double now) {
+  constexpr std::array kPhases{"idle", "waiting", "armed", "moving", "done"};
+  std::string text;
+  int station = -1;
+  for (const HeardState& state : looker.newest()) {
+    ++station;
+    const CopySample& sample = state.sample;
+    if (sample.sequence == 0) continue;
+    const bool first = text.empty();
+    text += fmt::format("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", station + 1, state.trial,
+                        state.phase < kPhases.size() ? kPhases[state.phase] : "unknown", now - sample.time, sample.hand.x, sample.hand.y,
+                        sample.hand.z, sample.work);
+    if (!first) text += fmt::format(" apart_m={:.6f}", looker.apart(station));
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace reachlab::network

@@ -51,4 +51,8 @@ class LookerOn {
   bool told_ = false;  // what went wrong
 };
 
+/// Of every station that was heard a line `key=value …` of the newest that came, and how far its copy was then from the first's.
+/// `now`: of the samples' clock [s].
+std::string describeNewest(const LookerOn& looker, double now);
+
 }  // namespace reachlab::network

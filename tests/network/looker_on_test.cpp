@@ -66,6 +66,24 @@ TEST_F(Looker, SeesTheConductorsCopyAndEveryHand) {
   EXPECT_NEAR(looker_->apart(1), 0.1, 1e-9);
 }
 
+TEST_F(Looker, WhoHearsTheFirstStationSaysNotThatNobodyIsThere) {
+  hear(1, 0, -0.09);
+  ::usleep(150'000);  // longer than it waits
+  EXPECT_EQ(looker_->poll().problem, "");
+}
+
+TEST_F(Looker, PutsOfEveryStationThatWasHeardALineIntoWords) {
+  EXPECT_EQ(describeNewest(*looker_, 0), "");
+  hear(1, 0, -0.09);
+  (void)looker_->poll();
+  const std::string first = "station=1 trial=3 phase=moving age_s=0.250 hand_m=-0.09000,0.00000,0.00000 work_j=0.00000\n";
+  EXPECT_EQ(describeNewest(*looker_, 0.25), first);
+  hear(2, M_PI, 0.02);
+  (void)looker_->poll();
+  EXPECT_EQ(describeNewest(*looker_, 0.25),
+            first + "station=2 trial=3 phase=moving age_s=0.250 hand_m=0.02000,0.00000,0.00000 work_j=0.00000 apart_m=0.100000\n");
+}
+
 TEST_F(Looker, SendsNothingAndSaysOnceThatNobodyIsThere) {
   std::string problem;
   int told = 0;

@@ -75,6 +75,28 @@ TEST(RandomSetups, AreDrawnFromTheirRanges) {
   EXPECT_GT(mostStiffness, 590);
 }
 
+// Every way of coupling has a line of its own points, and one that was not studied has none.
+TEST(StudyFigure, HasALineForEachWayOfCoupling) {
+  const auto pathsOf = [](const std::vector<Coupling>& couplings) {
+    StudyTables tables;
+    for (const Coupling coupling : couplings)
+      for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel})
+        for (const double roundTrip : {0.01, 0.05})
+          tables.cells.push_back({.object = object,
+                                  .coupling = coupling,
+                                  .roundTrip = roundTrip,
+                                  .stable = 1,
+                                  .runs = 1,
+                                  .apart = 1e-3 * roundTrip,
+                                  .forceError = roundTrip});
+    const std::string svg = drawStudy(tables);
+    int paths = 0;
+    for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) ++paths;
+    return paths;
+  };
+  EXPECT_LT(pathsOf({Coupling::Design}), pathsOf({Coupling::Design, Coupling::ServerPlace}));
+}
+
 // A part of the study's random set-ups; `reach bench --network` has them all.
 TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
   StudyPlan plan;
