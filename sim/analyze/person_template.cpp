@@ -149,7 +149,6 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
     place.duration = m.width / widthOfOne;
     place.onset = m.centre - place.duration / 2;
     place.amplitude = 1;
-    place.found = true;
   }
   std::vector<double> laid;  // one trial at a time: there may be many thousands
   Mean mean;

@@ -71,6 +71,16 @@ TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
   }
 }
 
+TEST(ProfileFamily, ReachesAsFarBehindTheMovementAsBeforeIt) {
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk}));
+  for (const double t : {0.8, 1.35, 2.0}) {
+    Profile profile;
+    ASSERT_TRUE(set.candidates.front().families.front()->at(t, profile));
+    EXPECT_NEAR(profile.last() - 1, -profile.first, 1e-12) << t;
+    EXPECT_EQ(profile.change.size(), profile.value.size()) << t;
+  }
+}
+
 // Joint torque change is predicted at few durations, each started from its neighbours: against predictions of its own for each duration.
 TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother) {
   experiment::Experiment chain = experiment::readExperiment("chain-moderate");
