@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "devices/haply/web_socket_link.h"
+#include "devices/live_device.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
 #include "tests/devices/fakes/fake_haply.h"
@@ -109,6 +111,15 @@ TEST(Haply, AServiceThatEndsIsALossWithASentence) {
   EXPECT_FALSE(device->healthText().empty());
 }
 
+TEST(WebSocketLink, WhatCannotBeSentIsALossThoughNobodyListens) {
+  FakeHaply service;
+  const auto link = openWebSocket("127.0.0.1", service.port());
+  EXPECT_TRUE(link->send("{}"));
+  service.end();
+  EXPECT_TRUE(until([&] { return !link->send("{}"); }));
+  EXPECT_NE(link->fault(), "");
+}
+
 TEST(Haply, AnUnpluggedDeviceIsLostThoughItsServiceAnswersAndComesBack) {
   FakeHaply service;
   const auto device = open(service);
@@ -118,6 +129,15 @@ TEST(Haply, AnUnpluggedDeviceIsLostThoughItsServiceAnswersAndComesBack) {
   EXPECT_NE(device->healthText().find("049D"), std::string::npos) << device->healthText();
   service.setPlugged(true);
   EXPECT_TRUE(until([&] { return device->read().valid; }));
+}
+
+TEST(LiveDevice, SaysThatItsDeviceIsLostAndOtherwiseNothing) {
+  FakeHaply service;
+  LiveDevice live(fmt::format("haply:port={}", service.port()), experiment::CompiledExperiment(experiment::readExperiment("chain-slow")));
+  ASSERT_TRUE(until([&] { return live.look().valid; }));
+  EXPECT_EQ(live.look().fault, "");
+  service.setPlugged(false);
+  EXPECT_TRUE(until([&] { return live.look().fault.find("is lost") != std::string::npos; })) << live.look().fault;
 }
 
 TEST(Haply, ASentenceOfGarbageIsPassedOverAndMuchOfItIsALoss) {

@@ -106,5 +106,28 @@ TEST(MouseDevice, ASmoothDragArrivesWithinFivePercentAtAnyRateAndFrameRate) {
     }
 }
 
+// Where the window becomes slower in the middle of a drag, the playback falls behind by and by.
+TEST(MouseDevice, HowLateItIsChangesByAPartOfTheTimesPace) {
+  clockNs = 5'000'000'000;
+  MouseDevice mouse({}, now);
+  std::vector<std::int64_t> waiting;
+  double before = 0, atFirst = 0;
+  for (int tick = 0; tick < 3000; ++tick, clockNs += 1'000'000) {
+    waiting.push_back(clockNs);
+    if (tick % (tick < 1000 ? 8 : 30) == 0) {
+      for (const std::int64_t ns : waiting) mouse.point({0.2e-9 * static_cast<double>(ns - 5'000'000'000), 0, 0}, ns);
+      waiting.clear();
+    }
+    (void)mouse.read();
+    const double delay = mouse.delay();
+    if (tick > 500) {
+      EXPECT_LE(std::abs(delay - before), 1e-3 * MouseDevice::kMostDrift + 1e-8) << tick;
+    }
+    if (tick == 900) atFirst = delay;
+    before = delay;
+  }
+  EXPECT_GT(before, atFirst + 0.01);
+}
+
 }  // namespace
 }  // namespace reachlab::devices

@@ -192,6 +192,16 @@ TEST(ReportDescriptor, RangesAndNumbersAreThoseOfTheBytes) {
   EXPECT_EQ(layout.bytesOf(HidReportKind::Output, 5), 3u);
 }
 
+// Page 1, usage X: as many bits as are told, between -1 and 1.
+TEST(ReportDescriptor, AFieldOfMoreBitsThanANumberHasIsPassedOver) {
+  for (const int bits : {1, 16, 32, 33, 64}) {
+    const Bytes one{0x05, 0x01, 0x09, 0x30, 0x15, 0xff, 0x25, 0x01, 0x75, static_cast<std::uint8_t>(bits), 0x95, 0x01, 0x81, 0x02};
+    const HidLayout layout = parseReportDescriptor(one);
+    EXPECT_EQ(layout.find(HidReportKind::Input, hidUsage(1, 0x30)) != nullptr, bits <= 32) << bits;
+    EXPECT_EQ(layout.bytesOf(HidReportKind::Input, 0), static_cast<unsigned>((bits + 7) / 8)) << bits << ": its place is kept";
+  }
+}
+
 TEST(ReportDescriptor, ABrokenOneIsRefusedAndNoneIsFatal) {
   const Bytes whole = pidDescriptor();
   std::mt19937_64 random(7);
