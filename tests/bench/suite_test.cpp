@@ -1,4 +1,5 @@
 #include "base/ticks.h"
+#include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
 
 #include <gtest/gtest.h>
@@ -88,6 +89,18 @@ TEST(Suite, AMethodThatASceneIsNotForIsNamedApartFromTheRows) {
                   .empty());
   ASSERT_EQ(refusals.size(), 1u);
   EXPECT_TRUE(refusals[0].starts_with("S3 exact: ")) << refusals[0];
+}
+
+// The whole path through 60 um steps of the hand is worse than through the hand's own places, and so is one through noise.
+TEST(SampledHand, EveryFlawOfTheMeasurementCosts) {
+  const std::vector<SampledRow> rows = measureSampledHand([](const std::string&) {});
+  ASSERT_FALSE(rows.empty());
+  for (const SampledRow& row : rows) {
+    if (row.samples != 4) continue;
+    EXPECT_LT(row.clean, row.noise) << row.scene << " " << row.method;
+    EXPECT_LT(row.clean, row.quantised) << row.scene << " " << row.method;
+    EXPECT_LT(row.quantised, 100 * kQuantum) << row.scene << " " << row.method;
+  }
 }
 
 TEST(Suite, UnknownNamesAreRefused) {

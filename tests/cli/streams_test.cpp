@@ -1,5 +1,6 @@
 // The standard streams: closed, full, a pipe that nobody reads any more, and names that talk to the terminal.
 #include <gtest/gtest.h>
+#include <pty.h>
 
 #include "tests/cli/program.h"
 
@@ -23,7 +24,33 @@ void expectOneSentence(const Ended& ended) {
   EXPECT_NE(ended.err.find("standard output: cannot be written: No space left on device"), std::string::npos) << ended.err;
 }
 
+// What a command writes to the terminal that it is started from.
+std::string onTerminal(const std::string& command) {
+  int wire = -1;
+  const pid_t child = ::forkpty(&wire, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  std::string said;
+  char bytes[4096];
+  for (ssize_t n = 0; (n = ::read(wire, bytes, sizeof bytes)) > 0;) said.append(bytes, static_cast<std::size_t>(n));
+  ::close(wire);
+  ::waitpid(child, nullptr, 0);
+  return said;
+}
+
 }  // namespace
+
+TEST(StandardStreams, ATerminalIsToldHowFarTheReadingIsFromTheFirstRunToTheLast) {
+  const Folder data, out;
+  for (int run = 0; run < 2; ++run) EXPECT_EQ(shell(kRun + data.string()).exitCode, 0);
+  const std::string said =
+      onTerminal("\"" REACH_PROGRAM "\" analyze " + data.string() + " --criterion min-hand-jerk --hand-mass 1 --out " + out.string());
+  const std::size_t first = said.find("reading run 1 of 2"), last = said.find("reading run 2 of 2");
+  EXPECT_LT(first, last) << said;
+  EXPECT_NE(last, std::string::npos) << said;
+}
 
 TEST(StandardStreams, ClosedOnesNeverBecomeAFileOfTheRecording) {
   for (const std::string closed : {"0<&- 1>&-", "0<&- 1>&- 2>&-", "1>&-", "2>&-", "0<&- 2>&-"}) {

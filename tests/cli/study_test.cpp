@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <random>
+#include <regex>
 #include <thread>
 
 #include "tests/cli/program.h"
@@ -219,6 +220,11 @@ TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
   EXPECT_EQ(smallest.at(0, "trials"), 14);
   for (const char* figure : {"success.svg", "confusion.pdf", "power.svg"})
     EXPECT_TRUE(std::filesystem::exists(at("t") + "/report/" + figure)) << figure;
+  // Axes, rules and words are black or grey; what was counted is drawn in colour.
+  const std::string drawing = contentOf(at("t") + "/report/power.svg");
+  const std::regex color(R"re(rgb\(([\d.]+)%, ?([\d.]+)%, ?([\d.]+)%\))re");
+  EXPECT_TRUE(std::any_of(std::sregex_iterator(drawing.begin(), drawing.end(), color), std::sregex_iterator(),
+                          [](const std::smatch& m) { return m[1] != m[2] || m[2] != m[3]; }));
   EXPECT_EQ(reach("study report " + at("nothing")).exitCode, 2);
 }
 

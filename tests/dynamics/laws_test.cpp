@@ -299,7 +299,6 @@ TEST(Corners, AChainBesideOneMovesAsOnTheStraightLine) {
   }
 }
 
-
 // The exact step is taken back to the moment at which the mass meets the end: hand and mass keep between them what they had.
 TEST(Ends, OfALineStopAMassThatAHandPullsWithItsSpeed) {
   experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
@@ -320,7 +319,9 @@ TEST(Ends, OfALineStopAMassThatAHandPullsWithItsSpeed) {
 
 // However steep the curve becomes there.
 TEST(Ends, AreMetFromEitherSideAlike) {
-  for (const auto& [y, mirrored] : {std::pair{"sqrt(phi)/5", "sqrt(-phi)/5"}, {"log(phi)/50", "log(-phi)/50"}, {"phi^0.3/5", "(-phi)^0.3/5"},
+  for (const auto& [y, mirrored] : {std::pair{"sqrt(phi)/5", "sqrt(-phi)/5"},
+                                    {"log(phi)/50", "log(-phi)/50"},
+                                    {"phi^0.3/5", "(-phi)^0.3/5"},
                                     {"asin(phi - 1)/10", "asin(-phi - 1)/10"}}) {
     std::vector<MassState> met;
     std::vector<StepStatus> status;

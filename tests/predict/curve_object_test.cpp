@@ -8,6 +8,7 @@
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
 #include "constraints/geometry/arc_curve.h"
+#include "sim/predict/curve/curve_object.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
@@ -51,6 +52,35 @@ TEST(CurveObject, OnAStraightLineUnevenlyRunItIsTheLinearPrediction) {
     EXPECT_NEAR(curve->cost / line->cost, 1, kProfile);
     EXPECT_EQ(curve->travelTime, line->travelTime);
   }
+}
+
+// Masses that swing beyond either end of the task are still on the curve, the way between as long as it is.
+TEST(ArcCurve, GoesOnBehindItsStartAsBeyondItsTarget) {
+  constexpr double kRadius = 0.1;
+  const experiment::Experiment e = onCurve(chainModerate(), {"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0.5, 1.5);
+  for (const constraints::Along along : {constraints::Along::ArcLength, constraints::Along::Parameter}) {
+    const constraints::ArcCurve arc(constraints::makeConstraint(e.constraint), 0.5, 1.5, along);
+    const double perRadian = arc.length();
+    EXPECT_LT(arc.lowest(), -0.1 * arc.length());
+    EXPECT_GT(arc.highest(), 1.1 * arc.length());
+    for (double s = arc.lowest(); s < arc.highest(); s += 0.05 * arc.length()) {
+      const double phi = 0.5 + s / perRadian;
+      const auto at = arc.expand<3>(s);
+      EXPECT_LT(norm(at[0] - kRadius * Vec3{std::cos(phi), std::sin(phi), 0}), 1e-9) << s;
+      EXPECT_LT(norm(at[1] - kRadius / perRadian * Vec3{-std::sin(phi), std::cos(phi), 0}), 1e-7) << s;
+    }
+  }
+}
+
+// Masses that hang on the hand alone have one frequency and one decay rate each.
+TEST(CurveObject, TheBoundOfItsRatesIsMetByParallelMasses) {
+  experiment::Experiment e = parallelPair();
+  e.object.stiffness = {0.3, 1.2};
+  double most = 0;
+  for (size_t i = 0; i < e.object.masses.size(); ++i) most = std::max(most, std::sqrt(e.object.stiffness[i] / e.object.masses[i]));
+  EXPECT_NEAR(makeCurveObject(makeLineObject(e, 0, 0)).boundRate(), most, 1e-12);
+  e.object.damping = {6, 6};
+  EXPECT_NEAR(makeCurveObject(makeLineObject(e, 0, 0)).boundRate(), most + 6 / e.object.masses[1], 1e-12);
 }
 
 // The way turns by L/R; what that changes is even in it.

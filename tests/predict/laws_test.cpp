@@ -187,6 +187,11 @@ TEST(Refusals, SayWhyNothingCanBeComputed) {
   EXPECT_THROW(predict(makeChain(400, 0.6, 600, 1.35), MinCrackle), RefusedError);
   EXPECT_THROW(predict(makeChain(5, 0.6, 0, 1.35), MinHandForce), RefusedError);
   EXPECT_THROW(predict(makeParallel({3, 3}, {50, 0}, 2.5), MinHandJerk), RefusedError);
+  try {
+    (void)predict(makeParallel({3, 3}, {50, 0}, 2.5), MinHandJerk);
+  } catch (const RefusedError& refused) {
+    EXPECT_NE(std::string(refused.what()).find("spring 2 is 0 N/m"), std::string::npos) << refused.what();
+  }
   experiment::Experiment stiff = chainModerate();
   for (double& b : stiff.object.damping) b = 1e9;
   EXPECT_THROW(predict(stiff, MinHandJerk), RefusedError);

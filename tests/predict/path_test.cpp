@@ -268,6 +268,20 @@ TEST(SurfaceJerk, DoesNotDependOnTheUnitOfTheParameters) {
   }
 }
 
+// The straight start goes over the top, to either side of which it is lower: a way round is looked for also where the parameter across does not
+// change from start to target, and where the formula has no value at other pairs of parameters.
+TEST(SurfaceJerk, GoesRoundAHillHoweverItsParametersCount) {
+  const auto cost = [](const std::string& x, double from, double to) {
+    return predict(makeSurfaceExperiment({x, "0.05*exp(-(" + x + "^2 + v^2)/(2*0.02^2))", "v"}, {from, 0}, {to, 0}, 1),
+                   Criterion::MinHandJerk)
+        ->cost;
+  };
+  const double round = cost("u", -0.1, 0.1);
+  const auto over = predict(makeCurveExperiment({"phi", "0.05*exp(-phi^2/(2*0.02^2))", "0"}, -0.1, 0.1, 1), Criterion::MinHandJerk);
+  EXPECT_LT(round, 0.9 * over->cost);
+  EXPECT_NEAR(cost("log(u)", std::exp(-0.1), std::exp(0.1)) / round, 1, 1e-6);
+}
+
 TEST(Point, IsBehindItsSpringOnALineAndTheHandElsewhereUnlessAsked) {
   const auto line = makeChain(1, 1, 600, 1);
   const auto straight = makeCurveExperiment({"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1, 1);
