@@ -211,6 +211,22 @@ int ExpressionGraph::div(int a, int b) {
   return intern({Op::Div, a, b, 0});
 }
 
+bool ExpressionGraph::isNeverNegative(int id) const {
+  const ExpressionNode& n = node(id);
+  switch (n.op) {
+    case Op::Constant: return n.value >= 0;
+    case Op::PowInt: return n.b % 2 == 0 || isNeverNegative(n.a);
+    case Op::Add:
+    case Op::Mul:
+    case Op::Div: return isNeverNegative(n.a) && isNeverNegative(n.b);
+    case Op::Abs:
+    case Op::Sqrt:
+    case Op::Exp:
+    case Op::Cosh: return true;
+    default: return false;
+  }
+}
+
 int ExpressionGraph::powInt(int a, int exponent) {
   if (exponent == 0) return constant(1);
   if (exponent == 1) return a;
@@ -220,7 +236,7 @@ int ExpressionGraph::powInt(int a, int exponent) {
   if (n.op == Op::Neg) return exponent % 2 == 0 ? powInt(n.a, exponent) : neg(powInt(n.a, exponent));
   if (n.op == Op::Mul && isConstant(n.a)) return scale(powInteger(node(n.a).value, exponent), powInt(n.b, exponent));
   if (n.op == Op::PowInt && n.b * exponent <= kMaxIntegerExponent) return powInt(n.a, n.b * exponent);
-  if (n.op == Op::Sqrt && exponent % 2 == 0) return powInt(n.a, exponent / 2);
+  if (n.op == Op::Sqrt && exponent % 2 == 0 && isNeverNegative(n.a)) return powInt(n.a, exponent / 2);  // else it would lose its end
   return intern({Op::PowInt, a, exponent, 0});
 }
 

@@ -76,6 +76,8 @@ class ExpressionGraph {
   int size() const { return static_cast<int>(nodes_.size()); }
   bool isConstant(int id) const { return node(id).op == Op::Constant; }
   bool isConstant(int id, double value) const { return isConstant(id) && node(id).value == value; }
+  /// Below 0 nowhere, as its form alone shows: squares, their sums and products, abs, exp …
+  bool isNeverNegative(int id) const;
   /// Which nodes the roots need.
   std::vector<bool> reachableFrom(std::span<const int> roots) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/fault.h"
 #include "constraints/guards.h"
@@ -14,13 +15,33 @@ struct Parsed {
   std::vector<FormulaFault> faults;
 };
 
+// What cancels out takes the end of its domain with it: 0*log(phi) would go on below 0, where the formula as written has no value.
+std::optional<FormulaFault> cancelledEnd(const ExpressionGraph& graph, const std::array<int, 3>& roots, const std::array<int, 3>& sizes,
+                                         const FormulaNames& names) {
+  const std::vector<bool> needed = graph.reachableFrom(roots), moving = findMoving(graph);
+  for (int id = 0; id < graph.size(); ++id) {
+    const ExpressionNode& n = graph.node(id);
+    const bool ends =
+        n.op == Op::Asin || n.op == Op::Acos || ((n.op == Op::Log || n.op == Op::Sqrt || n.op == Op::Pow) && !graph.isNeverNegative(n.a));
+    if (!ends || needed[static_cast<std::size_t>(id)] || !moving[static_cast<std::size_t>(id)]) continue;
+    const auto coordinate = std::find_if(sizes.begin(), sizes.end(), [&](int size) { return id < size; });
+    return FormulaFault{static_cast<int>(coordinate - sizes.begin()), 0, 1,
+                        writeFormula(graph, id, names.variables, names.parameters) +
+                            " cancels out, and what is left would go on where the formula as written has no value",
+                        "a formula without it"};
+  }
+  return std::nullopt;
+}
+
 Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
   const FormulaNames names{variablesOf(text.kind), text.parameters};
   Parsed result;
   std::vector<bool> used(text.parameters.size(), false);
+  std::array<int, 3> sizes{};  // of the graph, after each coordinate
   for (std::size_t k = 0; k < 3; ++k) {
     ParsedFormula parsed = parseFormula(text.coordinates[k], names, graph);
     result.roots[k] = parsed.root;
+    sizes[k] = graph.size();
     for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || parsed.used[i];
     if (parsed.fault) {
       parsed.fault->coordinate = static_cast<int>(k);
@@ -40,6 +61,7 @@ Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
       }
   }
   if (!result.faults.empty()) return result;
+  if (std::optional<FormulaFault> fault = cancelledEnd(graph, result.roots, sizes, names)) result.faults.push_back(std::move(*fault));
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i])
       result.faults.push_back({-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate", "names that the formula uses"});

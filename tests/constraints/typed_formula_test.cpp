@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "constraints/constraint.h"
-#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -33,6 +33,24 @@ TEST(TypedFormula, MonkeySaddleGivesItsDerivatives) {
   EXPECT_NEAR(p.rUv.z, -6 * v / 50, kRounding);
   EXPECT_NEAR(p.rVv.z, -6 * u / 50, kRounding);
   EXPECT_NEAR(p.rU.x, 0.1, kRounding);
+}
+
+// 0*log(phi) is 0 where it has a value, and it has none below 0: simplified to 0 it would go on there without a word.
+TEST(TypedFormula, WhatCancelsOutWithTheEndOfItsDomainIsRefused) {
+  const auto faultOf = [](const std::string& y) -> std::string {
+    try {
+      makeConstraint({.name = "", .curve = {"phi/10", y, "phi/5"}, .surface = {}, .shape = {}});
+      return {};
+    } catch (const FaultError& fault) {
+      return fault.faults.at(0).key + ": " + fault.faults.at(0).what;
+    }
+  };
+  EXPECT_EQ(faultOf("0*log(phi)").find("constraint.curve[1]: log(phi) cancels out"), 0u) << faultOf("0*log(phi)");
+  for (const char* y : {"0*sqrt(phi)", "log(phi) - log(phi)", "asin(phi)/asin(phi)", "0*acos(phi)", "0*phi^0.3", "log(phi)^0"})
+    EXPECT_NE(faultOf(y).find("cancels out"), std::string::npos) << y;
+  for (const char* y :
+       {"0*sin(phi)", "0*log(1 + phi^2)", "sqrt(1 + phi^2)^2", "0*exp(phi)", "sqrt(phi)*sqrt(phi)", "2*log(phi + 9) - log(phi + 9)"})
+    EXPECT_EQ(faultOf(y), "") << y;
 }
 
 TEST(Line, RunsFromMinusToPlusHalfItsLength) {
