@@ -299,9 +299,9 @@ TEST(SpaceMouseOverHidraw, ABlockOfReachesAtItsOwnRateWithTheLoopAtOneKilohertz)
   test::HidrawBed bed(0x256F, 0xC635, "SM1", "SpaceMouse");
   SpaceMouseFirmware firmware(bed);
   const test::Folder folder;
-  const test::Ended run =
-      test::reach("run chain-slow --device spacemouse --trials 3 --seed 1 --timing-check 0 --every-tick --data " + folder.string(),
-                  "timeout -s INT 60");
+  const test::Ended run = test::reach(
+      "run " + patientChain(folder) + " --device spacemouse --trials 3 --seed 1 --timing-check 0 --every-tick --data " + folder.string(),
+      "timeout -s INT 60");
   ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
   const Block block = judge(run);
   EXPECT_EQ(block.trials, 3) << run.out << run.err;
