@@ -37,10 +37,9 @@ std::vector<double> legendreValues(int count, double x) {
 LegendreSeries projectOnLegendre(const std::vector<double>& values, const std::vector<double>& node, const std::vector<double>& weight) {
   const auto count = static_cast<int>(node.size());
   LegendreSeries series(node.size(), 0);
-  for (std::size_t i = 0; const double x : node) {
-    const std::vector<double> p = legendreValues(count, x);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::vector<double> p = legendreValues(count, node[i]);
     for (std::size_t n = 0; n < series.size(); ++n) series[n] += (static_cast<double>(n) + 0.5) * weight[i] * values[i] * p[n];
-    ++i;
   }
   return series;
 }
