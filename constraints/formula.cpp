@@ -20,10 +20,10 @@ std::optional<FormulaFault> cancelledEnd(const ExpressionGraph& graph, const std
                                          const FormulaNames& names) {
   const std::vector<bool> needed = graph.reachableFrom(roots), moving = findMoving(graph);
   for (int id = 0; id < graph.size(); ++id) {
+    if (needed[static_cast<std::size_t>(id)] || !moving[static_cast<std::size_t>(id)]) continue;
     const ExpressionNode& n = graph.node(id);
-    const bool ends =
-        n.op == Op::Asin || n.op == Op::Acos || ((n.op == Op::Log || n.op == Op::Sqrt || n.op == Op::Pow) && !graph.isNeverNegative(n.a));
-    if (!ends || needed[static_cast<std::size_t>(id)] || !moving[static_cast<std::size_t>(id)]) continue;
+    const bool endsBelowZero = (n.op == Op::Log || n.op == Op::Sqrt || n.op == Op::Pow) && !graph.isNeverNegative(n.a);
+    if (n.op != Op::Asin && n.op != Op::Acos && !endsBelowZero) continue;
     const auto coordinate = std::find_if(sizes.begin(), sizes.end(), [&](int size) { return id < size; });
     return FormulaFault{static_cast<int>(coordinate - sizes.begin()), 0, 1,
                         writeFormula(graph, id, names.variables, names.parameters) +
