@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "tests/cli/patient.h"
 #include "tests/cli/program.h"
 #include "tests/devices/fakes/fake_haply.h"
 
@@ -165,16 +166,9 @@ TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
   }
 }
 
-/// A shipped experiment that bears missed time: what is shown of devices does not hang on how busy the machine is.
-std::string patient(const Folder& folder, const std::string& name) {
-  Json experiment = Json::parse(contentOf(REACHLAB_SOURCE_DIR "/resources/experiments/" + name + ".json"));
-  experiment["timing"] = {{"max_missed_ticks", 100000}, {"max_gap_s", 10}};
-  return folder.write(std::filesystem::path(name).filename().string() + ".json", experiment.dump());
-}
-
 TEST(Devices, TwoPhantomsAreTwoHandsOfOneExperiment) {
   const Folder folder;
-  const Ended run = reach("run " + patient(folder, "two-hands/chain-two-hands") +
+  const Ended run = reach("run " + patient(folder, "chain-two-hands") +
                               " --device \"phantom:Left + phantom:Right\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
                           kFakes + " FAKE_HD_DEVICES=Left,Right timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
@@ -195,7 +189,7 @@ TEST(Devices, TwoOmegasAreTwoHandsOfOneExperiment) {
   const Folder folder;
   const std::string diary = folder / "diary";
   const Ended run =
-      reach("run " + patient(folder, "two-hands/chain-two-hands") +
+      reach("run " + patient(folder, "chain-two-hands") +
                 " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
             kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
@@ -227,7 +221,7 @@ TEST(Devices, APhantomLostInMidTrialInterruptsIt) {
 TEST(Devices, OneOfTwoOmegasLostInMidTrialInterruptsItAndTakesTheForceFromBoth) {
   const Folder folder;
   const std::string diary = folder / "diary";
-  expectLost(reach("run " + patient(folder, "two-hands/chain-two-hands") +
+  expectLost(reach("run " + patient(folder, "chain-two-hands") +
                        " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
                    kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_LOST_AFTER=2.2 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30"),
              "device omega.3 4712 is lost");
@@ -259,7 +253,7 @@ TEST(Devices, TwoInverse3AtOneServiceAreTwoHandsOfOneExperiment) {
   service.moveBy(reachAgainAndAgain);
   const Folder folder;
   const std::string port = std::to_string(service.port());
-  const Ended run = reach("run " + patient(folder, "two-hands/chain-two-hands") + " --device \"haply:049D,port=" + port +
+  const Ended run = reach("run " + patient(folder, "chain-two-hands") + " --device \"haply:049D,port=" + port +
                               " + haply:06A1,port=" + port + "\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
                           "timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;

@@ -13,6 +13,7 @@
 #include "devices/hot_plug.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
+#include "tests/cli/patient.h"
 #include "tests/cli/program.h"
 #include "tests/hidraw/arm_firmware.h"
 #include "tests/hidraw/block.h"
@@ -25,13 +26,6 @@ namespace {
 
 using reachlab::test::until;
 using namespace std::chrono_literals;
-
-// chain-slow, whatever time the machine loses: how well it keeps time is not judged here.
-std::string patientChain(const test::Folder& folder) {
-  experiment::Experiment lenient = experiment::readExperiment("chain-slow");
-  lenient.timing = experiment::kNoTimingLimits;
-  return folder.write("slow.json", toJson(lenient));
-}
 
 class ArmOverHidraw : public ::testing::Test {
  protected:
@@ -182,8 +176,8 @@ void expectNoForceOnceItIsLost(const test::Folder& folder) {
 TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAgain) {
   auto firmware = std::make_unique<ArmFirmware>(bed.wire());
   const test::Folder folder;
-  const std::string run =
-      "run " + patientChain(folder) + " --timing-check 0 --every-tick --device hid:SN0001 --trials 2 --seed 1 --data " + folder.string();
+  const std::string run = "run " + test::patient(folder, "chain-slow") +
+                          " --timing-check 0 --every-tick --device hid:SN0001 --trials 2 --seed 1 --data " + folder.string();
   Running program(run);
   ASSERT_TRUE(until([&] { return firmware->most > 0 || program.hasEnded(); })) << "the object is felt";
   if (firmware->most == 0) GTEST_SKIP() << "the computer stood still: " << program.end().err;
@@ -211,7 +205,8 @@ TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAg
 TEST_F(ArmOverHidraw, ReportsFromThePastAreAJumpAndLatchTheForceOff) {
   ArmFirmware firmware(bed.wire());
   const test::Folder folder;
-  Running program("run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  Running program("run " + test::patient(folder, "chain-slow") + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " +
+                  folder.string());
   // In the middle of its way the arm begins to say what it said at the start.
   ASSERT_TRUE(until([&] { return (firmware.most > 0 && firmware.middle) || program.hasEnded(); }));
   if (program.hasEnded()) GTEST_SKIP() << "the computer stood still: " << program.end().err;
@@ -248,7 +243,8 @@ TEST_F(ArmOverHidraw, GarbageAndShortReportsAreNotBelieved) {
 TEST_F(ArmOverHidraw, AStoppedProgramsMotorsAreSwitchedOffByTheFirmware) {
   ArmFirmware firmware(bed.wire());
   const test::Folder folder;
-  Running program("run " + patientChain(folder) + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " + folder.string());
+  Running program("run " + test::patient(folder, "chain-slow") + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " +
+                  folder.string());
   ASSERT_TRUE(until([&] { return firmware.most > 0 || program.hasEnded(); }));
   if (program.hasEnded()) GTEST_SKIP() << "the computer stood still: " << program.end().err;
   pid_t pid = 0;
@@ -299,9 +295,10 @@ TEST(SpaceMouseOverHidraw, ABlockOfReachesAtItsOwnRateWithTheLoopAtOneKilohertz)
   test::HidrawBed bed(0x256F, 0xC635, "SM1", "SpaceMouse");
   SpaceMouseFirmware firmware(bed);
   const test::Folder folder;
-  const test::Ended run = test::reach(
-      "run " + patientChain(folder) + " --device spacemouse --trials 3 --seed 1 --timing-check 0 --every-tick --data " + folder.string(),
-      "timeout -s INT 60");
+  const test::Ended run =
+      test::reach("run " + test::patient(folder, "chain-slow") +
+                      " --device spacemouse --trials 3 --seed 1 --timing-check 0 --every-tick --data " + folder.string(),
+                  "timeout -s INT 60");
   ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
   const Block block = judge(run);
   EXPECT_EQ(block.trials, 3) << run.out << run.err;
