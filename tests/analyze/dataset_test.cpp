@@ -31,6 +31,14 @@ StudyOptions quick() {
   return options;
 }
 
+// What is left of a dataset when nobody has kept its logs.
+void writeDatasetWithoutLogs(const std::string& folder, const std::string& log) {
+  std::vector<record::RunLog> runs;
+  runs.push_back(record::RunLog::open(log));
+  record::writeBids(runs, folder);
+  std::filesystem::remove_all(folder + "/sourcedata");
+}
+
 std::string textOfNumber(double value) { return nlohmann::ordered_json(value).dump(); }
 
 TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
@@ -113,11 +121,8 @@ TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
 TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
   const TemporaryFolder folder;
   const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 12});
-  std::vector<record::RunLog> runs;
-  runs.push_back(record::RunLog::open(log));
-  record::writeBids(runs, folder.path());
   const StudyResult fromLog = analyzeStudy(openDataset(folder.path()).input, quick());
-  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  writeDatasetWithoutLogs(folder.path(), log);
   const Dataset dataset = openDataset(folder.path());
   ASSERT_EQ(dataset.notes.size(), 1u);
   EXPECT_NE(dataset.notes[0].find("code/experiments"), std::string::npos) << "not the experiment that is shipped now: " << dataset.notes[0];
@@ -133,10 +138,7 @@ TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
 
 TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
   const TemporaryFolder folder;
-  std::vector<record::RunLog> runs;
-  runs.push_back(record::RunLog::open(recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2})));
-  record::writeBids(runs, folder.path());
-  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
   ASSERT_EQ(analyzeStudy(openDataset(folder.path()).input, quick()).trials.size(), 2u);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
     if (entry.path().filename().string().ends_with("_events.tsv"))
@@ -150,10 +152,7 @@ TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
 // The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
 TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
   const TemporaryFolder folder;
-  std::vector<record::RunLog> runs;
-  runs.push_back(record::RunLog::open(recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1})));
-  record::writeBids(runs, folder.path());
-  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1}));
   std::filesystem::path motion;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
     const std::string name = entry.path().string();
