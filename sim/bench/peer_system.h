@@ -59,10 +59,9 @@ void appendSample(const System& system, const double* y, Trajectory& out) {
   std::vector<double> r(3 * System::kMasses);
   system.positions(y, r.data());
   if constexpr (requires { system.shape.radius; }) {
-    double p[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
-    system.shape.evaluate(y[0], y[1], p, ru, rv, ruu, ruv, rvv);
-    out.states.insert(out.states.end(), p, p + 3);
-    for (int i = 0; i < 3; ++i) out.states.push_back(ru[i] * y[2] + rv[i] * y[3]);
+    double world[6];
+    system.shape.placeAndVelocity(y[0], y[1], y[2], y[3], world, world + 3);
+    out.states.insert(out.states.end(), world, world + 6);
   } else {
     out.states.insert(out.states.end(), y, y + 2 * System::kCoordinates);
   }

@@ -27,10 +27,9 @@ std::vector<Quad> initialState(const BenchScene& scene, const System&) {
 
 // Place and velocity in the world, of a state in the sphere's own numbers.
 void appendCartesian(const BenchScene& scene, const std::vector<Quad>& y, std::vector<Quad>& states) {
-  Quad r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
-  SphereShape{scene.experiment.constraint.shape.at("R")}.evaluate(y[0], y[1], r, ru, rv, ruu, ruv, rvv);
-  states.insert(states.end(), r, r + 3);
-  for (int i = 0; i < 3; ++i) states.push_back(ru[i] * y[2] + rv[i] * y[3]);
+  Quad world[6];
+  SphereShape{scene.experiment.constraint.shape.at("R")}.placeAndVelocity(y[0], y[1], y[2], y[3], world, world + 3);
+  states.insert(states.end(), world, world + 6);
 }
 
 template <class System>
@@ -59,9 +58,8 @@ Reference integrate(const BenchScene& scene, const System& system, const Referen
 Reference greatCircle(const BenchScene& scene, double radius) {
   Reference out;
   out.stateSize = 6, out.massCount = 1, out.samples = sampleCount(scene);
-  Quad r0[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3], v0[3];
-  SphereShape{radius}.evaluate(Quad(scene.start[0]), Quad(scene.start[1]), r0, ru, rv, ruu, ruv, rvv);
-  for (int i = 0; i < 3; ++i) v0[i] = ru[i] * scene.rate[0] + rv[i] * scene.rate[1];
+  Quad r0[3], v0[3];
+  SphereShape{radius}.placeAndVelocity(Quad(scene.start[0]), Quad(scene.start[1]), Quad(scene.rate[0]), Quad(scene.rate[1]), r0, v0);
   const Quad w = squareRoot(dot3(v0, v0)) / radius;
   for (int k = 0; k < out.samples; ++k) {
     const Quad angle = w * k / 100;

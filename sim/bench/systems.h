@@ -81,6 +81,13 @@ struct SphereShape {
     ruv[0] = -rv[1], ruv[1] = rv[0], ruv[2] = 0;
     rvv[0] = -r[0], rvv[1] = -r[1], rvv[2] = -r[2];
   }
+  /// Place and velocity in the world of the numbers u, v and their rates.
+  template <class T>
+  void placeAndVelocity(const T& u, const T& v, const T& du, const T& dv, T* r, T* velocity) const {
+    T ru[3], rv[3], ruu[3], ruv[3], rvv[3];
+    evaluate(u, v, r, ru, rv, ruu, ruv, rvv);
+    for (int i = 0; i < 3; ++i) velocity[i] = ru[i] * du + rv[i] * dv;
+  }
 };
 
 template <class T>

@@ -71,12 +71,9 @@ Contender makeSmallLimit(const BenchScene& scene) {
   if (scene.name == "S6")
     return makeLimitContender(scene, ParallelForm{o.stiffness[0] / o.masses[0], o.stiffness[1] / o.masses[1], scene.hand.from.x});
   const double radius = scene.experiment.constraint.shape.at("R");
-  double p[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
-  SphereShape{radius}.evaluate(scene.start[0], scene.start[1], p, ru, rv, ruu, ruv, rvv);
-  const double du = scene.rate[0], dv = scene.rate[1];
-  return makeLimitContender(
-      scene,
-      SphereForm{1 / (radius * radius), {p[0], p[1], p[2]}, {ru[0] * du + rv[0] * dv, ru[1] * du + rv[1] * dv, ru[2] * du + rv[2] * dv}});
+  double r[3], v[3];
+  SphereShape{radius}.placeAndVelocity(scene.start[0], scene.start[1], scene.rate[0], scene.rate[1], r, v);
+  return makeLimitContender(scene, SphereForm{1 / (radius * radius), {r[0], r[1], r[2]}, {v[0], v[1], v[2]}});
 }
 
 std::optional<Contender> makeLimit(const BenchScene& scene) {
