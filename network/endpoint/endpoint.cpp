@@ -17,6 +17,7 @@
 #include "Reachlab.h"
 #include "base/error.h"
 #include "base/os.h"
+#include "network/endpoint/peer_clock.h"
 #include "network/line/line_memory.h"
 
 /// A station's endpoint: sends what the station puts into the rings, and puts into them what comes. A process of its own, because it
@@ -135,64 +136,6 @@ dds_qos_t* cardQos() {
   return qos;
 }
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
-
-/// One peer's line: round trip, clock and loss from the echoes in its samples.
-class PeerClock {
- public:
-  void add(const reach_State& s, std::uint32_t own, std::int64_t nowNs) {
-    if (echoHeard != 0) longest_ = std::max(longest_, seconds(nowNs - echoHeard));
-    echoSent = s.sent_ns;
-    echoHeard = nowNs;
-    const std::int64_t sent = own == 0 ? 0 : s.echo_sent_ns[own - 1], heard = own == 0 ? 0 : s.echo_heard_ns[own - 1];
-    if (sent != 0) {
-      Exchange& e = exchanges_[at_++ % kExchanges];
-      e.roundTrip = seconds((nowNs - sent) - (s.sent_ns - heard));
-      e.offset = 0.5 * (seconds(heard - sent) + seconds(s.sent_ns - nowNs));
-      judge();
-    }
-    if (firstSeq_ == 0 || s.seq < lastSeq_) firstSeq_ = lastSeq_ = s.seq, came_ = 0, sinceNs_ = nowNs;
-    if (s.seq > lastSeq_) stride_ = std::min(stride_, s.seq - lastSeq_);  // not every tick need be sent
-    lastSeq_ = s.seq;
-    ++came_;
-    if (nowNs - sinceNs_ < 1'000'000'000) return;
-    const double expected = static_cast<double>(lastSeq_ - firstSeq_) / (stride_ == kNoStride ? 1 : stride_) + 1;
-    loss = std::max(0.0, 1 - static_cast<double>(came_) / expected);
-    gap = longest_;
-    firstSeq_ = lastSeq_ + (stride_ == kNoStride ? 1 : stride_), came_ = 0, sinceNs_ = nowNs, longest_ = 0, stride_ = kNoStride;
-  }
-  double roundTrip = -1, jitter = 0, offset = 0, loss = 0, gap = 0;  // [s], [s], [s], share, [s]
-  std::int64_t echoSent = 0, echoHeard = 0;                          // [ns]
-
- private:
-  static constexpr std::size_t kExchanges = 128;
-  struct Exchange {
-    double roundTrip = 0, offset = 0;
-  };
-  // The fastest exchange has the least unequal ways.
-  void judge() {
-    const std::size_t known = std::min(at_, kExchanges);
-    const Exchange* fastest = &exchanges_[0];
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < known; ++i) {
-      const Exchange& e = exchanges_[i];
-      sum += e.roundTrip, squares += e.roundTrip * e.roundTrip;
-      if (e.roundTrip < fastest->roundTrip) fastest = &e;
-    }
-    const double mean = sum / static_cast<double>(known);
-    roundTrip = exchanges_[(at_ - 1) % kExchanges].roundTrip;
-    jitter = std::sqrt(std::max(0.0, squares / static_cast<double>(known) - mean * mean));
-    offset = fastest->offset;
-  }
-  std::array<Exchange, kExchanges> exchanges_{};
-  std::size_t at_ = 0;
-  static constexpr std::uint32_t kNoStride = 0xffffffff;
-  std::uint32_t firstSeq_ = 0, lastSeq_ = 0, stride_ = kNoStride;
-  std::uint64_t came_ = 0;
-  std::int64_t sinceNs_ = 0;
-  double longest_ = 0;  // [s]
-};
-
 template <std::size_t N>
 void copyText(const char* from, std::array<char, N>& to) {
   to.fill(0);
@@ -244,7 +187,8 @@ class Endpoint {
       const std::int64_t now = os::now();
       PeerClock& clock = clocks_[s.station - 1];
       if (clock.echoHeard == 0) ++peers_;
-      clock.add(s, own_.station, now);
+      const auto ours = static_cast<std::size_t>(own_.station) - 1;
+      clock.add(own_.station == 0 ? Echo{s.seq, s.sent_ns} : Echo{s.seq, s.sent_ns, s.echo_sent_ns[ours], s.echo_heard_ns[ours]}, now);
       LineStatus& status = memory_.status[s.station - 1];
       status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
       status.loss.store(clock.loss), status.gap.store(clock.gap), status.heardNs.store(now);
