@@ -132,19 +132,21 @@ TranscribedMotion raiseUnknowns(const TranscribedProblem& problem, TranscribedMo
     check = checkPath(problem.duration, [&](double t) { return placeOf(found, t); });
     return check.smooth && std::abs(check.cost - found.cost) <= std::max(kSeen, 10 * error) * found.cost;
   };
-  std::string refusal;
-  for (int n = motion.basis.columns() - 1; (n += n / 2) <= kMaxUnknowns;) {
+  const auto raise = [&](int unknowns) -> std::string {  // why it cannot be
     try {
-      TranscribedMotion finer = solveTranscription(problem, n, guessFrom(motion));
+      TranscribedMotion finer = solveTranscription(problem, unknowns, guessFrom(motion));
       const double change = compare(motion, finer);
       motion = std::move(finer);
       motion.uncertainty = estimateError(change, before);
       motion.errorBound = boundError(change, std::exchange(before, change));
-      refusal.clear();
+      return {};
     } catch (const RefusedError& refused) {
-      refusal = refused.what();
-      continue;
+      return refused.what();
     }
+  };
+  std::string refusal;  // of the last
+  for (int n = motion.basis.columns() - 1; (n += n / 2) <= kMaxUnknowns;) {
+    if (refusal = raise(n); !refusal.empty()) continue;
     if (motion.uncertainty >= wanted) continue;
     if (!placeOf || isSeen(motion, wanted)) return motion;
     if (++unseen == kMaxUnseen) break;  // what does not show in so many raises is no bump that more unknowns would follow
