@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "base/elementary.h"
@@ -156,7 +157,7 @@ void FeedbackHand::step() noexcept {
   const FeedbackSpec& person = state_->person;
   const int n = g.states, p = g.touch, v = g.sight, all = g.estimate(), ny = g.senses();
   const int at = std::min(steps_, g.steps - 1);
-  const double* draw = playing_.draws.data() + static_cast<std::ptrdiff_t>(at) * (ny + 2);
+  const std::span draw{playing_.draws.data() + static_cast<std::ptrdiff_t>(at) * (ny + 2), static_cast<std::size_t>(ny + 2)};
   const double felt = -dot(felt_, task_->way.at(body_[0] + task_->cost.distance).along);  // the object's force, against the hand
 
   // What is sensed now comes later.
