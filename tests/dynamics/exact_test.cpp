@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "sim/dynamics/hand_path.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {
@@ -52,6 +53,24 @@ TEST(ExactPlant, ModesAndMatrixAgree) {
   const auto ma = observed(*a.plant, reachAt(1)), mb = observed(*b.plant, reachAt(1));
   const double tolerance = 1e-11;  // [m] what that damper does in a second
   for (int i = 0; i < 20; ++i) EXPECT_NEAR(ma[i].r.x, mb[i].r.x, tolerance);
+}
+
+// A hand that comes as samples is a polynomial of any degree up to a cubic.
+TEST(ExactPlant, ModesAndMatrixAgreeForAHandOfEveryDegree) {
+  experiment::Experiment modal = makeChain(20, 0.15, 600), matrix = modal;
+  matrix.object.damping.assign(19, 0.0);
+  matrix.object.damping[3] = 1e-9;
+  for (const int samples : {1, 2, 3, 4}) {
+    const Scene a = compileScene(modal), b = compileScene(matrix);
+    HandPath path(samples);
+    for (const Scene* scene : {&a, &b}) scene->plant->placeAtRest(std::array{0.0});
+    for (int i = 0; i < 1000; ++i) {
+      path.push(reachAt(i * 1e-3));
+      for (const Scene* scene : {&a, &b}) ASSERT_EQ(scene->plant->step(path.segment(), 1e-3), StepStatus::Ok);
+    }
+    const auto ma = observed(*a.plant), mb = observed(*b.plant);
+    for (int i = 0; i < 20; ++i) EXPECT_NEAR(ma[i].r.x, mb[i].r.x, 1e-11) << samples << " samples, mass " << i + 1;
+  }
 }
 
 // In space a hand pulls along all three axes at once, each another way. 1e-8 m is what RK4 errs by in half a second.

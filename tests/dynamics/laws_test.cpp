@@ -98,6 +98,19 @@ TEST(Poles, WhereNothingPullsOnASphereItsGreatCircleIsFollowedInClosedForm) {
   EXPECT_LT(norm(observed(*scene.plant)[0].r - expected), 1e-12);
 }
 
+// Almost 0.1 rad a tick, which is as fast as the closed form's series are good for.
+TEST(Poles, AFastGreatCircleIsFollowedAsWell) {
+  const Scene scene = freeScene(onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)"), {0.3, 0.2}, {90, 35});
+  const MassState begin = observed(*scene.plant)[0];
+  const double turn = norm(begin.v) / 0.1;
+  ASSERT_GT(turn, 90);
+  ASSERT_LT(turn, 100);
+  ASSERT_EQ(run(*scene.plant, noHand, 1), StepStatus::Ok);
+  EXPECT_EQ(scene.plant->rhsEvaluations(), 0u);
+  const Vec3 expected = std::cos(turn) * begin.r + (std::sin(turn) / turn) * begin.v;
+  EXPECT_LT(norm(observed(*scene.plant)[0].r - expected), 1e-12);
+}
+
 // Held, let go, held again, and let go with something that still pulls: as by sub-steps of the equations of motion.
 TEST(Poles, LettingGoOnASphereAndTakingHoldAgainIsAsByTheEquationsOfMotion) {
   enum class Pull { Nothing, Force, Friction };
