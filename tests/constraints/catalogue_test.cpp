@@ -153,6 +153,25 @@ TEST(Definition, SaysOfAPlaceThatIsNoConstantWhatInItIsNotKnown) {
   }
 }
 
+TEST(Definition, BeginsAndEndsWithinItsDomainUnlessThatGoesRound) {
+  const auto keyOfFault = [](const std::string& domain, const std::string& start) -> std::string {
+    try {
+      parseDefinition(R"j({"schema_version": 1, "name": "arc", "kind": "curve", "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0"], "shape": {},
+        "domain": )j" + domain +
+                          R"j(, "start": [)j" + start + R"j(], "target": [1], "sentence": "s", "source": "s"})j",
+                      "d.json");
+      return "";
+    } catch (const FaultError& error) {
+      return error.faults.empty() ? "none" : error.faults[0].key;
+    }
+  };
+  for (const char* inside : {"0", "0.5", "2"}) EXPECT_EQ(keyOfFault("[0, 2]", inside), "") << inside;
+  for (const char* outside : {"-0.1", "2.1"}) {
+    EXPECT_EQ(keyOfFault("[0, 2]", outside), "start[0]") << outside;
+    EXPECT_EQ(keyOfFault(R"([0, "2*pi"], "periodic": true)", outside), "") << outside;
+  }
+}
+
 TEST(Definition, HasTheSameFaultsAsAValueAndAsAFile) {
   const auto keysOf = [](const std::vector<Fault>& faults) {
     std::vector<std::string> keys;

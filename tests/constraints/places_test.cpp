@@ -94,6 +94,21 @@ TEST(Places, EveryCurveOfTheCatalogueIsSmoothButForStillPlaces) {
   }
 }
 
+// What is shown is true of every point of the range, and of a range that holds an apex, a fold or a ridge nothing is shown.
+TEST(Places, ARangeOfASurfaceWithoutAnyIsShownToBeRegular) {
+  const auto shown = [](const std::string& x, const std::string& y, const std::string& z, double least, double most) {
+    const std::array<Domain, 2> range{Domain{least, most, false}, Domain{0.2, 0.5, false}};
+    return isProvedRegular(makeConstraint({.name = {}, .curve = {}, .surface = {x, y, z}, .shape = {}}), range);
+  };
+  EXPECT_TRUE(shown("(0.1 + 0.04*cos(u))*cos(v)", "(0.1 + 0.04*cos(u))*sin(v)", "0.04*sin(u)", 0.1, 1.5));
+  EXPECT_TRUE(shown("u*cos(v)", "u*sin(v)", "u", 0.1, 1));
+  EXPECT_FALSE(shown("u*cos(v)", "u*sin(v)", "u", -0.1, 1));
+  EXPECT_TRUE(shown("u^2/10", "v/10", "0", 0.1, 1));
+  EXPECT_FALSE(shown("u^2/10", "v/10", "0", -0.1, 1));
+  EXPECT_TRUE(shown("u/10", "v/10", "abs(u)/10", 0.1, 1));
+  EXPECT_FALSE(shown("u/10", "v/10", "abs(u)/10", -0.1, 1));
+}
+
 TEST(Places, LinesOfASurfaceAreKnown) {
   const auto branches = [](const std::string& z) {
     return computeBranches(makeConstraint({.name = {}, .curve = {}, .surface = {"u/10", "v/10", z}, .shape = {}}));
