@@ -8,6 +8,7 @@
 #include "devices/make_device.h"
 #include "devices/subject/feedback_hand.h"
 #include "devices/subject/subject_kinds.h"
+#include "devices/subject/subject_parameters.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/predict/predict.h"
 
@@ -231,6 +232,26 @@ TEST(ImpedanceSubject, WithTheRightModelItCarriesItsPlanOut) {
 
 TEST(ImpedanceSubject, AWrongModelShows) {
   EXPECT_LT(successPercent("chain-moderate", "simulated:kind=impedance,model-mass=0.405,stiffness=100", 20), 30);
+}
+
+// Whatever is asked for: three of its SDs leave a movement some of its time, and a belief errs as far one way as the other.
+TEST(SubjectParameters, AreBoundedByWhatTheyMean) {
+  int times = 0, beliefs = 0;
+  for (const auto& parameters : {feedbackParameters(), impedanceParameters(), planParameters()})
+    for (const SubjectParameter& p : parameters) {
+      EXPECT_LE(p.least, p.usual) << p.key;
+      EXPECT_LE(p.usual, p.most) << p.key;
+      if (p.key == "time-sd") {
+        EXPECT_LT(3 * p.most, 1);
+        ++times;
+      }
+      if (p.unit == "ln" && p.key.starts_with("model-")) {
+        EXPECT_EQ(p.least, -p.most) << p.key;
+        ++beliefs;
+      }
+    }
+  EXPECT_EQ(times, 3);
+  EXPECT_EQ(beliefs, 4);
 }
 
 }  // namespace

@@ -101,6 +101,25 @@ TEST(Preflight, ColgatesFrictionFollowsTheDevicesRate) {
   EXPECT_EQ(lineOf(check(experiment, info), "passivity").verdict, Verdict::Fine);
 }
 
+// What a reach along a curve needs is no closed form: a practised reach tells it, of the whole mass at its peak.
+TEST(Preflight, AReachAlongACurveIsCarriedOutToBeWeighed) {
+  const experiment::CompiledExperiment ellipse(experiment::readExperiment("chain-on-ellipse"));
+  const ReachDemand demand = computeReachDemand(ellipse, std::nullopt, {});
+  EXPECT_EQ(demand.law, "a practised reach, simulated");
+  EXPECT_GT(demand.rmsForce, 0);
+  EXPECT_LT(demand.rmsForce, demand.peakForce);
+}
+
+// Abbott and Okamura 2005: dry friction c swallows the steps of a device of resolution r up to a stiffness of 2 c/r.
+TEST(Preflight, DryFrictionThatSwallowsTheStepsIsToldWithItsStiffness) {
+  const auto experiment = experiment::readExperiment("chain-moderate");  // 600 N/m
+  haptics::DeviceInfo info = infoOf("virtual:premium15", experiment);
+  info.resolution = 1e-4, info.coulombFriction = 0.04;
+  EXPECT_NE(lineOf(check(experiment, info), "passivity").sentence.find("up to k_h = 800 N/m"), std::string::npos);
+  info.coulombFriction = 0;
+  EXPECT_EQ(lineOf(check(experiment, info), "passivity").sentence.find("dry friction"), std::string::npos);
+}
+
 TEST(Preflight, AStiffnessBeyondTheStableOneIsWarnedAbout) {
   experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   const auto info = infoOf("virtual:premium15", experiment);
