@@ -31,6 +31,7 @@ class Looker : public testing::Test {
     heard.trial = 3;
     heard.phase = static_cast<std::uint8_t>(trial::Phase::Moving);
     heard.sample.sequence = ++sequence_;
+    heard.sample.time = 0.1;
     heard.sample.hand = {hand, 0, 0};
     for (std::size_t i = 0; i < 5; ++i) heard.sample.places[i] = place;
     ASSERT_TRUE(memory().in[station - 1].tryPush(heard));
@@ -76,12 +77,12 @@ TEST_F(Looker, PutsOfEveryStationThatWasHeardALineIntoWords) {
   EXPECT_EQ(describeNewest(*looker_, 0), "");
   hear(1, 0, -0.09);
   (void)looker_->poll();
-  const std::string first = "station=1 trial=3 phase=moving age_s=0.250 hand_m=-0.09000,0.00000,0.00000 work_j=0.00000\n";
+  const std::string first = "station=1 trial=3 phase=moving age_s=0.150 hand_m=-0.09000,0.00000,0.00000 work_j=0.00000\n";
   EXPECT_EQ(describeNewest(*looker_, 0.25), first);
   hear(2, M_PI, 0.02);
   (void)looker_->poll();
   EXPECT_EQ(describeNewest(*looker_, 0.25),
-            first + "station=2 trial=3 phase=moving age_s=0.250 hand_m=0.02000,0.00000,0.00000 work_j=0.00000 apart_m=0.100000\n");
+            first + "station=2 trial=3 phase=moving age_s=0.150 hand_m=0.02000,0.00000,0.00000 work_j=0.00000 apart_m=0.100000\n");
 }
 
 TEST_F(Looker, SendsNothingAndSaysOnceThatNobodyIsThere) {

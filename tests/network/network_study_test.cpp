@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+
 namespace reachlab::network {
 namespace {
 
@@ -47,6 +50,12 @@ TEST_F(Study, ClosingTheSpringOverTheLineIsNotStable) {
 
 TEST_F(Study, DeadReckoningAloneIsNot) { EXPECT_EQ(cell(*tables_, StudyObject::Chain, Coupling::CopiesGuessed, 0.1).stable, 0); }
 
+// A line of 50 and of 100 ms is what the design's bounds are said for.
+TEST(StudyPlan, UsuallyHasTheRoundTripsThatTheBoundsAreSaidFor) {
+  const std::vector<double> usual = StudyPlan{}.roundTrips;
+  for (const double roundTrip : {0.0, 0.05, 0.1}) EXPECT_NE(std::find(usual.begin(), usual.end(), roundTrip), usual.end()) << roundTrip;
+}
+
 TEST_F(Study, TheSameSeedsGiveTheSameTable) {
   StudyPlan plan;
   plan.roundTrips = {0.05};
@@ -54,6 +63,19 @@ TEST_F(Study, TheSameSeedsGiveTheSameTable) {
   plan.seeds = 1;
   plan.setups = 2;
   EXPECT_EQ(studyCsv(runNetworkStudy(plan)), studyCsv(runNetworkStudy(plan)));
+}
+
+// Two people move out and back and against each other: copies that hear nothing of each other come apart by three centimetres.
+TEST(TwoHands, CopiesOfHalfTheMassAreJoinedByWhatTheyHear) {
+  StudySetup setup;
+  setup.experiment = makeStudyExperiment(StudyObject::Chain);
+  setup.roundTrip = 0.01;
+  const StudyReference reference = makeReference(setup);
+  for (const Coupling coupling : {Coupling::HalfDelayed, Coupling::HalfProjected, Coupling::HalfWaves}) {
+    const StudyOutcome outcome = runTwoHands(setup, coupling, copySettingsFor(setup.experiment), reference);
+    EXPECT_TRUE(outcome.stable) << nameOf(coupling);
+    EXPECT_LT(outcome.apart, 0.02) << nameOf(coupling);
+  }
 }
 
 // What the study says its set-ups are drawn from, and that the whole of it is drawn from.
@@ -77,7 +99,7 @@ TEST(RandomSetups, AreDrawnFromTheirRanges) {
 
 // Every way of coupling has a line of its own points, and one that was not studied has none.
 TEST(StudyFigure, HasALineForEachWayOfCoupling) {
-  const auto pathsOf = [](const std::vector<Coupling>& couplings) {
+  const auto coloursOf = [](const std::vector<Coupling>& couplings) {
     StudyTables tables;
     for (const Coupling coupling : couplings)
       for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel})
@@ -90,11 +112,14 @@ TEST(StudyFigure, HasALineForEachWayOfCoupling) {
                                   .apart = 1e-3 * roundTrip,
                                   .forceError = roundTrip});
     const std::string svg = drawStudy(tables);
-    int paths = 0;
-    for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) ++paths;
-    return paths;
+    const std::regex stroke("stroke(?::|=\")rgb\\([^)]*\\)");
+    std::set<std::string> colours;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), stroke); it != std::sregex_iterator(); ++it) colours.insert(it->str());
+    return colours.size();
   };
-  EXPECT_LT(pathsOf({Coupling::Design}), pathsOf({Coupling::Design, Coupling::ServerPlace}));
+  const std::size_t one = coloursOf({Coupling::Design});
+  EXPECT_EQ(coloursOf({Coupling::Design, Coupling::ServerPlace}), one + 1);
+  EXPECT_EQ(coloursOf({Coupling::Design, Coupling::ServerPlace, Coupling::HalfWaves}), one + 2);
 }
 
 // A part of the study's random set-ups; `reach bench --network` has them all.
