@@ -75,6 +75,7 @@ TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   const Ended one = check("umbrella", "surface", R"(["u*v/10", "u/10", "v^2/10"])", "[[-1, 1], [-1, 1]]");
   EXPECT_NE(one.out.find("pinch     u = 0, v = 0"), std::string::npos) << one.out;
   EXPECT_EQ(one.out.find("there may be more"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("umbrella.json: fine: surface umbrella"), std::string::npos) << one.out;
   EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate place"),
             std::string::npos);
   EXPECT_NE(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out.find("no kink, jump, pole, end or cusp"),
@@ -96,6 +97,19 @@ TEST(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
                                                             R"(", "phi", "0"], "domain": [0, 1], "start": [0], "target": [1]})"));
     EXPECT_EQ(ended.exitCode, 2) << ended.exitCode;
     EXPECT_NE(ended.err.find("allowed: 2000"), std::string::npos) << ended.err.substr(0, 200);
+  }
+}
+
+TEST(ConstraintCommand, CodeGivesEveryNumberThatItPromisesAValue) {
+  for (const char* name : {"ellipse", "torus"}) {
+    const std::string code = reach(std::string("constraint code ") + name).out;
+    const std::size_t first = code.find("  double "), last = code.find(';', first);
+    ASSERT_NE(last, std::string::npos) << code;
+    std::istringstream members(code.substr(first + 9, last - first - 9));
+    int count = 0;
+    for (std::string member; std::getline(members >> std::ws, member, ','); ++count)
+      EXPECT_NE(code.find("  out." + member + " = "), std::string::npos) << name << " " << member;
+    EXPECT_GE(count, 7);
   }
 }
 

@@ -43,6 +43,7 @@ TEST(PredictCommand, WritesTheProfilesFromZeroToT) {
   EXPECT_EQ(lines[0], "time_s,hand_m,hand_m_per_s,hand_m_per_s2,mass1_m,mass1_m_per_s,mass2_m,mass2_m_per_s");
   EXPECT_EQ(lines[1].substr(0, 2), "0,");
   EXPECT_EQ(lines[201].substr(0, 4), "2.5,");
+  for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_NEAR(std::stod(lines[i]), 2.5 / 200 * static_cast<double>(i - 1), 1e-12) << i;
 }
 
 TEST(PredictCommand, WritesTheNumbersAsJson) {
@@ -51,6 +52,8 @@ TEST(PredictCommand, WritesTheNumbersAsJson) {
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json.at("criterion"), "min-hand-jerk");
   EXPECT_NEAR(json.at("cost").get<double>(), 6.76284544993, 1e-10);
+  EXPECT_NEAR(json.at("duration_s").get<double>(), 1.35, 1e-12);
+  EXPECT_NEAR(json.at("distance_m").get<double>(), 0.2, 1e-12);
   for (const char* key :
        {"hand_peak_m_per_s", "hand_peak_s", "object_peak_m_per_s", "hand_jump_m", "hand_jump_m_per_s", "condition", "travel_time_s"})
     EXPECT_TRUE(json.at(key).is_number()) << key;
