@@ -211,10 +211,11 @@ class Test:
 
 
 def limits(processor_seconds):
-    """No fault may fill the disk or the memory."""
+    """Signals as a terminal gives them; and no fault may fill the disk or the memory."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 30, 4 << 30))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_AS, (16 << 30, 16 << 30))
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # also where this program runs in the background of a shell that ignores it
     resource.setrlimit(resource.RLIMIT_CPU, (processor_seconds, processor_seconds))
 
 
