@@ -172,6 +172,16 @@ def targets():
     return [line.split(": ")[0] for line in run(["ninja", "-C", str(BUILD), "-t", "targets", "all"]).stdout.splitlines()]
 
 
+def objects_of(path):
+    """The object files that are made of a file, as the last build found them."""
+    objects = []
+    for block in run(["ninja", "-C", str(BUILD), "-t", "deps"]).stdout.split("\n\n"):
+        lines = block.strip().split("\n")
+        if any((BUILD / line.strip()).resolve() == COPY / path for line in lines[1:] if line.endswith(path)):
+            objects.append(lines[0].split(": ")[0].strip())
+    return objects
+
+
 def hash_of(file):
     return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None
 
@@ -516,13 +526,9 @@ class Campaign:
         if known := self.known_verdict(number):
             return known
         path = self.faults[number][0]
-        goals = targets()
-        objects = [g for g in goals if re.sub(r"CMakeFiles/[^/]+\.dir/", "", g) == path + ".o"]
         plain = {path: (ROOT / path).read_text(encoding="utf-8")}
         others = {p: t for p, t in self.written().items() if p != path}
-        programs = sorted({str(pathlib.Path(t.program).relative_to(BUILD)) for t in self.tests if pathlib.Path(t.program).is_relative_to(BUILD)}
-                          | {g for g in ("cli/reach", "tests/reach_counting") if g in goals})
-        wanted = objects or programs
+        wanted = objects_of(path)
         refresh(others | plain)
         if ninja(*wanted).returncode != 0:
             sys.exit(f"{path} does not compile without a fault")
@@ -531,14 +537,20 @@ class Campaign:
         verdict, by = "alive", None
         if ninja(*wanted).returncode != 0:
             verdict = "does not compile"
-        elif all(hash_of(BUILD / g) == h for g, h in before.items()):
+        elif wanted and all(hash_of(BUILD / g) == h for g, h in before.items()):
             verdict = "same"
         else:
-            ninja("-k0")
             reached = {n for n, f in self.faults.items() if f[0] == path}
             near = suites_near(path)
-            close = [t for t in self.tests if t.suite in near or t.reached & reached]
-            by = self.first_failure(0, close, near) or self.first_failure(0, [t for t in self.tests if t not in close], near)
+            close = [t for t in self.tests if t.is_gtest and (t.suite in near or t.reached & reached)]
+            for program in sorted({t.program for t in close}, key=lambda p: -sum(t.program == p and t.suite in near for t in close)):
+                goal = str(pathlib.Path(program).relative_to(BUILD))
+                ninja("-k0", goal, *programs_behind(goal))
+                if by := self.first_failure(0, [t for t in close if t.program == program], near):
+                    break
+            else:
+                ninja("-k0")
+                by = self.first_failure(0, [t for t in self.tests if t not in close], near)
             if by:
                 verdict = "noticed"
         self.note(number, verdict, by)
