@@ -132,6 +132,16 @@ TEST_F(Watch, AHandFasterThanItsLimitIsLatched) {
   EXPECT_LE(ticks, 10) << "within the window of ten ticks";
 }
 
+TEST_F(Watch, TheLimitIsTheSameHoweverLongAHandHasBeenLookedAt) {
+  for (int before = 10; before < 50; ++before)
+    for (const double speed : {2.95, 3.05}) {
+      watch = DeviceWatch(forceDevice());
+      for (int i = 0; i < before; ++i) look({});
+      for (int i = 1; i <= 10; ++i) look({speed * 1e-3 * i, 0, 0});
+      EXPECT_EQ(watch.fault(), speed < 3 ? DeviceFault::None : DeviceFault::Speed) << speed << " m/s after " << before << " ticks";
+    }
+}
+
 TEST_F(Watch, ASlowDevicesStepsAreHeldAgainstTheTimeTheyTook) {
   // 125 Hz at 1 m/s: steps of 8 mm every eighth tick.
   double x = 0;
