@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -187,6 +188,16 @@ TEST_F(TwoHands, EachIsATrackingSystemOfTheDataset) {
     EXPECT_TRUE(table.channels[column].type == "LATENCY" || table.channels[column].name.find('2') != std::string::npos);
 }
 
+TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
+  record(std::make_unique<Pair>(0.1, 300));
+  const std::string out = folder_ / "results";
+  std::filesystem::create_directories(out);
+  const std::vector<std::string> files = analyze::writeHandsTable(analyze::openDataset(request_.place.data), out);
+  ASSERT_EQ(files, std::vector<std::string>{out + "/hands.csv"});
+  const std::string table = record::readWholeFile(files[0]);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * static_cast<std::ptrdiff_t>(results_.size())) << table;
+}
+
 TEST(Together, WhatCancelsIsInternal) {
   analyze::HandSignals left, right;
   for (int i = 0; i < 100; ++i) {
@@ -200,6 +211,9 @@ TEST(Together, WhatCancelsIsInternal) {
   }
   const analyze::TogetherMeasures opposed = analyze::measureTogether({left, right}, 100);
   EXPECT_NEAR(opposed.internalForce, 3, 1e-12) << "the smaller of two opposed forces";
+  EXPECT_NEAR(opposed.peakInternalForce, 3, 1e-12);
+  EXPECT_NEAR(opposed.hands[0].meanForce, 5, 1e-12);
+  EXPECT_NEAR(opposed.hands[1].meanForce, 3, 1e-12);
   EXPECT_NEAR(opposed.hands[0].share, 0.75, 1e-9);
   EXPECT_NEAR(opposed.hands[0].positiveWork, 3, 1e-9);
   EXPECT_NEAR(opposed.hands[0].work, 0, 1e-9);
