@@ -58,6 +58,14 @@ TEST(RecordingFilter, IntegratesPolynomialsOfSeventhDegreeExactly) {
   }
 }
 
+TEST(Profile, HasItsValuesUpToItsEndsAndIsNothingBeyond) {
+  const Profile profile{-0.5, 0.25, {1, 3, 2, 5, 4}, {}};
+  for (std::size_t i = 0; i < profile.value.size(); ++i)
+    EXPECT_DOUBLE_EQ(profile.at(profile.first + profile.step * static_cast<double>(i)), profile.value[i]);
+  for (const double s : {profile.first + 0.01, profile.last() - 0.01}) EXPECT_GT(profile.at(s), 0.5) << s;
+  for (const double s : {profile.first - 0.01, profile.last() + 0.01}) EXPECT_EQ(profile.at(s), 0) << s;
+}
+
 TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
   for (const double T : {0.68, 1.35, 2.26}) {
     const experiment::Experiment chain = chainExperiment(T);
@@ -181,6 +189,29 @@ TEST(PersonFit, OfAllTrialsDoesNotDependOnTheirOrder) {
     ASSERT_EQ(shuffled.size(), sorted.size());
     EXPECT_GT(sorted[1], 0) << "one plan, stretched, as they were made";
     for (std::size_t k = 0; k < sorted.size(); ++k) EXPECT_NEAR(shuffled[k], sorted[k], 1e-7) << count << " trials";
+  }
+}
+
+// Plans are tried 1.8 % apart. Where trials waver alike, the plan of several is the mean of theirs, which lies between two that are tried:
+// of a fold that is left out, a part of a step away from the plan of all.
+TEST(PersonFit, FindsAPlanBetweenThoseThatItTries) {
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk}));
+  constexpr double kApart[kFolds] = {-0.02, 0.01, 0.02, -0.01, 0};  // of ln P, by fold
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  for (int i = 0; i < 15; ++i) {
+    const double stretch = 0.86 + 0.02 * i;
+    windows.push_back(recorded(*set.candidates[0].families[0], 1.35 * std::exp(kApart[i % kFolds]), 0.5, 0.2 / stretch, stretch));
+    std::vector<double>& velocity = windows.back().velocity;
+    for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += 0.006 * std::sin(0.35 * static_cast<double>(k) / stretch) / stretch;
+    durations.push_back(1.3 * stretch);
+  }
+  const CandidateFit fit = fitPerson(windows, durations, set).candidates[0];
+  ASSERT_EQ(fit.choice.law, TimeLaw::OnePlan);
+  EXPECT_NEAR(std::log(fit.choice.plan / 1.35), 0, 0.001);
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    ASSERT_EQ(fit.foldChoice[fold].law, TimeLaw::OnePlan);
+    EXPECT_NEAR(std::log(fit.foldChoice[fold].plan / 1.35), -kApart[fold] / (kFolds - 1), 0.0015) << "without fold " << fold;
   }
 }
 
