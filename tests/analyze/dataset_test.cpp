@@ -159,6 +159,9 @@ TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
     if (name.ends_with("_motion.tsv")) motion = entry.path();
     if (!name.ends_with("_motion.json")) continue;
     auto about = nlohmann::json::parse(std::ifstream(entry.path()));
+    about.at("SamplingFrequency") = 0.5;
+    std::ofstream(entry.path()) << about.dump();
+    EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 0.5) << "said, however slow";
     ASSERT_EQ(about.erase("SamplingFrequency"), 1u);
     std::ofstream(entry.path()) << about.dump();
   }
@@ -257,6 +260,15 @@ TEST(Analysis, OfNoSuccessIsStillAReport) {
   const StudyResult study = analyzeStudy(dataset.input, quick());
   const AnalysisFiles files = writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out");
   EXPECT_NE(record::readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
+}
+
+TEST(Wording, SaysHowSureTheShareOfSuccessIs) {
+  ConditionResult result;
+  result.counts.success = 30;
+  result.counts.failure = 20;
+  result.success = MeanInterval{0.62, {0.41, 0.79}, 5};
+  EXPECT_EQ(describeCounts(result),
+            "30 of 50 trials succeeded (60 %); a typical one of the 5 subjects 62 % [41, 79]. 0 trials in profiles and errors.");
 }
 
 TEST(Wording, SaysWhatCannotBeToldApart) {

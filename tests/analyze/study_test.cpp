@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <sstream>
+
 #include "base/fault.h"
 #include "sim/analyze/figures.h"
 #include "sim/analyze/tables.h"
@@ -128,6 +131,46 @@ TEST(Study, LearningPointsNeverSpanTwoSessions) {
   EXPECT_EQ(study.learning[2].session, "02");
 }
 
+TEST(Study, DrawsAGroupOfTrialsInItsMiddleAndSaysWhatTheAxesAre) {
+  for (const int subjects : {1, 3}) {  // three are drawn with what is typical of them
+    const StudyResult study =
+        analyzeStudy(simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, subjects, 1, 15, 5), quickOptions());
+    const NamedFigure learning = learningFigure(study);
+    ASSERT_EQ(learning.figure.panels.size(), 1u);
+    const figure::Panel& panel = learning.figure.panels[0];
+    EXPECT_EQ(panel.x.label, "Trial");
+    EXPECT_EQ(panel.y.label, "Success (%)");
+    EXPECT_EQ(panel.series.size(), subjects == 1 ? 1u : 4u);
+    for (const figure::Series& series : panel.series) EXPECT_EQ(series.x, (std::vector<double>{5.5, 13})) << "of 1 to 10 and 11 to 15";
+  }
+}
+
+TEST(Study, WritesEachTableWithAsManyCellsInARowAsColumnsAndWhatItConcluded) {
+  const StudyResult study =
+      analyzeStudy(simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 12, 1), quickOptions());
+  std::map<std::string, std::string> tables;
+  writeTables(study, [&](const std::string& name, std::string_view piece) { tables[name] += piece; });
+  std::map<std::string, std::vector<std::vector<std::string>>> rows;
+  for (const auto& [name, text] : tables) {
+    EXPECT_TRUE(text.ends_with('\n')) << name;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream cells(line + ',');
+      rows[name].emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');) rows[name].back().push_back(cell);
+      EXPECT_EQ(rows[name].back().size(), rows[name].front().size()) << name << ": " << line;
+    }
+  }
+  EXPECT_EQ(rows["trials.csv"].size(), 1 + study.trials.size());
+  EXPECT_EQ(rows["success_table.csv"].size(), 1 + study.success.size());
+  EXPECT_EQ(rows["learning.csv"].size(), 1 + study.learning.size());
+  ASSERT_TRUE(study.overall.best);
+  std::vector<std::string> best;
+  for (const auto& row : rows["conclusions.csv"])
+    if (row.at(0) == "all" && row.at(7) == "yes") best.push_back(row.at(2));
+  EXPECT_EQ(best, std::vector<std::string>{nameOfCandidate(study.common[*study.overall.best])});
+}
+
 TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
   const StudyResult study =
       analyzeStudy(simulatedStudy({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
@@ -219,6 +262,16 @@ TEST(Measures, OfAKnownMovementAreWhatTheyShouldBe) {
   EXPECT_LT(m.objectOvershoot, 1e-9);
   EXPECT_NEAR(m.reactionTime, m.onset - 0.1, 1e-12);
   EXPECT_LT(m.handEndpointError, 0.002);  // offset is at 5 % of the peak, just before the end
+}
+
+// Where the recording does not say what the force was. One that grows by 1 N a second: its mean is what it is half-way.
+TEST(Measures, OfAForceAreOverTheMovementAlone) {
+  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
+  std::mt19937_64 random(1);
+  TrialData trial = followPlan(*plan, {0, 0, 0}, random);
+  for (std::size_t i = 0; i < trial.force.size(); ++i) trial.force[i] = static_cast<double>(i) / trial.rate;
+  const TrialMeasures m = computeMeasures(trial, computeSignals(trial, {}));
+  EXPECT_NEAR(m.meanForce, 0.5 * (m.onset + m.offset), 0.01) << "within a sample";
 }
 
 }  // namespace
