@@ -153,7 +153,13 @@ TEST_F(Study, GoesThroughAPlanAsASessionDoes) {
 }
 
 TEST_F(Study, SaysHowFarItIs) {
-  ASSERT_EQ(run("a", "--shard 1/4").exitCode, 0);
+  const auto told = [](const Ended& ended) {  // first and last
+    const std::regex line(R"(\d+ of \d+ trials)");
+    std::vector<std::string> lines;
+    for (std::sregex_iterator at(ended.err.begin(), ended.err.end(), line), end; at != end; ++at) lines.push_back(at->str());
+    return lines.empty() ? ended.err : lines.front() + "; " + lines.back();
+  };
+  EXPECT_EQ(told(run("a", "--shard 1/4")), "3 of 30 trials; 30 of 30 trials");
   const Ended status = reach("study status " + at("a"));
   EXPECT_EQ(status.exitCode, 0);
   EXPECT_EQ(status.out.substr(0, 36), "chunks=5 of=20 trials=30 of=120 rate") << status.out;
@@ -166,7 +172,7 @@ TEST_F(Study, SaysHowFarItIs) {
   const Ended again = run("a", "--shard 1/4");
   EXPECT_EQ(again.exitCode, 2);
   EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
-  EXPECT_EQ(run("a", "--resume").exitCode, 0);
+  EXPECT_EQ(told(run("a", "--resume")), "33 of 120 trials; 120 of 120 trials");
   EXPECT_NE(reach("study status " + at("a")).out.find("tables=yes"), std::string::npos);
   // Of one that lacks a single chunk there is no report.
   EXPECT_EQ(reach("study report " + at("a")).exitCode, 0);
@@ -207,7 +213,10 @@ TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
   const Table confusion = parseCsv(contentOf(at("t") + "/report/confusion.csv")),
               power = parseCsv(contentOf(at("t") + "/report/power.csv"));
   ASSERT_EQ(power.rows.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(power.at(i, "right"), 20) << power.rows[i][0];
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(power.at(i, "right"), 20) << power.rows[i][0];
+    EXPECT_EQ(power.rows[i][power.column("cell")], "") << "nothing else was varied";
+  }
   double studies = 0;
   for (std::size_t i = 0; i < confusion.rows.size(); ++i) {
     studies += confusion.at(i, "studies");
@@ -226,6 +235,46 @@ TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
   EXPECT_TRUE(std::any_of(std::sregex_iterator(drawing.begin(), drawing.end(), color), std::sregex_iterator(),
                           [](const std::smatch& m) { return m[1] != m[2] || m[2] != m[3]; }));
   EXPECT_EQ(reach("study report " + at("nothing")).exitCode, 2);
+}
+
+TEST_F(Study, ReportsOfWhatItDrawsNoStudies) {
+  const std::string study = folder.write("few.json", R"({"schema_version": 1, "experiment": "chain-moderate", "subjects": 4, "trials": 14,
+    "subject": {"noise": 0.3}, "vary": {"subject.criterion": ["min-hand-jerk", "min-crackle"]}, "measures": ["score"],
+    "criteria": ["min-hand-jerk", "min-hand-crackle"]})");
+  ASSERT_EQ(reach("study " + study + " --out " + at("f")).exitCode, 0);
+  const Ended report = reach("study report " + at("f"));
+  ASSERT_EQ(report.exitCode, 0) << report.err;
+  EXPECT_NE(report.err.find("min-hand-jerk: 4 virtual subjects with 10 successes; nothing is drawn from fewer than five"),
+            std::string::npos)
+      << report.err;
+  EXPECT_NE(report.err.find("min-crackle: 4 virtual subjects with 10 successes; its criterion is not compared"), std::string::npos)
+      << report.err;
+}
+
+// Each has its own part of the work done, and not by another's asking for the same.
+TEST_F(Study, MeasuresTheSameWhateverElseItMeasures) {
+  const auto measured = [&](const std::string& name, const std::vector<std::string>& measures) {
+    const std::string study = folder.write(
+        name + ".json",
+        R"({"schema_version": 1, "name": "m", "seed": 3, "experiment": "chain-moderate", "subjects": 1, "trials": 2, "measures": )" +
+            nlohmann::json(measures).dump() + "}");
+    EXPECT_EQ(reach("study " + study + " --out " + at(name)).exitCode, 0) << name;
+    return tableOf(at(name));
+  };
+  const std::vector<std::string> names = split(
+      "by,movement_time_s,reaction_time_s,peak_hand_speed_m_per_s,hand_path_m,peak_force_n,mean_force_n,onset_s,offset_s,duration_s,"
+      "peak_speed_m_per_s,time_to_peak_s,time_to_peak_percent,symmetry_ratio,path_length_m,speed_peaks,hand_endpoint_error_m,"
+      "object_endpoint_error_m,hand_overshoot_m,object_overshoot_m,sparc,ldlj",
+      ',');
+  const Table together = measured("together", names);
+  for (const std::string& name : names) {
+    const Table alone = measured(name, {name});
+    for (std::size_t trial = 0; trial < 2; ++trial) {
+      const std::string& value = together.rows.at(trial)[together.column(name)];
+      EXPECT_NE(value, "") << name;
+      EXPECT_EQ(alone.rows.at(trial)[alone.column(name)], value) << name;
+    }
+  }
 }
 
 // What a subject learns in one block it has in the next, and slow practice is not lost overnight.
