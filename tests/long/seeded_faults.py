@@ -225,7 +225,8 @@ def limits(processor_seconds):
     resource.setrlimit(resource.RLIMIT_FSIZE, (4 << 30, 4 << 30))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_AS, (16 << 30, 16 << 30))
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # also where this program runs in the background of a shell that ignores it
+    for number in (signal.SIGINT, signal.SIGHUP):  # also where this program runs in the background of a shell that ignores them
+        signal.signal(number, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_CPU, (processor_seconds, processor_seconds))
 
 
