@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/bench/linear_reference.h"
+#include "sim/bench/peer_system.h"
 
 namespace reachlab::bench {
 namespace {
@@ -85,6 +86,25 @@ TEST(HandLaw, SegmentsFollowTheLawToRounding) {
         EXPECT_LT(norm(v - exact.velocity), 3e-14);  // of 0.6 m/s, the rate of change of phase rounded at 1e-16 s and 4 phi
       }
     }
+  }
+}
+
+// Only the axes and terms of the hand that a scene uses are worked out for the other libraries: as if all were.
+TEST(PeerSystem, FollowsTheWholeHand) {
+  for (const BenchScene& scene : benchScenes()) {
+    if (scene.hand.kind == HandLaw::Kind::None) continue;
+    const dynamics::HandSegment segment = makeSegments(scene, kTickSeconds)->at(400);
+    const dynamics::HandSample hand = dynamics::sampleAt(segment, 0.3);
+    const double r[3] = {hand.position.x, hand.position.y, hand.position.z}, v[3] = {hand.velocity.x, hand.velocity.y, hand.velocity.z};
+    visitSystem(scene, [&]<class System>(const System& system) {
+      constexpr int n = 2 * System::kCoordinates;
+      std::vector<double> y(n), expected(n), found(n);
+      setInitialState<System>(scene, y.data());
+      system.rate(y.data(), r, v, expected.data());
+      PeerSystem<System> peer{system, &segment};
+      peer.rate(y.data(), found.data(), 0.3 * kTickSeconds);
+      for (int i = 0; i < n; ++i) EXPECT_NEAR(found[i], expected[i], 1e-9 * (1 + std::abs(expected[i]))) << scene.name << " " << i;
+    });
   }
 }
 
