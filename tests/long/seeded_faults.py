@@ -496,7 +496,7 @@ class Campaign:
         come_by = dict.fromkeys(living, 0)
         self.build([])
         waiting = programs(targets())
-        while living - self.single:
+        while living:  # those that are tried alone need to know the tests of every program, too
             if waiting is None:
                 break
             near = {p: sum(p.endswith("test_" + part) for n in living for part in pathlib.Path(self.faults[n][0]).parts[:-1]) for p in waiting}
