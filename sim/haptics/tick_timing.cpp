@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/os.h"
 #include "base/ticks.h"
@@ -23,6 +24,12 @@ experiment::Experiment withoutEnd(experiment::Experiment experiment) {
 double percentile(std::vector<std::int64_t>& sorted, double share) {
   const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size()))) - 1;
   return static_cast<double>(sorted[std::min(at, sorted.size() - 1)]);
+}
+
+double meanOfMiddleHalf(const std::vector<std::int64_t>& sorted) {
+  const auto quarter = static_cast<std::ptrdiff_t>(sorted.size() / 4);
+  const std::int64_t sum = std::accumulate(sorted.begin() + quarter, sorted.end() - quarter, std::int64_t{0});
+  return static_cast<double>(sum) / static_cast<double>(std::ssize(sorted) - 2 * quarter);
 }
 
 }  // namespace
@@ -60,6 +67,7 @@ TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t 
           percentile(costs, 0.99),
           percentile(costs, 0.999),
           static_cast<double>(costs.back()),
+          meanOfMiddleHalf(costs),
           static_cast<double>(looks[looks.size() / 2]),
           allocated};
 }

@@ -10,6 +10,7 @@ namespace reachlab::haptics {
 struct TickTiming {
   std::uint64_t ticks = 0;
   double p50 = 0, p99 = 0, p999 = 0, max = 0;  // [ns]
+  double middle = 0;                           // [ns] mean of the middle half: finer than what the clock counts in, for comparisons
   double clock = 0;                            // [ns] median of two looks at the clock with nothing between
   std::uint64_t allocations = 0;               // of memory in all ticks together, if they were counted
 };

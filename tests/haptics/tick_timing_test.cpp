@@ -14,6 +14,8 @@ TEST(TickTiming, MeasuresEveryShippedExperiment) {
     EXPECT_EQ(timing.ticks, 2000u) << name;
     EXPECT_GT(timing.p50, 0) << name;
     EXPECT_LE(timing.p50, timing.p99) << name;
+    EXPECT_GT(timing.middle, timing.p50 / 2) << name;  // from the first quartile to the third, with the median among them
+    EXPECT_LE(timing.middle, timing.p99) << name;
     EXPECT_LE(timing.p99, timing.p999) << name;
     EXPECT_LE(timing.p999, timing.max) << name;
   }

@@ -19,6 +19,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from paired_ticks import typical
+
 OLD_C_LIBRARY = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX512VL"}
 TASK = {"start": [0.3], "target": [0.9], "duration_s": 1.2, "tolerance": {"position_m": 0.02, "velocity_m_per_s": 0.1, "time_s": 0.6}}
 # Every function of the language that is not on a shipped curve.
@@ -63,13 +65,8 @@ def price(programs, native, rounds):
     turns = {name: [] for name in programs}
     for _ in range(rounds):
         for name, reach in {**programs, "native": native}.items():
-            table = {}
-            for line in must([reach, "bench", "--tick", "--ticks", "30000"]).splitlines()[1:]:
-                words = line.split()
-                if len(words) > 3:
-                    table[words[0]] = float(words[2])
-            turns.setdefault(name, []).append(table)
-    print(f"\nMedian tick [ns] and its ratio to native, {rounds} turns\n" + f"{'scene':<10}{'native':>9}" + "".join(f"{n:>20}" for n in programs))
+            turns.setdefault(name, []).append(typical(reach, 30000))
+    print(f"\nTypical tick [ns] and its ratio to native, {rounds} turns\n" + f"{'scene':<10}{'native':>9}" + "".join(f"{n:>20}" for n in programs))
     for scene in turns["native"][0]:
         base = [t[scene] for t in turns["native"]]
         line = f"{scene:<10}{statistics.median(base):>9.0f}"
