@@ -75,15 +75,15 @@ void benchTicks(const BenchOptions& options) {
   std::vector<bench::BenchScene> scenes;
   for (const std::string& name : options.scenes) scenes.push_back(bench::benchScene(name));
   if (scenes.empty()) scenes = bench::benchScenes();
-  fmt::print("{:<7} {:>9} {:>8} {:>10} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock; middle: mean of the middle half\n", "scene",
-             "ticks", "p50", "middle", "p99", "p99.9", "max", "clock", "allocations");
+  fmt::print("{:<7} {:>9} {:>7} {:>8} {:>10} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock; middle: mean of the middle half\n", "scene",
+             "ticks", "trials", "p50", "middle", "p99", "p99.9", "max", "clock", "allocations");
   std::vector<std::string> refusals;
   for (const bench::BenchScene& scene : scenes) {
     showProgress(scene.name + ": " + scene.title);
     try {
       const haptics::TickTiming t = haptics::measureTicks(scene.experiment, options.ticks, countAllocations);
-      fmt::print("{:<7} {:>9} {:>8.0f} {:>10.2f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.p50, t.middle,
-                 t.p99, t.p999, t.max, t.clock, t.allocations);
+      fmt::print("{:<7} {:>9} {:>7} {:>8.0f} {:>10.2f} {:>8.0f} {:>8.0f} {:>10.0f} {:>9.0f} {:>12}\n", scene.name, t.ticks, t.trials, t.p50,
+                 t.middle, t.p99, t.p999, t.max, t.clock, t.allocations);
     } catch (const Error& e) {
       refusals.push_back(scene.name + ": " + e.what());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -18,6 +19,8 @@ experiment::Experiment withoutEnd(experiment::Experiment experiment) {
   if (!experiment.task) return experiment;
   experiment.task->duration = experiment::kMaxDuration;  // the longest that is allowed: a trial that does end is put up again
   experiment.task->rest = experiment::kNoStartRest;      // its hand never rests
+  // Where start and target are one place, an object that has not gone far would have arrived.
+  experiment.task->tolerance.position = experiment.task->tolerance.velocity = std::numeric_limits<double>::min();
   return experiment;
 }
 
@@ -47,11 +50,13 @@ TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t 
     look = os::now() - before;
   }
   TickInput input;
+  std::uint64_t trials = 0;
   std::uint64_t since = 0;  // ticks of this trial; a trial that ends all the same (an edge was met) is put up again
   const std::uint64_t allocatedBefore = countAllocations ? countAllocations() : 0;
   for (auto& cost : costs) {
     const trial::Phase phase = engine.state().phase;
     const bool over = phase == trial::Phase::Idle || phase == trial::Phase::Done;
+    trials += over;
     input.command = over ? trial::Command::NextTrial : trial::Command::None;
     since = over || phase == trial::Phase::Waiting ? 0 : since + 1;
     input.device.position = start + std::sin(kOmega * kTickSeconds * static_cast<double>(since)) * swing;
@@ -63,6 +68,7 @@ TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t 
   std::sort(costs.begin(), costs.end());
   std::sort(looks.begin(), looks.end());
   return {costs.size(),
+          trials,
           percentile(costs, 0.5),
           percentile(costs, 0.99),
           percentile(costs, 0.999),

@@ -9,6 +9,7 @@ namespace reachlab::haptics {
 /// (one look at the clock, some 20 ns, is in each). Wall-clock numbers of this machine: to be reported, never judged.
 struct TickTiming {
   std::uint64_t ticks = 0;
+  std::uint64_t trials = 0;                    // that were put up: 1, unless the object met an edge, where the next one begins
   double p50 = 0, p99 = 0, p999 = 0, max = 0;  // [ns]
   double middle = 0;                           // [ns] mean of the middle half: finer than what the clock counts in, for comparisons
   double clock = 0;                            // [ns] median of two looks at the clock with nothing between

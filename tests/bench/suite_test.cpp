@@ -1,6 +1,7 @@
 #include "base/ticks.h"
 #include "sim/bench/sampled_hand.h"
 #include "sim/bench/suite.h"
+#include "sim/haptics/tick_timing.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,11 @@ TEST(Suite, AutoKeepsItsPromiseOnEveryScene) {
     EXPECT_LE(error.position, bound.position);
     EXPECT_LE(trajectory.worstTick, 1000u);
   }
+}
+
+// A trial that ended and began anew would be a price of beginnings.
+TEST(Suite, ATickIsTimedWithinOneTrialOnEveryScene) {
+  for (const BenchScene& scene : benchScenes()) EXPECT_EQ(haptics::measureTicks(scene.experiment, 2000).trials, 1u) << scene.name;
 }
 
 TEST(Suite, RowsHoldErrorsCountsAndPrices) {

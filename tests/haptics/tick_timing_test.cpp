@@ -12,6 +12,7 @@ TEST(TickTiming, MeasuresEveryShippedExperiment) {
   for (const std::string& name : experiment::shippedExperiments()) {
     const TickTiming timing = measureTicks(test::armedAtOnce(name), 2000);
     EXPECT_EQ(timing.ticks, 2000u) << name;
+    EXPECT_EQ(timing.trials, 1u) << name;
     EXPECT_GT(timing.p50, 0) << name;
     EXPECT_LE(timing.p50, timing.p99) << name;
     EXPECT_GT(timing.middle, timing.p50 / 2) << name;  // from the first quartile to the third, with the median among them
