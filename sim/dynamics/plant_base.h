@@ -33,7 +33,7 @@ class PlantBase : public Plant {
   double lastStepFraction() const noexcept override { return fraction_; }
 
  protected:
-  /// Places and velocities (r, v, q, qRate) of the first masses.
+  /// Places and velocities (r, v) of the first masses; q and qRate where the state is made of them.
   virtual void locate(std::span<MassState> masses) const noexcept = 0;
 
   ObjectModel model_;

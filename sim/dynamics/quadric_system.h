@@ -100,6 +100,8 @@ struct QuadricSystem {
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     masses[0].r = {y[0], y[1], y[2]};
     masses[0].v = {y[3], y[4], y[5]};
+  }
+  void parametrise(std::span<MassState> masses) const noexcept {
     follow(masses[0].r);
     masses[0].q = parameters;
     const constraints::SurfacePoint p = constraints::evaluate(surface, parameters[0], parameters[1]);

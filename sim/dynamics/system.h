@@ -13,6 +13,7 @@
 //   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y
 //   scale(i)                     the size below which an error of number i counts as absolute
 //   place, locate, accelerate    between the state and the masses' places
+//   parametrise                  their parameters, where the state is not made of them and finding them costs: only for whoever asks
 //   inside(y), reflect(y)        ends of the constraint (kEnds)
 // Sizes are template parameters and forces plain members, so that a step has no virtual call and no branch on configuration.
 

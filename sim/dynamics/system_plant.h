@@ -70,6 +70,7 @@ class SystemPlant : public PlantBase {
   void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
     const auto used = masses.first(static_cast<std::size_t>(model_.count()));
     system_.locate(now(), used);
+    if constexpr (requires { system_.parametrise(used); }) system_.parametrise(used);
     State dy(system_.states());
     system_.rate(system_.handOf(hand), now(), dy);
     system_.accelerate(now(), dy, used);
