@@ -47,8 +47,10 @@ double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3
   return farthest;
 }
 
-/// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it.
+/// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it. A
+/// trial that ended because the hand never left the start has none, though a share of the peak speed of its trembling is soon found.
 Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, TrialSignals& signals) {
+  if (trial.result.reason == trial::Reason::NoOnset || trial.result.reason == trial::Reason::NoStart) return {};
   const double taskEnd = trial.taskEnd - trial.first, taskOnset = trial.taskOnset - trial.first;  // since sample 0
   if (!std::isfinite(taskEnd)) return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
   // Rows are 10 ms apart, the trial ends between two of them; where the next was never taken it is continued in a straight line.

@@ -83,6 +83,23 @@ TEST(FindMovement, FindsNoneInStillness) {
   EXPECT_FALSE(findMovement(bell(0.2, 1, 0.2), kRate, absolute).found);
 }
 
+// Of a hand that trembles, 5 % of the peak speed is passed at once and at last: the whole trial would be its movement.
+TEST(FindMovement, FindsNoneWhereTheTrialEndedBecauseTheHandNeverLeft) {
+  TrialData trial;
+  trial.rate = kRate;
+  for (int i = 0; i < 200; ++i) {
+    trial.hand.push_back({2e-5 * std::sin(60.0 * i / kRate), 0, 0});
+    trial.object.push_back({});
+    trial.objectVelocity.push_back({});
+    trial.force.push_back(0);
+  }
+  EXPECT_TRUE(computeSignals(trial, {}).movement.found);
+  for (const trial::Reason reason : {trial::Reason::NoOnset, trial::Reason::NoStart}) {
+    trial.result = {trial::Outcome::Aborted, reason};
+    EXPECT_FALSE(computeSignals(trial, {}).movement.found);
+  }
+}
+
 TEST(ScaleVelocity, KeepsTheDistance) {
   const std::vector<double> v = bell(0.5, 1.0, 0.7);
   const auto distance = [](const std::vector<double>& profile, double duration) {
