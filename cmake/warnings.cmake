@@ -36,6 +36,8 @@ if(REACHLAB_HARDENING AND NOT REACHLAB_SANITIZE)
     add_compile_options($<$<CONFIG:Release>:-fcf-protection>)
   endif()
   add_link_options($<$<CONFIG:Release>:LINKER:-z,relro,-z,now>)
+  # What a tick runs through has canaries where there are buffers of characters, not at every Vec3: docs/adr/0027-canaries-off-the-tick.md.
+  set(REACHLAB_TICK_HARDENING $<$<CONFIG:Release>:-fstack-protector> $<$<CONFIG:Release>:-fno-plt>)
 endif()
 find_program(REACHLAB_LLD ld.lld)
 if(REACHLAB_LLD)

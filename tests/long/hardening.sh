@@ -1,5 +1,5 @@
 #!/bin/bash
-# Both programs of the release build are hardened, and what that costs a tick: the same sources without it, run in turns with them.
+# Both programs of the release build are hardened, and what that costs a tick: the same sources without it, run beside them on one core.
 # $1 is the build folder of development; REACHLAB_ROUNDS says how many turns. Only the flags are judged, the price is told.
 set -euo pipefail
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
