@@ -209,15 +209,14 @@ JsonNode parseJson(const std::string& text, const std::string& file) {
   return std::move(builder.root);
 }
 
-std::string readTextFile(const std::string& file) {
-  constexpr std::uintmax_t kMaxBytes = 16u << 20;
+std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
   namespace fs = std::filesystem;
   std::error_code error;
   // A pipe or a device might never end, or never begin.
   if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
     throw FaultError(Fault{{}, "is no regular file", "a file on a disk", FilePlace{file}});
-  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > kMaxBytes)
-    throw FaultError(Fault{{}, fmt::format("has {} bytes", size), fmt::format("up to {}", kMaxBytes), FilePlace{file}});
+  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > mostBytes)
+    throw FaultError(Fault{{}, fmt::format("has {} bytes", size), fmt::format("up to {}", mostBytes), FilePlace{file}});
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
   std::ostringstream text;

@@ -130,7 +130,7 @@ Model readModel(const std::string& file, const Watch& watch) {
     throw refusal(file, fmt::format("has {:.0f} MB", 1e-6 * static_cast<double>(info.size())),
                   fmt::format("up to {:.0f} MB", 1e-6 * static_cast<double>(kMostBytes)));
   const QString ending = info.suffix().toLower();
-  if (ending == QLatin1String("wrl") || ending == QLatin1String("vrml")) return readVrml(readTextFile(file), file, watch);
+  if (ending == QLatin1String("wrl") || ending == QLatin1String("vrml")) return readVrml(readTextFile(file, kMostBytes), file, watch);
   if (ending == QLatin1String("gltf") || ending == QLatin1String("glb")) return readGltf(file, watch);
   throw refusal(file, "is no scene that is read, by its ending", ".wrl (VRML 2.0), .gltf, .glb");
 }

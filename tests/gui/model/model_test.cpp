@@ -341,6 +341,17 @@ TEST_F(ModelReaders, TellHowFarTheyAreAndAreGivenUp) {
   EXPECT_GT(shares.back(), 0.98);
 }
 
+// The bound of scene files is told as 64 MB; that of experiments, 16 MiB, held instead.
+TEST_F(ModelReaders, ReadALargeFileUpToTheBoundThatIsTold) {
+  const std::string line = "# " + std::string(1'000'000, 'x') + '\n';
+  std::string text = kTable;
+  while (text.size() < 20'000'000) text += line;
+  EXPECT_EQ(readModel(fileOf(QStringLiteral("large.wrl"), text)).parts.size(), readVrml(kTable, "table.wrl").parts.size());
+  while (text.size() < 65'000'000) text += line;
+  const std::string larger = fileOf(QStringLiteral("larger.wrl"), text);
+  EXPECT_NE(saidOf([&] { return readModel(larger); }).find("64 MB"), std::string::npos);
+}
+
 TEST_F(ModelReaders, TheNewestWinsAndWaitsForNobodyInTheWindow) {
   const std::string first = fileOf(QStringLiteral("long.wrl"), longScene()), second = fileOf(QStringLiteral("table.wrl"), kTable);
   QElapsedTimer clock;
