@@ -127,8 +127,10 @@ class ForceDimension final : public Transport {
     if (!sample.hasOrientation) return;
     constexpr int from[3] = {1, 2, 0};  // world axis i is the device's axis from[i]
     std::array<std::array<double, 3>, 3> world{};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) world[i][j] = r[from[i]][from[j]];
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const double* row = r[from[i]];
+      world[i] = {row[from[0]], row[from[1]], row[from[2]]};
+    }
     const auto q = quaternionOf(world);
     sample.hasOrientation = q.has_value();
     if (q) sample.orientation = *q;

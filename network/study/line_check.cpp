@@ -14,13 +14,13 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kEnd = 6.5;            // [s] as long as the study's hands are limp
-constexpr int kSubsteps = 10;           // of a hand in a tick
-constexpr double kPush = 0.1;           // [m/s] of the first hand
-constexpr double kFarAway = 1;          // [m] a hand there has been thrown
-constexpr double kFrequencyStep = 0.5;  // [rad/s]
-constexpr double kMostFrequency = 10;   // [rad/s]: stronger synchronisation is felt as drag
-constexpr int kSeeds = 2;               // of losses and jitter
+constexpr double kEnd = 6.5;                // [s] as long as the study's hands are limp
+constexpr int kSubsteps = 10;               // of a hand in a tick
+constexpr double kPush = 0.1;               // [m/s] of the first hand
+constexpr double kFarAway = 1;              // [m] a hand there has been thrown
+constexpr double kFrequencyStep = 0.5;      // [rad/s]
+constexpr double kMostFrequency = 10;       // [rad/s]: stronger synchronisation is felt as drag
+constexpr std::uint64_t kSeeds[] = {1, 2};  // of losses and jitter
 
 /// A hand that lets itself be moved, about where it held the object at first.
 struct LimpHand {
@@ -110,9 +110,8 @@ double growthOver(const experiment::Experiment& experiment, const constraints::C
   // Uniform jitter either way makes this standard deviation of the round trip.
   const LineConditions conditions{line.roundTrip / 2, std::sqrt(1.5) * line.jitter, line.loss};
   double worst = 0;
-  for (int seed = 1; seed <= kSeeds; ++seed) {
-    CopiesOverLines copies(experiment, constraint, experiment.task->start, settings, conditions, line.roundTrip,
-                           static_cast<std::uint64_t>(seed));
+  for (const std::uint64_t seed : kSeeds) {
+    CopiesOverLines copies(experiment, constraint, experiment.task->start, settings, conditions, line.roundTrip, seed);
     worst = std::max(worst, letBe(
                                 hands, stop,
                                 [&](const auto& segments, const auto& samples, double t) {

@@ -28,7 +28,7 @@ std::vector<Vec3> filteredVelocity(const std::vector<Vec3>& position, double rat
 
 double alongPath(const TrialData& trial, const Vec3& velocity, std::size_t sample) {
   if (trial.along.empty()) return norm(velocity);
-  return dot(velocity, trial.along[trial.along.size() == 1 ? 0 : std::min(sample, trial.along.size() - 1)]);
+  return dot(velocity, trial.along[std::min(sample, trial.along.size() - 1)]);
 }
 
 std::size_t sampleAt(const TrialData& trial, double time, std::size_t size) {
