@@ -54,6 +54,8 @@ double threadNanoseconds() {
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
+constexpr const char* kHandWritten = "hand-written";
+
 struct Candidate {
   std::string constraint, form;
   constraints::Constraint evaluated;
@@ -63,13 +65,19 @@ struct Candidate {
 // Parameters as a moving mass has them: near the last, never the same.
 constexpr int kPlaces = 512, kRounds = 60;
 
+// Where mass i of a measurement is.
+struct Place {
+  double first, second;
+};
+Place placeOf(int i) { return {-0.9 + 0.0037 * i, 0.3 + 0.0041 * i}; }
+
 double measureBatches(const constraints::Curve& curve) {
   double sink = 0;
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)
     for (int i = 0; i < kPlaces; i += kBatchLanes) {
       std::array<double, kBatchLanes> phi{};
-      for (int lane = 0; lane < kBatchLanes; ++lane) phi[static_cast<std::size_t>(lane)] = -0.9 + 0.0037 * (i + lane);
+      for (int lane = 0; lane < kBatchLanes; ++lane) phi[static_cast<std::size_t>(lane)] = placeOf(i + lane).first;
       constraints::CurveBatch points;
       curve.batch(curve.program, curve.shape.data(), phi.data(), points);
       sink += points.rPhiPhi[0][0];
@@ -80,6 +88,36 @@ double measureBatches(const constraints::Curve& curve) {
   return elapsed / (kRounds * kPlaces);
 }
 
+// Every component of r and its derivatives at every place.
+std::vector<double> valuesOf(const Candidate& candidate) {
+  const constraints::Constraint& c = candidate.evaluated;
+  std::vector<double> values;
+  const auto put = [&](const Vec3& v) { values.insert(values.end(), {v.x, v.y, v.z}); };
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto [u, v] = placeOf(i);
+    if (candidate.batch) {
+      std::array<double, kBatchLanes> phi;
+      phi.fill(u);
+      constraints::CurveBatch points;
+      c.curve.batch(c.curve.program, c.curve.shape.data(), phi.data(), points);
+      for (const auto* part : {&points.r, &points.rPhi, &points.rPhiPhi}) put({(*part)[0][0], (*part)[1][0], (*part)[2][0]});
+    } else if (c.kind == constraints::ConstraintKind::Curve) {
+      const constraints::CurvePoint p = constraints::evaluate(c.curve, u);
+      for (const Vec3& part : {p.r, p.rPhi, p.rPhiPhi}) put(part);
+    } else {
+      const constraints::SurfacePoint p = constraints::evaluate(c.surface, u, v);
+      for (const Vec3& part : {p.r, p.rU, p.rV, p.rUu, p.rUv, p.rVv}) put(part);
+    }
+  }
+  return values;
+}
+
+double mostApart(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
 double measure(const Candidate& candidate) {
   const constraints::Constraint& c = candidate.evaluated;
   if (candidate.batch) return measureBatches(c.curve);
@@ -87,7 +125,7 @@ double measure(const Candidate& candidate) {
   const double start = threadNanoseconds();
   for (int round = 0; round < kRounds; ++round)
     for (int i = 0; i < kPlaces; ++i) {
-      const double u = -0.9 + 0.0037 * i, v = 0.3 + 0.0041 * i;
+      const auto [u, v] = placeOf(i);
       sink += c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, u).rPhiPhi.x
                                                            : constraints::evaluate(c.surface, u, v).rVv.x;
     }
@@ -104,7 +142,7 @@ std::vector<Candidate> candidates() {
     constraints::Constraint hand = generated;
     hand.curve.function = curve;
     hand.surface.function = surface;
-    list.push_back({name, "hand-written", hand});
+    list.push_back({name, kHandWritten, hand});
     list.push_back({name, "generated", generated});
     list.push_back({name, "typed", typed});
     if (generated.kind != constraints::ConstraintKind::Curve) return;
@@ -139,9 +177,12 @@ std::vector<ConstraintEvalRow> benchConstraintEval(int repetitions) {
   for (int repetition = 0; repetition < repetitions; ++repetition)
     for (std::size_t i = 0; i < list.size(); ++i) times[i].push_back(measure(list[i]));
   std::vector<ConstraintEvalRow> rows;
+  std::vector<double> handWritten;
   for (std::size_t i = 0; i < list.size(); ++i) {
     std::nth_element(times[i].begin(), times[i].begin() + repetitions / 2, times[i].end());
-    rows.push_back({list[i].constraint, list[i].form, times[i][static_cast<std::size_t>(repetitions / 2)]});
+    const std::vector<double> values = valuesOf(list[i]);
+    if (list[i].form == kHandWritten) handWritten = values;
+    rows.push_back({list[i].constraint, list[i].form, times[i][static_cast<std::size_t>(repetitions / 2)], mostApart(values, handWritten)});
   }
   return rows;
 }

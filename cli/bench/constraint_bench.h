@@ -9,6 +9,7 @@ struct ConstraintEvalRow {
   std::string constraint;  // torus | epitrochoid | monkey-saddle
   std::string form;        // hand-written, generated, typed; generated-x8, typed-x8: of eight points of a curve together
   double nsPerEval = 0;    // [ns] of the processor, median of `repetitions`, the forms measured in turns
+  double apart = 0;        // most of any component of r and its derivatives beside the hand-written form's [m]
 };
 
 /// Measures all of them, about a second. The three forms share flags, call and sine; they differ in the code between.

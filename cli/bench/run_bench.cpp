@@ -60,14 +60,16 @@ std::string toJson(const std::vector<bench::Row>& rows) {
 std::string toJson(const std::vector<ConstraintEvalRow>& rows) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const ConstraintEvalRow& row : rows)
-    all.push_back({{"constraint", row.constraint}, {"form", row.form}, {"ns_per_eval", number(row.nsPerEval)}});
+    all.push_back(
+        {{"constraint", row.constraint}, {"form", row.form}, {"ns_per_eval", number(row.nsPerEval)}, {"apart_m", number(row.apart)}});
   return all.dump(1) + "\n";
 }
 
 void benchConstraints(const BenchOptions& options) {
   const std::vector<ConstraintEvalRow> rows = benchConstraintEval();
-  fmt::print("{:<16} {:<14} {:>11}\n", "constraint", "form", "ns_per_eval");
-  for (const ConstraintEvalRow& row : rows) fmt::print("{:<16} {:<14} {:>11.1f}\n", row.constraint, row.form, row.nsPerEval);
+  fmt::print("{:<16} {:<14} {:>11} {:>8}\n", "constraint", "form", "ns_per_eval", "apart_m");
+  for (const ConstraintEvalRow& row : rows)
+    fmt::print("{:<16} {:<14} {:>11.1f} {:>8.1e}\n", row.constraint, row.form, row.nsPerEval, row.apart);
   if (!options.json.empty()) writeFile(options.json, toJson(rows));
 }
 
@@ -117,27 +119,7 @@ void benchNetwork(const BenchOptions& options) {
   if (!options.svg.empty()) writeFile(options.svg, network::drawStudy(tables));
 }
 
-}  // namespace
-
-void runBench(const BenchOptions& options) {
-  const auto& scenes = options.scenes;
-  if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
-    if (scenes.size() > 1) throw FaultError(Fault{"--scene", "constraint-eval stands alone; run the other scenes by themselves"});
-    benchConstraints(options);
-    return;
-  }
-  if (options.network) {
-    benchNetwork(options);
-    return;
-  }
-  if (options.tick) {
-    benchTicks(options);
-    return;
-  }
-  if (options.sampled) {
-    std::fputs(bench::formatSampledHand(bench::measureSampledHand(showProgress)).c_str(), stdout);
-    return;
-  }
+void benchMethods(const BenchOptions& options) {
   bench::SuiteOptions suite{.scenes = options.scenes, .methods = options.methods, .effort = {}, .quick = options.quick};
   suite.effort.rounds = options.rounds;
   std::vector<std::string> refusals;
@@ -149,6 +131,24 @@ void runBench(const BenchOptions& options) {
   showRefusals(refusals);
   if (!options.json.empty()) writeFile(options.json, toJson(rows));
   if (!options.svg.empty()) writeFile(options.svg, bench::drawWorkPrecision(rows));
+}
+
+}  // namespace
+
+void runBench(const BenchOptions& options) {
+  const auto& scenes = options.scenes;
+  if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
+    if (scenes.size() > 1) throw FaultError(Fault{"--scene", "constraint-eval stands alone; run the other scenes by themselves"});
+    benchConstraints(options);
+  } else if (options.network) {
+    benchNetwork(options);
+  } else if (options.tick) {
+    benchTicks(options);
+  } else if (options.sampled) {
+    std::fputs(bench::formatSampledHand(bench::measureSampledHand(showProgress)).c_str(), stdout);
+  } else {
+    benchMethods(options);
+  }
 }
 
 }  // namespace reachlab::cli

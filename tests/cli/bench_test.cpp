@@ -41,6 +41,19 @@ TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
   EXPECT_EQ(reach("bench --scene S1 --quick --rounds 5 --method auto --json /no/such/folder/rows.json").exitCode, 3);
 }
 
+TEST(Bench, FormsOfAConstraintWhosePricesStandTogetherAreTheSameConstraint) {
+  const fs::path file = fs::path(testing::TempDir()) / "forms.json";
+  const Ended ended = reach("bench --scene constraint-eval --json " + file.string());
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  std::ifstream in(file);
+  const Json rows = Json::parse(in);
+  ASSERT_EQ(rows.size(), 11u);
+  for (const Json& row : rows) {
+    EXPECT_LT(row.at("apart_m").get<double>(), 1e-15) << row;
+    EXPECT_GT(row.at("ns_per_eval").get<double>(), 0) << row;
+  }
+}
+
 TEST(Bench, SaysWhereTheMeasuringProgramWasLookedFor) {
   const fs::path folder = fs::path(testing::TempDir()) / "alone";
   fs::create_directories(folder);
