@@ -43,5 +43,13 @@ TEST(Rounding, OfAnExactNumberIsNone) {
     EXPECT_NEAR(told("(c + phi) - c + " + std::string(exact)), alone, 1e-3 * alone) << exact;
 }
 
+// A sign changed or taken off rounds nothing: the number is off by what it was off by before.
+TEST(Rounding, ASignCostsNothing) {
+  const auto told = [](const std::string& y) {
+    return computeRounding(makeConstraint({.name = {}, .curve = {"phi", y, "0"}, .surface = {}, .shape = {}}), 0.3);
+  };
+  for (const char* sign : {"-sqrt(phi + 1)", "abs(sqrt(phi + 1))"}) EXPECT_EQ(told(sign), told("sqrt(phi + 1)")) << sign;
+}
+
 }  // namespace
 }  // namespace reachlab::constraints

@@ -65,6 +65,19 @@ TEST_F(Study, TheSameSeedsGiveTheSameTable) {
   EXPECT_EQ(studyCsv(runNetworkStudy(plan)), studyCsv(runNetworkStudy(plan)));
 }
 
+TEST(StudyPlan, ItsLossIsThatOfItsLines) {
+  const auto apart = [](double loss) {
+    StudyPlan plan;
+    plan.roundTrips = {0.05};
+    plan.couplings = {Coupling::Design};
+    plan.seeds = 1;
+    plan.setups = 0;
+    plan.loss = loss;
+    return cell(runNetworkStudy(plan), StudyObject::Chain, Coupling::Design, 0.05).apart;
+  };
+  EXPECT_GT(apart(0.5), 1.1 * apart(0));
+}
+
 // Two people move out and back and against each other: copies that hear nothing of each other come apart by three centimetres.
 TEST(TwoHands, CopiesOfHalfTheMassAreJoinedByWhatTheyHear) {
   StudySetup setup;

@@ -134,6 +134,20 @@ TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndTheOriginalBesideIt) {
   EXPECT_FALSE(recoverLog(path).mended) << "a mended log is healthy";
 }
 
+TEST(RecoverLog, KeepsEachDamagedOriginalUnderANameOfItsOwn) {
+  const TemporaryFolder folder("again");
+  const std::string path = folder / "a_log.reach";
+  for (const char* name : {".damaged", ".damaged-2", ".damaged-3"}) {
+    std::filesystem::remove(path);
+    writeMadeRun(path, 4);
+    std::string bytes = bytesOf(path);
+    bytes[RunLog::open(path).trials()[2].offset + 500] ^= 1;
+    writeBytes(path, bytes);
+    EXPECT_EQ(recoverLog(path).damagedOriginal, path + name);
+    EXPECT_EQ(bytesOf(path + name), bytes);
+  }
+}
+
 TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
   const TemporaryFolder folder("headless");
   const std::string path = folder / "a_log.reach";

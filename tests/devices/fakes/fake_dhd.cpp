@@ -58,6 +58,8 @@ void resetFakeDhd() {
     device.open = device.forceOn = device.hangs = false;
     device.callsUntilFailure = -1;
     device.tellsSerial = true;
+    device.wrist = false;
+    device.wristTurn = 0;
     device.positions = device.forces = device.error = device.failOnce = 0;
     device.most = 0;
   }
@@ -120,6 +122,14 @@ int dhdGetSerialNumber(std::uint16_t* serial, char id) {
   return 0;
 }
 std::uint32_t dhdGetButtonMask(char) { return 1; }
-bool dhdHasWrist(char) { return false; }
+bool dhdHasWrist(char id) { return fakeDhd(id).wrist; }
+int dhdGetOrientationFrame(double matrix[3][3], char id) {
+  if (answer(id) < 0) return -1;
+  const double c = std::cos(fakeDhd(id).wristTurn), s = std::sin(fakeDhd(id).wristTurn);
+  const double turned[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) matrix[i][j] = turned[i][j];
+  return 0;
+}
 double dhdGetMaxForce(char) { return -1; }
 }

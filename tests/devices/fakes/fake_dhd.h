@@ -17,6 +17,8 @@ struct FakeDhd {
   std::atomic<int> callsUntilFailure{-1};  // how many calls succeed before one fails with a communication error; -1: none fails
   std::atomic<bool> hangs{false};          // dhdGetPosition does not return while it is set
   std::atomic<bool> tellsSerial{true};     // false: dhdGetSerialNumber fails
+  std::atomic<bool> wrist{false};          // dhdHasWrist
+  std::atomic<double> wristTurn{0};        // [rad] of dhdGetOrientationFrame, about the device's z
 };
 FakeDhd& fakeDhd(int id = 0);  // 0 to 3
 /// How many of them are connected.
