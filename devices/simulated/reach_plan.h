@@ -6,7 +6,8 @@
 
 namespace reachlab::devices {
 
-/// Where a subject means to have the hand: a function of time on [0, duration] [m], world frame.
+/// Where a subject means to have the hand: a function of time on [0, duration] [m], world frame. Not to be asked after the experiment that it
+/// was made for is gone: the constraint's formula is the experiment's.
 struct ReachPlan {
   double duration = 0;  // [s]
   std::function<Vec3(double time)> handAt;
