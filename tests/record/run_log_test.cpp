@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "sim/record/append_file.h"
 #include "sim/record/recover.h"
 #include "tests/record/made_run.h"
 
@@ -156,6 +157,18 @@ TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
   bytes[100] ^= 1;
   writeBytes(path, bytes);
   EXPECT_THROW(recoverLog(path), FaultError);
+}
+
+TEST(AppendFile, ASecondWriterIsToldThatThereIsOne) {
+  const TemporaryFolder folder("second");
+  const std::string path = folder / "a_log.reach";
+  const AppendFile first = AppendFile::create(path);
+  try {
+    AppendFile::openAt(path, 0);
+    FAIL() << "two wrote one log";
+  } catch (const ResourceError& e) {
+    EXPECT_NE(std::string(e.what()).find("is being written by another program"), std::string::npos) << e.what();
+  }
 }
 
 TEST(RecoverLog, RefusesALogThatIsBeingWritten) {
