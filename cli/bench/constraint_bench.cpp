@@ -1,10 +1,10 @@
 #include "cli/bench/constraint_bench.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "base/os.h"
 #include "constraints/constraint.h"
 #include "constraints/sincos.h"
 
@@ -48,12 +48,6 @@ void handMonkeySaddle(const void*, const double* shape, double u, double v, cons
   p.rVv = {0, 0, -sixU};
 }
 
-double threadNanoseconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
 constexpr const char* kHandWritten = "hand-written";
 
 struct Candidate {
@@ -62,27 +56,28 @@ struct Candidate {
   bool batch = false;
 };
 
-// Parameters as a moving mass has them: near the last, never the same.
 constexpr int kPlaces = 512, kRounds = 60;
 
-// Where mass i of a measurement is.
+// Parameters as a moving mass has them: near the last, never the same.
 struct Place {
   double first, second;
 };
 Place placeOf(int i) { return {-0.9 + 0.0037 * i, 0.3 + 0.0041 * i}; }
 
+constraints::CurveBatch batchFrom(const constraints::Curve& curve, int first) {
+  std::array<double, kBatchLanes> phi{};
+  for (int lane = 0; lane < kBatchLanes; ++lane) phi[static_cast<std::size_t>(lane)] = placeOf(first + lane).first;
+  constraints::CurveBatch points;
+  curve.batch(curve.program, curve.shape.data(), phi.data(), points);
+  return points;
+}
+
 double measureBatches(const constraints::Curve& curve) {
   double sink = 0;
-  const double start = threadNanoseconds();
+  const std::int64_t start = os::threadProcessorTime();
   for (int round = 0; round < kRounds; ++round)
-    for (int i = 0; i < kPlaces; i += kBatchLanes) {
-      std::array<double, kBatchLanes> phi{};
-      for (int lane = 0; lane < kBatchLanes; ++lane) phi[static_cast<std::size_t>(lane)] = placeOf(i + lane).first;
-      constraints::CurveBatch points;
-      curve.batch(curve.program, curve.shape.data(), phi.data(), points);
-      sink += points.rPhiPhi[0][0];
-    }
-  const double elapsed = threadNanoseconds() - start;
+    for (int i = 0; i < kPlaces; i += kBatchLanes) sink += batchFrom(curve, i).rPhiPhi[0][0];
+  const auto elapsed = static_cast<double>(os::threadProcessorTime() - start);
   volatile double used = sink;
   static_cast<void>(used);
   return elapsed / (kRounds * kPlaces);
@@ -96,11 +91,9 @@ std::vector<double> valuesOf(const Candidate& candidate) {
   for (int i = 0; i < kPlaces; ++i) {
     const auto [u, v] = placeOf(i);
     if (candidate.batch) {
-      std::array<double, kBatchLanes> phi;
-      phi.fill(u);
-      constraints::CurveBatch points;
-      c.curve.batch(c.curve.program, c.curve.shape.data(), phi.data(), points);
-      for (const auto* part : {&points.r, &points.rPhi, &points.rPhiPhi}) put({(*part)[0][0], (*part)[1][0], (*part)[2][0]});
+      const constraints::CurveBatch points = batchFrom(c.curve, i - i % kBatchLanes);
+      const int lane = i % kBatchLanes;
+      for (const auto* part : {&points.r, &points.rPhi, &points.rPhiPhi}) put({(*part)[0][lane], (*part)[1][lane], (*part)[2][lane]});
     } else if (c.kind == constraints::ConstraintKind::Curve) {
       const constraints::CurvePoint p = constraints::evaluate(c.curve, u);
       for (const Vec3& part : {p.r, p.rPhi, p.rPhiPhi}) put(part);
@@ -122,14 +115,14 @@ double measure(const Candidate& candidate) {
   const constraints::Constraint& c = candidate.evaluated;
   if (candidate.batch) return measureBatches(c.curve);
   double sink = 0;
-  const double start = threadNanoseconds();
+  const std::int64_t start = os::threadProcessorTime();
   for (int round = 0; round < kRounds; ++round)
     for (int i = 0; i < kPlaces; ++i) {
       const auto [u, v] = placeOf(i);
       sink += c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, u).rPhiPhi.x
                                                            : constraints::evaluate(c.surface, u, v).rVv.x;
     }
-  const double elapsed = threadNanoseconds() - start;
+  const auto elapsed = static_cast<double>(os::threadProcessorTime() - start);
   volatile double used = sink;
   static_cast<void>(used);
   return elapsed / (kRounds * kPlaces);

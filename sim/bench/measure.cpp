@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
+#include "base/os.h"
 #include "base/ticks.h"
 
 namespace reachlab::bench {
@@ -33,12 +33,6 @@ double quantile(std::vector<double> values, double p) {
 
 }  // namespace
 
-std::int64_t threadTimeNs() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return t.tv_sec * std::int64_t{1'000'000'000} + t.tv_nsec;
-}
-
 Deviation computeError(const Trajectory& trajectory, const Reference& reference) {
   if (!trajectory.failure.empty()) return {kNan, kNan};
   return {largestDifference(trajectory.states, reference.states), largestDifference(trajectory.positions, reference.positions)};
@@ -60,17 +54,17 @@ std::vector<Row> measure(const BenchScene& scene, const Reference& reference, co
     row.failure = trajectory.failure;
     rows.push_back(row);
     // The first timed run warms the caches and says how often a round repeats.
-    const std::int64_t start = threadTimeNs();
+    const std::int64_t start = os::threadProcessorTime();
     c.run(nullptr);
-    const double once = std::max(1.0, static_cast<double>(threadTimeNs() - start)) * 1e-9;
+    const double once = std::max(1.0, static_cast<double>(os::threadProcessorTime() - start)) * 1e-9;
     repeats.push_back(std::clamp(static_cast<int>(std::ceil(effort.secondsPerRound / once)), 1, 10'000));
   }
   for (int round = 0; round < effort.rounds; ++round)
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       if (!rows[i].failure.empty()) continue;  // the price of half a reach says nothing
-      const std::int64_t start = threadTimeNs();
+      const std::int64_t start = os::threadProcessorTime();
       for (int r = 0; r < repeats[i]; ++r) contenders[i].run(nullptr);
-      times[i].push_back(static_cast<double>(threadTimeNs() - start) / repeats[i] / ticks);
+      times[i].push_back(static_cast<double>(os::threadProcessorTime() - start) / repeats[i] / ticks);
     }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (times[i].empty()) continue;

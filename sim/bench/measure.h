@@ -27,7 +27,4 @@ std::vector<Row> measure(const BenchScene& scene, const Reference& reference, co
 /// Largest difference of a trajectory from the reference; NaN where it holds NaN or ended early.
 Deviation computeError(const Trajectory& trajectory, const Reference& reference);
 
-/// Processor time of the calling thread [ns].
-std::int64_t threadTimeNs();
-
 }  // namespace reachlab::bench

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/elementary.h"
+#include "base/os.h"
 #include "constraints/sincos.h"
 #include "sim/bench/measure.h"
 #include "sim/bench/quad.h"
@@ -23,7 +24,7 @@
 namespace {
 
 using reachlab::bench::Quad;
-using reachlab::bench::threadTimeNs;
+using reachlab::os::threadProcessorTime;
 
 constexpr int kAngles = 1024, kRounds = 41, kRepeats = 20;
 
@@ -36,12 +37,12 @@ template <class Compute>
 void report(const char* name, Data& d, const Compute& compute) {
   std::vector<double> times;
   for (int round = 0; round < kRounds; ++round) {
-    const std::int64_t before = threadTimeNs();
+    const std::int64_t before = threadProcessorTime();
     for (int i = 0; i < kRepeats; ++i) {
       compute(d);
       asm volatile("" : : "r"(&d) : "memory");
     }
-    times.push_back(static_cast<double>(threadTimeNs() - before) / (kRepeats * kAngles));
+    times.push_back(static_cast<double>(threadProcessorTime() - before) / (kRepeats * kAngles));
   }
   std::nth_element(times.begin(), times.begin() + kRounds / 2, times.end());
   double largest = 0, ulps = 0;
@@ -73,14 +74,14 @@ void reportLatency(const char* name, const SinCos& sinCos) {
   std::vector<double> times;
   for (int round = 0; round < kRounds; ++round) {
     double x = 0.7;
-    const std::int64_t before = threadTimeNs();
+    const std::int64_t before = threadProcessorTime();
     for (int i = 0; i < kChain; ++i) {
       double s, c;
       sinCos(x, s, c);
       x = s + c + 0.1;
     }
     asm volatile("" : : "x"(x));
-    times.push_back(static_cast<double>(threadTimeNs() - before) / kChain);
+    times.push_back(static_cast<double>(threadProcessorTime() - before) / kChain);
   }
   std::nth_element(times.begin(), times.begin() + kRounds / 2, times.end());
   std::printf("  %-28s %8.2f ns\n", name, times[kRounds / 2]);
@@ -115,13 +116,13 @@ template <class Function, class Exact>
 std::pair<double, double> priceAndError(const std::vector<double>& places, const Function& function, const Exact& exact) {
   std::vector<double> times;
   for (int round = 0; round < kRounds; ++round) {
-    const std::int64_t before = threadTimeNs();
+    const std::int64_t before = threadProcessorTime();
     for (int i = 0; i < kRepeats; ++i)
       for (const double x : places) {
         const double y = function(x);
         asm volatile("" : : "x"(y));
       }
-    times.push_back(static_cast<double>(threadTimeNs() - before) / static_cast<double>(kRepeats * places.size()));
+    times.push_back(static_cast<double>(threadProcessorTime() - before) / static_cast<double>(kRepeats * places.size()));
   }
   std::nth_element(times.begin(), times.begin() + kRounds / 2, times.end());
   double ulps = 0;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/lanes.h"
+#include "base/os.h"
 #include "constraints/sincos.h"
 #include "sim/bench/measure.h"
 
@@ -23,7 +24,7 @@ namespace {
 
 namespace stdx = std::experimental;
 namespace hn = hwy::HWY_NAMESPACE;
-using reachlab::bench::threadTimeNs;
+using reachlab::os::threadProcessorTime;
 
 constexpr int kRounds = 101, kCalls = 4000;
 
@@ -256,12 +257,12 @@ struct Kernel {
 template <class Data, class Step>
 double measure(const Data& start, const Step& step, const double* result, Data& data, std::array<double, 16>& out, int count) {
   data = start;
-  const std::int64_t before = threadTimeNs();
+  const std::int64_t before = threadProcessorTime();
   for (int call = 0; call < kCalls; ++call) {
     step(data);
     use(&data);
   }
-  const double ns = static_cast<double>(threadTimeNs() - before) / kCalls;
+  const double ns = static_cast<double>(threadProcessorTime() - before) / kCalls;
   for (int i = 0; i < count; ++i) out[i] = result[i];
   return ns;
 }
