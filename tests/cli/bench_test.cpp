@@ -21,12 +21,21 @@ std::string outputOf(const std::string& command) {
   return text;
 }
 
-TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
+struct Measured {
+  Ended ended;
+  Json rows;
+};
+Measured measured(const std::string& arguments) {
   const fs::path file = fs::path(testing::TempDir()) / "rows.json";
-  const Ended ended = reach("bench --scene S1 --scene S6 --method auto --quick --rounds 5 --json " + file.string());
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  fs::remove(file);
+  const Ended ended = reach("bench " + arguments + " --json " + file.string());
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
   std::ifstream in(file);
-  const Json rows = Json::parse(in);
+  return {ended, Json::parse(in)};
+}
+
+TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
+  const auto [ended, rows] = measured("--scene S1 --scene S6 --method auto --quick --rounds 5");
   ASSERT_EQ(rows.size(), 2u);
   for (const Json& row : rows) {
     for (const char* key :
@@ -42,11 +51,7 @@ TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
 }
 
 TEST(Bench, FormsOfAConstraintWhosePricesStandTogetherAreTheSameConstraint) {
-  const fs::path file = fs::path(testing::TempDir()) / "forms.json";
-  const Ended ended = reach("bench --scene constraint-eval --json " + file.string());
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  std::ifstream in(file);
-  const Json rows = Json::parse(in);
+  const Json rows = measured("--scene constraint-eval").rows;
   ASSERT_EQ(rows.size(), 11u);
   for (const Json& row : rows) {
     EXPECT_LT(row.at("apart_m").get<double>(), 1e-15) << row;

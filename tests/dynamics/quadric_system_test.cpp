@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "sim/dynamics/hand_path.h"
 #include "sim/dynamics/make_plant.h"
 
@@ -22,8 +24,8 @@ void evaluateSphere(const void*, const double*, double u, double v, constraints:
 constraints::Constraint sphere() {
   constraints::Constraint c;
   c.surface.function = evaluateSphere;
-  c.domain[0] = {0, 2 * 3.141592653589793, true};
-  c.domain[1] = {0, 3.141592653589793, false};
+  c.domain[0] = {0, 2 * std::numbers::pi, true};
+  c.domain[1] = {0, std::numbers::pi, false};
   return c;
 }
 

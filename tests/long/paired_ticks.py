@@ -6,7 +6,7 @@
 All run at once on one core, where the scheduler gives each some milliseconds in turn: whatever else slows the machine down slows all of them alike.
 For each scene of `reach bench --tick`: what a tick costs in the first [ns], and the ratio of each other one, the median over the turns with its error.
 A cost is the mean of the middle half of the ticks: a clock that counts in tens of nanoseconds does not resolve 2 % of a short tick by its median, and
-the ticks in which the scheduler changed programs are in neither half.
+the ticks in which the scheduler changed programs are not in that half.
 """
 import argparse
 import math
