@@ -5,6 +5,7 @@
     tests/long/seeded_faults.py --seed 7 --count 300                      # everything but the window
     tests/long/seeded_faults.py --seed 7 --seed 8 --count 300             # two draws in one build
     tests/long/seeded_faults.py --seed 7 --count 20 --only 13 sim/trial   # the 13th of the same draw again
+    tests/long/seeded_faults.py --seed 7 --count 20 --programs trial,cli sim/trial  # asks two test programs alone, to have an answer sooner
 
 A fault is a comparison, a sign (or * against /), a constant, or a statement left out. The same seed, folders and sources give the same
 faults, and a changed line changes no other. It works on a copy of the sources in build/faults (made anew from the working tree at each
@@ -225,8 +226,9 @@ def places_of(program):
 class Campaign:
     """All faults of the draw in one build; which tests come by each; and what each test says to each."""
 
-    def __init__(self, faults, gui):
+    def __init__(self, faults, gui, asked):
         self.faults = faults  # number: fault
+        self.asked = asked    # the test programs that are asked; None: all, and the scripts
         self.single = set()   # numbers that cannot stand behind a switch
         self.gui = gui
         self.log = COPY / "build" / "judged.jsonl"
@@ -419,9 +421,9 @@ class Campaign:
         living = {n for n in self.faults if n not in verdicts and n not in skip}
         come_by = dict.fromkeys(living, 0)
         self.build([])
-        waiting = programs(targets())
+        waiting = [p for p in programs(targets()) if self.asked is None or p.split("test_")[-1] in self.asked]
         while living:  # those that are tried alone need to know the tests of every program, too
-            if waiting is None:
+            if waiting is None or not waiting and self.asked is not None:
                 break
             near = {p: sum(p.endswith("test_" + part) for n in living for part in pathlib.Path(self.faults[n][0]).parts[:-1]) for p in waiting}
             program = max(waiting, key=lambda p: (near[p], not programs_behind(p))) if waiting else None
@@ -444,6 +446,8 @@ class Campaign:
         for number in sorted(living - self.single):
             verdicts[number] = ("alive", f"{come_by[number]} tests come by it" if come_by[number] else "no test comes by it")
             self.note(number, *verdicts[number])
+        if self.asked is not None:
+            verdicts |= {n: ("not tried", None) for n in living & self.single}
         return verdicts
 
     def judge_alone(self, number):
@@ -491,6 +495,7 @@ def main():
     parser.add_argument("--only", type=int, help="the N-th fault of the draw alone")
     parser.add_argument("--list", action="store_true", help="the faults, without putting them in")
     parser.add_argument("--longest", type=float, default=1e9, help="leave out tests that need more seconds of processor time than this")
+    parser.add_argument("--programs", help="test programs that are asked, as in trial,cli: no others, no scripts, nothing that must be built alone")
     parser.add_argument("--widest", type=int, help="leave out faults in headers that more files than this include (to have an answer sooner)")
     parser.add_argument("--gui", action="store_true", help="the window's tests too")
     parser.add_argument("--check", action="store_true", help="how faults are written behind switches, on examples")
@@ -518,7 +523,8 @@ def main():
             numbers.setdefault(fault, len(numbers) + 1)
     equivalents = known_equivalents()
     verdicts = {n: ("listed", None) for fault, n in numbers.items() if re.sub(r":\d+: ", ": ", describe(fault), count=1) in equivalents}
-    campaign = Campaign({n: fault for fault, n in numbers.items()}, wishes.gui or "gui" in folders)
+    campaign = Campaign({n: fault for fault, n in numbers.items()}, wishes.gui or "gui" in folders,
+                        wishes.programs and wishes.programs.split(","))
     if wishes.widest:
         verdicts |= {n: ("wide", None) for n in campaign.leave_out_wide(wishes.widest)}
     verdicts |= campaign.judge(wishes.jobs, wishes.longest, verdicts)
@@ -530,7 +536,7 @@ def main():
 
 def report(seed, drawn, count, verdicts, campaign):
     """The verdicts in the order of the draw, until there are enough; the share that was noticed."""
-    noticed, alive, nothing, wide = 0, [], 0, []
+    noticed, alive, nothing, left = 0, [], 0, []
     for place, (number, fault) in enumerate(drawn, 1):
         if noticed + len(alive) == count:
             break
@@ -541,8 +547,8 @@ def report(seed, drawn, count, verdicts, campaign):
         if verdict == "noticed":
             noticed += 1
             print(f"{place} noticed by {by}: {words}", flush=True)
-        elif verdict == "wide":
-            wide.append(words)
+        elif verdict in ("wide", "not tried"):
+            left.append(("in a header of many files" if verdict == "wide" else "built alone") + f": {words}")
         elif verdict in ("listed", "same"):
             nothing += 1
             print(f"{place} changes nothing ({'listed' if verdict == 'listed' else 'same object'}) {words}", flush=True)
@@ -554,8 +560,8 @@ def report(seed, drawn, count, verdicts, campaign):
     print(f"seed {seed}: {noticed} of {judged} noticed ({100 * share:.1f} %), {nothing} change nothing")
     for words in alive:
         print(f"ALIVE {words}")
-    for words in wide:
-        print(f"not tried, in a header of many files: {words}")
+    for words in left:
+        print(f"not tried, {words}")
     return share
 
 
