@@ -10,7 +10,7 @@
 #include "base/fault.h"
 #include "base/minimum_jerk.h"
 #include "base/ticks.h"
-#include "constraints/geometry/arc_length.h"
+#include "constraints/geometry/curve_way.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -94,34 +94,14 @@ ReachPlan planAlongChord(const experiment::Experiment& experiment, const Vec3& s
   return planByPrediction(experiment, length, criterion, handMass, [=](double s) { return start + s * direction; });
 }
 
-/// The way of a task along a curve, by arc length.
-class CurveWay {
- public:
-  CurveWay(const experiment::Task& task, const constraints::Constraint& constraint)
-      : curve_(constraint.curve), way_(constraint, task.start[0], task.target[0]), sense_(task.target[0] < task.start[0] ? -1 : 1) {
-    if (!(way_.length() > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
-    // Beyond both ends at their own pace, since a hand that carries springs passes the target.
-    const auto perMetre = [&](double phi) { return sense_ / norm(constraints::evaluate(curve_, phi).rPhi); };
-    before_ = perMetre(task.start[0]);
-    after_ = perMetre(task.target[0]);
-  }
-  double length() const { return way_.length(); }
-  constraints::CurvePoint at(double s) const {
-    const double beyond = s < 0 ? s * before_ : s > way_.length() ? (s - way_.length()) * after_ : 0;
-    return constraints::evaluate(curve_, way_.parameterAt(std::clamp(s, 0.0, way_.length())) + beyond);
-  }
-  double sense() const { return sense_; }
-
- private:
-  constraints::Curve curve_;
-  constraints::ArcLength way_;
-  double sense_, before_ = 0, after_ = 0;
-};
+std::shared_ptr<const constraints::CurveWay> wayOf(const experiment::Task& task, const constraints::Constraint& constraint) {
+  return std::make_shared<const constraints::CurveWay>(constraint, task.start[0], task.target[0]);
+}
 
 // The prediction for a line as long as the curve, laid along the arc.
 ReachPlan planAlongCurve(const experiment::Experiment& experiment, const constraints::Constraint& constraint, predict::Criterion criterion,
                          std::optional<double> handMass) {
-  const auto way = std::make_shared<const CurveWay>(*experiment.task, constraint);
+  const auto way = wayOf(*experiment.task, constraint);
   return planByPrediction(experiment, way->length(), criterion, handMass, [=](double s) { return way->at(s).r; });
 }
 
@@ -144,7 +124,7 @@ Vec3 leadFor(const ForceAt& forceAt, const experiment::Coupling& coupling, doubl
 // extension.
 ReachPlan planByCurvePrediction(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
                                 predict::Criterion criterion, std::optional<double> handMass) {
-  const auto way = std::make_shared<const CurveWay>(*experiment.task, constraint);
+  const auto way = wayOf(*experiment.task, constraint);
   const experiment::Task& task = *experiment.task;
   const bool point = experiment.object.kind == experiment::ObjectKind::Point;
   if (point && (!experiment.coupling || !(experiment.coupling->stiffness > 0)))
@@ -223,8 +203,8 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
       return mass * m.a + viscosity * m.v;
     };
     const auto handAt = [=](double t) {
-      const Vec3 place = reach.at(t, duration).r, lead = leadFor(forceAt, coupling, t);
-      return isFinite(lead) ? place + lead : place;  // at a pole the parameters say nothing of the acceleration
+      const Vec3 there = reach.at(t, duration).r, lead = leadFor(forceAt, coupling, t);
+      return isFinite(lead) ? there + lead : there;  // at a pole the parameters say nothing of the acceleration
     };
     const auto hasLeft = [&](double t) { return norm(handAt(t) - place.start) > task.onset; };
     const auto isThere = [&](double t) {

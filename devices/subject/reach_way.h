@@ -2,14 +2,13 @@
 #include <optional>
 #include <vector>
 
-#include "constraints/geometry/arc_length.h"
+#include "constraints/geometry/curve_way.h"
 #include "sim/dynamics/plant.h"
 #include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::devices {
 
-/// The way of a task from start to target as metres: along the chord of a straight line and in free space, along the arc of a curve, beyond
-/// whose ends the curve goes on at their own pace. A value; any thread; asking neither allocates nor throws.
+/// The way of a task from start to target as metres: along the chord of a straight line and in free space, along the arc of a curve. A value; any thread; asking neither allocates nor throws.
 class ReachWay {
  public:
   /// Throws FaultError (start and target are one place), RefusedError (a surface has no one way).
@@ -23,16 +22,11 @@ class ReachWay {
   Place at(double s) const noexcept;
   /// How far from the start a mass is [m].
   double placeOf(const dynamics::MassState& mass) const noexcept;
-  bool straight() const noexcept { return !arc_; }
 
  private:
-  double parameterAt(double s) const noexcept;
-
-  constraints::Constraint constraint_;
-  std::optional<constraints::ArcLength> arc_;
+  std::optional<constraints::CurveWay> curve_;  // none: straight
   Vec3 start_, direction_;
-  double from_ = 0, to_ = 0, length_ = 0;
-  double perMetreBefore_ = 0, perMetreAfter_ = 0;
+  double length_ = 0;
   std::vector<double> parameters_;  // at equal steps of the arc length
 };
 
