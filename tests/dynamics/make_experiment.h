@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/minimum_jerk.h"
 #include "sim/dynamics/hand_function.h"
 #include "sim/dynamics/plant.h"
@@ -46,6 +47,17 @@ inline StepStatus run(Plant& plant, const HandFunction& hand, double seconds, do
   return StepStatus::Ok;
 }
 inline HandSample noHand(double) { return {}; }
+
+/// What `call` is refused with; nothing where it is not.
+template <class Call>
+std::string wordsOf(const Call& call) {
+  try {
+    call();
+  } catch (const Error& refusal) {
+    return refusal.what();
+  }
+  return {};
+}
 
 inline std::vector<MassState> observed(const Plant& plant, const HandSample& hand = {}) {
   std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));

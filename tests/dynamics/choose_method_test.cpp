@@ -1,0 +1,134 @@
+#include "sim/dynamics/choose_method.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/dynamics/stability.h"
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+constexpr double kStep = 0.5;  // [s]
+
+/// One mass of 2 kg whose mode is `reach` rad a step; more of them, each on its own spring, when `count` says so.
+ObjectModel oscillating(double reach, int count = 1) {
+  const auto n = static_cast<std::size_t>(count);
+  ObjectModel model;
+  model.kind = count > 1 ? experiment::ObjectKind::Parallel : experiment::ObjectKind::Point;
+  model.mass.assign(n, 2);
+  model.handStiffness.assign(n, 2 * (reach / kStep) * (reach / kStep));
+  model.handDamping.assign(n, 0);
+  return model;
+}
+MethodChoice chosen(const std::string& asked, const ObjectModel& model, SceneFacts facts = {}) {
+  facts.step = kStep;
+  return chooseMethod(asked, model, facts);
+}
+std::string refused(const std::string& asked, const ObjectModel& model, const SceneFacts& facts = {}) {
+  return wordsOf([&] { (void)chosen(asked, model, facts); });
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ChooseMethod, AutoTakesTheMethodThatTheFastestModeBears) {
+  for (const char* asked : {"auto", ""}) {
+    EXPECT_EQ(chosen(asked, oscillating(0.299)).method, "abm");
+    EXPECT_EQ(chosen(asked, oscillating(0.301)).method, "adaptive");
+    EXPECT_EQ(chosen(asked, oscillating(99)).method, "adaptive");
+    EXPECT_EQ(chosen(asked, oscillating(101)).method, "stiff");
+    EXPECT_EQ(chosen(asked, oscillating(101, 24)).method, "stiff");
+    EXPECT_EQ(chosen(asked, oscillating(101, 25)).method, "adaptive");
+    EXPECT_EQ(chosen(asked, oscillating(1000), {.linear = true}).method, "exact");
+  }
+}
+
+TEST(ChooseMethod, ElasticEndsAreLeftToSubSteps) {
+  const SceneFacts elastic{.linear = true, .elasticEnds = true};
+  EXPECT_EQ(chosen("auto", oscillating(0.1), elastic).method, "adaptive");
+  EXPECT_EQ(chosen("auto", oscillating(101), elastic).method, "stiff");
+  EXPECT_TRUE(has(chosen("auto", oscillating(0.1), elastic).reason, "the ends are elastic"));
+  EXPECT_FALSE(has(chosen("auto", oscillating(1)).reason, "elastic"));
+  EXPECT_TRUE(has(refused("exact", oscillating(0.1), elastic), "does not know elastic ends; use auto or adaptive"));
+}
+
+TEST(ChooseMethod, TheReasonTellsTheNumbersAndWhatFollowsFromThem) {
+  const auto reason = [](double reach, const SceneFacts& facts = {}) { return chosen("auto", oscillating(reach), facts).reason; };
+  EXPECT_TRUE(has(reason(0.25), "fastest mode 0.5 1/s, times step 0.25: within 0.3, Adams-Bashforth-Moulton")) << reason(0.25);
+  EXPECT_TRUE(has(reason(0.25), "by an embedded pair of order 8"));
+  EXPECT_TRUE(has(reason(0.25, {.hardCurve = true}), "sub-steps in a fictitious time, which passes cusps"));
+  EXPECT_TRUE(has(reason(4), "fastest mode 8 1/s, times step 4: sub-steps of an embedded pair of order 8 (one step a tick up to 0.3)"));
+  EXPECT_TRUE(has(reason(200), "times step 200: beyond 100 only an L-stable method is affordable"));
+  EXPECT_TRUE(has(reason(4, {.linear = true}), "the matrix exponential is exact")) << reason(4, {.linear = true});
+  EXPECT_TRUE(has(reason(4, {.linear = true}), "(fastest mode 8 1/s, times step 4)"));
+  EXPECT_EQ(chosen("adaptive", oscillating(4)).reason, "asked for; fastest mode 8 1/s, times step 4");
+}
+
+TEST(ChooseMethod, EveryMethodForetellsItsError) {
+  EXPECT_EQ(chosen("exact", oscillating(1), {.linear = true}).predictedError, 1e-14);
+  EXPECT_EQ(chosen("stiff", oscillating(1)).predictedError, 1e-9);
+  EXPECT_EQ(chosen("abm", oscillating(1)).predictedError, 1e-11);
+  EXPECT_EQ(chosen("adaptive", oscillating(1)).predictedError, 1e-11);
+  const ObjectModel model = oscillating(0.1);
+  const SceneFacts facts{.length = 0.3, .duration = 70};
+  EXPECT_EQ(chosen("rk4", model, facts).predictedError, predictRk4Error(computeEigenvalues(model), kStep, 0.3, 70));
+  EXPECT_GT(chosen("rk4", model, facts).predictedError, 0);
+}
+
+TEST(ChooseMethod, AReachOfTwentyCentimetresIn1350MillisecondsIsWhatIsTakenForOne) {
+  const SceneFacts facts;
+  EXPECT_EQ(facts.length, 0.2);
+  EXPECT_EQ(facts.duration, 1.35);
+  EXPECT_EQ(facts.step, 0.001);
+  EXPECT_FALSE(facts.linear || facts.elasticEnds || facts.hardCurve);
+}
+
+// |R(3i)| = |-0.125 - 1.5 i|, R(-3) = 1.375.
+TEST(ChooseMethod, AnUnstableRk4IsRefusedWithItsFastestModeItsGrowthAndItsLongestStep) {
+  const std::string undamped = refused("rk4", oscillating(3));
+  EXPECT_TRUE(has(undamped, "the fastest mode times the step is 3, its limit 2.828 (an undamped mode)")) << undamped;
+  EXPECT_TRUE(has(undamped, "multiplies that mode by 1.505")) << undamped;
+  EXPECT_TRUE(has(undamped, "use method auto, or a step below 0.471 s")) << undamped;
+  ObjectModel damped = oscillating(0);
+  damped.viscosity = 12;
+  const std::string real = refused("rk4", damped);
+  EXPECT_TRUE(has(real, "times the step is 3, its limit 2.785 (a real mode: light mass, strong damper)")) << real;
+  EXPECT_TRUE(has(real, "multiplies that mode by 1.375")) << real;
+  EXPECT_TRUE(has(real, "a step below 0.464 s")) << real;
+  EXPECT_EQ(refused("rk4", oscillating(2.82)), "");
+  damped.viscosity = 11.1;
+  EXPECT_EQ(refused("rk4", damped), "");
+  ObjectModel two = oscillating(3, 3);  // the one that grows most is told, wherever it stands
+  two.handStiffness[1] *= 4;
+  EXPECT_TRUE(has(refused("rk4", two), "the fastest mode times the step is 6,")) << refused("rk4", two);
+}
+
+TEST(ChooseMethod, Rk4IsWarnedOfHardCurves) {
+  EXPECT_TRUE(chosen("rk4", oscillating(0.1)).warnings.empty());
+  const std::vector<std::string> warnings = chosen("rk4", oscillating(0.1), {.hardCurve = true}).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(has(warnings[0], "where |r_phi| is small; use method auto"));
+}
+
+TEST(ChooseMethod, WhatAMethodCannotDoIsRefusedWithWhatCan) {
+  EXPECT_TRUE(has(refused("exact", oscillating(0.1)), "method exact is for linear scenes"));
+  EXPECT_TRUE(has(refused("euler", oscillating(0.1)), "there is no method 'euler'; allowed: auto, rk4, exact, abm, adaptive, stiff"));
+  EXPECT_EQ(refused("stiff", oscillating(10, 24)), "");
+  EXPECT_TRUE(has(refused("stiff", oscillating(10, 25)), "for up to 24 masses, and here are 25; use auto, or fewer masses"));
+  for (const char* method : {"abm", "adaptive"}) {
+    EXPECT_EQ(refused(method, oscillating(449)), "") << method;
+    const std::string words = refused(method, oscillating(460));
+    EXPECT_TRUE(has(words, std::string("method ") + method + " would need more than 1000 right-hand sides a tick")) << words;
+    EXPECT_TRUE(has(words, "times step 460, limit 450; use method stiff, or a smaller step")) << words;
+    EXPECT_TRUE(has(refused(method, oscillating(460), {.linear = true}), "use method exact, or"));
+    EXPECT_EQ(refused(method, oscillating(460, 24)), words);
+    EXPECT_TRUE(has(refused(method, oscillating(460, 25)), "use method stiff with at most 24 masses, or"));
+  }
+}
+
+TEST(ChooseMethod, TheFastestModeIsTheLargestOfAll) {
+  ObjectModel model = oscillating(2, 3);
+  model.handStiffness = {2 * 16, 2 * 100, 2 * 49};
+  EXPECT_NEAR(chosen("auto", model).fastestMode, 10, 1e-12);
+}
+
+}  // namespace
+}  // namespace reachlab::dynamics
