@@ -13,7 +13,7 @@ std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model) {
   const int n = model.count();
   if (n > 100) {
     const double fastest = boundFastestMode(model);
-    return {{0, fastest}};
+    return {{0, fastest}, {-fastest, 0}};
   }
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   for (int i = 0; i < n; ++i) {

@@ -92,6 +92,16 @@ TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
   EXPECT_NO_THROW((void)compileScene(e, {"rk4", kStep, 0}));
 }
 
+// A medium alone slows every mass down at one rate, which the bound is exactly: -2.8 a step is beyond RK4's limit on the real axis.
+TEST(Stability, OfManyMassesAStrongDamperIsSeenAsWell) {
+  experiment::Experiment e = makeChain(101, 0.5, 0, {0, 0});
+  e.object.viscosity = 0.5 * 2800;
+  const auto eigenvalues = computeEigenvalues(makeObjectModel(e));
+  EXPECT_FALSE(isRk4Stable(eigenvalues, kStep));
+  EXPECT_TRUE(isRk4Stable(eigenvalues, kStep * 2.78 / 2.8));
+  EXPECT_NEAR(findRk4StepLimit(eigenvalues), kRk4RealLimit / 2800, 1e-9 / 2800);
+}
+
 TEST(Stability, AutoTakesTheExactPropagatorForAnyLinearScene) { EXPECT_EQ(compileScene(makeChain(5, 0.01, 1e8)).choice.method, "exact"); }
 
 TEST(Stability, TheFastestModeIsOfTheObjectOnItsCoupling) {
