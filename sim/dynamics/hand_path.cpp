@@ -27,11 +27,10 @@ void interpolate(const std::array<Vec3, 4>& p, int count, std::array<Vec3, HandS
 bool HandPath::push(const HandSample& sample) noexcept {
   if (!sample.valid || !isFinite(sample.position) || !isFinite(sample.velocity)) {
     count_ = std::min(count_, 1);
-    broken_ = false;
     return false;
   }
   const bool jumped = count_ > 0 && norm(sample.position - position_[0]) > jump_;
-  if (broken_) count_ = 1;  // nothing from before the jump
+  if (broken_) count_ = std::min(count_, 1);  // nothing from before the jump
   for (std::size_t i = 3; i > 0; --i) {
     position_[i] = position_[i - 1];
     velocity_[i] = velocity_[i - 1];
