@@ -78,6 +78,61 @@ TEST(Stability, AmplificationIsOneAtTheLimits) {
   EXPECT_NEAR(rk4Amplification({-kRk4RealLimit, 0}), 1, 1e-12);
 }
 
+// Each is a root of det(lambda^2 M + lambda C + K), here of two unlike masses with every damper there is.
+TEST(Stability, EigenvaluesSolveTheCharacteristicEquation) {
+  ObjectModel m;
+  m.kind = experiment::ObjectKind::Chain;
+  m.mass = {0.5, 2};
+  m.stiffness = {40}, m.damping = {3};
+  m.handStiffness = {100, 7}, m.handDamping = {2, 5};
+  m.viscosity = 0.8;
+  const auto eigenvalues = computeEigenvalues(m);
+  ASSERT_EQ(eigenvalues.size(), 4u);
+  std::complex<double> sum = 0;
+  for (const auto& l : eigenvalues) {
+    const auto a = l * l * 0.5 + l * (2 + 3 + 0.8) + 140.0, b = l * l * 2.0 + l * (5 + 3 + 0.8) + 47.0, c = -3.0 * l - 40.0;
+    EXPECT_LT(std::abs(a * b - c * c), 1e-9 * std::abs(a * b) + 1e-8);
+    sum += l;
+  }
+  EXPECT_NEAR(sum.real(), -5.8 / 0.5 - 8.8 / 2, 1e-11) << "all four: their sum is the trace";
+}
+
+TEST(Stability, OfAHundredMassesEveryModeIsKnownAndOfMoreTheBound) {
+  EXPECT_EQ(computeEigenvalues(makeObjectModel(makeChain(100, 0.6, 600))).size(), 200u);
+  EXPECT_EQ(computeEigenvalues(makeObjectModel(makeChain(101, 0.6, 600))).size(), 2u);
+  EXPECT_NEAR(std::abs(computeEigenvalues(makeObjectModel(makeChain(101, 0.6, 600)))[0]), std::sqrt(2400 / 0.6), 1e-10);
+}
+
+TEST(Stability, AModeMayGrowByARoundingAndNoMore) {
+  EXPECT_TRUE(isRk4Stable({{0.8e-9, 0.001}}, 1));
+  EXPECT_FALSE(isRk4Stable({{1.2e-9, 0.001}}, 1));
+  EXPECT_FALSE(isRk4Stable({{-1, 0}, {0, 1}, {1.2e-9, 0.001}, {0, -1}}, 1)) << "any of them";
+  EXPECT_TRUE(isRk4Stable({{-2.7, 0}, {0, 2.8}}, 1));
+  EXPECT_TRUE(isRk4Stable({}, 1));
+}
+
+TEST(Stability, AmplificationIsTheExponentialsSeriesUpToTheFourthPower) {
+  EXPECT_NEAR(rk4Amplification({1, 0}), 1 + 1 + 1 / 2.0 + 1 / 6.0 + 1 / 24.0, 1e-15);
+  EXPECT_NEAR(rk4Amplification({0, 2}), std::hypot(1 - 2 + 16 / 24.0, 2 - 8 / 6.0), 1e-15);
+}
+
+TEST(Stability, TheLongestStepIsThatOfTheFirstModeToGrow) {
+  EXPECT_NEAR(findRk4StepLimit({{0, 5}, {0, -5}}), kRk4ImaginaryLimit / 5, 1e-8);
+  EXPECT_NEAR(findRk4StepLimit({{0, 5}, {-10, 0}}), kRk4RealLimit / 10, 1e-8);
+  EXPECT_TRUE(std::isinf(findRk4StepLimit({{0, 0}})));
+  EXPECT_TRUE(std::isinf(findRk4StepLimit({})));
+}
+
+// Twice (w, -w) of 0.3 m 60/(w T)^3 times T/h phase errors (w h)^5/120, where neither is held.
+TEST(Stability, TheForetoldErrorIsTheJerksJumpTimesThePhaseErrors) {
+  const double w = 20, step = 0.01, length = 0.3, duration = 1.5;
+  const double amplitude = length * 60 / (30.0 * 30 * 30), phase = 0.2 * 0.2 * 0.2 * 0.2 * 0.2 / 120 * 150;
+  EXPECT_NEAR(predictRk4Error({{0, w}, {0, -w}}, step, length, duration), 2 * amplitude * phase, 1e-18);
+  EXPECT_NEAR(predictRk4Error({{0, w}, {0, 0}}, step, length, duration), amplitude * phase, 1e-18) << "what stands still errs by nothing";
+  EXPECT_NEAR(predictRk4Error({{0, 1}}, step, length, duration), length * 1e-10 / 120 * 150, 1e-20) << "no more than the way itself";
+  EXPECT_NEAR(predictRk4Error({{0, 300}}, step, length, duration), length * 60 / (450.0 * 450 * 450), 1e-18) << "no more than all of it";
+}
+
 TEST(Stability, AnUnstableRk4IsRefusedWithNumbersAndARemedy) {
   experiment::Experiment e = makeChain(5, 0.6, 1.34e6);
   try {

@@ -1,0 +1,92 @@
+#include "sim/dynamics/hand_segment.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/dynamics/hand_function.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+/// The k-th coefficient of every component is another number.
+HandSegment segmentOf(int degree) {
+  HandSegment s;
+  s.degree = degree;
+  for (int k = 0; k <= degree; ++k) {
+    s.position[k] = {0.3 + 0.1 * k, -0.2 + 0.05 * k * k, 0.7 - 0.2 * k};
+    s.velocity[k] = {1.1 - 0.3 * k, 0.4 + 0.2 * k, 0.05 * k * k - 0.6};
+  }
+  return s;
+}
+Vec3 sumOfPowers(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, double s) {
+  Vec3 sum;
+  for (int k = 0; k <= HandSegment::kMaxDegree; ++k) sum += std::pow(s, k) * c[k];
+  return sum;
+}
+
+TEST(HandSegment, IsAPolynomialOfItsDegreeInPlaceAndInVelocity) {
+  for (int degree = 0; degree <= HandSegment::kMaxDegree; ++degree) {
+    const HandSegment s = segmentOf(degree);
+    for (const double at : {0.0, 0.3, 1.0}) {
+      const HandSample sample = sampleAt(s, at);
+      EXPECT_LT(norm(sample.position - sumOfPowers(s.position, at)), 1e-14) << degree;
+      EXPECT_LT(norm(sample.velocity - sumOfPowers(s.velocity, at)), 1e-14) << degree;
+      EXPECT_TRUE(sample.valid);
+    }
+    EXPECT_EQ(startOf(s).position, s.position[0]);
+    EXPECT_EQ(startOf(s).velocity, s.velocity[0]);
+    EXPECT_LT(norm(endOf(s).position - sumOfPowers(s.position, 1)), 1e-14) << degree;
+    EXPECT_LT(norm(endOf(s).velocity - sumOfPowers(s.velocity, 1)), 1e-14) << degree;
+    EXPECT_TRUE(startOf(s).valid && endOf(s).valid);
+  }
+}
+
+TEST(HandSegment, APartOfItIsTheSameMotionInLessTime) {
+  for (int degree = 0; degree <= HandSegment::kMaxDegree; ++degree) {
+    const HandSegment whole = segmentOf(degree), later = part(whole, 0.2, 0.7);
+    EXPECT_EQ(later.degree, degree);
+    for (const double at : {0.0, 0.4, 1.0}) {
+      EXPECT_LT(norm(sampleAt(later, at).position - sampleAt(whole, 0.2 + 0.5 * at).position), 1e-14) << degree;
+      EXPECT_LT(norm(sampleAt(later, at).velocity - sampleAt(whole, 0.2 + 0.5 * at).velocity), 1e-14) << degree;
+    }
+    for (int k = degree + 1; k <= HandSegment::kMaxDegree; ++k) EXPECT_EQ(later.position[k], Vec3{}) << "beyond its degree";
+  }
+}
+
+// Through eight points a polynomial of degree seven is found again, and its velocity for itself.
+TEST(HandFunction, ASegmentGoesThroughAFunctionOfSeventhDegreeExactly) {
+  const HandSegment truth = segmentOf(7);
+  const double begin = 0.4, dt = 0.25;
+  const HandSegment made = makeSegment([&](double t) { return sampleAt(truth, (t - begin) / dt); }, begin, dt);
+  EXPECT_EQ(made.degree, 7);
+  for (int k = 0; k <= 7; ++k) {
+    EXPECT_LT(norm(made.position[k] - truth.position[k]), 1e-10) << k;
+    EXPECT_LT(norm(made.velocity[k] - truth.velocity[k]), 1e-10) << k;
+  }
+}
+
+// The error of the best choice of eight points: dt^8/(8! 2^15) of a sine's eighth derivative, times 2 for the ends.
+TEST(HandFunction, ASmoothHandIsFollowedToItsEighthDerivative) {
+  const auto hand = [](double t) { return HandSample{{std::sin(t), std::cos(t), std::sin(2 * t)}, {std::cos(t), -std::sin(t), 0}, true}; };
+  const double dt = 0.5;
+  const HandSegment made = makeSegment(hand, 1, dt);
+  double worst = 0;
+  for (int i = 0; i <= 100; ++i) {
+    const double s = i / 100.0;
+    worst = std::max(worst, std::abs(sampleAt(made, s).position.x - std::sin(1 + s * dt)));
+    EXPECT_NEAR(sampleAt(made, s).velocity.x, std::cos(1 + s * dt), 1e-11);
+    EXPECT_NEAR(sampleAt(made, s).velocity.y, -std::sin(1 + s * dt), 1e-11);
+  }
+  EXPECT_LT(worst, 2 * std::pow(dt, 8) / (40320.0 * 32768)) << "points elsewhere would err more";
+}
+
+TEST(HandFunction, AHeldHandRestsAtItsPlace) {
+  const HandSegment held = heldSegment({0.1, -0.2, 0.3});
+  EXPECT_EQ(held.degree, 0);
+  for (const HandSample& sample : {startOf(held), sampleAt(held, 0.6), endOf(held)}) {
+    EXPECT_EQ(sample.position, (Vec3{0.1, -0.2, 0.3}));
+    EXPECT_EQ(sample.velocity, Vec3{});
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::dynamics
