@@ -1,0 +1,310 @@
+#include "sim/bench/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "base/os.h"
+#include "sim/bench/extrapolation.h"
+#include "sim/bench/linear_reference.h"
+#include "sim/bench/suite.h"
+
+namespace reachlab::bench {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Reference threeNumbers() {
+  Reference r;
+  r.stateSize = 1, r.massCount = 1, r.samples = 3;
+  r.states = {1, 2, 3};
+  r.positions = {4, 5, 6};
+  return r;
+}
+Trajectory along(std::vector<double> states, std::vector<double> positions) {
+  Trajectory t;
+  t.states = std::move(states), t.positions = std::move(positions);
+  return t;
+}
+
+TEST(Measure, TheErrorIsTheLargestDifferenceOfAllNumbers) {
+  const Deviation d = computeError(along({1, 2.25, 3.125}, {4.5, 5, 5.75}), threeNumbers());
+  EXPECT_EQ(d.state, 0.25);
+  EXPECT_EQ(d.position, 0.5);
+  EXPECT_EQ(computeError(along({1, 2, 2}, {4, 5, 6}), threeNumbers()).state, 1) << "less counts as more does";
+  EXPECT_EQ(computeError(along({1, 2, 3}, {4, 5, 6}), threeNumbers()).position, 0);
+}
+
+TEST(Measure, WhatIsNotThereHasNoError) {
+  EXPECT_TRUE(std::isnan(computeError(along({1, 2}, {4, 5, 6}), threeNumbers()).state)) << "it ended early";
+  EXPECT_EQ(computeError(along({1, 2}, {4, 5, 6}), threeNumbers()).position, 0);
+  EXPECT_TRUE(std::isnan(computeError(along({1, kNan, 3}, {4, 5, 6}), threeNumbers()).state));
+  EXPECT_TRUE(std::isnan(computeError(along({1, 2, 3}, {4, 5, INFINITY}), threeNumbers()).position));
+  Trajectory failed = along({1, 2, 3}, {4, 5, 6});
+  failed.failure = "stopped";
+  EXPECT_TRUE(std::isnan(computeError(failed, threeNumbers()).state));
+  EXPECT_TRUE(std::isnan(computeError(failed, threeNumbers()).position));
+}
+
+TEST(Measure, TwoReferencesDifferByTheirLargestDifference) {
+  Reference other = threeNumbers();
+  other.states[1] = Quad(1.5), other.positions[2] = Quad(6.25);
+  EXPECT_EQ(compare(threeNumbers(), other).state, 0.5);
+  EXPECT_EQ(compare(other, threeNumbers()).position, 0.25);
+}
+
+/// Counts its runs, and takes some processor time in each.
+Contender counting(int& runs, double seconds, const std::string& failure = {}) {
+  Contender c;
+  c.method = "spin", c.form = "idle", c.step = 2e-3, c.tolerance = 1e-7;
+  c.run = [&runs, seconds, failure](Trajectory* out) {
+    ++runs;
+    const std::int64_t start = os::threadProcessorTime();
+    while (static_cast<double>(os::threadProcessorTime() - start) < seconds * 1e9) {}
+    if (!out) return;
+    out->states = {1, 2.5, 3}, out->positions = {4, 5, 6.25};
+    out->steps = 11, out->rhsEvaluations = 22, out->worstTick = 3, out->failure = failure;
+  };
+  return c;
+}
+BenchScene tenTicks() {
+  BenchScene scene;
+  scene.name = "S0";
+  scene.duration = 0.01;
+  return scene;
+}
+
+TEST(Measure, ARowTellsWhatItsContenderDid) {
+  int runs = 0;
+  const std::vector<Row> rows = measure(tenTicks(), threeNumbers(), {counting(runs, 0)}, {.rounds = 3, .secondsPerRound = 0});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].scene, "S0");
+  EXPECT_EQ(rows[0].method, "spin");
+  EXPECT_EQ(rows[0].form, "idle");
+  EXPECT_EQ(rows[0].step, 2e-3);
+  EXPECT_EQ(rows[0].tolerance, 1e-7);
+  EXPECT_EQ(rows[0].error.state, 0.5);
+  EXPECT_EQ(rows[0].error.position, 0.25);
+  EXPECT_EQ(rows[0].steps, 11u);
+  EXPECT_EQ(rows[0].rhsEvaluations, 22u);
+  EXPECT_EQ(rows[0].worstTick, 3u);
+  EXPECT_EQ(rows[0].failure, "");
+  EXPECT_EQ(runs, 1 + 1 + 3) << "for the errors, to warm up, and one a round";
+}
+
+TEST(Measure, ARoundIsRepeatedUntilItHasTakenItsTime) {
+  int runs = 0;
+  (void)measure(tenTicks(), threeNumbers(), {counting(runs, 1e-3)}, {.rounds = 2, .secondsPerRound = 9.5e-3});
+  EXPECT_GE(runs, 2 + 2 * 5);
+  EXPECT_LE(runs, 2 + 2 * 10);
+  runs = 0;
+  (void)measure(tenTicks(), threeNumbers(), {counting(runs, 0)}, {.rounds = 1, .secondsPerRound = 1000});
+  EXPECT_EQ(runs, 2 + 10'000) << "and no more often";
+}
+
+// Of two rounds the median lies in the middle, and the quarter points a quarter of the way from either.
+TEST(Measure, ThePriceIsOfAMillisecondAndItsQuartersStandAboutTheMedian) {
+  int runs = 0;
+  const Row row = measure(tenTicks(), threeNumbers(), {counting(runs, 2e-3)}, {.rounds = 2, .secondsPerRound = 1e-3})[0];
+  EXPECT_GE(row.nsPerMs, 2e6 / 10) << "2 ms of a processor for 10 ms";
+  EXPECT_LT(row.nsPerMs, 2e6) << "of those it takes a little more";
+  EXPECT_LE(row.nsLow, row.nsPerMs);
+  EXPECT_NEAR(row.nsPerMs - row.nsLow, row.nsHigh - row.nsPerMs, 1e-6 * row.nsPerMs);
+}
+
+TEST(Measure, WhoeverDidNotReachTheEndIsGivenNoPrice) {
+  int runs = 0, others = 0;
+  const std::vector<Row> rows = measure(tenTicks(), threeNumbers(), {counting(runs, 0, "capped at 0.003 s"), counting(others, 0)},
+                                        {.rounds = 4, .secondsPerRound = 0});
+  EXPECT_EQ(rows[0].failure, "capped at 0.003 s");
+  EXPECT_TRUE(std::isnan(rows[0].error.state));
+  EXPECT_EQ(rows[0].nsPerMs, 0);
+  EXPECT_EQ(runs, 2);
+  EXPECT_EQ(others, 6);
+  EXPECT_GT(rows[1].nsPerMs, 0);
+}
+
+TEST(Measure, SevenRoundsOfTwoMillisecondsAreWhatIsUsual) {
+  EXPECT_EQ(Effort{}.rounds, 7);
+  EXPECT_EQ(Effort{}.secondsPerRound, 2e-3);
+}
+
+// --- contenders
+
+TEST(Contender, StepsShorterThanATickAreCountedByTheTick) {
+  const BenchScene scene = benchScene("S2a");
+  for (const auto& [step, perTick] : {std::pair{1e-3, 1u}, {5e-4, 2u}, {2.5e-4, 4u}}) {
+    const Contender c = makePlantContender(scene, "rk4", step, 0);
+    EXPECT_EQ(c.method, "rk4");
+    EXPECT_EQ(c.step, step);
+    Trajectory out;
+    c.run(&out);
+    EXPECT_EQ(out.failure, "");
+    EXPECT_EQ(out.steps, 1350 * perTick);
+    EXPECT_EQ(out.rhsEvaluations, 4u * 1350 * perTick);
+    EXPECT_EQ(out.worstTick, 4 * perTick);
+    EXPECT_EQ(out.states.size(), 2u * 136);
+    EXPECT_EQ(out.positions.size(), 3u * 136);
+    Trajectory again;
+    c.run(nullptr);
+    c.run(&again);
+    EXPECT_EQ(again.states, out.states) << "each run begins anew";
+    EXPECT_EQ(again.rhsEvaluations, out.rhsEvaluations);
+  }
+}
+
+TEST(Contender, ARowOfStatesHoldsAllCoordinatesThenTheirRates) {
+  const auto first = [](const char* name, const char* method) {
+    Trajectory out;
+    makePlantContender(benchScene(name), method, kTickSeconds, 0).run(&out);
+    return out;
+  };
+  const Trajectory line = first("S6", "auto"), surface = first("S3", "auto"), pole = first("S7d", "auto");
+  EXPECT_EQ(std::vector<double>(line.states.begin(), line.states.begin() + 4), std::vector<double>(4, 0.0)) << "metres from the start";
+  EXPECT_EQ(line.states.size(), 251u * 4);
+  EXPECT_NEAR(surface.states[0], 0.5, 1e-12);
+  EXPECT_NEAR(surface.states[1], 0, 1e-12);
+  EXPECT_EQ(surface.states.size(), 136u * 4);
+  EXPECT_EQ(pole.states.size(), 136u * 6);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(pole.states[i], pole.positions[i]) << "past a pole places and velocities";
+  EXPECT_NEAR(std::hypot(pole.states[3], pole.states[4], pole.states[5]), 0.2, 1e-12);
+}
+
+TEST(Contender, TheFormTellsWhatAutoChose) {
+  EXPECT_EQ(makePlantContender(benchScene("S1"), "auto", kTickSeconds, 0).form, "exact, line, 10 states");
+  EXPECT_EQ(makePlantContender(benchScene("S1"), "rk4", kTickSeconds, 0).form, "line, 10 states");
+  EXPECT_EQ(makePlantContender(benchScene("S2a"), "adaptive", kTickSeconds, 1e-8).tolerance, 1e-8);
+  EXPECT_THROW((void)makePlantContender(benchScene("S3"), "exact", kTickSeconds, 0), RefusedError);
+}
+
+TEST(Contender, WhereAMotionEndsIsTold) {
+  BenchScene scene = benchScene("S2a");
+  scene.experiment.constraint = {};
+  scene.experiment.constraint.name = "own";
+  scene.experiment.constraint.definition = R"({"schema_version": 1, "name": "own", "kind": "curve", "curve": ["0.1*phi", "0.1*phi^2", "0"],
+    "shape": {}, "domain": [0, 2], "periodic": false, "at_end": "stop", "start": [1], "target": [2], "sentence": "s", "source": "s"})";
+  scene.experiment.task->start = {1}, scene.experiment.task->target = {2};
+  scene.hand.kind = HandLaw::Kind::None;
+  scene.start = {1}, scene.rate = {-10};
+  const Contender c = makePlantContender(scene, "auto", kTickSeconds, 0);
+  Trajectory out;
+  c.run(&out);
+  EXPECT_TRUE(out.failure.starts_with("end of the constraint at 0.")) << out.failure;
+  EXPECT_LT(out.steps, 300u);
+  EXPECT_EQ(out.failure.find(" s"), out.failure.size() - 2);
+  EXPECT_NEAR(std::stod(out.failure.substr(out.failure.find("at ") + 3)), static_cast<double>(out.steps) * 1e-3, 1e-9);
+  c.run(nullptr);
+}
+
+// --- references
+
+// e^-t and a circle, each to what the table of columns is asked for.
+TEST(Extrapolation, FollowsAnEquationWhoseSolutionIsKnown) {
+  const auto rate = [](double t, const double* y, double* dy) { dy[0] = -y[0] + t, dy[1] = y[2], dy[2] = -4 * y[1]; };
+  for (const int columns : {8, 11}) {
+    Extrapolation<double, decltype(rate)> integrator(rate, 3, columns, 1e-14);
+    std::vector<double> y{2, 0.5, 1};
+    double t = 0.5;
+    for (const double end : {0.75, 3.0, 4.25}) {
+      integrator.advance(t, end, y);
+      t = end;
+      EXPECT_NEAR(y[0], t - 1 + 2.5 * std::exp(-(t - 0.5)), 1e-12);
+      EXPECT_NEAR(y[1], 0.5 * std::cos(2 * (t - 0.5)) + 0.5 * std::sin(2 * (t - 0.5)), 1e-12);
+      EXPECT_NEAR(y[2], std::cos(2 * (t - 0.5)) - std::sin(2 * (t - 0.5)), 1e-12);
+    }
+    EXPECT_GT(integrator.smallestAcceptedStep(), 0.01);
+    EXPECT_LE(integrator.smallestAcceptedStep(), 2.25);
+  }
+}
+
+TEST(Extrapolation, GivesUpWhereNoStepIsShortEnough) {
+  const auto rate = [](double t, const double*, double* dy) { dy[0] = t < 0.5 ? 1.0 : std::numeric_limits<double>::quiet_NaN(); };
+  Extrapolation<double, decltype(rate)> integrator(rate, 1, 8, 1e-13);
+  std::vector<double> y{0};
+  try {
+    integrator.advance(0, 1, y);
+    FAIL();
+  } catch (const RefusedError& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("step fell below 1e-14 s"), std::string::npos);
+  }
+  EXPECT_NEAR(y[0], 0.5, 1e-12) << "as far as there is an equation";
+}
+
+TEST(Reference, MatricesAreForSmallLinearScenesAlone) {
+  for (const char* name : {"S2a", "S1b50"}) {
+    for (const bool step : {false, true}) {
+      try {
+        if (step) (void)computeExactStep(benchScene(name), kTickSeconds);
+        else (void)exponentialReference(benchScene(name));
+        ADD_FAILURE() << name;
+      } catch (const Error& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find(std::string(name) + ", which has no small matrix"), std::string::npos) << refusal.what();
+      }
+    }
+  }
+}
+
+TEST(Reference, HasASampleEveryHundredthOfASecond) {
+  for (const auto& [name, samples, states, masses] :
+       {std::tuple{"S1", 136, 10, 5}, {"S6", 251, 4, 2}, {"S2a", 136, 2, 1}, {"S7d", 136, 6, 1}, {"S1b50", 136, 100, 50}}) {
+    const Reference r = computeReference(benchScene(name));
+    EXPECT_EQ(r.samples, samples) << name;
+    EXPECT_EQ(r.stateSize, states) << name;
+    EXPECT_EQ(r.massCount, masses) << name;
+    EXPECT_EQ(r.states.size(), static_cast<std::size_t>(samples * states)) << name;
+    EXPECT_EQ(r.positions.size(), static_cast<std::size_t>(samples * masses * 3)) << name;
+  }
+}
+
+TEST(Quad, RootsSquareToWhatTheyAreOf) {
+  for (const double x : {1e-20, 0.3, 2.0, 7e15}) {
+    const Quad root = squareRoot(Quad(x));
+    EXPECT_LT(std::abs(static_cast<double>((root * root - x) / x)), 1e-33) << x;
+  }
+  EXPECT_EQ(static_cast<double>(squareRoot(Quad(0))), 0);
+  EXPECT_EQ(static_cast<double>(squareRoot(Quad(-1))), 0);
+  EXPECT_EQ(static_cast<double>(absolute(Quad(-3))), 3);
+  EXPECT_EQ(static_cast<double>(absolute(Quad(3))), 3);
+  EXPECT_EQ(absolute(-3.0), 3);
+  EXPECT_EQ(squareRoot(2.25), 1.5);
+}
+
+// At a thousand times pi, rounded by 4e-31, the sine is nought to that.
+TEST(Quad, ManyTurnsAreTakenOffWithoutLoss) {
+  const Quad pi = Quad(3.141592653589793) + Quad(1.2246467991473532e-16) + Quad(-2.9947698097183397e-33);
+  for (const int turns : {2, 1000, -1001}) {
+    const auto [sine, cosine] = sineCosine(Quad(pi * turns));
+    EXPECT_LT(std::abs(static_cast<double>(sine)), 6e-34 * std::abs(turns)) << turns;
+    EXPECT_EQ(static_cast<double>(cosine), turns % 2 == 0 ? 1 : -1);
+  }
+}
+
+// Over half a second: a quintic is cut off nowhere, and a curve's series errs by its ninth term.
+TEST(HandLaw, ASegmentOfManyTicksFollowsTheLawAsFarAsItsDegreeGoes) {
+  for (const auto& [name, dt, within] : {std::tuple{"S1", 0.5, 1e-15}, {"S4", 0.3, 1e-15}, {"S2a", 0.03, 1e-10}, {"S5", 0.02, 1e-10}})
+    for (const double t0 : {0.0, 0.35, 0.8}) {
+      const HandLaw law = benchScene(name).hand;
+      const dynamics::HandSegment segment = makeSegment(law, t0, dt);
+      for (const double s : {0.25, 0.6, 1.0}) {
+        const dynamics::HandSample found = dynamics::sampleAt(segment, s), truth = makeSample(law, t0 + s * dt);
+        EXPECT_LT(norm(found.position - truth.position), within) << name << " " << t0;
+        EXPECT_LT(norm(found.velocity - truth.velocity), 100 * within) << name << " " << t0;
+      }
+    }
+  EXPECT_EQ(makeSegment(benchScene("S1").hand, 0.4, 1e-3).degree, 5);
+  EXPECT_EQ(makeSegment(benchScene("S7d").hand, 0.4, 1e-3).degree, 0) << "nobody moves";
+}
+
+TEST(HandLaw, TheVelocityIsThePlacesRate) {
+  for (const char* name : {"S1", "S4", "S2a", "S5"}) {
+    const BenchScene scene = benchScene(name);
+    for (const double t : {0.2, 0.7, 1.1}) {
+      const Vec3 slope = (makeSample(scene.hand, t + 1e-5).position - makeSample(scene.hand, t - 1e-5).position) / 2e-5;
+      EXPECT_LT(norm(makeSample(scene.hand, t).velocity - slope), 1e-8) << name << " " << t;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::bench

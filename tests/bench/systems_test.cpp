@@ -1,0 +1,336 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/error.h"
+#include "sim/bench/peer_system.h"
+#include "sim/dynamics/forces.h"
+
+namespace reachlab::bench {
+namespace {
+
+Vec3 vec(const double* a) { return {a[0], a[1], a[2]}; }
+
+/// What the masses do by forces and geometry that share nothing with the right-hand sides.
+std::vector<double> expectedRates(const BenchScene& scene, const std::vector<double>& y, const dynamics::HandSample& hand,
+                                  std::vector<Vec3>& places) {
+  const dynamics::ObjectModel model = dynamics::makeObjectModel(scene.experiment);
+  const constraints::Constraint c = constraints::makeConstraint(scene.experiment.constraint);
+  const bool line = scene.experiment.constraint.name == "line", surface = c.kind == constraints::ConstraintKind::Surface;
+  const int masses = model.count(), n = static_cast<int>(y.size()) / 2;
+  std::vector<dynamics::MassState> states(static_cast<std::size_t>(masses));
+  std::vector<constraints::CurvePoint> on(static_cast<std::size_t>(masses));
+  constraints::SurfacePoint p;
+  for (int i = 0; i < masses; ++i) {
+    if (surface) {
+      p = constraints::evaluate(c.surface, y[0], y[1]);
+      states[i].r = p.r, states[i].v = y[2] * p.rU + y[3] * p.rV;
+      continue;
+    }
+    on[i] = line ? constraints::CurvePoint{{scene.hand.from.x + y[i], 0, 0}, {1, 0, 0}, {}} : constraints::evaluate(c.curve, y[i]);
+    states[i].r = on[i].r, states[i].v = y[n + i] * on[i].rPhi;
+  }
+  std::vector<double> dy(y.size());
+  const dynamics::Surroundings around{hand, scene.hand.kind != HandLaw::Kind::None, {}};
+  for (int i = 0; i < masses; ++i) {
+    places.push_back(states[i].r);
+    const Vec3 a = dynamics::netForce(model, around, states, i) / model.mass[i];
+    if (surface) {
+      const Vec3 drive = a - (y[2] * y[2] * p.rUu + 2 * y[2] * y[3] * p.rUv + y[3] * y[3] * p.rVv);
+      const double e = dot(p.rU, p.rU), f = dot(p.rU, p.rV), g = dot(p.rV, p.rV), det = e * g - f * f;
+      dy = {y[2], y[3], (g * dot(p.rU, drive) - f * dot(p.rV, drive)) / det, (e * dot(p.rV, drive) - f * dot(p.rU, drive)) / det};
+    } else {
+      dy[i] = y[n + i];
+      dy[n + i] = dot(on[i].rPhi, a - y[n + i] * y[n + i] * on[i].rPhiPhi) / dot(on[i].rPhi, on[i].rPhi);
+    }
+  }
+  return dy;
+}
+
+TEST(Systems, TheHandWrittenRightHandSidesAreThoseOfTheirExperiments) {
+  for (BenchScene scene : benchScenes())
+    for (const bool damped : {false, true}) {
+      experiment::Object& object = scene.experiment.object;
+      if (damped && object.kind == experiment::ObjectKind::Chain) object.damping.assign(object.stiffness.size(), 3);
+      SCOPED_TRACE(scene.name);
+      std::mt19937 random(7);
+      std::uniform_real_distribution<double> unit(0.1, 1);
+      visitSystem(scene, [&]<class System>(const System& system) {
+        constexpr int n = System::kCoordinates;
+        std::vector<double> y(2 * n), found(2 * n), r(3 * System::kMasses);
+        for (double& value : y) value = unit(random);
+        const double at[3] = {unit(random), -unit(random), unit(random)}, speed[3] = {unit(random), unit(random), -unit(random)};
+        system.rate(y.data(), at, speed, found.data());
+        system.positions(y.data(), r.data());
+        std::vector<Vec3> places;
+        const std::vector<double> expected = expectedRates(scene, y, {vec(at), vec(speed), true}, places);
+        for (int i = 0; i < 2 * n; ++i) EXPECT_NEAR(found[i], expected[i], 1e-11 * (1 + std::abs(expected[i]))) << i;
+        for (int i = 0; i < System::kMasses; ++i) EXPECT_LT(norm(vec(r.data() + 3 * i) - places[i]), 1e-15) << i;
+
+        std::vector<Quad> wide(y.begin(), y.end()), fine(2 * n);
+        const Quad handAt[3] = {at[0], at[1], at[2]}, handSpeed[3] = {speed[0], speed[1], speed[2]};
+        system.rate(wide.data(), handAt, handSpeed, fine.data());
+        for (int i = 0; i < 2 * n; ++i) EXPECT_NEAR(static_cast<double>(fine[i]), expected[i], 1e-11 * (1 + std::abs(expected[i]))) << i;
+      });
+    }
+}
+
+TEST(Systems, AHandsVelocityIsAskedForOnlyWhereItIsDamped) {
+  const auto asks = [](const char* name) {
+    return visitSystem(benchScene(name), [](const auto& system) { return system.handVelocity(); });
+  };
+  for (const char* name : {"S1", "S1b50", "S6", "S7a", "S7d", "S7e"}) EXPECT_FALSE(asks(name)) << name;
+  for (const char* name : {"S2a", "S3", "S4", "S5", "S7b", "S7c", "S7f", "S8"}) EXPECT_TRUE(asks(name)) << name;
+}
+
+/// First and second differences of `place` over 1e-9 in 113 bits, right to 1e-15.
+template <class Place>
+void expectDerivatives(const Place& place, const Quad* d, const Quad* dd, const char* what) {
+  const Quad h = Quad(1) / 1000000000;
+  Quad up[3], here[3], down[3];
+  place(h, up), place(Quad(0), here), place(-h, down);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(static_cast<double>(d[i]), static_cast<double>((up[i] - down[i]) / (2 * h)), 1e-15) << what << i;
+    EXPECT_NEAR(static_cast<double>(dd[i]), static_cast<double>((up[i] - 2 * here[i] + down[i]) / (h * h)), 1e-13) << what << i;
+  }
+}
+
+TEST(Systems, CurvesHaveTheDerivativesThatTheyName) {
+  const auto examine = [](const auto& shape) {
+    for (const double phi : {-0.7, 0.3, 2.2}) {
+      Quad r[3], d[3], dd[3];
+      shape.evaluate(Quad(phi), r, d, dd);
+      const auto place = [&](const Quad& by, Quad* out) {
+        Quad first[3], second[3];
+        shape.evaluate(Quad(phi + by), out, first, second);
+      };
+      expectDerivatives(place, d, dd, "phi ");
+    }
+  };
+  examine(EllipseShape{0.11, 0.07});
+  examine(EpitrochoidShape{0.09, 0.013});
+}
+
+TEST(Systems, SurfacesHaveTheDerivativesThatTheyName) {
+  const auto examine = [](const auto& shape) {
+    for (const auto& [u, v] : {std::pair{0.3, 0.8}, {-1.1, 0.4}, {2.0, -0.9}}) {
+      Quad r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3], aslant[3], bend[3];
+      shape.evaluate(Quad(u), Quad(v), r, ru, rv, ruu, ruv, rvv);
+      const auto along = [&](int alongU, int alongV) {
+        return [&, alongU, alongV](const Quad& by, Quad* out) {
+          Quad a[3], b[3], c[3], d[3], e[3];
+          shape.evaluate(Quad(u + alongU * by), Quad(v + alongV * by), out, a, b, c, d, e);
+        };
+      };
+      for (int i = 0; i < 3; ++i) aslant[i] = ru[i] + rv[i], bend[i] = ruu[i] + 2 * ruv[i] + rvv[i];
+      expectDerivatives(along(1, 0), ru, ruu, "u ");
+      expectDerivatives(along(0, 1), rv, rvv, "v ");
+      expectDerivatives(along(1, 1), aslant, bend, "aslant ");
+    }
+  };
+  examine(TorusShape{0.11, 0.03});
+  examine(SaddleShape{0.13, 0.07});
+  examine(SphereShape{0.12});
+}
+
+TEST(Systems, ShapesLieWhereTheirFormulasSay) {
+  double r[3], a[3], b[3], c[3], d[3], e[3];
+  EllipseShape{0.11, 0.07}.evaluate(0.4, r, a, b);
+  EXPECT_LT(norm(vec(r) - Vec3{0, 0.11 * std::cos(0.4), 0.07 * std::sin(0.4)}), 1e-16);
+  EpitrochoidShape{0.09, 0.013}.evaluate(0.4, r, a, b);
+  EXPECT_LT(norm(vec(r) - Vec3{0.09 * std::cos(0.4) - 0.013 * std::cos(1.6), 0.09 * std::sin(0.4) - 0.013 * std::sin(1.6), 0}), 1e-16);
+  TorusShape{0.11, 0.03}.evaluate(0.4, 0.9, r, a, b, c, d, e);
+  const double ring = 0.11 + 0.03 * std::cos(0.4);
+  EXPECT_LT(norm(vec(r) - Vec3{ring * std::cos(0.9), ring * std::sin(0.9), 0.03 * std::sin(0.4)}), 1e-16);
+  SaddleShape{0.13, 0.07}.evaluate(0.4, 0.9, r, a, b, c, d, e);
+  EXPECT_LT(norm(vec(r) - Vec3{0.13 * 0.4, 0.13 * 0.9, 0.07 * (0.4 * 0.4 * 0.4 - 3 * 0.4 * 0.9 * 0.9)}), 1e-16);
+  SphereShape{0.12}.evaluate(0.4, 0.9, r, a, b, c, d, e);
+  EXPECT_LT(norm(vec(r) - 0.12 * Vec3{std::sin(0.9) * std::cos(0.4), std::sin(0.9) * std::sin(0.4), std::cos(0.9)}), 1e-16);
+  double place[3], velocity[3];
+  SphereShape{0.12}.placeAndVelocity(0.4, 0.9, 1.7, -0.6, place, velocity);
+  EXPECT_EQ(vec(place), vec(r));
+  EXPECT_LT(norm(vec(velocity) - (1.7 * vec(a) - 0.6 * vec(b))), 1e-16);
+}
+
+TEST(Systems, ANameWithoutARightHandSideIsRefused) {
+  BenchScene scene = benchScene("S1");
+  scene.name = "S99";
+  try {
+    visitSystem(scene, [](const auto&) {});
+    FAIL();
+  } catch (const Error& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("S99, which has no right-hand side here"), std::string::npos) << refusal.what();
+  }
+}
+
+// --- the scenes
+
+constexpr double kPi = 3.14159265358979323846;
+
+TEST(Scenes, AreTheTablesOnes) {
+  struct Expected {
+    const char *name, *constraint;
+    std::size_t masses;
+    double mass, stiffness, damping, couplingStiffness, couplingDamping, viscosity, seconds;
+  };
+  const std::vector<Expected> table{{"S1", "line", 5, 0.6, 600, 0, 600, 0, 0, 1.35},
+                                    {"S1b50", "line", 50, 0.06, 600, 0, 600, 0, 0, 1.35},
+                                    {"S1b500", "line", 500, 0.006, 600, 0, 600, 0, 0, 1.35},
+                                    {"S2a", "ellipse", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S2b", "ellipse", 1, 1, 0, 0, 600, 5, 2, 1.35},
+                                    {"S3", "torus", 1, 1, 0, 0, 600, 5, 1, 1.35},
+                                    {"S4", "monkey-saddle", 1, 1, 0, 0, 600, 5, 1, 1.35},
+                                    {"S5", "epitrochoid", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S5h", "epitrochoid", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S6", "line", 2, 3, 50, 0, 0, 0, 0, 2.5},
+                                    {"S7a", "line", 5, 0.01, 20000, 0, 600, 0, 0, 1.35},
+                                    {"S7b", "line", 5, 0.01, 20000, 50, 600, 5, 0, 1.35},
+                                    {"S7c", "ellipse", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S7d", "", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S7e", "", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S7f", "", 1, 1, 0, 0, 600, 5, 0, 1.35},
+                                    {"S8", "ellipse", 5, 0.6, 600, 1, 600, 5, 0, 1.35}};
+  const std::vector<BenchScene> scenes = benchScenes();
+  ASSERT_EQ(scenes.size(), table.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const BenchScene& s = scenes[i];
+    const Expected& e = table[i];
+    SCOPED_TRACE(e.name);
+    EXPECT_EQ(s.name, e.name);
+    EXPECT_EQ(s.experiment.name, e.name);
+    EXPECT_NE(s.title, "");
+    EXPECT_EQ(s.experiment.constraint.surface.empty() ? s.experiment.constraint.name : "", e.constraint);
+    const experiment::Object& o = s.experiment.object;
+    EXPECT_EQ(o.masses, std::vector<double>(e.masses, e.mass));
+    EXPECT_EQ(o.stiffness.size(), e.masses == 2 ? 2 : e.masses - 1);
+    EXPECT_EQ(o.damping.size(), o.stiffness.size());
+    EXPECT_EQ(o.stiffness.empty() ? 0 : o.stiffness[0], e.stiffness);
+    EXPECT_EQ(o.damping.empty() ? 0 : o.damping[0], e.damping);
+    EXPECT_EQ(s.experiment.coupling.value_or(experiment::Coupling{}).stiffness, e.couplingStiffness);
+    EXPECT_EQ(s.experiment.coupling.value_or(experiment::Coupling{}).damping, e.couplingDamping);
+    EXPECT_EQ(o.viscosity, e.viscosity);
+    EXPECT_EQ(s.duration, e.seconds);
+    ASSERT_TRUE(s.experiment.task);
+    EXPECT_EQ(s.experiment.task->duration, e.seconds);
+    EXPECT_EQ(s.experiment.task->start, s.start);
+    EXPECT_EQ(s.cartesian, s.name.starts_with("S7") && s.name > "S7c");
+    EXPECT_EQ(s.rate.empty(), s.name != "S7d" && s.name != "S7e");
+    EXPECT_EQ(s.hand.kind == HandLaw::Kind::None, s.name == "S7d" || s.name == "S7e");
+    EXPECT_EQ(s.hand.duration, s.name == "S7d" || s.name == "S7e" ? s.hand.duration : e.seconds);
+  }
+  EXPECT_EQ(benchScene("S6").experiment.object.stiffness, (std::vector<double>{50, 250}));
+}
+
+/// Where the constraint is at the scene's start, or at numbers q.
+Vec3 placeAt(const BenchScene& scene, const std::vector<double>& q) {
+  const constraints::Constraint c = constraints::makeConstraint(scene.experiment.constraint);
+  return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
+                                                      : constraints::evaluate(c.surface, q[0], q[1]).r;
+}
+
+TEST(Scenes, AHandBeginsAtItsMassAtRestAndEndsAtRest) {
+  for (const BenchScene& scene : benchScenes()) {
+    if (scene.hand.kind == HandLaw::Kind::None) continue;
+    SCOPED_TRACE(scene.name);
+    EXPECT_LT(norm(makeSample(scene.hand, 0).position - placeAt(scene, scene.start)), 1e-15);
+    EXPECT_LT(norm(makeSample(scene.hand, 0).velocity), 1e-15);
+    EXPECT_LT(norm(makeSample(scene.hand, scene.duration).velocity), 1e-14);
+  }
+}
+
+TEST(Scenes, HandsReachWhereTheyAreToGo) {
+  const auto end = [](const BenchScene& s) { return makeSample(s.hand, s.duration).position; };
+  for (const char* name : {"S1", "S1b50", "S6", "S7a", "S7b", "S2a", "S2b", "S5", "S5h", "S7c", "S8"}) {  // along a curve to its target
+    const BenchScene s = benchScene(name);
+    EXPECT_LT(norm(end(s) - placeAt(s, s.experiment.task->target)), 1e-15) << name;
+  }
+  EXPECT_LT(norm(end(benchScene("S1")) - Vec3{0.1, 0, 0}), 1e-15);
+  EXPECT_LT(norm(end(benchScene("S2a")) - Vec3{0, -0.1, 0}), 1e-15);
+  EXPECT_NEAR(benchScene("S7c").start[0], kPi / 4, 1e-15);
+  EXPECT_NEAR(benchScene("S5").start[0], kPi / 3, 1e-15);
+  EXPECT_NEAR(benchScene("S5").experiment.task->target[0], kPi, 1e-15);
+  for (const char* name : {"S3", "S4"}) {  // the hand's chord is 0.2 m long
+    const BenchScene s = benchScene(name);
+    EXPECT_NEAR(norm(end(s) - makeSample(s.hand, 0).position), 0.2, 1e-15) << name;
+  }
+  EXPECT_LT(norm(end(benchScene("S3")) - makeSample(benchScene("S3").hand, 0).position - Vec3{-0.12, 0.16, 0}), 1e-15);
+}
+
+TEST(Scenes, GeodesicsPassTheirPoleAsCloseAsTheySayHalfWayAtTwoRadiansASecond) {
+  for (const auto& [name, tilt] : {std::pair{"S7d", 1e-3}, {"S7e", 1e-6}}) {
+    const BenchScene s = benchScene(name);
+    double r[3], v[3];
+    SphereShape{0.1}.placeAndVelocity(s.start[0], s.start[1], s.rate[0], s.rate[1], r, v);
+    EXPECT_NEAR(norm(vec(v)), 0.2, 1e-14) << name;
+    const double turn = 2 * s.duration / 2;
+    const Vec3 half = std::cos(turn) * vec(r) + std::sin(turn) / 2 * vec(v);
+    EXPECT_LT(norm(half - 0.1 * Vec3{std::sin(tilt), 0, std::cos(tilt)}), 1e-14) << name;
+    EXPECT_GT(v[1], 0) << name;
+  }
+  const BenchScene pulled = benchScene("S7f");
+  EXPECT_LT(norm(placeAt(pulled, pulled.start) - placeAt(benchScene("S7d"), benchScene("S7d").start)), 1e-16);
+  const Vec3 from = makeSample(pulled.hand, 0).position, to = makeSample(pulled.hand, pulled.duration).position;
+  EXPECT_LT(norm(to - Vec3{from.x, -from.y, from.z}), 1e-16) << "its mirror image";
+}
+
+TEST(Scenes, AnUnknownOneIsRefusedWithTheNamesThatThereAre) {
+  try {
+    (void)benchScene("S9");
+    FAIL();
+  } catch (const Error& refusal) {
+    const std::string words = refusal.what();
+    EXPECT_NE(words.find("is S9"), std::string::npos) << words;
+    EXPECT_NE(words.find("S1, S1b50, S1b500, S2a"), std::string::npos) << words;
+    EXPECT_NE(words.find("S7f, S8, constraint-eval"), std::string::npos) << words;
+  }
+}
+
+TEST(PeerSystem, BeginsWhereThePlantDoes) {
+  for (const BenchScene& scene : benchScenes()) {
+    SCOPED_TRACE(scene.name);
+    visitSystem(scene, [&]<class System>(const System& system) {
+      constexpr int n = System::kCoordinates;
+      std::vector<double> y(2 * n, 7.0), r(3 * System::kMasses);
+      setInitialState<System>(scene, y.data());
+      system.positions(y.data(), r.data());
+      for (int i = 0; i < System::kMasses; ++i) EXPECT_LT(norm(vec(r.data() + 3 * i) - placeAt(scene, scene.start)), 1e-15);
+      for (int i = 0; i < n; ++i) EXPECT_EQ(y[n + i], scene.rate.empty() ? 0 : scene.rate[i % 2]);
+    });
+  }
+}
+
+// A tick that does nothing: samples at every tenth, evaluations counted by the tick, and where it gave up.
+TEST(PeerSystem, AReachIsSampledAndCountedByItsTicks) {
+  const BenchScene scene = benchScene("S2a");
+  visitSystem(scene, [&]<class System>(const System& system) {
+    const std::vector<dynamics::HandSegment> segments(25);
+    double y[2] = {0.3, -0.4}, dy[2];
+    int ticks = 0;
+    const auto go = [&](int until) {
+      PeerSystem<System> peer{system};
+      Trajectory out;
+      ticks = 0;
+      runReach(peer, segments, y, &out, [&] {
+        y[0] = 0.3 + 0.01 * ticks;
+        for (int i = 0; i < (ticks == 17 ? 5 : 2); ++i) peer.rate(y, dy, 0);
+        return ++ticks <= until;
+      });
+      return out;
+    };
+    const Trajectory all = go(100);
+    EXPECT_EQ(ticks, 25);
+    EXPECT_EQ(all.failure, "");
+    EXPECT_EQ(all.rhsEvaluations, 2u * 24 + 5);
+    EXPECT_EQ(all.worstTick, 5u);
+    ASSERT_EQ(all.states.size(), 6u) << "at 0, 10 and 20 ms";
+    EXPECT_NEAR(all.states[2], 0.3 + 0.09, 1e-15);
+    EXPECT_NEAR(all.states[4], 0.3 + 0.19, 1e-15);
+    EXPECT_EQ(all.states[5], -0.4);
+    ASSERT_EQ(all.positions.size(), 9u);
+    EXPECT_NEAR(all.positions[4], 0.1 * std::cos(0.39), 1e-15);
+    EXPECT_EQ(go(12).failure, "gave up at 0.012000 s");
+  });
+}
+
+}  // namespace
+}  // namespace reachlab::bench
