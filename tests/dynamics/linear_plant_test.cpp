@@ -245,5 +245,23 @@ TEST(LinearPlant, ElasticEndsThrowAMassBack) {
   }
 }
 
+// Ends five micrometres apart: more than a thousand right-hand sides of a tick's way to and fro.
+TEST(LinearPlant, BetweenEndsThatAreTooNearTheStateStaysAsItWas) {
+  LinearSpace where = between(-2e-5, 2e-5);
+  where.domain.atEnd = constraints::AtEnd::Bounce;
+  const auto plant = makeLinePlant(unlike(ObjectKind::Point, 1), where, {"adaptive", 0});
+  plant->setCoupled(false);
+  plant->place(std::array{1e-5}, std::array{3.0});
+  const MassState before = observed(*plant)[0];
+  const std::uint64_t none = plant->rhsEvaluations();
+  EXPECT_EQ(plant->step({}, 1e-3), StepStatus::Capped);
+  EXPECT_EQ(observed(*plant)[0].r, before.r);
+  EXPECT_EQ(observed(*plant)[0].v, before.v);
+  EXPECT_EQ(plant->lastStepFraction(), 1);
+  EXPECT_GT(plant->rhsEvaluations() - none, 1000u);
+  EXPECT_LT(plant->rhsEvaluations() - none, 1100u) << "each is counted once";
+  EXPECT_EQ(plant->step({}, 1e-6), StepStatus::Ok) << "a shorter step is done";
+}
+
 }  // namespace
 }  // namespace reachlab::dynamics

@@ -141,6 +141,16 @@ TEST(Scene, ANarrowDipOfTheSpeedIsFoundBetweenTheLooks) {
   }
 }
 
+// From e^-3 to e^3 of what it is in the middle: more than eight times that is steep and not what is usual.
+TEST(Scene, TheLargestSpeedCountsUpToEightTimesTheUsualOne) {
+  const auto form = [](const char* along, double start) {
+    const Experiment e = defined("curve", std::string("[\"0.01*") + along + "\", \"1e-6*phi^2\", \"0\"]", "[-3, 3]", "stop", "[0]", "[1]");
+    return compileScene(from(e, {start}, {1})).choice.form;
+  };
+  EXPECT_EQ(form("exp(phi)", 0), "curve, speed along it (|r_phi| falls to 0.0062 of its largest), 2 states") << "e^-3/8";
+  EXPECT_EQ(form("exp(phi/2)", 0), "curve, speed along it (|r_phi| falls to 0.05 of its largest), 2 states") << "e^-1.5/e^1.5";
+}
+
 // 2^-53 phi 0.1 m are 1e-13 m, and 1e-15 of |r|, at phi = 9016; of a circle whole turns are taken off.
 TEST(Scene, ASpiralsStartIsNotSoFarThatItsPhiIsRounded) {
   const auto starting = [](double phi, const char* z) {
