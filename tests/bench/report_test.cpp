@@ -123,14 +123,16 @@ TEST(Report, AutoIsDrawnOverTheOthersAndPeersAreDashed) {
                     last = drawWorkPrecision({row("S1", "rk4", 1e-7, 30), row("S1", "auto", 1e-12, 40)});
   EXPECT_EQ(first, last);
   const std::vector<Row> two{row("S1", "rk4", 1e-7, 30), row("S1", "rk4", 1e-9, 60)};
-  std::vector<Row> peers = two, named = two;
+  std::vector<Row> peers = two;
   for (Row& r : peers) r.method = "odeint-rk4";
   EXPECT_EQ(count(drawWorkPrecision(two), "dasharray"), 0);
   EXPECT_GT(count(drawWorkPrecision(peers), "dasharray"), 0);
-  for (Row& r : named) r.method = "auto";
-  std::string other = drawWorkPrecision(two);
-  for (std::size_t at = other.find(">rk4<"); at != std::string::npos; at = other.find(">rk4<")) other.replace(at, 5, ">auto<");
-  EXPECT_NE(drawWorkPrecision(named), other) << "its markers are larger";
+  // Another name alone changes the legend of the first panel, and nothing behind it.
+  const auto drawn = [](const char* method) { return drawWorkPrecision({row("S1", method, 1e-7, 30), row("S2a", method, 1e-9, 60)}); };
+  const auto sameFromTheEnd = [](const std::string& x, const std::string& y) {
+    return std::mismatch(x.rbegin(), x.rend(), y.rbegin(), y.rend()).first - x.rbegin();
+  };
+  EXPECT_LT(sameFromTheEnd(drawn("auto"), drawn("rk4")), sameFromTheEnd(drawn("abm"), drawn("rk4"))) << "its markers are larger";
 }
 
 TEST(Report, SampledHandsAreToldByTheirPath) {

@@ -1,0 +1,220 @@
+// Curves where phi grows large, and those whose formula is smooth by pieces.
+#include <gtest/gtest.h>
+
+#include "tests/dynamics/make_experiment.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+using experiment::Experiment;
+using experiment::ObjectKind;
+
+Experiment bead() { return makeExperiment(ObjectKind::Point, {1}, {}); }
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Whole turns are taken off phi where it has become large, and added again for who asks.
+TEST(FarAlong, OnACircleManyTurnsOnTheDigitsOfThePlaceAreKept) {
+  for (const double from : {500.0, 40000.0, -40000.0})
+    for (const double rate : {900.0, -900.0}) {
+      const Scene scene = freeScene(onCurve(bead(), "0.1*cos(phi)", "0.1*sin(phi)", "0"), {from}, {rate});
+      EXPECT_NEAR(observed(*scene.plant)[0].q[0], from, 1e-11);
+      ASSERT_EQ(run(*scene.plant, noHand, 2), StepStatus::Ok);
+      const MassState mass = observed(*scene.plant)[0];
+      EXPECT_NEAR(mass.q[0], from + 2 * rate, 2e-9) << "2000 ticks of its tolerance";
+      EXPECT_NEAR(mass.qRate[0], rate, 1e-9);
+      EXPECT_LT(norm(mass.r - 0.1 * Vec3{std::cos(mass.q[0]), std::sin(mass.q[0]), 0}), 1e-12);
+    }
+}
+
+TEST(FarAlong, EveryMassOfAChainHasTurnsOfItsOwn) {
+  Experiment e = onCurve(makeChain(2, 0.5, 0), "0.1*cos(phi)", "0.1*sin(phi)", "0");
+  const Scene scene = freeScene(e, {3000}, {0});
+  scene.plant->setExtraForce({0.5 * std::cos(3000.0), 0.5 * std::sin(3000.0), 0});  // along r: it does not start mass 1 by itself
+  const auto begin = observed(*scene.plant);
+  EXPECT_NEAR(begin[1].q[0], 3000, 1e-12);
+  scene.plant->setExtraForce({-400 * std::sin(3000.0), 400 * std::cos(3000.0), 0});
+  ASSERT_EQ(run(*scene.plant, noHand, 0.5), StepStatus::Ok);
+  const auto after = observed(*scene.plant);
+  EXPECT_NEAR(after[1].q[0], 3000, 1e-12) << "nothing pulls the second";
+  EXPECT_GT(std::abs(after[0].q[0] - 3000), 0.01);
+  for (const MassState& mass : after) EXPECT_LT(norm(mass.r - 0.1 * Vec3{std::cos(mass.q[0]), std::sin(mass.q[0]), 0}), 1e-12);
+}
+
+// On a helix nothing comes round again: it is told where a rounding of phi would move the mass, by 1e-13 m at phi = 9016.
+TEST(FarAlong, OnAHelixTheMotionEndsWhereARoundingOfPhiShows) {
+  for (const double side : {1.0, -1.0}) {
+    const Scene scene = freeScene(onCurve(bead(), "0.1*cos(phi)", "0.1*sin(phi)", "phi/1e7"), {8800 * side}, {1000 * side});
+    EXPECT_EQ(run(*scene.plant, noHand, 0.19), StepStatus::Ok);
+    EXPECT_EQ(run(*scene.plant, noHand, 0.2), StepStatus::NoContinuation);
+    EXPECT_EQ(scene.plant->lastStepFraction(), 0);
+    const double phi = std::abs(observed(*scene.plant)[0].q[0]);
+    EXPECT_GT(phi, 9016 - 1);
+    EXPECT_LT(phi, 9016 + 65) << "it is looked at every 64 ticks";
+    EXPECT_TRUE(has(scene.plant->stopReason(), "mass 1 at phi = ") &&
+                has(scene.plant->stopReason(), "so far from 0 that a rounding of phi moves it by 1e-13 m"))
+        << scene.plant->stopReason();
+  }
+}
+
+// --- by pieces
+
+/// A valley of two straight sides, under gravity.
+Experiment valley(double friction) {
+  Experiment e = onCurve(makeExperiment(ObjectKind::Point, {2}, {}), "phi/10", "0.1*abs(phi)", "0");
+  e.object.gravity = {0, -9.81, 0};
+  e.object.viscosity = friction;
+  return e;
+}
+
+TEST(Corners, InAValleyAMassSwingsWithItsEnergy) {
+  const Scene scene = freeScene(valley(0), {1}, {0});
+  const double before = scene.plant->energy({});
+  // Down a slope of 45 degrees of 0.1 m by g/2 sin(45): t = sqrt(2 s/a), a fourth of the whole.
+  const double quarter = std::sqrt(2 * 0.1 * std::sqrt(2.0) / (9.81 / std::sqrt(2.0)));
+  ASSERT_EQ(run(*scene.plant, noHand, 8 * quarter, quarter / 200), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-9);
+  EXPECT_NEAR(observed(*scene.plant)[0].q[0], 1, 1e-6) << "twice to and fro";
+}
+
+// From half a micrometre up a side, over the corner and back within a tick: no step ends beyond it.
+TEST(Corners, SwingsOfLessThanATickKeepTheirEnergyAsWell) {
+  for (const double height : {2e-7, 5e-6}) {
+    Experiment grooved = makeExperiment(ObjectKind::Point, {2}, {});
+    grooved.constraint.surface = {"0.1*u", "0.1*v", "0.1*abs(u)"};
+    grooved.object.gravity = {0, 0, -9.81};
+    const Scene curve = freeScene(valley(0), {height}, {0}), groove = freeScene(grooved, {height, 0.2}, {0, 0.5});
+    for (const Scene* scene : {&curve, &groove}) {
+      const double at = observed(*scene->plant)[0].r.y, before = scene->plant->energy({});
+      double low = height, high = -height;
+      for (int tick = 0; tick < 60; ++tick) {
+        const StepStatus status = scene->plant->step({}, 1e-3);
+        ASSERT_EQ(status, StepStatus::Ok) << tick << " " << at << scene->plant->stopReason();
+        EXPECT_NEAR(scene->plant->energy({}), before, 1e-6 * 2 * 9.81 * 0.1 * height + (scene == &groove ? 1e-12 : 0)) << tick;
+        const double q = observed(*scene->plant)[0].q[0];
+        low = std::min(low, q), high = std::max(high, q);
+      }
+      EXPECT_LT(low, -0.1 * height) << "it is on both sides";
+      EXPECT_GT(low, -1.01 * height);
+      EXPECT_LT(high, 1.01 * height);
+    }
+  }
+}
+
+TEST(Corners, InAValleyAMassComesToRestAndIsPulledOutByMoreThanItsWeight) {
+  for (const double side : {1.0, -1.0}) {
+    const Scene scene = freeScene(valley(30), {0.5 * side}, {0});
+    ASSERT_EQ(run(*scene.plant, noHand, 3), StepStatus::Ok);
+    EXPECT_EQ(observed(*scene.plant)[0].q[0], 0) << "in the corner itself";
+    EXPECT_EQ(observed(*scene.plant)[0].v, Vec3{});
+    const double weight = 2 * 9.81;  // at 45 degrees as much sideways holds it on a slope
+    for (const double pull : {-1.0, 1.0}) {
+      scene.plant->setExtraForce({0.99 * weight * pull, 0, 0});
+      ASSERT_EQ(run(*scene.plant, noHand, 0.2), StepStatus::Ok);
+      EXPECT_EQ(observed(*scene.plant)[0].q[0], 0);
+    }
+    for (const double pull : {-1.0, 1.0}) {
+      scene.plant->placeAtRest(std::array{0.0});
+      scene.plant->setExtraForce({1.01 * weight * pull, 0, 0});
+      ASSERT_EQ(run(*scene.plant, noHand, 0.2), StepStatus::Ok);
+      // Along the slope 0.01 weight/sqrt(2) against 30 N s/m: near its final speed.
+      EXPECT_GT(observed(*scene.plant)[0].q[0] * pull, 1e-3);
+      EXPECT_NEAR(observed(*scene.plant)[0].v.x, pull * 0.01 * weight / 2 / 30, 0.1 * 0.01 * weight / 2 / 30);
+    }
+  }
+}
+
+TEST(Corners, OnARidgeNothingTellsWhichWayAMassGoes) {
+  Experiment e = valley(0);
+  e.object.gravity.y = 9.81;
+  const Scene scene = freeScene(e, {0}, {0});
+  EXPECT_EQ(run(*scene.plant, noHand, 0.1), StepStatus::NoContinuation);
+  EXPECT_EQ(scene.plant->lastStepFraction(), 0);
+  EXPECT_TRUE(has(scene.plant->stopReason(), "a kink that pulls it to both sides: which way it would leave is not determined"));
+  scene.plant->setExtraForce({2 * 9.81 * 1.01, 0, 0});
+  EXPECT_EQ(run(*scene.plant, noHand, 0.05), StepStatus::Ok) << "now one side pulls alone";
+  EXPECT_GT(observed(*scene.plant)[0].q[0], 0);
+}
+
+Experiment kinkBetweenEnds(const std::string& atEnd) {
+  Experiment e = bead();
+  e.constraint.name = "own";
+  e.constraint.definition = R"j({"schema_version": 1, "name": "own", "kind": "curve", "curve": ["0.1*phi", "0.05*abs(phi - 1)", "0"],
+    "shape": {}, "domain": [-1, 2], "periodic": false, "at_end": ")j" +
+                            atEnd + R"j(", "start": [0], "target": [0.5], "sentence": "s",
+    "source": "s"})j";
+  return e;
+}
+
+TEST(Corners, AnEndIsToldByItsMassAndPlace) {
+  const auto stopped = [](const Experiment& e, double q, double rate) {
+    const Scene scene = freeScene(e, {q}, {rate});
+    EXPECT_EQ(run(*scene.plant, noHand, 1), StepStatus::AtEnd);
+    return scene.plant->stopReason();
+  };
+  Experiment jump = onCurve(bead(), "phi/10", "0.02*sign(phi - 0.5) + 0.05*abs(phi)", "0");
+  EXPECT_TRUE(has(stopped(jump, 0.2, 1), "mass 1 at phi = 0.5 met a place that is never crossed: jump")) << stopped(jump, 0.2, 1);
+  EXPECT_TRUE(has(stopped(jump, 0.8, -1), "mass 1 at phi = 0.5 met a place that is never crossed: jump"));
+  const Experiment e = kinkBetweenEnds("stop");
+  EXPECT_EQ(stopped(e, 0, 3), "mass 1 at phi = 2 reached the end of the constraint's domain");
+  EXPECT_EQ(stopped(e, 0, -3), "mass 1 at phi = -1 reached the end of the constraint's domain");
+}
+
+TEST(Corners, ElasticEndsOfACurveWithAKinkThrowMassesBack) {
+  const Experiment e = kinkBetweenEnds("bounce");
+  for (const double rate : {4.7, -4.7}) {
+    const Scene scene = freeScene(e, {0}, {rate});
+    for (int tick = 1; tick <= 2000; ++tick) {
+      ASSERT_EQ(scene.plant->step({}, 1e-3), StepStatus::Ok);
+      const double way = std::fmod(600 + 1 + rate * tick * 1e-3, 6);  // straight on either side, and equally steep
+      ASSERT_NEAR(observed(*scene.plant)[0].q[0], (way < 3 ? way : 6 - way) - 1, 1e-9) << tick;
+    }
+  }
+}
+
+// --- cusps
+
+// A four-cusped star of 0.1 m: springs and a hand at rest, and every mass passes cusps of its own.
+TEST(Cusps, AChainPassesThemWithoutGainingEnergy) {
+  for (const bool side : {false, true}) {
+    Experiment e = side ? makeExperiment(ObjectKind::Parallel, {0.4, 0.6}, {100, 140}) : makeChain(2, 0.5, 200, {150, 0});
+    e = onCurve(e, "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0");
+    const Scene scene = compileScene(e);
+    EXPECT_TRUE(has(scene.choice.form, "speed along it")) << scene.choice.form;
+    scene.plant->place(std::array{0.7}, std::array{7.0});
+    const HandSample hand{{0.02, 0.05, 0}, {}, true};
+    const double before = scene.plant->energy(hand);
+    double furthest = 0;
+    for (int tick = 0; tick < 800; ++tick) {
+      ASSERT_EQ(scene.plant->step(heldSegment(hand.position), 1e-3), StepStatus::Ok) << tick;
+      furthest = std::max(furthest, std::abs(observed(*scene.plant)[1].q[0] - 0.7));
+    }
+    EXPECT_NEAR(scene.plant->energy(hand), before, 1e-9 * before);
+    EXPECT_GT(furthest, std::numbers::pi / 2) << "it passed a cusp";
+  }
+}
+
+// Near-cusps by a hand that draws, by ticks of one length and of a quarter of it.
+TEST(Cusps, HowLongATickIsDoesNotMatter) {
+  for (const char* small : {"0.0198", "0.02"}) {
+    const std::string d = small;
+    Experiment e = onCurve(makeExperiment(ObjectKind::Point, {1}, {}, {600, 5}), "0.08*cos(phi)-" + d + "*cos(4*phi)",
+                           "0.08*sin(phi)-" + d + "*sin(4*phi)", "0");
+    const HandFunction hand = [](double t) {
+      const MinimumJerk law = heldMinimumJerk(t / 0.7);
+      const double phi = 1.05 + 2.2 * law.value, rate = 2.2 * law.rate / 0.7;
+      return HandSample{{0.1 * std::cos(phi), 0.1 * std::sin(phi), 0}, {-0.1 * rate * std::sin(phi), 0.1 * rate * std::cos(phi), 0}, true};
+    };
+    std::vector<Vec3> places;
+    for (const char* method : {"abm", "adaptive"})
+      for (const double dt : {1e-3, 2.5e-4}) {
+        const Scene scene = compileScene(e, {method, dt, 0});
+        scene.plant->placeAtRest(std::array{1.3});
+        ASSERT_EQ(run(*scene.plant, hand, 0.8, dt), StepStatus::Ok) << method << dt;
+        places.push_back(observed(*scene.plant)[0].r);
+      }
+    for (const Vec3& place : places) EXPECT_LT(norm(place - places[0]), 1e-9) << d;
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::dynamics
