@@ -113,6 +113,21 @@ TEST(Measure, ThePriceIsOfAMillisecondAndItsQuartersStandAboutTheMedian) {
   EXPECT_NEAR(row.nsPerMs - row.nsLow, row.nsHigh - row.nsPerMs, 1e-6 * row.nsPerMs);
 }
 
+// Of a millisecond and three: 1.5, 2 and 2.5.
+TEST(Measure, BetweenTwoRoundsTheQuartersAreDrawnStraight) {
+  int runs = 0, short1 = 0, long1 = 0;
+  const Contender quick = counting(short1, 1e-3), slow = counting(long1, 3e-3);
+  Contender c = quick;
+  c.run = [&](Trajectory* out) { (++runs == 4 ? slow : quick).run(out); };
+  const Row row = measure(tenTicks(), threeNumbers(), {c}, {.rounds = 2, .secondsPerRound = 0})[0];
+  EXPECT_GT(row.nsHigh, 1.3 * row.nsLow);
+  EXPECT_GT(row.nsPerMs, 1.15 * row.nsLow);
+  EXPECT_LT(row.nsHigh, 2 * row.nsLow) << "the longest is not the three-quarter point";
+  runs = 0;
+  const Row one = measure(tenTicks(), threeNumbers(), {c}, {.rounds = 1, .secondsPerRound = 0})[0];
+  EXPECT_EQ(one.nsLow, one.nsHigh);
+}
+
 TEST(Measure, WhoeverDidNotReachTheEndIsGivenNoPrice) {
   int runs = 0, others = 0;
   const std::vector<Row> rows = measure(tenTicks(), threeNumbers(), {counting(runs, 0, "capped at 0.003 s"), counting(others, 0)},

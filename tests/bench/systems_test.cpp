@@ -57,7 +57,7 @@ TEST(Systems, TheHandWrittenRightHandSidesAreThoseOfTheirExperiments) {
       std::uniform_real_distribution<double> unit(0.1, 1);
       visitSystem(scene, [&]<class System>(const System& system) {
         constexpr int n = System::kCoordinates;
-        std::vector<double> y(2 * n), found(2 * n), r(3 * System::kMasses);
+        std::vector<double> y(2 * n), found(2 * n), r(3 * System::kMasses, 7.0);
         for (double& value : y) value = unit(random);
         const double at[3] = {unit(random), -unit(random), unit(random)}, speed[3] = {unit(random), unit(random), -unit(random)};
         system.rate(y.data(), at, speed, found.data());
@@ -290,7 +290,7 @@ TEST(PeerSystem, BeginsWhereThePlantDoes) {
     SCOPED_TRACE(scene.name);
     visitSystem(scene, [&]<class System>(const System& system) {
       constexpr int n = System::kCoordinates;
-      std::vector<double> y(2 * n, 7.0), r(3 * System::kMasses);
+      std::vector<double> y(2 * n, 7.0), r(3 * System::kMasses, 7.0);
       setInitialState<System>(scene, y.data());
       system.positions(y.data(), r.data());
       for (int i = 0; i < System::kMasses; ++i) EXPECT_LT(norm(vec(r.data() + 3 * i) - placeAt(scene, scene.start)), 1e-15);
