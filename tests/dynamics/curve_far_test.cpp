@@ -56,6 +56,17 @@ TEST(FarAlong, OnAHelixTheMotionEndsWhereARoundingOfPhiShows) {
   }
 }
 
+// Half a circle by its tangent: its end is where phi is infinite.
+TEST(FarAlong, ACurveThatEndsOnlyInInfinityIsToldSo) {
+  const Scene scene = freeScene(onCurve(bead(), "0.1*phi/sqrt(1+phi^2)", "0.1/sqrt(1+phi^2)", "0"), {10}, {2});  // at 2 mm/s
+  const StepStatus status = run(*scene.plant, noHand, 8);
+  EXPECT_TRUE(status == StepStatus::Capped || status == StepStatus::NotFinite)
+      << describe(status) << " at " << observed(*scene.plant)[0].q[0];
+  EXPECT_TRUE(has(scene.plant->stopReason(), "mass 1 at phi = ")) << scene.plant->stopReason();
+  EXPECT_TRUE(has(scene.plant->stopReason(), "the curve comes to its end only as phi grows without bound")) << scene.plant->stopReason();
+  EXPECT_LT(norm(observed(*scene.plant)[0].r - Vec3{0.1, 0, 0}), 1e-3);
+}
+
 // --- by pieces
 
 /// A valley of two straight sides, under gravity.
@@ -190,6 +201,101 @@ TEST(Cusps, AChainPassesThemWithoutGainingEnergy) {
     }
     EXPECT_NEAR(scene.plant->energy(hand), before, 1e-9 * before);
     EXPECT_GT(furthest, std::numbers::pi / 2) << "it passed a cusp";
+  }
+}
+
+TEST(Corners, EveryMassOfAChainRestsAndLeavesForItself) {
+  Experiment e = onCurve(makeChain(2, 2, 50, {0, 0}), "phi/10", "0.1*abs(phi)", "0");
+  e.object.gravity = {0, -9.81, 0};
+  e.object.viscosity = 30;
+  const Scene scene = freeScene(e, {0.5}, {0});
+  ASSERT_EQ(run(*scene.plant, noHand, 3), StepStatus::Ok);
+  for (const MassState& mass : observed(*scene.plant)) EXPECT_EQ(mass.q[0], 0);
+  scene.plant->setExtraForce({2 * 9.81 * 1.2, 0, 0});  // less its own weight 3.92 N sideways, which the spring takes up
+  ASSERT_EQ(run(*scene.plant, noHand, 3), StepStatus::Ok);
+  const auto after = observed(*scene.plant);
+  // Along the slope: (F - m g)/sqrt(2) against k d, with d the way up it.
+  EXPECT_NEAR(norm(after[0].r), 0.2 * 2 * 9.81 / std::sqrt(2.0) / 50, 5e-4) << "up to where the spring holds it, but for e^-5 of the way";
+  EXPECT_EQ(after[1].q[0], 0) << "the spring is too weak for the other";
+  EXPECT_EQ(after[1].v, Vec3{});
+}
+
+TEST(Corners, TheMassThatComesFirstIsTold) {
+  Experiment e = onCurve(makeChain(2, 0.5, 0, {0, 0}), "phi/10", "0.02*sign(phi - 0.5) + 0.05*abs(phi)", "0");
+  for (const double pull : {1.0, -1.0}) {
+    const Scene scene = freeScene(e, {0.2}, {1});
+    scene.plant->setExtraForce({0.1 * pull, 0, 0});  // on the first
+    EXPECT_EQ(run(*scene.plant, noHand, 1), StepStatus::AtEnd);
+    EXPECT_TRUE(has(scene.plant->stopReason(), pull > 0 ? "mass 1 at phi = 0.5 met" : "mass 2 at phi = 0.5 met"))
+        << scene.plant->stopReason();
+    EXPECT_NEAR(observed(*scene.plant)[pull > 0 ? 0 : 1].q[0], 0.5, 1e-12);
+  }
+}
+
+// A hand that moves while masses pass corners and are thrown back: how long a tick is does not matter.
+TEST(Corners, UnderAMovingHandEveryLengthOfATickComesToTheSame) {
+  Experiment kinks = onCurve(makeChain(2, 0.5, 200, {300, 4}), "phi/10", "0.05*abs(phi) + 0.02*sin(phi)", "0.03*abs(phi - 0.5)");
+  Experiment ends = kinkBetweenEnds("bounce");
+  ends.object = makeChain(2, 0.5, 200).object;
+  ends.coupling = experiment::Coupling{300, 4};
+  Experiment smooth = ends;
+  const std::string from = "0.05*abs(phi - 1)";
+  smooth.constraint.definition.replace(smooth.constraint.definition.find(from), from.size(), "0.03*phi^2");
+  const HandFunction hand = [](double t) {
+    return HandSample{{0.1 + 0.25 * std::sin(7 * t), 0.1 + 0.1 * t, 0}, {0.25 * 7 * std::cos(7 * t), 0.1, 0}, true};
+  };
+  for (const Experiment& e : {kinks, ends, smooth}) {
+    std::vector<std::vector<MassState>> came;
+    for (const double dt : {1e-3, 2.5e-4}) {
+      const Scene scene = compileScene(e, {"adaptive", dt, 0});
+      scene.plant->placeAtRest(std::array{-0.3});
+      ASSERT_EQ(run(*scene.plant, hand, 0.6, dt), StepStatus::Ok) << scene.plant->stopReason();
+      came.push_back(observed(*scene.plant, hand(0.6)));
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_LT(norm(came[0][i].r - came[1][i].r), 1e-8) << e.constraint.definition << i;
+      EXPECT_LT(norm(came[0][i].v - came[1][i].v), 1e-6) << e.constraint.definition << i;
+    }
+  }
+}
+
+// A step of 4 mm within two tenths of a thousandth of phi: it is passed along its whole length.
+TEST(Corners, ANarrowStepOfACurveIsPassedAlongItsLength) {
+  const Scene scene = freeScene(onCurve(bead(), "phi/10", "0.002*tanh(5000*(phi - 1))", "0"), {0.9}, {1});
+  const double before = scene.plant->energy({}), speed = norm(observed(*scene.plant)[0].v);
+  ASSERT_EQ(run(*scene.plant, noHand, 0.3), StepStatus::Ok);
+  EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-9);
+  const double end = observed(*scene.plant)[0].q[0];
+  EXPECT_GT(end, 1.01);
+  const auto measure = [](double phi) {  // |r_phi|
+    const double c = std::cosh(std::min(300.0, std::abs(5000 * (phi - 1))));
+    return std::hypot(0.1, 10 / (c * c));
+  };
+  double length = 0;
+  const auto add = [&](double a, double b, int parts) {  // Simpson's rule
+    const double h = (b - a) / parts;
+    for (int i = 0; i < parts; ++i) length += h / 6 * (measure(a + i * h) + 4 * measure(a + (i + 0.5) * h) + measure(a + (i + 1) * h));
+  };
+  add(0.9, 0.995, 10), add(0.995, 1.005, 40000), add(1.005, end, 10);
+  EXPECT_NEAR(length, speed * 0.3, 1e-9);
+}
+
+// Towards the end of a root |r_phi| grows without bound: parameters are needed ever more exactly.
+TEST(Corners, TowardsTheEndOfARootTheSpeedIsKept) {
+  for (const char* y : {"sqrt(phi)/5", "phi^0.3/5", "sqrt(phi)/5 + 0.05*abs(phi - 0.3)"}) {
+    Experiment e = onCurve(bead(), "phi/10", y, "0");
+    e.task.emplace().start = {0.5};
+    e.task->target = {1};
+    const Scene scene = freeScene(e, {0.5}, {-2});
+    const double before = scene.plant->energy({});
+    double nearest = 1;
+    for (StepStatus status = StepStatus::Ok; status == StepStatus::Ok;) {
+      status = scene.plant->step({}, 1e-3);
+      EXPECT_TRUE(status == StepStatus::Ok || status == StepStatus::AtEnd) << describe(status);
+      EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-9) << y << " at " << observed(*scene.plant)[0].q[0];
+      nearest = observed(*scene.plant)[0].q[0];
+    }
+    EXPECT_LT(nearest, 1e-3) << y;
   }
 }
 

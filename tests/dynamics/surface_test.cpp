@@ -145,6 +145,7 @@ TEST(Surface, WhoLooksSeldomIsToldTheParametersAsWell) {
 std::string stopped(const Experiment& e, const std::vector<double>& q, const std::vector<double>& rate, StepStatus expected) {
   const Scene scene = freeScene(e, q, rate);
   EXPECT_EQ(run(*scene.plant, noHand, 2), expected) << scene.choice.form;
+  EXPECT_EQ(scene.plant->lastStepFraction() == 0, expected == StepStatus::NoContinuation) << "the state is that before the step";
   return scene.plant->stopReason();
 }
 
@@ -179,6 +180,21 @@ TEST(Surface, OverACreaseAMassGoesOnStraightAsOnAFoldedSheet) {
   EXPECT_NEAR(mass.qRate[0], 3, 1e-9);
   EXPECT_NEAR(mass.qRate[1], 1, 1e-9);
   EXPECT_NEAR(mass.r.z, 0.045, 1e-10);
+}
+
+// Four planes. Over u = 1/2 what is along r_v stays and u' as well; over v = 0.3 what is along r_u, and v'.
+TEST(Surface, TwoCreasesArePassedOneAfterTheOther) {
+  const Scene scene = freeScene(onSurface("0.1*u", "0.1*v", "0.1*abs(u - 0.5) + 0.05*abs(v - 0.3)"), {0.2, 0.1}, {3, 1.5});
+  const double before = scene.plant->energy({});
+  ASSERT_EQ(run(*scene.plant, noHand, 0.15), StepStatus::Ok);
+  const double e = 0.02, f = 0.005, g = 0.0125, vRate = 1.5 + 2 * f * 3 / g, uRate = 3 - 2 * f * vRate / e;
+  const double first = 0.1, second = first + (0.3 - 0.25) / vRate;
+  const MassState mass = observed(*scene.plant)[0];
+  EXPECT_NEAR(mass.qRate[0], uRate, 1e-9);
+  EXPECT_NEAR(mass.qRate[1], vRate, 1e-9);
+  EXPECT_NEAR(mass.q[0], 0.5 + 3 * (second - first) + uRate * (0.15 - second), 1e-9);
+  EXPECT_NEAR(mass.q[1], 0.3 + vRate * (0.15 - second), 1e-9);
+  EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-11);
 }
 
 TEST(Surface, TheBranchIsThatOfThePlaceOrOfTheWayFromALine) {
