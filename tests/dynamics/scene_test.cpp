@@ -118,6 +118,19 @@ TEST(Scene, ItsFormTellsWhatIsComputed) {
   EXPECT_TRUE(has(pieces, "speed along it, 4 states")) << pieces;
 }
 
+TEST(Scene, AStraightLineWithElasticEndsIsLeftToSubSteps) {
+  const auto chosen = [](const char* domain, const char* atEnd) {
+    return compileScene(defined("curve", R"(["0.1*phi", "0.2*phi", "0.3"])", domain, atEnd, "[0]", "[1]")).choice;
+  };
+  EXPECT_EQ(chosen("[-1, 2]", "bounce").method, "adaptive");
+  EXPECT_TRUE(has(chosen("[-1, 2]", "bounce").reason, "the ends are elastic"));
+  EXPECT_EQ(chosen("[-1, 2]", "bounce").form, "line, 2 states");
+  EXPECT_EQ(chosen("[-1, 2]", "stop").method, "exact");
+  EXPECT_EQ(compileScene(bead()).choice.method, "exact");
+  Experiment still = onCurve(bead(), "0.1", "0.2", "0.3");
+  EXPECT_NE(refused(still), "");
+}
+
 // |r_phi| of an ellipse goes from b to a.
 TEST(Scene, ACurveIsHardWhereItsSpeedFallsBelowAFifth) {
   EXPECT_EQ(compileScene(ellipse(0.1, 0.0201)).choice.form, "curve in phi, 2 states");
