@@ -149,5 +149,173 @@ TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
   EXPECT_LT(e.sd, 0.005);
 }
 
+/// Up from 0 at `begin` to `height` at `top` and down to 0 at `end` in straight lines; samples.
+std::vector<double> tent(std::size_t samples, double begin, double top, double end, double height = 1) {
+  std::vector<double> v;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double t = static_cast<double>(i);
+    v.push_back(std::max(0.0, height * std::min((t - begin) / (top - begin), (end - t) / (end - top))));
+  }
+  return v;
+}
+
+OnsetOptions above(double speed, double holdSeconds = 0.04) {
+  OnsetOptions options;
+  options.rule = OnsetRule::Absolute;
+  options.speed = speed;
+  options.holdSeconds = holdSeconds;
+  return options;
+}
+
+TEST(FindMovement, CrossesTheThresholdWhereAStraightLineDoes) {
+  const std::vector<double> v = tent(40, 4, 14, 34, 2);  // 0.2 a sample up, 0.1 down
+  const Movement m = findMovement(v, 50, above(0.3));
+  EXPECT_NEAR(m.onset, 5.5 / 50, 1e-12);
+  EXPECT_NEAR(m.offset, 31.0 / 50, 1e-12);
+  EXPECT_NEAR(m.duration(), 25.5 / 50, 1e-12);
+  EXPECT_EQ(m.peak, 2);
+  // The parabola through 1.8, 2 and 1.9.
+  EXPECT_NEAR(m.peakTime, (14 + 0.5 * (1.8 - 1.9) / (1.8 - 4 + 1.9)) / 50, 1e-12);
+  EXPECT_NEAR(findMovement(v, 50, {}).onset, 4.5 / 50, 1e-12) << "5 % of 2 m/s";
+}
+
+TEST(FindMovement, BeginsAndEndsOnASampleThatIsAtTheThreshold) {
+  const std::vector<double> v{0, 0, 0.25, 0.5, 1, 0.75, 0.25, 0, 0};
+  const Movement m = findMovement(v, 1, above(0.25, 0));
+  EXPECT_EQ(m.onset, 2);
+  EXPECT_EQ(m.offset, 6);
+}
+
+TEST(FindMovement, NeedsAPeakAboveTheThreshold) {
+  const std::vector<double> v{0, 0.5, 1, 0.5, 0};
+  EXPECT_FALSE(findMovement(v, 10, above(1)).found);
+  EXPECT_TRUE(findMovement(v, 10, above(0.999)).found);
+  OnsetOptions whole;
+  whole.percent = 100;
+  EXPECT_FALSE(findMovement(v, 10, whole).found);
+  EXPECT_FALSE(findMovement(std::vector<double>{1, 2}, 10, {}).found) << "two samples are none";
+  EXPECT_TRUE(findMovement(std::vector<double>{0, 2, 0}, 10, {}).found);
+}
+
+TEST(FindMovement, TakesTheFirstOfEqualPeaksAndNoneBeyondTheEnds) {
+  EXPECT_EQ(findMovement(std::vector<double>{0, 1, 3, 1, 3, 1, 0}, 1, {}).peakTime, 2);
+  EXPECT_EQ(findMovement(std::vector<double>{3, 2, 0, 0}, 1, {}).peakTime, 0) << "no neighbour, no parabola";
+  EXPECT_EQ(findMovement(std::vector<double>{0, 0, 2, 3}, 1, {}).peakTime, 3);
+  EXPECT_EQ(findMovement(std::vector<double>{0, 3, 3, 0}, 1, {}).peakTime, 1.5);
+}
+
+// 40 ms at 100 Hz are four samples above the threshold; the movement itself may be shorter.
+TEST(FindMovement, EndsAfterTheLastStretchThatIsHeld) {
+  const auto offsetWith = [](std::size_t samples, double hold) {
+    std::vector<double> v = tent(60, 5, 10, 15);
+    for (std::size_t i = 30; i < 30 + samples; ++i) v[i] = 0.5;
+    return findMovement(v, kRate, above(0.25, hold)).offset;
+  };
+  EXPECT_NEAR(offsetWith(3, 0.04), 0.1375, 1e-12) << "a twitch";
+  EXPECT_NEAR(offsetWith(4, 0.04), 0.335, 1e-12);
+  EXPECT_NEAR(offsetWith(1, 0), 0.305, 1e-12) << "whatever is asked for, a sample is enough";
+  EXPECT_NEAR(offsetWith(3, OnsetOptions{}.holdSeconds), 0.1375, 1e-12);
+  EXPECT_NEAR(findMovement(tent(30, 5, 6, 7), kRate, above(0.5, 0.04)).offset, 0.065, 1e-12) << "two samples are the movement";
+}
+
+// The first hump that reaches half the peak begins the movement, though the hand rested between the two.
+TEST(FindMovement, BeginsWithTheFirstHumpOfHalfThePeak) {
+  const auto onsetOf = [](double first) {
+    std::vector<double> v = tent(80, 5, 15, 25, first);
+    const std::vector<double> second = tent(80, 40, 50, 60, 2);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += second[i];
+    return findMovement(v, kRate, above(0.1)).onset;
+  };
+  EXPECT_NEAR(onsetOf(1), 0.06, 1e-12);
+  EXPECT_NEAR(onsetOf(0.99), 0.405, 1e-12);
+}
+
+TEST(FindMovement, AtAThresholdAboveHalfThePeakBeginsWhereItIsPassed) {
+  const std::vector<double> v = tent(40, 4, 14, 34, 2);
+  EXPECT_NEAR(findMovement(v, 50, above(1.5)).onset, 11.5 / 50, 1e-12);
+}
+
+TEST(FindMovement, GoesByFivePercentOrACentimetreASecondHeldFor40Milliseconds) {
+  const OnsetOptions usual;
+  EXPECT_EQ(usual.rule, OnsetRule::Percent);
+  EXPECT_EQ(usual.percent, 5);
+  EXPECT_EQ(usual.speed, 0.01);
+  EXPECT_EQ(usual.holdSeconds, 0.04);
+  const Movement none;
+  EXPECT_TRUE(!none.found && !none.cutAtStart && !none.cutAtEnd && none.onset == 0 && none.offset == 0 && none.peak == 0 &&
+              none.peakTime == 0);
+  EXPECT_EQ(nameOf(OnsetRule::Percent), "percent");
+  EXPECT_EQ(nameOf(OnsetRule::Absolute), "absolute");
+  EXPECT_EQ(nameOf(OnsetRule::Task), "task");
+}
+
+TEST(FindMovement, SaysOnlyWhatIsCut) {
+  const std::vector<double> v = tent(40, -5, 14, 34);
+  const Movement begun = findMovement(v, kRate, above(0.2));
+  EXPECT_TRUE(begun.cutAtStart && !begun.cutAtEnd);
+  EXPECT_EQ(begun.onset, 0);
+  const Movement unfinished = findMovement(std::vector<double>(v.rbegin(), v.rend()), kRate, above(0.2));
+  EXPECT_TRUE(!unfinished.cutAtStart && unfinished.cutAtEnd);
+  EXPECT_DOUBLE_EQ(unfinished.offset, 0.39);
+}
+
+TEST(MovementWithin, LooksForThePeakInsideTheWindowAlone) {
+  const std::vector<double> v{9, 1, 2, 5, 3, 2, 8, 9};
+  const Movement m = movementWithin(v, 10, 0.1, 0.5);
+  EXPECT_TRUE(m.found && !m.cutAtStart && !m.cutAtEnd);
+  EXPECT_EQ(m.onset, 0.1);
+  EXPECT_EQ(m.offset, 0.5);
+  EXPECT_EQ(m.peak, 5);
+  EXPECT_NEAR(m.peakTime, 0.3 + 0.05 * (2.0 - 3) / (2 - 10 + 3), 1e-12);
+  EXPECT_EQ(movementWithin(v, 10, 0.1, 0.599).peak, 5) << "sample 6 is not reached";
+  EXPECT_EQ(movementWithin(v, 10, 0.1, 0.6).peak, 8);
+  EXPECT_EQ(movementWithin(v, 10, 0.3, 0.5).peak, 5) << "3 is 0.3 times 10 but for rounding";
+  EXPECT_EQ(movementWithin(v, 10, 0.301, 0.5).peak, 3);
+  EXPECT_EQ(movementWithin(v, 10, -3, 9).peak, 9);
+}
+
+TEST(MovementWithin, OfNoWindowIsNone) {
+  const std::vector<double> v{0, 1, 2, 1, 0};
+  EXPECT_FALSE(movementWithin(v, 10, 0.2, 0.2).found);
+  EXPECT_FALSE(movementWithin(v, 10, 0.3, 0.2).found);
+  EXPECT_FALSE(movementWithin(v, 10, 0.11, 0.19).found) << "no sample lies in it";
+  EXPECT_FALSE(movementWithin(v, 10, 0.16, 0.24).found) << "one alone";
+  EXPECT_TRUE(movementWithin(v, 10, 0.16, 0.31).found);
+  EXPECT_FALSE(movementWithin(std::vector<double>{0, 1}, 10, 0, 0.1).found);
+  EXPECT_FALSE(movementWithin(v, 10, std::nan(""), 0.2).found);
+}
+
+TEST(ValueAt, IsLinearBetweenSamplesAndHeldBeyondThem) {
+  const std::vector<double> v{2, 4, 1};
+  EXPECT_DOUBLE_EQ(valueAt(v, 10, 0.025), 2.5);
+  EXPECT_DOUBLE_EQ(valueAt(v, 10, 0.175), 4 - 0.75 * 3);
+  EXPECT_EQ(valueAt(v, 10, -1), 2);
+  EXPECT_EQ(valueAt(v, 10, 0.2), 1);
+  EXPECT_EQ(valueAt(v, 10, 5), 1);
+  EXPECT_EQ(valueAt({}, 10, 0), 0);
+}
+
+TEST(SmoothValue, IsExactForParabolasInsideAndLinearNextToTheEnds) {
+  std::vector<double> v;
+  for (int i = 0; i < 7; ++i) v.push_back(1 + 2 * i - 0.5 * i * i);
+  const auto exact = [](double t) { return 1 + 2 * t - 0.5 * t * t; };
+  for (const double t : {1.0, 1.3, 2.75, 4.0, 4.9}) EXPECT_NEAR(smoothValueAt(v, 10, t / 10), exact(t), 1e-12) << t;
+  for (const double t : {0.3, 0.99, 5.0, 5.5, 6.0, 8.0, -1.0}) EXPECT_EQ(smoothValueAt(v, 10, t / 10), valueAt(v, 10, t / 10)) << t;
+  // Of a cube, the slopes at samples 1 and 2 are (8 - 0) / 2 and (27 - 1) / 2, and the cubic half-way between them follows.
+  EXPECT_NEAR(smoothValueAt(std::vector<double>{0, 1, 8, 27}, 1, 1.5), 4.5 + (4.0 - 13) / 8, 1e-12);
+}
+
+TEST(NormaliseTime, TakesAHundredAndOneInstantsFromOnsetToOffset) {
+  std::vector<double> v;
+  for (int i = 0; i < 30; ++i) v.push_back(3 + 0.5 * i);
+  const std::vector<double> out = normaliseTime(v, 10, 0.4, 2.4), scaled = scaleVelocity(v, 10, 0.4, 2.4, 0.5);
+  ASSERT_EQ(out.size(), 101u);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double expected = 3 + 5 * (0.4 + 2 * static_cast<double>(i) / 100);
+    EXPECT_NEAR(out[i], expected, 1e-12);
+    EXPECT_NEAR(scaled[i], 4 * expected, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace reachlab::analyze
