@@ -36,11 +36,10 @@ Movement findMovement(std::span<const double> speed, double rate, const OnsetOpt
   if (n < 3) return movement;
   findPeak(speed, rate, 0, n - 1, movement);
   const double threshold = options.rule == OnsetRule::Absolute ? options.speed : options.percent / 100 * movement.peak;
-  if (!(movement.peak > threshold) || !(movement.peak > 0)) return movement;
+  if (!(movement.peak > threshold)) return movement;
 
   const auto crossing = [&](std::size_t i) {  // between samples i and i + 1
-    const double rise = speed[i + 1] - speed[i];
-    return (static_cast<double>(i) + (rise == 0 ? 0.5 : (threshold - speed[i]) / rise)) / rate;
+    return (static_cast<double>(i) + (threshold - speed[i]) / (speed[i + 1] - speed[i])) / rate;
   };
   const double shortest = std::max(1.0, options.holdSeconds * rate);
   // Back from the peak, so that a hand that drifted or twitched before the movement does not begin it. A movement of several humps may

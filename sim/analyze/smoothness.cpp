@@ -39,11 +39,10 @@ double computeSparc(std::span<const double> speed, double rate, const SparcOptio
     amplitude.push_back(k == 0 ? 1.0 : amplitudeAt(speed, 2 * std::numbers::pi * k / bins) / sum);
   }
   const auto above = [&](double a) { return a >= options.amplitude; };
-  const auto first = std::find_if(amplitude.begin(), amplitude.end(), above) - amplitude.begin();
-  const auto last = amplitude.rend() - std::find_if(amplitude.rbegin(), amplitude.rend(), above) - 1;
-  const double band = frequency[static_cast<std::size_t>(last)] - frequency[static_cast<std::size_t>(first)];
+  const auto last = static_cast<std::size_t>(amplitude.rend() - std::find_if(amplitude.rbegin(), amplitude.rend(), above)) - 1;
+  const double band = frequency[last];
   double length = 0;
-  for (auto i = static_cast<std::size_t>(first) + 1; i <= static_cast<std::size_t>(last); ++i)
+  for (std::size_t i = 1; i <= last; ++i)
     length += std::hypot((frequency[i] - frequency[i - 1]) / band, amplitude[i] - amplitude[i - 1]);
   return -length;
 }

@@ -8,7 +8,7 @@ namespace reachlab::analyze {
 struct SparcOptions {
   int padding = 4;          // powers of two of zeros appended
   double cutoff = 10;       // [Hz] nothing above is looked at
-  double amplitude = 0.05;  // of the largest amplitude: what is below at either end of the band is left out
+  double amplitude = 0.05;  // of the largest amplitude, 1 at most: what is below at the upper end of the band is left out
 };
 
 /// Spectral arc length (Balasubramanian et al. 2015, J. NeuroEng. Rehab. 12:112): minus the length of the amplitude spectrum's curve,
