@@ -40,6 +40,7 @@ class Protocol : public ::testing::Test {
     in.status = status;
     in.masses = masses;
     in.missedTicks = std::exchange(missed, 0u);
+    in.otherHips = others;
     advance(settings, in, state);
   }
   void ticks(int count) {
@@ -70,7 +71,8 @@ class Protocol : public ::testing::Test {
   PlannedTrial planned;
   std::vector<dynamics::MassState> masses{2};
   Vec3 hip;
-  double speed = 0;  // [m/s] of the hand, as estimated
+  std::vector<Vec3> others;  // of the second hand on
+  double speed = 0;          // [m/s] of the hand, as estimated
   bool handValid = true, handBroken = false, clamped = false;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::uint64_t now = 0;
@@ -523,6 +525,249 @@ TEST(TrialResult, TheRunEndsWithWhatSomebodyBrokeOffAndGoesOnAfterWhatTheCompute
   for (const TrialResult& r : {person, program}) EXPECT_TRUE(endsRun(r) && !isPutUpAgain(r));
   for (const TrialResult& r : {timing, lost, aborted}) EXPECT_TRUE(!endsRun(r) && isPutUpAgain(r));
   for (const TrialResult& r : {failed, result(Outcome::Success, Reason::None)}) EXPECT_TRUE(!endsRun(r) && !isPutUpAgain(r));
+}
+
+TEST_F(Protocol, BoundsAreReachedWhenTheyAreMet) {
+  settings.start = settings.target = {};
+  settings.armRadius = 0.125, settings.onset = 0.25, settings.positionTolerance = 0.5, settings.velocityTolerance = 0.25;
+  settings.restSpeed = 0.0625;
+  for (dynamics::MassState& m : masses) m.r = {2, 0, 0};
+  hip = {0, 0.125, 0};
+  speed = 0.0625;
+  arm();
+  EXPECT_EQ(state.phase, Phase::Armed) << "on the circle around the start, at the speed that is allowed";
+  hip.y += 0.25;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed) << "the onset must be passed";
+  hip.y += 0.0625;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving);
+  ticks(799);
+  for (dynamics::MassState& m : masses) m.r = {0.5, 0, 0}, m.v = {0, 0, -0.25};
+  tick();
+  expectEnd(Outcome::Success, Reason::None);
+}
+
+// Each hand at the start; the one that moves first makes the onset, wherever it was at arming.
+TEST_F(Protocol, SeveralHandsAreEachAtTheStartAndTheFirstToMoveMoves) {
+  others = {settings.start, settings.start + Vec3{0, 1.01 * settings.armRadius, 0}};
+  arm();
+  EXPECT_EQ(state.phase, Phase::Waiting) << "the third is not at the start";
+  others[1].y -= 0.02 * settings.armRadius;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed);
+  ticks(10);
+  EXPECT_EQ(state.phase, Phase::Armed);
+  others[1].y -= 1.01 * settings.onset;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving);
+}
+
+TEST_F(Protocol, ALostHandDoesNotMove) {
+  arm();
+  handValid = false;
+  hip.x += 0.05;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Armed);
+}
+
+TEST_F(Protocol, TheTimeoutRunsFromTheGoSignal) {
+  settings.timeoutTicks = 50;
+  planned.foreperiodTicks = 300;
+  arm();
+  ticks(349);
+  EXPECT_EQ(state.phase, Phase::Armed);
+  tick();
+  expectEnd(Outcome::Aborted, Reason::NoOnset);
+  planned.foreperiodTicks = -100;  // none
+  arm();
+  EXPECT_TRUE(state.gone);
+  ticks(49);
+  EXPECT_EQ(state.phase, Phase::Armed);
+  tick();
+  expectEnd(Outcome::Aborted, Reason::NoOnset);
+  planned.foreperiodTicks = 1;
+  arm();
+  EXPECT_FALSE(state.gone);
+  tick();
+  EXPECT_TRUE(state.gone);
+}
+
+TEST_F(Protocol, ATrialThatEndsBeforeItsMovementHasNoTimeAndNoOnset) {
+  leave();
+  tick(Command::Abort);
+  EXPECT_DOUBLE_EQ(state.result.movementTime, 0.001);
+  EXPECT_EQ(state.result.onsetTick, now - 1);
+  hip = settings.start;
+  arm();
+  ticks(5);
+  tick(Command::Abort);
+  EXPECT_EQ(state.result.movementTime, 0);
+  EXPECT_EQ(state.result.onsetTick, 0u);
+  EXPECT_EQ(state.result.mass, 0);
+  EXPECT_EQ(state.result.by, 0);
+}
+
+TEST_F(Protocol, ASuccessIsGreenAtItsFirstTick) {
+  leave();
+  ticks(799);
+  arrive();
+  tick();
+  expectEnd(Outcome::Success, Reason::None);
+  EXPECT_EQ(state.semaphore, Semaphore::Green);
+}
+
+TEST_F(Protocol, AnArrivalTooSoonSaysByHowMuch) {
+  leave();
+  ticks(549);
+  arrive();
+  tick();
+  expectEnd(Outcome::Failure, Reason::TimeShort);
+  EXPECT_NEAR(state.result.by, 0.25, 1e-12);
+  EXPECT_EQ(state.semaphore, Semaphore::Neutral);
+}
+
+TEST_F(Protocol, OfEqualExcessesTheFirstMassIsToBlame) {
+  leave();
+  settings.target = {};
+  masses[0].r = {0.25, 0, 0}, masses[1].r = {0, 0.25, 0};
+  ticks(1200);
+  expectEnd(Outcome::Failure, Reason::Position);
+  EXPECT_EQ(state.result.mass, 1);
+}
+
+TEST_F(Protocol, WhatHappensToTheObjectEndsATrialOnlyWhileForcesAct) {
+  tick(Command::NextTrial);
+  hip.x += 0.05;
+  status = dynamics::StepStatus::NotFinite;
+  clamped = settings.forceLimitEndsTrial = true;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Waiting);
+  status = dynamics::StepStatus::HandLost;
+  clamped = false;
+  hip = settings.start;
+  tick();
+  hip.x += 0.05;
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving) << "a hand that is lost for a tick has a grace of its own";
+  status = dynamics::StepStatus::PeerLost;
+  tick();
+  expectEnd(Outcome::Interrupted, Reason::PeerLost);
+}
+
+TEST_F(Protocol, ALostHandEndsAWaitToo) {
+  tick(Command::NextTrial);
+  handValid = false;
+  ticks(20);
+  EXPECT_EQ(state.phase, Phase::Waiting);
+  tick();
+  expectEnd(Outcome::Interrupted, Reason::DeviceLost);
+}
+
+// A false start at a tick that came too late is the machine's fault, not the subject's.
+TEST_F(Protocol, AFalseStartInAGapIsTheGaps) {
+  settings.maxMissedTicks = 5;
+  planned.foreperiodTicks = 300;
+  arm();
+  hip.x += 0.05;
+  missed = 6;
+  tick();
+  expectEnd(Outcome::Interrupted, Reason::Timing);
+}
+
+// Of a chain the ends are computed at every tick, the rest when the verdict may hang on them.
+TEST_F(Protocol, NeedsEveryMassWhereTheVerdictMayHangOnIt) {
+  const auto needed = [&](std::uint64_t tick) { return needsEveryMass(settings, state, tick, masses); };
+  arrive();
+  EXPECT_FALSE(needed(5)) << "nothing moves";
+  leave();
+  EXPECT_TRUE(needed(now + 1)) << "both ends have arrived";
+  masses[0].r.x += 0.02;
+  EXPECT_FALSE(needed(now + 1));
+  masses[0].r.x -= 0.02;
+  masses[1].v.x = 0.03;
+  EXPECT_FALSE(needed(now + 1199));
+  EXPECT_TRUE(needed(now + 1200)) << "the deadline names the worst of all";
+  masses.clear();
+  EXPECT_FALSE(needed(now + 1200));
+}
+
+TEST(ProtocolPhase, IsEngagedWhileForcesAct) {
+  for (const Phase phase : {Phase::Idle, Phase::Waiting, Phase::Done}) EXPECT_FALSE(isEngaged(phase));
+  for (const Phase phase : {Phase::Armed, Phase::Moving}) EXPECT_TRUE(isEngaged(phase));
+  EXPECT_EQ(kLostTicks, 20);
+}
+
+TEST(ProtocolSettings, AsTheyBeginLimitNothing) {
+  const ProtocolSettings s;
+  EXPECT_TRUE(s.armRadius == 0.01 && s.onset == 0.001 && s.restTicks == 0 && s.restSpeed == 1000);
+  EXPECT_TRUE(s.positionTolerance == 0 && s.velocityTolerance == 0 && s.earliest == 0 && s.earliestTick == 0 && s.latestTick == 0);
+  EXPECT_TRUE(s.timeoutTicks == 0 && s.startTimeoutTicks == kNoLimit && s.maxMissedTicks == kNoLimit && s.maxGapTicks == kNoLimit);
+  EXPECT_FALSE(s.forceLimitEndsTrial);
+  const ProtocolInput in;
+  EXPECT_TRUE(in.tick == 0 && in.command == Command::None && in.hipSpeed == 0 && in.handValid && !in.handBroken && !in.clamped);
+  EXPECT_TRUE(in.status == dynamics::StepStatus::Ok && in.missedTicks == 0 && in.planned.index == 0 && in.planned.foreperiodTicks == 0);
+  EXPECT_FALSE(in.planned.catchTrial);
+  const ProtocolState state;
+  EXPECT_TRUE(state.phase == Phase::Idle && state.semaphore == Semaphore::Neutral && state.trial == 0 && !state.gone);
+  EXPECT_TRUE(state.putUpTick == 0 && state.armedTick == 0 && state.onsetTick == 0 && state.restTicks == 0 && state.lostTicks == 0);
+  EXPECT_TRUE(state.missedTicks == 0 && state.result.outcome == Outcome::None && state.result.reason == Reason::None);
+  EXPECT_TRUE(state.result.mass == 0 && state.result.by == 0 && state.result.movementTime == 0);
+  EXPECT_TRUE(state.result.onsetTick == 0 && state.result.endTick == 0);
+}
+
+TEST(ProtocolSettings, AreTheTasksInTicks) {
+  experiment::Experiment experiment;
+  experiment.task = experiment::Task{};
+  experiment::Task& task = *experiment.task;
+  task.start = {0}, task.target = {3.141592653589793};
+  task.armRadius = 0.015, task.onset = 0.002, task.rest = {0.25, 0.03};
+  task.tolerance = {0.011, 0.013, 0.25};
+  task.duration = 1.5, task.timeout = 7;
+  experiment.timing = {4, 0.0305};
+  experiment.forceLimitEndsTrial = true;
+  const constraints::Constraint line = constraints::makeConstraint({"line", {}, {}, {{"length_m", 0.2}}});
+  const ProtocolSettings s = makeProtocolSettings(experiment, line);
+  EXPECT_TRUE(s.armRadius == 0.015 && s.onset == 0.002 && s.restTicks == 250 && s.restSpeed == 0.03);
+  EXPECT_TRUE(s.positionTolerance == 0.011 && s.velocityTolerance == 0.013);
+  EXPECT_TRUE(s.earliest == 1.25 && s.earliestTick == 1250 && s.latestTick == 1750 && s.timeoutTicks == 7000);
+  EXPECT_TRUE(s.maxMissedTicks == 4 && s.maxGapTicks == 30 && s.forceLimitEndsTrial && s.startTimeoutTicks == kNoLimit);
+  EXPECT_NEAR(s.target.x, 0, 1e-15);
+  task.duration = 1.4996, task.tolerance.time = 0.2499;  // 1249.7 to 1749.5 ticks: the whole ones inside
+  EXPECT_EQ(makeProtocolSettings(experiment, line).earliestTick, 1250);
+  EXPECT_EQ(makeProtocolSettings(experiment, line).latestTick, 1749);
+}
+
+TEST(ProtocolSettings, RefuseAPlaceWhereTheFormulaHasNoValue) {
+  experiment::Experiment experiment;
+  experiment.task = experiment::Task{};
+  constraints::ConstraintSpec spec;
+  spec.name.clear();
+  spec.curve = {"phi", "sqrt(phi)", "0"};
+  const auto refusal = [&](double start, double target) -> std::string {
+    experiment.task->start = {start}, experiment.task->target = {target};
+    try {
+      makeProtocolSettings(experiment, constraints::makeConstraint(spec));
+    } catch (const FaultError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(-1, 1).find("task.start"), std::string::npos);
+  EXPECT_NE(refusal(1, -1).find("task.target"), std::string::npos);
+  EXPECT_EQ(refusal(0.5, 1), "");
+}
+
+TEST(TrialResult, HasNamesThatFilesKnow) {
+  const std::string_view outcomes[] = {"none", "success", "failure", "aborted", "interrupted"};
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(nameOf(static_cast<Outcome>(i)), outcomes[i]);
+  const std::string_view reasons[] = {"none",        "position", "velocity",     "time_short",        "time_long",   "force_limit",
+                                      "device_lost", "no_onset", "experimenter", "end_of_constraint", "computation", "program",
+                                      "early",       "timing",   "no_start",     "peer_lost"};
+  for (int i = 0; i < 16; ++i) EXPECT_EQ(nameOf(static_cast<Reason>(i)), reasons[i]);
+  EXPECT_EQ(kLastReason, static_cast<Reason>(15));
+  EXPECT_EQ(nameOf(static_cast<Outcome>(99)), "none");
+  EXPECT_EQ(nameOf(static_cast<Reason>(99)), "none");
 }
 
 }  // namespace

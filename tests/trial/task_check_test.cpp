@@ -1,0 +1,87 @@
+#include "sim/trial/task_check.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numbers>
+
+#include "sim/experiment/resources.h"
+
+namespace reachlab::trial {
+namespace {
+
+std::vector<Fault> implausibleWith(const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
+  experiment::Experiment e = experiment::readExperiment(name);
+  change(e);
+  return implausibleNumbers(experiment::CompiledExperiment(e));
+}
+
+TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
+  EXPECT_TRUE(implausibleWith("chain-moderate", [](auto&) {}).empty());
+  EXPECT_TRUE(implausibleWith("chain-moderate", [](auto& e) { e.object.masses[0] = e.object.masses[1] = 100; }).empty());
+  const auto heavy = implausibleWith("chain-moderate", [](auto& e) { e.object.masses[0] = 100.5, e.object.masses[2] = 250; });
+  ASSERT_EQ(heavy.size(), 2u);
+  EXPECT_EQ(heavy[0].key, "object.masses_kg[0]");
+  EXPECT_EQ(heavy[1].key, "object.masses_kg[2]");
+  EXPECT_EQ(heavy[1].what, "is 250 kg; more than 100 kg is hardly meant");
+  EXPECT_TRUE(implausibleWith("chain-moderate", [](auto& e) { e.task->duration = 60; }).empty());
+  const auto slow = implausibleWith("chain-moderate", [](auto& e) { e.task->duration = 60.5; });
+  ASSERT_EQ(slow.size(), 1u);
+  EXPECT_EQ(slow[0].key, "task.duration_s");
+  EXPECT_EQ(slow[0].what, "is 60.5 s; more than 60 s is hardly meant");
+  EXPECT_EQ(implausibleWith("chain-moderate", [](auto& e) { e.task.reset(), e.object.masses[0] = 101; }).size(), 1u)
+      << "a task is not needed";
+}
+
+// A full lap of a circle is a way, though the chord is none; on a surface the chord counts.
+TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
+  const auto onCircle = [](double tolerance) {
+    return implausibleWith("ellipse", [&](auto& e) {
+      e.constraint = {};
+      e.constraint.name.clear();
+      e.constraint.curve = {"0.1*cos(phi)", "0.1*sin(phi)", "0"};
+      e.task->start = {0}, e.task->target = {2 * std::numbers::pi};
+      e.task->tolerance.position = tolerance;
+    });
+  };
+  EXPECT_TRUE(onCircle(0.628).empty());
+  ASSERT_EQ(onCircle(0.629).size(), 1u);
+  EXPECT_EQ(onCircle(0.629)[0].key, "task.tolerance.position_m");
+  EXPECT_EQ(onCircle(0.629)[0].what, "is 0.629 m, more than the way of 0.6283 m from start to target");
+  const auto onSurface = [](double tolerance) {
+    return implausibleWith("torus", [&](auto& e) {
+      e.constraint = {};
+      e.constraint.name.clear();
+      e.constraint.surface = {"u", "v", "0"};
+      e.task->start = {0.5, 0.25}, e.task->target = {0.2, 0.65};
+      e.task->tolerance.position = tolerance;
+    });
+  };
+  EXPECT_TRUE(onSurface(0.499).empty());
+  EXPECT_EQ(onSurface(0.501).size(), 1u);
+}
+
+TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
+  const auto problemsWith = [](const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
+    experiment::Experiment e = experiment::readExperiment(name);
+    change(e);
+    return taskProblems(experiment::CompiledExperiment(e));
+  };
+  EXPECT_TRUE(problemsWith("chain-moderate", [](auto&) {}).empty());
+  const auto none = problemsWith("chain-moderate", [](auto& e) { e.task.reset(); });
+  ASSERT_EQ(none.size(), 1u);
+  EXPECT_EQ(none[0].key, "task");
+  EXPECT_EQ(none[0].what, "is missing, and a run needs one");
+  const auto same = problemsWith("chain-moderate", [](auto& e) { e.task->target = e.task->start; });
+  ASSERT_EQ(same.size(), 1u);
+  EXPECT_EQ(same[0].key, "task.target");
+  EXPECT_EQ(same[0].what, "start and target are the same place");
+  EXPECT_TRUE(problemsWith("ellipse", [](auto& e) { e.task->start = {0}, e.task->target = {2 * std::numbers::pi}; }).empty()) << "a lap";
+  experiment::Experiment e = experiment::readExperiment("chain-moderate");
+  e.task->target = e.task->start;
+  EXPECT_THROW(checkTask(experiment::CompiledExperiment(e), "x.json"), FaultError);
+  EXPECT_NO_THROW(checkTask(experiment::CompiledExperiment(experiment::readExperiment("chain-moderate")), "x.json"));
+}
+
+}  // namespace
+}  // namespace reachlab::trial
