@@ -59,6 +59,13 @@ bool readHeader(const std::string& path, Header& header) {
   return in.read(reinterpret_cast<char*>(&header), sizeof header) && std::memcmp(header.magic, kMagic, sizeof kMagic) == 0;
 }
 
+/// Deflate makes 1032 bytes of one at most: counts that ask for more are no chunk's, and no memory is asked for them.
+bool couldBePacked(const Header& h) {
+  constexpr double kMostOfAByte = 1032;
+  const double values = static_cast<double>(h.rows) * static_cast<double>(h.columns) * sizeof(double);
+  return h.rows >= 0 && values + static_cast<double>(h.profileNumbers) * sizeof(float) <= kMostOfAByte * static_cast<double>(h.packedBytes);
+}
+
 [[noreturn]] void failDamaged(const std::string& path) { throw ResourceError(path + ": is damaged; delete it, and resume the study"); }
 
 }  // namespace
@@ -133,7 +140,7 @@ ChunkRows readChunk(const std::string& out, std::int64_t chunk, std::uint64_t fi
   rows.columns = header.columns;
   rows.csvGz = bytes.substr(sizeof header, header.csvBytes);
   const std::string_view packed(bytes.data() + sizeof header + header.csvBytes, header.packedBytes);
-  if (crcOf(rows.csvGz, packed) != header.crc) failDamaged(path);
+  if (crcOf(rows.csvGz, packed) != header.crc || !couldBePacked(header)) failDamaged(path);
   rows.values.resize(static_cast<std::size_t>(header.rows) * header.columns);
   rows.profiles.resize(header.profileNumbers);
   const std::size_t ofValues = rows.values.size() * sizeof(double), ofProfiles = rows.profiles.size() * sizeof(float);
