@@ -1,0 +1,48 @@
+#include "base/seeded.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reachlab {
+namespace {
+
+// SplitMix64 of seed s gives mixBits(s), mixBits(s + g), …: the numbers of Steele's own program.
+TEST(Seeded, MixesAsSplitMix64Does) {
+  constexpr std::uint64_t kGamma = 0x9e3779b97f4a7c15;
+  EXPECT_EQ(mixBits(0), 0xe220a8397b1dcdafu);
+  EXPECT_EQ(mixBits(kGamma), 0x6e789e6aa1b965f4u);
+  EXPECT_EQ(mixBits(1234567), 6457827717110365317u);
+  EXPECT_EQ(mixBits(1234567 + kGamma), 3203168211198807973u);
+}
+
+TEST(Seeded, ALabelHashesAsFnv1aHasIt) {
+  EXPECT_EQ(hashOf(""), 0xcbf29ce484222325u);
+  EXPECT_EQ(hashOf("a"), 0xaf63dc4c8601ec8cu);
+  EXPECT_EQ(hashOf("foobar"), 0x85944171f73967e8u);
+}
+
+TEST(Seeded, FractionsAreSpreadOverTheUnitInterval) {
+  double least = 1, most = 0, sum = 0;
+  for (std::uint64_t i = 0; i < 10'000; ++i) {
+    const double x = seededFraction(3, i);
+    least = std::min(least, x), most = std::max(most, x), sum += x;
+    EXPECT_EQ(x, std::ldexp(static_cast<double>(seededBits(3, i) / 2048), -53)) << "its upper 53 bits";
+  }
+  EXPECT_GE(least, 0);
+  EXPECT_LT(least, 1e-3);
+  EXPECT_GT(most, 1 - 1e-3);
+  EXPECT_LT(most, 1);
+  EXPECT_NEAR(sum / 10'000, 0.5, 0.015) << "five standard deviations";
+}
+
+// Numbers that a recording holds: another mix would draw other trials of the same seed.
+TEST(Seeded, DrawsTheNumbersThatItAlwaysDrew) {
+  EXPECT_EQ(seededBits(7, 2), mixBits(mixBits(7) ^ mixBits(~std::uint64_t{2})));
+  EXPECT_NE(seededBits(7, 2), seededBits(2, 7));
+  EXPECT_NE(seededBits(7, 2), seededBits(7, 3));
+}
+
+}  // namespace
+}  // namespace reachlab
