@@ -221,7 +221,8 @@ std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
   if (!in) throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
   std::ostringstream text;
   text << in.rdbuf();
-  if (in.bad() || (text.fail() && in.peek() != std::ifstream::traits_type::eof()))
+  if (text.fail()) (void)in.peek();  // nothing was copied: an empty file is at its end, and what is no file (a folder) is bad
+  if (in.bad() || (text.fail() && !in.eof()))
     throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
   return std::move(text).str();
 }

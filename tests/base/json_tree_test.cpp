@@ -1,6 +1,11 @@
 #include "base/json_tree.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
 
 #include "base/fault.h"
 
@@ -48,6 +53,89 @@ TEST(JsonTree, KnowsWhereEachValueBegins) {
   EXPECT_EQ(root.find("word")->string, "a \"b\" c");
   EXPECT_TRUE(root.find("below")->integer);
   EXPECT_FALSE(root.find("small")->integer);
+}
+
+Fault faultOf(const std::string& text) {
+  try {
+    (void)parseJson(text, "made.json");
+  } catch (const FaultError& error) {
+    if (error.faults.size() == 1) return error.faults[0];
+  }
+  return Fault{.what = "read"};
+}
+
+TEST(JsonTree, TellsWhereASentenceOfItsSyntaxBreaks) {
+  const Fault fault = faultOf("{\n  \"a\": ,\n}");
+  EXPECT_EQ(fault.place, (FilePlace{"made.json", 2, 8}));
+  EXPECT_TRUE(fault.what.starts_with("syntax error while parsing value - unexpected ','")) << fault.what;
+  EXPECT_EQ(fault.key + fault.allowed, "");
+  EXPECT_EQ(faultOf("").place, (FilePlace{"made.json", 1, 1}));
+  EXPECT_EQ(faultOf("x").place, (FilePlace{"made.json", 1, 1}));
+}
+
+TEST(JsonTree, RefusesANumberThatNoDoubleHolds) {
+  EXPECT_EQ(toText(faultOf("[1,\n 22, 1e999]")), "made.json:2:6: this number is beyond the range of a double; allowed: finite numbers");
+  EXPECT_EQ(parseJson("1.7976931348623157e308", "made.json").number, std::numeric_limits<double>::max());
+}
+
+TEST(JsonTree, HasEachKeyOnceInEachObject) {
+  EXPECT_EQ(toText(faultOf("{\"a\": 1,\n \"b\": 2, \"a\": 3}")), "made.json:2:10: a: stands here twice; allowed: each key once");
+  const JsonNode root = parseJson(R"({"a": {"b": 1, "c": 2}, "b": {"b": 3}, "c": [{"a": 4}, {"a": 5}]})", "made.json");
+  EXPECT_EQ(root.find("b")->find("b")->number, 3);
+  EXPECT_EQ(root.find("c")->items[1].find("a")->number, 5);
+  EXPECT_EQ(root.find("d"), nullptr);
+}
+
+TEST(JsonTree, IsSixtyFourLevelsDeepAtMost) {
+  const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+  EXPECT_EQ(faultOf(nested(64)).what, "read");
+  EXPECT_EQ(toText(faultOf(nested(65))), "made.json:1:65: nested too deeply; allowed: 64 levels");
+}
+
+// A column counts characters, not bytes; a quote behind a backslash ends no string, one behind two does.
+TEST(JsonTree, CountsCharactersAndReadsEscapes) {
+  const JsonNode root = parseJson(R"(["äöü€", "a\\", "\"", "\\\"x", 7])", "made.json");
+  const std::vector<int> columns{2, 10, 17, 23, 32};
+  ASSERT_EQ(root.items.size(), columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) EXPECT_EQ(root.items[i].column, columns[i]) << i;
+  EXPECT_EQ(root.items[1].string, "a\\");
+  EXPECT_EQ(root.items[3].string, "\\\"x");
+  EXPECT_EQ(parseJson("\"x\"", "made.json").column, 1) << "the very first character";
+}
+
+TEST(JsonTree, ItsKindsHaveNames) {
+  using Kind = JsonNode::Kind;
+  const std::vector<std::string> names{"null", "a truth value", "a number", "a string", "an array", "an object"};
+  for (const Kind kind : {Kind::Null, Kind::Boolean, Kind::Number, Kind::String, Kind::Array, Kind::Object})
+    EXPECT_EQ(nameOf(kind), names[static_cast<std::size_t>(kind)]);
+  const JsonNode none;
+  EXPECT_EQ(none.kind, Kind::Null);
+  EXPECT_FALSE(none.boolean || none.integer);
+  EXPECT_EQ(none.number + none.line + none.column + none.keyLine + none.keyColumn, 0);
+}
+
+std::string refusalOfFile(const std::string& file, std::uintmax_t most) {
+  try {
+    return "read " + readTextFile(file, most);
+  } catch (const FaultError& error) {
+    return error.what();
+  }
+}
+
+TEST(TextFile, IsReadWholeOrRefusedInWords) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("reachlab-text-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "a.txt").string();
+  std::ofstream(file, std::ios::binary) << "one\r\ntwo";
+  EXPECT_EQ(refusalOfFile(file, 8), "read one\r\ntwo");
+  EXPECT_EQ(refusalOfFile(file, 7), file + ": has 8 bytes; allowed: up to 7");
+  std::ofstream(file, std::ios::trunc).flush();
+  EXPECT_EQ(refusalOfFile(file, 8), "read ") << "an empty file is one, too";
+  EXPECT_EQ(refusalOfFile(folder / "b.txt", 8), (folder / "b.txt").string() + ": cannot be read: No such file or directory");
+  EXPECT_EQ(refusalOfFile(folder, 8), folder.string() + ": cannot be read: Is a directory");
+  EXPECT_EQ(refusalOfFile("/dev/zero", 8), "/dev/zero: is no regular file; allowed: a file on a disk");
+  EXPECT_EQ(kMostTextBytes, 16u * 1024 * 1024);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
