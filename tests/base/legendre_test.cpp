@@ -45,8 +45,12 @@ TEST(GaussRule, IsExactToItsDegreeAndNoFurther) {
   EXPECT_EQ(gaussRule16().weight, makeGaussRule(16).weight);
 }
 
-const std::vector<std::vector<double>> kLegendre{  // P_n by powers of x
-    {1}, {0, 1}, {-0.5, 0, 1.5}, {0, -1.5, 0, 2.5}, {0.375, 0, -3.75, 0, 4.375}};
+const std::vector<std::vector<double>> kLegendre{// P_n by powers of x
+                                                 {1},
+                                                 {0, 1},
+                                                 {-0.5, 0, 1.5},
+                                                 {0, -1.5, 0, 2.5},
+                                                 {0.375, 0, -3.75, 0, 4.375}};
 double polynomialAt(const std::vector<double>& powers, double x) {
   return std::accumulate(powers.rbegin(), powers.rend(), 0.0, [x](double sum, double c) { return sum * x + c; });
 }
