@@ -1,0 +1,515 @@
+#include "constraints/expression.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <random>
+
+#include "base/error.h"
+#include "base/vec3.h"
+#include "constraints/cpp_writer.h"
+#include "constraints/guards.h"
+#include "constraints/interval.h"
+#include "constraints/parser.h"
+#include "constraints/program.h"
+
+/// What becomes of a formula on its way to code (a graph that is simplified, derivatives, bounds, programs, C++), held against the same
+/// formula reckoned as it is written.
+namespace reachlab::constraints {
+namespace {
+
+constexpr double kShape[] = {0.7, -1.3};
+
+/// A number with its two partial derivatives, by the rules of differentials. Rough: at a place where rounding would be magnified.
+struct Dual {
+  double x = 0, du = 0, dv = 0, size = 0;
+  bool rough = false;
+};
+Dual chained(const Dual& a, const Dual& b, double x, double da, double db, bool rough = false) {
+  const auto term = [](double rate, double change) { return change == 0 ? 0 : rate * change; };
+  Dual d{x, term(da, a.du) + term(db, b.du), term(da, a.dv) + term(db, b.dv)};
+  d.size = std::max({a.size, b.size, std::abs(x), std::abs(d.du), std::abs(d.dv)});
+  d.rough = rough || a.rough || b.rough || !(d.size < 1e4);
+  return d;
+}
+
+struct Term {
+  std::string text;
+  std::function<Dual(double, double)> at;
+};
+
+Term unary(
+    const std::string& before, const std::string& after, const Term& a, double (*f)(double), double (*rate)(double),
+    bool (*rough)(double) = [](double) { return false; }) {
+  return {before + a.text + after, [=](double u, double v) {
+            const Dual x = a.at(u, v);
+            return chained(x, {}, f(x.x), rate(x.x), 0, rough(x.x));
+          }};
+}
+Term binary(char sign, const Term& a, const Term& b) {
+  return {"(" + a.text + sign + b.text + ")", [=](double u, double v) {
+            const Dual x = a.at(u, v), y = b.at(u, v);
+            switch (sign) {
+              case '+': return chained(x, y, x.x + y.x, 1, 1);
+              case '-': return chained(x, y, x.x - y.x, 1, -1);
+              case '*': return chained(x, y, x.x * y.x, y.x, x.x);
+              case '/': return chained(x, y, x.x / y.x, 1 / y.x, -x.x / y.x / y.x, !(std::abs(y.x) > 0.1));
+              default:
+                return chained(x, y, std::pow(x.x, y.x), y.x * std::pow(x.x, y.x - 1), std::pow(x.x, y.x) * std::log(x.x), !(x.x > 0.1));
+            }
+          }};
+}
+Term powered(const Term& a, int n) {
+  return {"((" + a.text + ")^(" + std::to_string(n) + "))", [=](double u, double v) {
+            const Dual x = a.at(u, v);
+            return chained(x, {}, std::pow(x.x, n), n == 0 ? 0 : n * std::pow(x.x, n - 1), 0, n < 0 && !(std::abs(x.x) > 0.1));
+          }};
+}
+Term turned(const Term& a, const Term& b) {
+  return {"atan2(" + a.text + ", " + b.text + ")", [=](double u, double v) {
+            const Dual y = a.at(u, v), x = b.at(u, v);
+            const double square = x.x * x.x + y.x * y.x;
+            return chained(y, x, std::atan2(y.x, x.x), x.x / square, -y.x / square, !(square > 0.01) || std::abs(y.x) < 0.01);
+          }};
+}
+
+class Terms {
+ public:
+  Terms(unsigned seed, std::vector<std::string> variables) : random_(seed), variables_(std::move(variables)) {}
+  Term make(int depth) {
+    if (depth == 0 || pick(8) == 0) return leaf();
+    const auto one = [&] { return make(depth - 1); };
+    using std::abs;
+    switch (pick(26)) {
+      case 0:
+      case 1:
+      case 2: return binary('+', one(), one());
+      case 3:
+      case 4:
+      case 5: return binary('-', one(), one());
+      case 6:
+      case 7:
+      case 8: return binary('*', one(), one());
+      case 9:
+      case 10: return binary('/', one(), one());
+      case 11:
+      case 12: {
+        const int exponents[] = {-2, -1, 0, 1, 2, 2, 2, 3, 4, 6};
+        const Term base = one();
+        return powered(base, exponents[pick(10)]);
+      }
+      case 13:
+        return unary(
+            "(-(", "))", one(), [](double x) { return -x; }, [](double) { return -1.0; });
+      case 14: return unary("sin(", ")", one(), std::sin, std::cos);
+      case 15: return unary("cos(", ")", one(), std::cos, [](double x) { return -std::sin(x); });
+      case 16:
+        return unary(
+            "sqrt(", ")", one(), std::sqrt, [](double x) { return 0.5 / std::sqrt(x); }, [](double x) { return !(x > 0.1); });
+      case 17:
+        return unary(
+            "abs(", ")", one(), std::fabs, [](double x) { return x < 0 ? -1.0 : 1.0; }, [](double x) { return abs(x) < 0.01; });
+      case 18:
+        return unary(
+            "sign(", ")", one(), [](double x) { return x < 0 ? -1.0 : 1.0; }, [](double) { return 0.0; },
+            [](double x) { return abs(x) < 0.01; });
+      case 19: return unary("exp(", ")", one(), std::exp, std::exp);
+      case 20:
+        return unary(
+            "log(", ")", one(), std::log, [](double x) { return 1 / x; }, [](double x) { return !(x > 0.1); });
+      case 21: {
+        const auto rate = [](double x) { return 1 / std::sqrt(1 - x * x); };
+        if (pick(2) == 0) return unary("asin(", ")", one(), std::asin, rate, [](double x) { return !(abs(x) < 0.9); });
+        return unary(
+            "acos(", ")", one(), std::acos, [](double x) { return -1 / std::sqrt(1 - x * x); }, [](double x) { return !(abs(x) < 0.9); });
+      }
+      case 22: {
+        if (pick(2) == 0) return unary("atan(", ")", one(), std::atan, [](double x) { return 1 / (1 + x * x); });
+        return unary(
+            "tan(", ")", one(), std::tan, [](double x) { return 1 + std::tan(x) * std::tan(x); },
+            [](double x) { return !(abs(std::cos(x)) > 0.1); });
+      }
+      case 23: {
+        if (pick(2) == 0) return unary("sinh(", ")", one(), std::sinh, std::cosh);
+        return unary("cosh(", ")", one(), std::cosh, std::sinh);
+      }
+      case 24: {
+        if (pick(2) == 0) return unary("tanh(", ")", one(), std::tanh, [](double x) { return 1 - std::tanh(x) * std::tanh(x); });
+        return turned(one(), one());
+      }
+      default: return binary('^', one(), one());
+    }
+  }
+
+ private:
+  int pick(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
+  Term leaf() {
+    const int which = pick(7);
+    if (which < 3) {
+      const std::size_t k = static_cast<std::size_t>(pick(static_cast<int>(variables_.size())));
+      return {variables_[k], [k](double u, double v) { return k == 0 ? Dual{u, 1, 0, 1} : Dual{v, 0, 1, 1}; }};
+    }
+    if (which < 5) {
+      const std::size_t k = static_cast<std::size_t>(which - 3);
+      return {k == 0 ? "a" : "b", [k](double, double) { return Dual{kShape[k], 0, 0, 2}; }};
+    }
+    const std::pair<const char*, double> numbers[] = {{"0", 0},     {"1", 1},     {"2", 2},          {"3", 3},
+                                                      {"0.5", 0.5}, {"(-2)", -2}, {"(-0.25)", -0.25}};
+    const auto& [text, value] = numbers[pick(7)];
+    return {text, [value = value](double, double) { return Dual{value, 0, 0, 5}; }};
+  }
+  std::mt19937 random_;
+  std::vector<std::string> variables_;
+};
+
+const std::vector<std::string> kVariables{"u", "v"}, kParameters{"a", "b"};
+constexpr std::array<double, 2> kPlaces[] = {{0.37, 1.21}, {-0.83, 0.45}, {1.9, -1.4}};
+
+int nodeOf(ExpressionGraph& graph, const std::string& text, const std::vector<std::string>& variables = kVariables,
+           const std::vector<std::string>& parameters = kParameters) {
+  const ParsedFormula parsed = parseFormula(text, {variables, parameters}, graph);
+  EXPECT_FALSE(parsed.fault) << text;
+  return parsed.root;
+}
+double valueOf(const ExpressionGraph& graph, int root, const std::array<double, 2>& at) {
+  return evaluateNodes(graph, std::array{root}, kShape, at.data())[0];
+}
+
+/// Calls `use(graph, root, place, expected, tolerance)` for many formulas at those places where rounding is not magnified.
+template <class Use>
+void forManyFormulas(unsigned seed, int count, Use&& use) {
+  Terms terms(seed, kVariables);
+  int looked = 0;
+  for (int i = 0; i < count; ++i) {
+    const Term term = terms.make(5);
+    ExpressionGraph graph;
+    const int root = nodeOf(graph, term.text);
+    for (const std::array<double, 2>& place : kPlaces) {
+      const Dual expected = term.at(place[0], place[1]);
+      if (expected.rough) continue;
+      ++looked;
+      SCOPED_TRACE(term.text);
+      use(graph, root, place, expected, 1e-11 * (1 + expected.size * expected.size));
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+  EXPECT_GT(looked, count / 2);
+}
+
+TEST(Expressions, AreWorthWhatIsWrittenAndSoAreTheirDerivatives) {
+  forManyFormulas(1, 3000, [](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
+    EXPECT_NEAR(valueOf(graph, root, place), expected.x, tolerance);
+    EXPECT_NEAR(valueOf(graph, graph.differentiate(std::array{root}, 0)[0], place), expected.du, tolerance);
+    EXPECT_NEAR(valueOf(graph, graph.differentiate(std::array{root}, 1)[0], place), expected.dv, tolerance);
+  });
+}
+
+TEST(Expressions, HaveNoPowersWhereTheyAreWrittenOut) {
+  forManyFormulas(2, 500, [](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
+    const std::vector<int> written = graph.expandPowers(std::array{root});
+    EXPECT_NEAR(valueOf(graph, written[0], place), expected.x, tolerance);
+    const std::vector<bool> needed = graph.reachableFrom(written);
+    for (int id = 0; id < graph.size(); ++id) EXPECT_FALSE(needed[static_cast<std::size_t>(id)] && graph.node(id).op == Op::PowInt);
+  });
+}
+
+TEST(Expressions, AreBoundedByAllTheirValuesOnABox) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  forManyFormulas(3, 2000, [&](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
+    IntervalEvaluator bounds(graph, std::array{root}, kShape);
+    EXPECT_EQ(bounds.evaluate({Interval{place[0], place[0]}, {place[1], place[1]}})[0], Finiteness::Finite);
+    EXPECT_NEAR(bounds.rangeOf(0).lo, expected.x, tolerance);
+    EXPECT_NEAR(bounds.rangeOf(0).hi, expected.x, tolerance);
+    const double width = 3 * uniform(random), across = 3 * uniform(random);
+    const Finiteness known = bounds.evaluate({Interval{place[0] - width, place[0] + width}, {place[1] - across, place[1] + across}})[0];
+    EXPECT_NE(known, Finiteness::Nowhere);
+    const Interval range = bounds.rangeOf(0);
+    for (int i = 0; i < 10; ++i) {
+      const double value =
+          valueOf(graph, root, {place[0] + width * (2 * uniform(random) - 1), place[1] + across * (2 * uniform(random) - 1)});
+      if (!std::isfinite(value)) {
+        EXPECT_NE(known, Finiteness::Finite);
+        continue;
+      }
+      EXPECT_LE(range.lo, value + 1e-9 * (1 + std::abs(value)));
+      EXPECT_GE(range.hi, value - 1e-9 * (1 + std::abs(value)));
+    }
+  });
+}
+
+TEST(Expressions, AreWrittenAsFormulasThatReadBack) {
+  forManyFormulas(4, 1000, [](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
+    const std::string text = writeFormula(graph, root, kVariables, kParameters, 100000);
+    if (text.find_first_of("ni") != std::string::npos && text.find("inf") != std::string::npos) return;  // 1/0 in a part that is left
+    ExpressionGraph again;
+    EXPECT_NEAR(valueOf(again, nodeOf(again, text), place), expected.x, 1e6 * tolerance) << text << ": six digits of a number";
+  });
+}
+
+/// A line of C++ as a formula: without std::, with sign for signOf and (x)^(y) for pow(x, y).
+std::string asFormula(std::string text) {
+  for (const auto& [from, to] : {std::pair{"std::", ""}, {"signOf", "sign"}})
+    for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, std::string(from).size(), to);
+  for (std::size_t at; (at = text.find("pow(")) != std::string::npos;) {
+    int depth = 0;
+    std::size_t end = at + 3;
+    for (; end < text.size(); ++end) {
+      depth += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
+      if (depth == 0) break;
+      if (depth == 1 && text[end] == ',') text.replace(end, 2, ")^("), end += 2;
+    }
+    text.insert(end, ")").replace(at, 3, "(");
+  }
+  return text;
+}
+
+/// What `expressions` are worth behind C++ statements "const double NAME = EXPRESSION;".
+std::vector<double> runCpp(const std::string& statements, const std::vector<std::string>& expressions, std::vector<std::string> names,
+                           std::vector<double> values) {
+  const auto worth = [&](const std::string& text) {
+    ExpressionGraph graph;
+    const int root = nodeOf(graph, asFormula(text), {}, names);
+    return root < 0 ? NAN : evaluateNodes(graph, std::array{root}, values.data(), nullptr)[0];
+  };
+  for (std::size_t at = 0; at < statements.size();) {
+    const std::size_t end = statements.find(";\n", at);
+    const std::string line = statements.substr(at, end - at);
+    at = end + 2;
+    const std::size_t name = line.find("const double "), is = line.find(" = ");
+    if (name == std::string::npos) continue;
+    const double value = worth(line.substr(is + 3));
+    names.push_back(line.substr(name + 13, is - name - 13));
+    values.push_back(value);
+  }
+  std::vector<double> result;
+  for (const std::string& expression : expressions) result.push_back(worth(expression));
+  return result;
+}
+
+TEST(Expressions, AreWrittenAsCppThatIsWorthTheSame) {
+  forManyFormulas(5, 1000, [](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
+    const std::vector<int> roots{root, graph.powInt(root, 3)};
+    const CppWriter writer(graph, roots, {kVariables, kParameters, ""});
+    const std::string code = writer.statements() + writer.expression(0);
+    if (code.find("NAN") != std::string::npos || code.find("INFINITY") != std::string::npos) return;
+    const std::vector<double> worth = runCpp(writer.statements(), {writer.expression(0), writer.expression(1)}, {"u", "v", "a", "b"},
+                                             {place[0], place[1], kShape[0], kShape[1]});
+    EXPECT_NEAR(worth[0], expected.x, tolerance) << code;
+    EXPECT_NEAR(worth[1], std::pow(expected.x, 3), tolerance * (1 + 3 * expected.x * expected.x));
+  });
+}
+
+TEST(Expressions, StayWhatTheyAreOnTheSideOfTheirBranches) {
+  forManyFormulas(6, 2000, [](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
+    const std::vector<Guard> guards = findGuards(graph, {root}, kShape);
+    std::vector<int> signs;
+    for (const Guard& guard : guards) {
+      const double off = valueOf(graph, guard.argument, place) - guard.level;
+      EXPECT_NE(off, 0);
+      signs.push_back(off > 0 ? 1 : -1);
+    }
+    const std::vector<int> frozen = freezeBranches(graph, {root}, guards, signs);
+    EXPECT_NEAR(valueOf(graph, frozen[0], place), expected.x, tolerance);
+    for (const Guard& guard : findGuards(graph, frozen, kShape)) EXPECT_NE(guard.op, Op::Abs);
+  });
+}
+
+template <class Point, std::size_t Roots>
+void expectProgram(const std::vector<std::string>& variables, unsigned seed,
+                   const std::function<Point(const Program&, const std::array<double, 2>&)>& run) {
+  Terms terms(seed, variables);
+  for (int i = 0; i < 300; ++i) {
+    ExpressionGraph graph;
+    std::vector<int> roots;
+    std::vector<Term> all;
+    std::string texts;
+    for (std::size_t k = 0; k < Roots; ++k) {
+      // Some results are those before them, numbers, or a variable: they are copied.
+      all.push_back(k % 5 == 4 ? all[k - 3] : terms.make(static_cast<int>(k % 4)));
+      roots.push_back(nodeOf(graph, all[k].text, variables));
+      texts += all[k].text + "\n";
+    }
+    const Program program = compileProgram(graph, roots, 2, static_cast<int>(variables.size()));
+    for (const std::array<double, 2>& place : kPlaces) {
+      const Point point = run(program, place);
+      static_assert(sizeof(Point) == Roots * sizeof(double));
+      double results[Roots];
+      std::memcpy(results, &point, sizeof results);
+      for (std::size_t k = 0; k < Roots; ++k) {
+        const Dual expected = all[k].at(place[0], place[1]);
+        if (expected.rough) continue;
+        EXPECT_NEAR(results[k], expected.x, 1e-11 * (1 + expected.size * expected.size)) << k << " of\n" << texts;
+      }
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Programs, GiveEachResultOfASurface) {
+  expectProgram<SurfacePoint, 18>(kVariables, 7, [](const Program& program, const auto& at) {
+    SurfacePoint point;
+    evaluateSurfaceProgram(&program, kShape, at[0], at[1], point);
+    return point;
+  });
+}
+
+TEST(Programs, GiveEachResultOfACurveSinglyAndInABatch) {
+  expectProgram<CurvePoint, 9>({"phi"}, 8, [](const Program& program, const auto& at) {
+    CurvePoint point;
+    evaluateCurveProgram(&program, kShape, at[0], point);
+    double phis[kBatchLanes];
+    for (int lane = 0; lane < kBatchLanes; ++lane) phis[lane] = at[0] + 0.01 * (lane - 3);
+    CurveBatch batch;
+    evaluateCurveBatchProgram(&program, kShape, phis, batch);
+    double single[9];
+    std::memcpy(single, &point, sizeof single);
+    for (std::size_t k = 0; k < 9; ++k) {
+      const double in = (k < 3 ? batch.r : k < 6 ? batch.rPhi : batch.rPhiPhi)[k % 3][3];
+      EXPECT_TRUE(in == single[k] || (std::isnan(in) && std::isnan(single[k]))) << k;
+    }
+    return point;
+  });
+}
+
+TEST(Expressions, ThatAreOneAreWrittenOnce) {
+  const std::pair<const char*, const char*> pairs[] = {{"u + u", "2*u"},
+                                                       {"u - u", "0"},
+                                                       {"2*u + 3*u", "5*u"},
+                                                       {"2*u - 3*u", "-u"},
+                                                       {"u + v", "v + u"},
+                                                       {"u*v", "v*u"},
+                                                       {"u - 0", "u"},
+                                                       {"0 + u", "u"},
+                                                       {"0 - u", "-u"},
+                                                       {"u*0", "0"},
+                                                       {"1*u", "u"},
+                                                       {"u - (-v)", "u + v"},
+                                                       {"-u + v", "v - u"},
+                                                       {"-u - v", "-(u + v)"},
+                                                       {"-(-u)", "u"},
+                                                       {"2*u + 2*v", "2*(u + v)"},
+                                                       {"2*u - 2*v", "2*(u - v)"},
+                                                       {"(-u)*(-v)", "u*v"},
+                                                       {"(-u)*v", "-(u*v)"},
+                                                       {"(2*u)*(3*v)", "6*(u*v)"},
+                                                       {"3*(2*u)", "6*u"},
+                                                       {"(-1)*u", "-u"},
+                                                       {"u*u", "u^2"},
+                                                       {"u^2*u^3", "u^5"},
+                                                       {"u^60*u^4", "u^64"},
+                                                       {"(u^2)^3", "u^6"},
+                                                       {"(u^8)^8", "u^64"},
+                                                       {"u*(1/v)", "u/v"},
+                                                       {"(1/v)*u", "u/v"},
+                                                       {"u/2", "0.5*u"},
+                                                       {"0/u", "0"},
+                                                       {"u/u", "1"},
+                                                       {"(-u)/v", "-(u/v)"},
+                                                       {"u/(-v)", "-(u/v)"},
+                                                       {"(2*u)/v", "2*(u/v)"},
+                                                       {"(-2)/u", "-(2/u)"},
+                                                       {"6/4", "1.5"},
+                                                       {"u^0", "1"},
+                                                       {"u^1", "u"},
+                                                       {"u^(-2)", "1/u^2"},
+                                                       {"(-u)^2", "u^2"},
+                                                       {"(-u)^3", "-(u^3)"},
+                                                       {"(2*u)^3", "8*u^3"},
+                                                       {"2^10", "1024"},
+                                                       {"2^0.5", "sqrt(2)"},
+                                                       {"u^0.5", "sqrt(u)"},
+                                                       {"sqrt(u^2)", "abs(u)"},
+                                                       {"sqrt(u^4)", "u^2"},
+                                                       {"sqrt(u^6)", "abs(u^3)"},
+                                                       {"sin(-u)", "-sin(u)"},
+                                                       {"tan(-u)", "-tan(u)"},
+                                                       {"asin(-u)", "-asin(u)"},
+                                                       {"atan(-u)", "-atan(u)"},
+                                                       {"sinh(-u)", "-sinh(u)"},
+                                                       {"tanh(-u)", "-tanh(u)"},
+                                                       {"sign(-u)", "-sign(u)"},
+                                                       {"cos(-u)", "cos(u)"},
+                                                       {"cosh(-u)", "cosh(u)"},
+                                                       {"abs(-u)", "abs(u)"},
+                                                       {"sin(u)^2 + cos(u)^2", "1"},
+                                                       {"cos(u)^2 + sin(u)^2", "1"},
+                                                       {"a*sin(u)^2 + a*cos(u)^2", "a"},
+                                                       {"sin(u)^2*a + a*cos(u)^2", "a"},
+                                                       {"a*cos(u)^2 + sin(u)^2*a", "a"},
+                                                       {"(a*sin(u))^2 + (cos(u)*a)^2", "a^2"},
+                                                       {"(cos(u)*a)^2 + (sin(u)*a)^2", "a^2"},
+                                                       {"sin(2)*1", "sin(2)"},
+                                                       {"sqrt(0.25)", "0.5"}};
+  for (const auto& [one, other] : pairs) {
+    ExpressionGraph graph;
+    EXPECT_EQ(nodeOf(graph, one), nodeOf(graph, other)) << one << " and " << other;
+  }
+}
+
+TEST(Expressions, ThatAreNotOneAreNot) {
+  const std::pair<const char*, const char*> pairs[] = {{"u - v", "v - u"},
+                                                       {"u/v", "v/u"},
+                                                       {"u^60*u^5", "u^65"},
+                                                       {"acos(-u)", "-acos(u)"},
+                                                       {"exp(-u)", "-exp(u)"},
+                                                       {"sqrt(-u)", "-sqrt(u)"},
+                                                       {"sin(u)^2 - cos(u)^2", "1"},
+                                                       {"sin(u)^2 + cos(v)^2", "1"},
+                                                       {"sin(u)^3 + cos(u)^3", "1"},
+                                                       {"sin(u)^2 + sin(u)^2", "1"},
+                                                       {"a*sin(u)^2 + b*cos(u)^2", "a"},
+                                                       {"(a*sin(u))^2 + (b*cos(u))^2", "a^2"},
+                                                       {"(a*sin(u))^2 + (a*cos(v))^2", "a^2"},
+                                                       {"(a*sin(u))^2 + (a*sin(u))^2", "a^2"},
+                                                       {"(a*sin(u))^3 + (a*cos(u))^3", "a^2"},
+                                                       {"(a*sin(u))^2 + a*cos(u)", "a^2"},
+                                                       {"1/0", "0"},
+                                                       {"0/0", "0"},
+                                                       {"0/0", "1"},
+                                                       {"u/0", "u"}};
+  for (const auto& [one, other] : pairs) {
+    ExpressionGraph graph;
+    EXPECT_NE(nodeOf(graph, one), nodeOf(graph, other)) << one << " and " << other;
+  }
+}
+
+// The square of a root is its argument where that is never negative; else it would lose its end.
+TEST(Expressions, KnowWhatIsNeverNegativeByItsForm) {
+  ExpressionGraph graph;
+  for (const char* never : {"u^2", "u^4", "abs(u)", "exp(u)", "cosh(u)", "sqrt(u)", "3", "u^2 + 1", "u^2*abs(v)", "u^2/exp(v)", "abs(u)^3"})
+    EXPECT_TRUE(graph.isNeverNegative(nodeOf(graph, never))) << never;
+  for (const char* maybe :
+       {"u", "u^3", "-3", "u^2 - 1", "u*abs(v)", "abs(v)*u", "u/exp(v)", "exp(u)/v", "u^2 + v", "v + u^2", "sin(u)", "a"})
+    EXPECT_FALSE(graph.isNeverNegative(nodeOf(graph, maybe))) << maybe;
+  EXPECT_EQ(nodeOf(graph, "sqrt(u^2 + 1)^2"), nodeOf(graph, "u^2 + 1"));
+  EXPECT_EQ(nodeOf(graph, "sqrt(u^2 + 1)^6"), nodeOf(graph, "(u^2 + 1)^3"));
+  EXPECT_NE(nodeOf(graph, "sqrt(u)^2"), nodeOf(graph, "u"));
+}
+
+TEST(Expressions, AreRefusedWhereTheyGrowTooLarge) {
+  ExpressionGraph graph;
+  int sum = graph.variable(0);
+  try {
+    for (int i = 2; i < 30000; ++i) sum = graph.add(sum, graph.apply(Op::Sin, graph.mul(graph.constant(i), graph.variable(0))));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the formula with its derivatives is too large; allowed: 20000 operations");
+  }
+  EXPECT_EQ(graph.size(), 20000);
+}
+
+TEST(Expressions, TheirOperationsHaveNamesAndOperands) {
+  EXPECT_STREQ(nameOf(Op::Add), "+");
+  EXPECT_STREQ(nameOf(Op::Sign), "sign");
+  EXPECT_FALSE(isFunction(Op::Pow));
+  EXPECT_TRUE(isFunction(Op::Sin));
+  for (const Op op : {Op::Constant, Op::Variable, Op::Parameter}) EXPECT_EQ(operandCount(op), 0);
+  for (const Op op : {Op::Neg, Op::PowInt, Op::Sqrt, Op::Sign}) EXPECT_EQ(operandCount(op), 1);
+  for (const Op op : {Op::Add, Op::Sub, Op::Mul, Op::Div, Op::Pow, Op::Atan2}) EXPECT_EQ(operandCount(op), 2);
+}
+
+}  // namespace
+}  // namespace reachlab::constraints
