@@ -51,14 +51,18 @@ Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
   if (!result.faults.empty()) return result;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::vector<bool> needed = graph.reachableFrom(std::vector<int>{result.roots[k]});
-    for (std::size_t id = 0; id < needed.size(); ++id)
-      if (needed[id] && graph.isConstant(static_cast<int>(id)) && !std::isfinite(graph.node(static_cast<int>(id)).value)) {
+    for (std::size_t id = 0; id < needed.size(); ++id) {
+      const ExpressionNode& n = graph.node(static_cast<int>(id));
+      const bool divided = n.op == Op::Div && graph.isConstant(n.a) && graph.isConstant(n.b);  // by 0: the graph leaves it as it is
+      const double value = divided ? graph.node(n.a).value / graph.node(n.b).value : n.value;  // of what is no number itself: 0
+      if (needed[id] && !std::isfinite(value)) {
         result.faults.push_back({static_cast<int>(k), 0, 1,
                                  "has no finite value anywhere: a part of it that does not move is not finite (1/0, log(0), the root of a "
                                  "negative number)",
                                  "numbers that have a value"});
         break;
       }
+    }
   }
   if (!result.faults.empty()) return result;
   if (std::optional<FormulaFault> fault = cancelledEnd(graph, result.roots, sizes, names)) result.faults.push_back(std::move(*fault));
