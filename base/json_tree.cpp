@@ -83,7 +83,6 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
     const std::size_t end = offset();
     std::string what = e.what();
-    if (const auto colon = what.find("] "); colon != std::string::npos) what.erase(0, colon + 2);
     if (e.id == 406) throw FaultError(Fault{{}, "this number is beyond the range of a double", "finite numbers", place(tokenStart())});
     if (const auto at = what.find("column "); at != std::string::npos)
       if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
@@ -113,7 +112,7 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   std::size_t tokenStart() const {
     const auto isTokenCharacter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.'; };
     std::size_t at = std::min(offset(), text_.size());
-    while (at > 0 && !isTokenCharacter(text_[at - 1])) --at;
+    while (!isTokenCharacter(text_[at - 1])) --at;
     while (at > 0 && isTokenCharacter(text_[at - 1])) --at;
     return at;
   }
@@ -125,8 +124,8 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
       while (quote > backslashes && text_[quote - 1 - backslashes] == '\\') ++backslashes;
       return backslashes % 2 == 1;
     };
-    while (at > 0 && !(text_[at - 1] == '"' && !isEscaped(at - 1))) --at;
-    return at > 0 ? at - 1 : 0;
+    while (text_[at - 1] != '"' || isEscaped(at - 1)) --at;
+    return at - 1;
   }
   bool putNumber(double value, bool integer) {
     JsonNode node;

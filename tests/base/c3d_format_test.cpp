@@ -141,6 +141,27 @@ TEST(C3dFormat, WithoutSignalsNoSampleAFrameIsWritten) {
       << "no events, no parameters of events";
 }
 
+TEST(C3dFormat, FillsWholeBlocksAndNoneInVain) {
+  C3dFile file;
+  file.points = {{"p"}};
+  const std::string last = group(6, "REACHLAB", "what was recorded");
+  for (std::size_t length = 1; length <= 2 * 255; ++length) {
+    file.notes = {{"A", std::string((length + 1) / 2, 'a')}, {"B", std::string(length / 2, 'b')}};
+    if (length == 1) file.notes.pop_back();
+    const std::string bytes = c3dBytes(file);
+    std::size_t records = bytes.find(last) + last.size() - 512;
+    for (const auto& [name, text] : file.notes) records += 9 + text.size();
+    ASSERT_EQ(bytes.size(), 512 + (records + 2 + 511) / 512 * 512) << length << ": two zeros behind the records, no data";
+    ASSERT_EQ(static_cast<unsigned char>(bytes[512 + 2]), bytes.size() / 512 - 1) << length;
+  }
+  file.notes.clear();
+  file.frames = 32;
+  file.places.assign(std::size_t{3 * 32}, 1);
+  file.seen.assign(32, 1);
+  EXPECT_EQ(c3dBytes(file).size() % 512, 0u);
+  EXPECT_EQ(c3dBytes(file).substr(c3dBytes(file).size() - 4 * 4), floats({1, 1, 1, 0})) << "a block that is full";
+}
+
 TEST(C3dFormat, HoldsSoManyAndNoMore) {
   const auto refusal = [](std::size_t points, std::size_t signals, std::size_t frames) -> std::string {
     C3dFile file;
@@ -265,6 +286,14 @@ TEST(C3dFormat, CountsItsFramesByWhicheverCountIsGreatest) {
   EXPECT_EQ(made.read().frames, 2u) << "an end that is no word";
   made.records = group(1, "TRIAL") + field(1, 0, "ACTUAL_START_FIELD") + parameter(1, "ACTUAL_END_FIELD", kWord, {1}, word(9));
   EXPECT_EQ(made.read().frames, 2u) << "an end of one word";
+  EXPECT_EQ((Made{.first = 3,
+                  .last = 2,
+                  .records = group(1, "TRIAL") + field(9, 0, "ACTUAL_START_FIELD") + field(9, 0, "ACTUAL_END_FIELD"),
+                  .data = data}
+                 .read()
+                 .frames),
+            1u)
+      << "one frame is the first and the last";
   made.records = group(1, "TRIAL") + field(1, 0, "ACTUAL_END_FIELD");
   EXPECT_EQ(made.read().frames, 2u) << "no start";
   made.records = group(1, "POINT") + parameter(1, "LONG_FRAMES", kFloat, {}, floats({8}));
@@ -373,6 +402,13 @@ TEST(C3dFormat, RefusesParametersThatLeadNowhere) {
   EXPECT_EQ(refusalOfRecords(parameter(1, "GREAT", kByte, {100, 100}, "1")),
             "made: has a parameter GREAT greater than the file; allowed: a whole file");
   EXPECT_EQ(refusalOfRecords(parameter(1, "GREAT", kByte, {128, 8}, "1")), "made: ends within its parameter GREAT; allowed: a whole file");
+}
+
+TEST(C3dFormat, ARecordWithoutANameOrAGroupEndsTheList) {
+  const std::string nowhere = std::string{1, 0, 0, 0, 0};
+  EXPECT_EQ(refusalOfRecords(std::string{0, 1} + nowhere), kReadOn);
+  EXPECT_EQ(refusalOfRecords(std::string{1, 0} + "A" + nowhere), kReadOn);
+  EXPECT_NE(refusalOfRecords(std::string{1, 1} + "A" + nowhere), kReadOn);
 }
 
 // The section's block holds 508 bytes of records: the last one ends with it, or a byte later.

@@ -100,7 +100,7 @@ TEST(JsonTree, CountsCharactersAndReadsEscapes) {
   for (std::size_t i = 0; i < columns.size(); ++i) EXPECT_EQ(root.items[i].column, columns[i]) << i;
   EXPECT_EQ(root.items[1].string, "a\\");
   EXPECT_EQ(root.items[3].string, "\\\"x");
-  EXPECT_EQ(parseJson("\"x\"", "made.json").column, 1) << "the very first character";
+  for (const char* first : {"\"x\"", "\"\"", "7", "12 ", "null", "[]"}) EXPECT_EQ(parseJson(first, "made.json").column, 1) << first;
 }
 
 TEST(JsonTree, ItsKindsHaveNames) {

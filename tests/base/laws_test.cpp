@@ -119,6 +119,7 @@ TEST(CubicSpline, IsHeldBeyondItsEnds) {
     EXPECT_EQ(spline.at(-1).value.x, 0);
     EXPECT_EQ(spline.at(-1).rate, Vec3{});
     EXPECT_NEAR(spline.at(0).rate.x, 1, 0.02) << "the inner rate at the end itself";
+    EXPECT_NEAR(spline.at(std::numbers::pi).rate.x, -1, 0.02);
     EXPECT_EQ(spline.at(4).rate, Vec3{});
     EXPECT_EQ(CubicSpline({0.5}, {{1, 2, 3}}, ends).at(7).value, (Vec3{1, 2, 3}));
   }
