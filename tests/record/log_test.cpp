@@ -1,0 +1,318 @@
+// The log's frame byte by byte as docs/recording.md has it, and how it is read.
+#include "sim/record/log.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "sim/record/append_file.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes payloadOf(std::size_t size, std::uint8_t first = 1) {
+  Bytes bytes(size);
+  for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(first + i * 7);
+  return bytes;
+}
+
+template <typename Number>
+Number numberAt(const std::string& bytes, std::size_t at) {
+  Number number;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+std::uint32_t crcOf(const std::string& bytes, std::size_t from, std::size_t size) {
+  return static_cast<std::uint32_t>(::crc32(0, reinterpret_cast<const Bytef*>(bytes.data() + from), static_cast<uInt>(size)));
+}
+
+// A log of these payloads, alternately of ticks and of samples.
+std::vector<std::uint64_t> writeLog(const std::string& path, const std::vector<Bytes>& payloads) {
+  LogWriter writer = LogWriter::create(path);
+  std::vector<std::uint64_t> offsets;
+  for (std::size_t i = 0; i < payloads.size(); ++i)
+    offsets.push_back(writer.append(i % 2 == 0 ? RecordType::Ticks : RecordType::Samples, payloads[i]));
+  return offsets;
+}
+
+void overwriteByte(const std::string& path, std::size_t at, std::uint8_t value) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(static_cast<char>(value));
+}
+
+// With a CRC that is right.
+void sealRecord(const std::string& path, std::size_t offset) {
+  const std::string bytes = readWholeFile(path);
+  const std::size_t whole = 12 + numberAt<std::uint32_t>(bytes, offset);
+  const std::uint32_t crc = crcOf(bytes, offset, whole);
+  for (std::size_t i = 0; i < 4; ++i) overwriteByte(path, offset + whole + i, static_cast<std::uint8_t>(crc >> 8 * i));
+}
+
+TEST(ByteReader, GivesWhatAWriterPutAndZerosBehindIt) {
+  ByteWriter out;
+  out.put(std::uint16_t{0x1234});
+  out.putText("reach");
+  out.put(2.5);
+  out.overwrite(0, std::uint16_t{0x4321});
+  EXPECT_EQ(out.size(), 2u + 4 + 5 + 8);
+  EXPECT_EQ(out.bytes()[0], 0x21) << "little-endian";
+  ByteReader in(out.bytes());
+  EXPECT_EQ(in.left(), 19u);
+  EXPECT_EQ(in.get<std::uint16_t>(), 0x4321);
+  EXPECT_EQ(in.getText(), "reach");
+  EXPECT_EQ(in.left(), 8u);
+  EXPECT_EQ(in.get<double>(), 2.5);
+  EXPECT_TRUE(in.ok());
+  EXPECT_EQ(in.left(), 0u);
+  EXPECT_EQ(in.get<std::uint8_t>(), 0);
+  EXPECT_FALSE(in.ok());
+}
+
+TEST(ByteReader, ReadsNothingMoreAfterItWasAskedForMoreThanThereIs) {
+  ByteWriter out;
+  out.put(std::uint32_t{0xffffffff});
+  out.put(std::uint16_t{7});
+  ByteReader number(out.bytes());
+  number.get<std::uint32_t>();
+  EXPECT_EQ(number.get<std::uint32_t>(), 0u);
+  EXPECT_EQ(number.left(), 0u);
+  EXPECT_EQ(number.get<std::uint16_t>(), 0u) << "nor what would have fitted";
+  ByteReader text(out.bytes());
+  EXPECT_EQ(text.getText(), "");
+  EXPECT_FALSE(text.ok());
+  EXPECT_EQ(text.left(), 0u);
+  ByteWriter empty;
+  empty.putText("");
+  ByteReader none(empty.bytes());
+  EXPECT_EQ(none.getText(), "");
+  EXPECT_TRUE(none.ok()) << "a text of no characters is one";
+}
+
+TEST(LogWriter, WritesHeaderAndRecordsByteByByteAsDocumented) {
+  const TemporaryFolder folder("frame");
+  const std::string path = folder / "a_log.reach";
+  {
+    LogWriter writer = LogWriter::create(path);
+    EXPECT_EQ(writer.size(), 16u);
+    EXPECT_EQ(writer.append(RecordType::Event, payloadOf(5)), 16u);
+    EXPECT_EQ(writer.nextSequence(), 1u);
+    EXPECT_EQ(writer.append(RecordType::PeerTicks, {}), 16u + 21);
+    EXPECT_EQ(writer.nextSequence(), 2u);
+    EXPECT_EQ(writer.size(), 16u + 21 + 16);
+    EXPECT_EQ(writer.path(), path);
+  }
+  const std::string bytes = readWholeFile(path);
+  ASSERT_EQ(bytes.size(), 53u);
+  EXPECT_EQ(bytes.substr(0, 8), "REACHLOG");
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 8), 2u);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 12), crcOf(bytes, 0, 12));
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 16), 5u);
+  EXPECT_EQ(numberAt<std::uint16_t>(bytes, 20), 4u);
+  EXPECT_EQ(numberAt<std::uint16_t>(bytes, 22), 0u);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 24), 0u);
+  EXPECT_EQ(bytes.substr(28, 5), (std::string{1, 8, 15, 22, 29}));
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 33), crcOf(bytes, 16, 17));
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 37), 0u);
+  EXPECT_EQ(numberAt<std::uint16_t>(bytes, 41), 9u);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 45), 1u);
+  EXPECT_EQ(numberAt<std::uint32_t>(bytes, 49), crcOf(bytes, 37, 12));
+}
+
+TEST(LogWriter, GoesOnWhereALogWasCut) {
+  const TemporaryFolder folder("resume");
+  const std::string path = folder / "a_log.reach";
+  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
+  LogWriter writer = LogWriter::resume(path, offsets[2], 2);
+  EXPECT_EQ(writer.append(RecordType::End, payloadOf(3, 9)), offsets[2]);
+  LogReader reader(path);
+  RecordView record;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(reader.next(record)) << i;
+  EXPECT_EQ(record.type, RecordType::End);
+  EXPECT_EQ(Bytes(record.payload.begin(), record.payload.end()), payloadOf(3, 9));
+  EXPECT_FALSE(reader.next(record));
+  EXPECT_EQ(reader.goodEnd(), reader.fileSize());
+}
+
+TEST(LogWriter, ARecordHolds64MiBAndNoByteMore) {
+  const TemporaryFolder folder("largest");
+  const std::string path = folder / "a_log.reach";
+  LogWriter writer = LogWriter::create(path);
+  const Bytes most(64u << 20, 5);
+  Bytes more = most;
+  more.push_back(5);
+  try {
+    writer.append(RecordType::Samples, more);
+    FAIL() << "written";
+  } catch (const FaultError& refusal) {
+    EXPECT_EQ(refusal.what(), path + ": a record of 67108865 bytes; allowed: up to 67108864: plan fewer trials a run");
+  }
+  EXPECT_EQ(writer.size(), 16u);
+  writer.append(RecordType::Samples, most);
+  LogReader reader(path);
+  RecordView record;
+  ASSERT_TRUE(reader.next(record));
+  EXPECT_EQ(record.payload.size(), most.size());
+}
+
+TEST(LogReader, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
+  const TemporaryFolder folder("window");
+  const std::string path = folder / "a_log.reach";
+  std::vector<Bytes> payloads;
+  for (std::size_t i = 0; i < 60; ++i)
+    payloads.push_back(payloadOf(i * i * 97 % 5003 + (i == 40 ? 300'000 : 0), static_cast<std::uint8_t>(i)));
+  const auto offsets = writeLog(path, payloads);
+  LogReader reader(path);
+  const auto expectNext = [&](std::size_t i) {
+    SCOPED_TRACE(i);
+    RecordView record;
+    EXPECT_EQ(reader.nextSequence(), i);
+    ASSERT_TRUE(reader.next(record));
+    EXPECT_EQ(record.type, i % 2 == 0 ? RecordType::Ticks : RecordType::Samples);
+    EXPECT_EQ(record.sequence, i);
+    EXPECT_EQ(record.offset, offsets[i]);
+    EXPECT_TRUE(std::equal(record.payload.begin(), record.payload.end(), payloads[i].begin(), payloads[i].end()));
+    EXPECT_EQ(reader.goodEnd(), i + 1 < offsets.size() ? offsets[i + 1] : reader.fileSize());
+  };
+  const auto expectAt = [&](std::size_t i) {
+    reader.seek(offsets[i], static_cast<std::uint32_t>(i));
+    expectNext(i);
+  };
+  for (std::size_t i = 0; i < payloads.size(); ++i) expectNext(i);
+  RecordView none;
+  EXPECT_FALSE(reader.next(none));
+  for (std::size_t i = payloads.size(); i-- > 0;) expectAt(i);  // from the last to the first, as the chain of trials is read
+  for (std::size_t i = 0; i < payloads.size(); ++i) expectAt(i * 23 % payloads.size());
+  EXPECT_EQ(reader.path(), path);
+  EXPECT_EQ(reader.schemaVersion(), 2u);
+  EXPECT_EQ(reader.fileSize(), std::filesystem::file_size(path));
+}
+
+TEST(LogReader, AHeaderIsLookedAtWithoutReadingItsRecord) {
+  const TemporaryFolder folder("looks");
+  const std::string path = folder / "a_log.reach";
+  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(0)});
+  LogReader reader(path);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(reader.sequenceAt(offsets[i]), i);
+  EXPECT_TRUE(reader.looksLike(offsets[1], RecordType::Samples, 20));
+  EXPECT_FALSE(reader.looksLike(offsets[1], RecordType::Samples, 21));
+  EXPECT_FALSE(reader.looksLike(offsets[1], RecordType::Ticks, 20));
+  EXPECT_FALSE(reader.looksLike(offsets[1] + 1, RecordType::Samples, 20));
+  EXPECT_TRUE(reader.looksLike(offsets[2], RecordType::Ticks, 0)) << "the last one, of no payload";
+  EXPECT_FALSE(reader.looksLike(reader.fileSize() - 15, RecordType::Ticks, 0)) << "reaches beyond the end";
+  EXPECT_EQ(reader.sequenceAt(reader.fileSize()), 0u);
+  EXPECT_EQ(reader.goodEnd(), 16u) << "nothing was read";
+  overwriteByte(path, offsets[1] + 6, 1);
+  EXPECT_FALSE(LogReader(path).looksLike(offsets[1], RecordType::Samples, 20)) << "the two bytes behind the type are zero";
+}
+
+TEST(LogReader, EndsAtTheFirstRecordThatIsNotRight) {
+  const TemporaryFolder folder("wrong");
+  const std::string path = folder / "a_log.reach";
+  const auto readable = [&] {
+    LogReader reader(path);
+    RecordView record;
+    std::size_t count = 0;
+    while (reader.next(record)) ++count;
+    return count;
+  };
+  // Each with a CRC that is right: type, zero and sequence number are looked at for themselves.
+  struct Wrong {
+    std::size_t at;
+    std::uint8_t value;
+    std::size_t good;
+  };
+  for (const Wrong& wrong :
+       {Wrong{4, 0, 1}, {4, 1, 3}, {4, 9, 3}, {4, 10, 1}, {5, 1, 1}, {6, 1, 1}, {7, 1, 1}, {8, 0, 1}, {8, 2, 1}, {11, 1, 1}}) {
+    std::filesystem::remove(path);
+    const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
+    overwriteByte(path, offsets[1] + wrong.at, wrong.value);
+    EXPECT_EQ(readable(), 1u) << "a wrong CRC";
+    sealRecord(path, offsets[1]);
+    EXPECT_EQ(readable(), wrong.good) << "byte " << wrong.at << " is " << int{wrong.value};
+  }
+}
+
+TEST(LogReader, ALengthBeyondTheFileOrTheBoundIsTheEnd) {
+  const TemporaryFolder folder("long");
+  const std::string path = folder / "a_log.reach";
+  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20)});
+  for (const int highest : {1, 4, 5, 255}) {  // of four bytes: 16 MiB and more, 64 MiB and more, nearly 4 GiB
+    overwriteByte(path, offsets[1] + 3, static_cast<std::uint8_t>(highest));
+    LogReader reader(path);
+    RecordView record;
+    EXPECT_TRUE(reader.next(record));
+    EXPECT_FALSE(reader.next(record));
+    EXPECT_EQ(reader.goodEnd(), offsets[1]);
+  }
+}
+
+TEST(LogReader, OneThatIsMovedReadsOn) {
+  const TemporaryFolder folder("moved");
+  const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
+  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
+  writeLog(other, {payloadOf(1)});
+  LogReader first(path);
+  RecordView record;
+  ASSERT_TRUE(first.next(record));
+  LogReader second(std::move(first));
+  ASSERT_TRUE(second.next(record));
+  EXPECT_EQ(record.payload.size(), 20u);
+  LogReader third(other);
+  third = std::move(second);
+  EXPECT_EQ(third.path(), path);
+  EXPECT_EQ(third.goodEnd(), offsets[2]);
+  EXPECT_EQ(third.nextSequence(), 2u);
+  EXPECT_EQ(third.schemaVersion(), 2u);
+  ASSERT_TRUE(third.next(record));
+  EXPECT_EQ(record.payload.size(), 30u);
+  EXPECT_EQ(third.goodEnd(), third.fileSize());
+}
+
+TEST(LogReader, RefusesWhatIsNoLogInWords) {
+  const TemporaryFolder folder("nolog");
+  const std::string path = folder / "a_log.reach";
+  const auto refusal = [&] {
+    try {
+      const LogReader reader(path);
+      return std::string("opened");
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(path.size());
+    }
+  };
+  EXPECT_EQ(refusal(), ": cannot be opened: No such file or directory");
+  const std::string damaged = ": not a log of reachlab, or its first 16 bytes are damaged";
+  writeFileAtomically(path, "");
+  EXPECT_EQ(refusal(), damaged);
+  writeFileAtomically(path, "REACHLOG");
+  EXPECT_EQ(refusal(), damaged);
+  std::filesystem::remove(path);
+  writeLog(path, {});
+  const std::string header = readWholeFile(path);
+  ASSERT_EQ(header.size(), 16u);
+  EXPECT_EQ(refusal(), "opened") << "a log of no record";
+  for (std::size_t at = 0; at < header.size(); ++at) {
+    std::string other = header;
+    other[at] = static_cast<char>(other[at] ^ 1);
+    writeFileAtomically(path, other);
+    EXPECT_EQ(refusal(), damaged) << "byte " << at;
+  }
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  EXPECT_EQ(refusal(), ": no regular file, so no log of reachlab");
+}
+
+}  // namespace
+}  // namespace reachlab::record
