@@ -1,0 +1,302 @@
+#include "sim/record/append_file.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "sim/record/foreign_file.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+namespace {
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+
+template <typename Work>
+std::string refusalOf(const Work& work) {
+  try {
+    work();
+    return "done";
+  } catch (const Error& refusal) {
+    return refusal.what();
+  }
+}
+
+// As long as it is there, no file of this program grows beyond so many bytes.
+class FileLimit {
+ public:
+  explicit FileLimit(rlim_t bytes) : signal_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FileLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, signal_);
+  }
+
+ private:
+  void (*signal_)(int);
+  rlimit before_{};
+};
+
+std::size_t countFiles(const std::string& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) count += entry.is_regular_file();
+  return count;
+}
+
+TEST(AppendFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "one/two/a_log.reach";
+  AppendFile file = AppendFile::create(path);
+  EXPECT_EQ(file.size(), 0u);
+  file.append(bytesOf("abc"));
+  file.append(bytesOf(""));
+  file.append(bytesOf("defgh"));
+  EXPECT_EQ(file.size(), 8u);
+  EXPECT_EQ(file.path(), path);
+  EXPECT_NO_THROW(file.sync());
+  EXPECT_EQ(readWholeFile(path), "abcdefgh");
+}
+
+TEST(AppendFile, NothingIsOverwritten) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "a_log.reach";
+  writeFileAtomically(path, "precious");
+  EXPECT_EQ(refusalOf([&] { AppendFile::create(path); }),
+            path + ": cannot be created: File exists; nothing is overwritten: choose another name");
+  EXPECT_EQ(readWholeFile(path), "precious");
+}
+
+TEST(AppendFile, WhatIsThereIsCutToItsGoodPartAndGrowsOn) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "a_log.reach";
+  EXPECT_EQ(refusalOf([&] { AppendFile::openAt(path, 0); }),
+            path + ": cannot be opened for writing: No such file or directory; check the folder and its permissions");
+  writeFileAtomically(path, "good and bad");
+  AppendFile file = AppendFile::openAt(path, 4);
+  EXPECT_EQ(file.size(), 4u);
+  EXPECT_EQ(readWholeFile(path), "good");
+  file.append(bytesOf("ness"));
+  EXPECT_EQ(readWholeFile(path), "goodness");
+}
+
+TEST(AppendFile, WhatTheDiskTakesOnlyInPartIsTakenBack) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "a_log.reach";
+  AppendFile file = AppendFile::create(path);
+  file.append(bytesOf(std::string(60, 'a')));
+  {
+    const FileLimit limit(100);
+    EXPECT_EQ(refusalOf([&] { file.append(bytesOf(std::string(60, 'b'))); }),
+              path + ": cannot be written: File too large; check the folder and its permissions");
+    EXPECT_EQ(file.size(), 60u);
+    EXPECT_EQ(std::filesystem::file_size(path), 60u);
+    EXPECT_NO_THROW(file.append(bytesOf(std::string(40, 'c')))) << "what fits goes in";
+  }
+  file.append(bytesOf("d"));
+  EXPECT_EQ(readWholeFile(path), std::string(60, 'a') + std::string(40, 'c') + "d");
+}
+
+TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
+  {
+    AppendFile first = AppendFile::create(path);
+    first.append(bytesOf("abc"));
+    AppendFile second(std::move(first));
+    EXPECT_EQ(second.size(), 3u);
+    EXPECT_TRUE(isBeingWritten(path));
+    AppendFile third = AppendFile::create(other);
+    third = std::move(second);
+    EXPECT_EQ(third.path(), path);
+    EXPECT_EQ(third.size(), 3u);
+    third.append(bytesOf("d"));
+    EXPECT_EQ(third.size(), 4u);
+    EXPECT_NO_THROW(third.sync());
+  }
+  EXPECT_EQ(readWholeFile(path), "abcd");
+  EXPECT_EQ(readWholeFile(other), "");
+  EXPECT_FALSE(isBeingWritten(path));
+}
+
+TEST(AppendFile, IsBeingWrittenAsLongAsItIsThere) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "a_log.reach";
+  EXPECT_FALSE(isBeingWritten(path)) << "there is none";
+  EXPECT_EQ(writerOf(path), "");
+  {
+    const AppendFile file = AppendFile::create(path);
+    EXPECT_TRUE(isBeingWritten(path));
+    EXPECT_EQ(writerOf(path), " (process " + std::to_string(::getpid()) + ")");
+    EXPECT_EQ(writerOf(folder / ""), "") << "of another file";
+  }
+  EXPECT_FALSE(isBeingWritten(path));
+  EXPECT_EQ(writerOf(path), "");
+}
+
+TEST(AppendFile, NoticesThatItIsNoLongerUnderItsName) {
+  const TemporaryFolder folder("append");
+  const std::string path = folder / "a_log.reach";
+  const std::string words = path + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run";
+  AppendFile file = AppendFile::create(path);
+  file.sync();
+  std::filesystem::rename(path, folder / "b_log.reach");
+  EXPECT_EQ(refusalOf([&] { file.sync(); }), words);
+  writeFileAtomically(path, "another file of the same name");
+  EXPECT_EQ(refusalOf([&] { file.sync(); }), words);
+  std::filesystem::remove(path);
+  std::filesystem::rename(folder / "b_log.reach", path);
+  EXPECT_NO_THROW(file.sync());
+}
+
+TEST(AtomicFile, TakesItsNameOnlyWhenItIsWhole) {
+  const TemporaryFolder folder("atomic");
+  const std::string path = folder / "sub/table.tsv";
+  std::string whole;
+  {
+    AtomicFile file(path);
+    for (int i = 0; i < 30; ++i) {  // in pieces, of which some are larger than what is gathered for a write
+      const std::string piece(static_cast<std::size_t>(i * i * 113), static_cast<char>('a' + i % 26));
+      whole += piece;
+      file.append(piece);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+    file.commit();
+  }
+  EXPECT_EQ(readWholeFile(path), whole);
+  {
+    AtomicFile given(path);
+    given.append("half");
+  }
+  EXPECT_EQ(readWholeFile(path), whole) << "never committed";
+  EXPECT_EQ(countFiles(folder / ""), 1u) << "and nothing is left of it";
+  struct stat status {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  EXPECT_EQ(status.st_mode & 0777, 0644u & ~mask);
+}
+
+TEST(AtomicFile, OneThatCannotBeWrittenLeavesTheOldOne) {
+  const TemporaryFolder folder("atomic");
+  const std::string path = folder / "table.tsv";
+  writeFileAtomically(path, "old");
+  {
+    const FileLimit limit(1000);
+    EXPECT_EQ(refusalOf([&] { writeFileAtomically(path, std::string(1001, 'n')); }),
+              path + ": cannot be written: File too large; check the folder and its permissions");
+    EXPECT_EQ(readWholeFile(path), "old");
+    EXPECT_EQ(countFiles(folder / ""), 1u);
+    writeFileAtomically(path, std::string(1000, 'n'));
+  }
+  EXPECT_EQ(readWholeFile(path), std::string(1000, 'n'));
+}
+
+TEST(AtomicFile, CannotTakeTheNameOfAFolder) {
+  const TemporaryFolder folder("atomic");
+  const std::string path = folder / "table.tsv";
+  std::filesystem::create_directories(path + "/inside");
+  EXPECT_EQ(refusalOf([&] { writeFileAtomically(path, "new"); }),
+            path + ": cannot be written: Is a directory; check the folder and its permissions");
+  EXPECT_EQ(countFiles(folder / ""), 0u);
+}
+
+TEST(AtomicFile, AFolderThatIsAFileIsTold) {
+  const TemporaryFolder folder("atomic");
+  const std::string file = folder / "file";
+  writeFileAtomically(file, "x");
+  EXPECT_EQ(refusalOf([&] { writeFileAtomically(file + "/table.tsv", "new"); }),
+            file + ": cannot be made: Not a directory; check the folder and its permissions");
+  EXPECT_NO_THROW(makeFolders(""));
+  EXPECT_NO_THROW(makeFolders(folder / "a/b"));
+  EXPECT_NO_THROW(makeFolders(folder / "a/b")) << "they are there already";
+}
+
+TEST(ForeignFile, TakesItsNameWhenItIsCommitted) {
+  const TemporaryFolder folder("foreign");
+  const std::string path = folder / "sub/run.mat";
+  {
+    ForeignFile file(path);
+    std::ofstream(file.temporary()) << "by a library";
+    EXPECT_FALSE(std::filesystem::exists(path));
+    file.commit();
+    EXPECT_EQ(readWholeFile(path), "by a library");
+  }
+  EXPECT_EQ(countFiles(folder / ""), 1u);
+  {
+    ForeignFile file(path);
+    std::ofstream(file.temporary()) << "half";
+    EXPECT_EQ(refusalOf([&] { file.giveUp("the library failed"); }),
+              path + ": cannot be written: the library failed; check the folder and the space on its disk");
+  }
+  EXPECT_EQ(readWholeFile(path), "by a library");
+  EXPECT_EQ(countFiles(folder / ""), 1u);
+  {
+    ForeignFile file(path);
+    std::filesystem::remove(file.temporary());  // by somebody else
+    EXPECT_EQ(refusalOf([&] { file.commit(); }),
+              path + ": cannot be written: No such file or directory; check the folder and its permissions");
+  }
+  EXPECT_EQ(readWholeFile(path), "by a library");
+}
+
+TEST(ReadWholeFile, GivesEveryByte) {
+  const TemporaryFolder folder("whole");
+  const std::string path = folder / "file";
+  std::string bytes;
+  for (int i = 0; i < 100'000; ++i) bytes.push_back(static_cast<char>(i * 37 >> 3));
+  for (const std::string& content : {bytes, std::string(), std::string(1, '\0')}) {
+    writeFileAtomically(path, content);
+    EXPECT_EQ(readWholeFile(path), content);
+  }
+}
+
+TEST(ReadWholeFile, RefusesWhatIsNotThereNoFileOrTooLarge) {
+  const TemporaryFolder folder("whole");
+  const std::string path = folder / "file";
+  EXPECT_EQ(refusalOf([&] { readWholeFile(path); }),
+            path + ": cannot be opened: No such file or directory; check the folder and its permissions");
+  EXPECT_EQ(refusalOf([&] { readWholeFile(folder / ""); }), (folder / "") + ": is no regular file; allowed: a file on a disk");
+  writeFileAtomically(path, "");
+  std::filesystem::resize_file(path, (1u << 30) + 1);  // takes no room on the disk
+  EXPECT_EQ(refusalOf([&] { readWholeFile(path); }), path + ": has 1073741825 bytes; allowed: up to 1073741824");
+}
+
+TEST(Leftovers, AreFilesOfTheirNameThatAreOlderThanTenMinutes) {
+  const TemporaryFolder folder("leftovers");
+  const std::string name = "/.0123456789abcdef.reachlab-tmp";
+  const auto now = std::filesystem::file_time_type::clock::now();
+  std::map<std::string, bool> stays;
+  const auto put = [&](const std::string& file, std::chrono::seconds age, bool staying) {
+    writeFileAtomically(folder / file, "part");
+    std::filesystem::last_write_time(folder / file, now - age);
+    stays[file] = staying;
+  };
+  using std::chrono::minutes;
+  put("young" + name, minutes(9), true);
+  put("old" + name, minutes(11), false);
+  put("deep/down" + name, minutes(60), false);
+  put("shown/0123456789abcdef.reachlab-tmp", minutes(60), true);
+  put("other/.0123456789abcdef.tmp", minutes(60), true);
+  std::filesystem::create_directories(folder / ("folder" + name));
+  std::filesystem::last_write_time(folder / ("folder" + name), now - minutes(60));
+  removeLeftovers(folder / "");
+  for (const auto& [file, staying] : stays) EXPECT_EQ(std::filesystem::exists(folder / file), staying) << file;
+  EXPECT_TRUE(std::filesystem::exists(folder / ("folder" + name)));
+  EXPECT_NO_THROW(removeLeftovers(folder / "nothing"));
+}
+
+}  // namespace
+}  // namespace reachlab::record
