@@ -1,0 +1,198 @@
+#include "sim/record/channels.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/fault.h"
+
+namespace reachlab::record {
+namespace {
+
+experiment::Experiment sceneOf(int masses, int hands = 1, experiment::ObjectKind kind = experiment::ObjectKind::Chain) {
+  experiment::Experiment scene;
+  scene.object.kind = kind;
+  scene.object.masses.assign(static_cast<std::size_t>(masses), 0.6);
+  if (hands > 1) scene.hands.resize(static_cast<std::size_t>(hands));
+  return scene;
+}
+
+// A state of which no two numbers are equal, and what each channel is to show of it.
+class Filled {
+ public:
+  Filled() {
+    haptics::TickState& s = *state;
+    s.tick = 1350;
+    expected["latency"] = 1.35;
+    s.measuredNs = 2'500'000'000;
+    expected["measured_time"] = 2.5;
+    hand(s, "", "1");
+    expected["energy"] = s.energy = another();
+    expected["trial"] = s.trial = 7;
+    s.phase = trial::Phase::Moving;
+    expected["phase"] = 3;
+    for (int i = 0; i < 3; ++i) {
+      dynamics::MassState& mass = s.masses[static_cast<std::size_t>(i)];
+      const std::string name = "mass" + std::to_string(i + 1);
+      vector(name + "_pos", mass.r);
+      vector(name + "_vel", mass.v);
+      vector(name + "_acc", mass.a);
+      for (std::size_t k = 0; k < 2; ++k) {
+        expected[name + "_q" + std::to_string(k + 1)] = mass.q[k] = another();
+        expected[name + "_q" + std::to_string(k + 1) + "_rate"] = mass.qRate[k] = another();
+      }
+    }
+    for (std::size_t k = 0; k < 4; ++k) expected[std::string("body_quat_") + "wxyz"[k]] = s.body.orientation[k] = another();
+    vector("body_gyro", s.body.angularVelocity);
+    expected["port_energy"] = s.portEnergy = another();
+    expected["hand_work"] = s.work = another();
+    for (int i = 2; i <= 4; ++i) {
+      haptics::HandState& other = s.others[static_cast<std::size_t>(i - 2)];
+      const std::string number = std::to_string(i);
+      hand(other, number, number);
+      expected["hand" + number + "_work"] = other.work = another();
+    }
+  }
+
+  std::unique_ptr<haptics::TickState> state = std::make_unique<haptics::TickState>();  // large
+  std::map<std::string, double> expected;
+
+ private:
+  double another() { return last_ += 0.125; }
+  void vector(const std::string& name, Vec3& v) {
+    v = {another(), another(), another()};
+    expected[name + "_x"] = v.x, expected[name + "_y"] = v.y, expected[name + "_z"] = v.z;
+  }
+  // The first hand's columns have no number, the others' forces have theirs in front.
+  void hand(haptics::HandState& h, const std::string& number, const std::string& whose) {
+    const std::string force = number.empty() ? "" : "hand" + number + "_";
+    vector("hand" + number + "_pos", h.hand.position);
+    vector("hand" + number + "_vel", h.hand.velocity);
+    vector("device" + number + "_pos", h.device.position);
+    vector(force + "coupling_force", h.couplingForce);
+    vector(force + "feedback_force", h.feedbackForce);
+    vector(force + "device_force", h.deviceForce);
+    h.device.valid = whose != "3";
+    expected[number.empty() ? "valid" : "hand" + number + "_valid"] = h.device.valid ? 1 : 0;
+  }
+  double last_ = 100;
+};
+
+void expectRow(const ChannelTable& table, const Filled& filled) {
+  EXPECT_EQ(rowWidth(table), table.size());
+  std::vector<double> row(table.size() + 1, -1);
+  fillRow(table, *filled.state, row.data());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto found = filled.expected.find(table.channels[i].name);
+    ASSERT_NE(found, filled.expected.end()) << table.channels[i].name;
+    EXPECT_EQ(row[i], found->second) << table.channels[i].name;
+    EXPECT_EQ(table.indexOf(table.channels[i].name), i);
+  }
+  EXPECT_EQ(row.back(), -1) << "nothing behind the last channel is written";
+}
+
+TEST(Channels, ShowWhatTheirNamesSayInEveryScene) {
+  const Filled filled;
+  for (int parameters = 0; parameters <= 2; ++parameters)
+    for (const int masses : {1, 3})
+      for (const int hands : {1, 2, 4})
+        for (const bool portEnergy : {false, true}) {
+          SCOPED_TRACE(testing::Message() << parameters << " " << masses << " " << hands << " " << portEnergy);
+          expectRow(makeChannelTable(sceneOf(masses, hands), parameters, portEnergy), filled);
+        }
+  for (const bool portEnergy : {false, true})
+    expectRow(makeChannelTable(sceneOf(1, 1, experiment::ObjectKind::Body), 0, portEnergy), filled);
+}
+
+TEST(Channels, OfASceneAreAsManyAsItsPartsAskFor) {
+  const auto width = [](const experiment::Experiment& scene, int parameters, bool portEnergy = false) {
+    return makeChannelTable(scene, parameters, portEnergy).size();
+  };
+  EXPECT_EQ(width(sceneOf(1), 0), 24u + 9);
+  EXPECT_EQ(width(sceneOf(5), 0), 24u + 5 * 9);
+  EXPECT_EQ(width(sceneOf(5), 2), 24u + 5 * 13);
+  EXPECT_EQ(width(sceneOf(1, 1, experiment::ObjectKind::Body), 0), 24u + 9 + 7);
+  EXPECT_EQ(width(sceneOf(1), 0, true), 24u + 9 + 1);
+  EXPECT_EQ(width(sceneOf(1, 3), 0), 24u + 9 + 1 + 2 * 20);
+}
+
+TEST(Channels, TellWhatOfTheSceneTheyAre) {
+  const ChannelTable chain = makeChannelTable(sceneOf(3, 2), 1, true);
+  EXPECT_EQ(chain.massCount, 3);
+  EXPECT_EQ(chain.parameterCount, 1);
+  EXPECT_FALSE(chain.body);
+  EXPECT_TRUE(chain.portEnergy);
+  EXPECT_EQ(chain.hands, 2);
+  const ChannelTable body = makeChannelTable(sceneOf(1, 1, experiment::ObjectKind::Body), 0);
+  EXPECT_TRUE(body.body);
+  EXPECT_FALSE(body.portEnergy);
+  EXPECT_EQ(body.hands, 1);
+}
+
+TEST(Channels, AnInvalidSampleIsAZero) {
+  Filled filled;
+  const ChannelTable table = makeChannelTable(sceneOf(1), 0);
+  std::vector<double> row(table.size());
+  filled.state->device.valid = false;
+  fillRow(table, *filled.state, row.data());
+  EXPECT_EQ(row[table.indexOf("valid")], 0);
+}
+
+TEST(Channels, AreNamedWithTheirUnitsInEveryTable) {
+  const ChannelTable table = makeChannelTable(sceneOf(2, 2), 2, true);
+  const auto expectChannel = [&](const char* name, const char* component, const char* type, const char* point, const char* units,
+                                 const char* column) {
+    const Channel& c = table.channels[table.indexOf(name)];
+    EXPECT_EQ(c.component, component) << name;
+    EXPECT_EQ(c.type, type) << name;
+    EXPECT_EQ(c.trackedPoint, point) << name;
+    EXPECT_EQ(c.units, units) << name;
+    EXPECT_EQ(c.column, column) << name;
+    EXPECT_FALSE(c.description.empty()) << name;
+  };
+  expectChannel("latency", "n/a", "LATENCY", "n/a", "s", "time_s");
+  expectChannel("hand_pos_y", "y", "POS", "hand", "m", "hand_y_m");
+  expectChannel("coupling_force_z", "z", "MISC", "mass1", "N", "coupling_z_n");
+  expectChannel("mass2_acc_x", "x", "ACCEL", "mass2", "m/s^2", "mass2_ax_m_per_s2");
+  expectChannel("mass2_q1", "n/a", "MISC", "mass2", "n/a", "mass2_q1");
+  expectChannel("mass2_q2_rate", "n/a", "MISC", "mass2", "1/s", "mass2_q2_per_s");
+  expectChannel("hand2_device_force_y", "y", "MISC", "hand2", "N", "hand2_device_force_y_n");
+  expectChannel("device2_pos_z", "z", "POS", "device2", "m", "device2_z_m");
+  std::set<std::string> names, columns;
+  for (const Channel& c : table.channels) {
+    EXPECT_TRUE(names.insert(c.name).second) << c.name;
+    EXPECT_TRUE(columns.insert(c.column).second) << c.column;
+  }
+}
+
+TEST(Channels, OneThatIsNotThereIsNamed) {
+  try {
+    (void)makeChannelTable(sceneOf(1), 0).indexOf("mass2_pos_x");
+    FAIL();
+  } catch (const FaultError& refusal) {
+    EXPECT_STREQ(refusal.what(), "no channel named mass2_pos_x");
+  }
+}
+
+TEST(Channels, ATrialIsNumberedFromTheRunsFirst) {
+  const ChannelTable table = makeChannelTable(sceneOf(2), 1);
+  const std::size_t at = table.indexOf("trial");
+  const auto numbered = [&](double engines, int first) {
+    std::vector<double> row(table.size(), 5);
+    row[at] = engines;
+    numberTrial(table, first, row.data());
+    for (std::size_t i = 0; i < row.size(); ++i) EXPECT_TRUE(i == at || row[i] == 5) << table.channels[i].name;
+    return row[at];
+  };
+  EXPECT_EQ(numbered(1, 1), 1);
+  EXPECT_EQ(numbered(1, 8), 8);
+  EXPECT_EQ(numbered(3, 8), 10);
+  EXPECT_EQ(numbered(0, 8), 0) << "before the first there is none";
+}
+
+}  // namespace
+}  // namespace reachlab::record

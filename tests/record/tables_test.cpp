@@ -1,0 +1,505 @@
+// What a run is as tables and files for other programs, number by number. (Other programs' readers: export_readers.py.)
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/table_text.h"
+#include "sim/record/append_file.h"
+#include "sim/record/bids.h"
+#include "sim/record/c3d_export.h"
+#include "sim/record/column_dictionary.h"
+#include "sim/record/derivative.h"
+#include "sim/record/exporters.h"
+#include "sim/record/matlab_file.h"
+#include "sim/record/run_tables.h"
+#include "sim/record/tidy_csv.h"
+#include "sim/record/trial_row.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+namespace {
+
+using nlohmann::json;
+
+class Tables : public testing::Test {
+ protected:
+  // A run of three trials, of which the second is a failure.
+  RunLog recorded(int trials = 3) {
+    const std::string path = folder_ / "a_log.reach";
+    writeMadeRun(path, trials, configuration_);
+    return RunLog::open(path);
+  }
+  TemporaryFolder folder_{"tables"};
+  RunConfiguration configuration_ = madeConfiguration();
+};
+
+std::map<std::string, std::string> rowOf(const TsvTable& table, std::size_t row) {
+  std::map<std::string, std::string> cells;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) cells[table.columns[i]] = table.rows.at(row).at(i);
+  return cells;
+}
+
+// MadeRun: of 275 ticks a trial 20 waiting, 30 armed, 200 moving, 25 done; the go signal of trial i comes 5 i ticks after arming.
+TEST_F(Tables, EveryEventCellIsOfItsTrial) {
+  configuration_.block = 4, configuration_.day = 2;
+  std::string text;
+  eventsTsv(recorded(), [&](std::string_view piece) { text += piece; });
+  const TsvTable table = parseTsv(text);
+  ASSERT_EQ(table.rows.size(), 3u);
+  std::map<std::string, std::string> row = rowOf(table, 1);
+  const std::map<std::string, std::string> expected{{"onset", "0.325"},
+                                                    {"duration", "0.2"},
+                                                    {"trial_type", "reach"},
+                                                    {"trial", "2"},
+                                                    {"block", "4"},
+                                                    {"phase", "recorded"},
+                                                    {"condition", "made"},
+                                                    {"outcome", "failure"},
+                                                    {"reason", "velocity"},
+                                                    {"mass", "2"},
+                                                    {"by", "0.002"},
+                                                    {"movement_time", "0.2"},
+                                                    {"reaction_time", "0.02"},
+                                                    {"go", "0.305"},
+                                                    {"foreperiod", "0.01"},
+                                                    {"armed", "0.295"},
+                                                    {"missed_ticks", "0"},
+                                                    {"dropped_samples", "0"},
+                                                    {"day", "2"}};
+  for (const auto& [column, cell] : expected) EXPECT_EQ(row[column], cell) << column;
+  EXPECT_NEAR(std::stod(row["elapsed_s"]), (0.525 - 0.305) * 1.000003, 1e-9) << "by the computer's clock";
+  EXPECT_EQ(rowOf(table, 2)["outcome"], "success");
+  EXPECT_EQ(rowOf(table, 2)["reason"], "none");
+}
+
+TEST_F(Tables, TimesOfEventsAreSinceTheFirstRowAndNotTheFirstTick) {
+  configuration_.sampleEveryTicks = 10;
+  const std::string path = folder_ / "late_log.reach";
+  {
+    Recorder recorder(path, configuration_, {.threaded = false});
+    MadeRun run;
+    for (int tick = 0; tick < 7; ++tick) run.next();  // the first tick that is recorded is the 7th, the first row the 10th
+    for (std::uint64_t tick = 7; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
+    recorder.close();
+  }
+  std::string text;
+  eventsTsv(RunLog::open(path), [&](std::string_view piece) { text += piece; });
+  std::map<std::string, std::string> row = rowOf(parseTsv(text), 0);
+  EXPECT_EQ(row["onset"], "0.04") << "50 ticks less 10";
+  EXPECT_EQ(row["go"], "0.01");
+  EXPECT_EQ(row["armed"], "0.01");
+}
+
+TEST_F(Tables, ATrialWithoutAMovementIsPlacedWhereItStarted) {
+  const std::string path = folder_ / "still_log.reach";
+  {
+    Recorder recorder(path, configuration_, {.threaded = false});
+    auto state = std::make_unique<haptics::TickState>();
+    state->massCount = 2;
+    state->trial = 1;
+    recorder.announce(1, {0, 0, true});
+    for (state->tick = 0; state->tick <= 100; ++state->tick) {
+      state->phase = state->tick < 30 ? trial::Phase::Idle : state->tick < 100 ? trial::Phase::Waiting : trial::Phase::Done;
+      state->result.outcome = trial::Outcome::Aborted;
+      recorder.onTick(*state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  std::string text;
+  eventsTsv(RunLog::open(path), [&](std::string_view piece) { text += piece; });
+  std::map<std::string, std::string> row = rowOf(parseTsv(text), 0);
+  EXPECT_EQ(row["onset"], "0.03");
+  EXPECT_EQ(row["duration"], "0.07");
+  EXPECT_EQ(row["trial_type"], "catch");
+  for (const char* never : {"movement_time", "reaction_time", "go", "armed", "elapsed_s"}) EXPECT_EQ(row[never], "n/a") << never;
+}
+
+TEST_F(Tables, TheMotionFileTellsItsLengthAndItsEffectiveRate) {
+  const json all = json::parse(motionJson(recorded()));
+  EXPECT_EQ(all["SamplingFrequency"], 100);
+  EXPECT_EQ(all["RecordingDuration"], 0.82);
+  EXPECT_DOUBLE_EQ(all["SamplingFrequencyEffective"].get<double>(), 100);
+  const std::string path = folder_ / "gap_log.reach";
+  {
+    Recorder recorder(path, configuration_, {.threaded = false});
+    MadeRun run;
+    for (int tick = 0; tick < 275; ++tick) {
+      const haptics::TickState& state = run.next();
+      if (tick < 100 || tick >= 150) recorder.onTick(state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  const json gap = json::parse(motionJson(RunLog::open(path)));
+  EXPECT_EQ(gap["RecordingDuration"], 0.27);
+  EXPECT_DOUBLE_EQ(gap["SamplingFrequencyEffective"].get<double>(), 22 / 0.27) << "23 rows, of which 5 are lost";
+  configuration_.samplingHz = 50;
+  writeMadeRun(folder_ / "none_log.reach", 0, configuration_);
+  const json none = json::parse(motionJson(RunLog::open(folder_ / "none_log.reach")));
+  EXPECT_EQ(none["RecordingDuration"], 0);
+  EXPECT_EQ(none["SamplingFrequencyEffective"], 50) << "of a run of no rows, the one that was asked for";
+}
+
+TEST_F(Tables, EveryHandHasItsOwnTrackingSystem) {
+  experiment::Experiment scene;
+  scene.object.kind = experiment::ObjectKind::Chain;
+  scene.object.masses.assign(2, 0.6);
+  scene.hands.resize(3);
+  configuration_.table = makeChannelTable(scene, 1);
+  configuration_.deviceName = "first";
+  configuration_.otherHands.resize(2);
+  configuration_.otherHands[0].name = "second";
+  const ChannelTable& table = configuration_.table;
+  const auto namesOf = [&](int hand) {
+    std::vector<std::string> names;
+    for (const std::size_t column : columnsOf(table, hand)) names.push_back(table.channels[column].name);
+    return names;
+  };
+  EXPECT_EQ(namesOf(1).size(), 24u + 2 * 11 + 1);
+  for (int hand = 2; hand <= 3; ++hand) {
+    const std::vector<std::string> names = namesOf(hand);
+    EXPECT_EQ(names.size(), 21u);
+    EXPECT_EQ(names.front(), "latency");
+    const std::string number = std::to_string(hand);
+    for (std::size_t i = 1; i < names.size(); ++i)
+      EXPECT_TRUE(names[i].starts_with("hand" + number + "_") || names[i].starts_with("device" + number + "_")) << names[i];
+  }
+  const RunLog run = recorded();
+  const char* names[] = {"first", "second", "n/a"};
+  const char* systems[] = {"haptic", "haptic2", "haptic3"};
+  for (int hand = 1; hand <= 3; ++hand) {
+    const json motion = json::parse(motionJson(run, hand));
+    EXPECT_EQ(motion["ManufacturersModelName"], names[hand - 1]);
+    EXPECT_EQ(motion["TrackingSystemName"], systems[hand - 1]);
+    EXPECT_EQ(parseTsv(channelsTsv(configuration_, hand)).rows.size(), namesOf(hand).size());
+  }
+  const std::vector<std::string> written = writeBidsRun(run, folder_ / "data");
+  for (const char* system : systems)
+    EXPECT_EQ(
+        std::count_if(written.begin(), written.end(),
+                      [&](const std::string& file) { return file.find("tracksys-" + std::string(system) + "_") != std::string::npos; }),
+        system == systems[0] ? 6 : 4)
+        << "motion and channels; the first has the events too";
+  for (const std::string& file : written) EXPECT_TRUE(std::filesystem::exists(file)) << file;
+}
+
+TEST_F(Tables, AxesStandInTheWorldFrameAndScalarsInNone) {
+  const TsvTable channels = parseTsv(channelsTsv(configuration_));
+  for (std::size_t row = 0; row < channels.rows.size(); ++row) {
+    std::map<std::string, std::string> cells = rowOf(channels, row);
+    EXPECT_EQ(cells["reference_frame"], cells["component"] == "n/a" ? "n/a" : "world") << cells["name"];
+  }
+}
+
+TEST_F(Tables, TheDatasetsTablesTellPeopleSessionsAndWhenTheyWereRecorded) {
+  RunConfiguration a = configuration_, b = configuration_, c = configuration_;
+  a.participant = {31.5, "F", ""};
+  b.run = 2, b.startedUtc = "2026-11-20T11:00:00.000";
+  c.subject = "07", c.session = "03", c.startedUtc = "";
+  const std::string out = folder_ / "data";
+  EXPECT_TRUE(writeBidsTables({}, out).empty());
+  EXPECT_EQ(writeBidsTables({a, b, c}, out).size(), 3u + 1 + 2 + 2);
+  EXPECT_EQ(readWholeFile(out + "/participants.tsv"),
+            "participant_id\tage\tsex\thandedness\nsub-01\t31.5\tF\tn/a\nsub-07\tn/a\tn/a\tn/a\n");
+  EXPECT_EQ(readWholeFile(out + "/sub-01/sub-01_sessions.tsv"), "session_id\tacq_time\nses-01\t2026-11-20T10:00:00.000\n")
+      << "of its first run, without a zone";
+  EXPECT_EQ(readWholeFile(out + "/sub-07/sub-07_sessions.tsv"), "session_id\tacq_time\nses-03\tn/a\n");
+  EXPECT_EQ(readWholeFile(out + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"),
+            "filename\tacq_time\nmotion/sub-01_ses-01_task-made_tracksys-haptic_run-01_motion.tsv\t2026-11-20T10:00:00.000\n"
+            "motion/sub-01_ses-01_task-made_tracksys-haptic_run-02_motion.tsv\t2026-11-20T11:00:00.000\n");
+  EXPECT_EQ(writeBidsTables({a}, out).size(), 3u) << "what describes the dataset is written once";
+}
+
+TEST_F(Tables, AnExperimentThatNobodyUnderstandsIsKeptAsItIs) {
+  configuration_.experimentText = "no experiment";
+  configuration_.experimentName = "odd";
+  const json j = json::parse(experimentJson(configuration_));
+  EXPECT_TRUE(j["experiment"].is_null());
+  EXPECT_TRUE(j["definition"].is_null());
+  EXPECT_EQ(j["description"], "Rest-to-rest reaching with the simulated object of experiment odd");
+  EXPECT_EQ(experimentNameIn(j["description"]), "odd");
+  EXPECT_EQ(experimentNameIn("something else"), "");
+  EXPECT_TRUE(j["run"]["device_name"].is_null());
+  configuration_.experimentText = "{\"of\": \"a later version\"} // with a comment";
+  EXPECT_EQ(json::parse(experimentJson(configuration_))["experiment"], (json{{"of", "a later version"}}));
+}
+
+TEST_F(Tables, ThePointsOfAC3dFileAreInMillimetresAndTheirFramesAtTheirTimes) {
+  const RunLog run = recorded();
+  const RecordedTrial& second = run.trials()[1];
+  const C3dFile file = c3dOf(run, second);
+  EXPECT_EQ(file.rate, 100);
+  EXPECT_EQ(file.pointUnit, "mm");
+  std::vector<std::string> points;
+  for (const C3dLabel& label : file.points) points.push_back(label.name);
+  EXPECT_EQ(points, (std::vector<std::string>{"hand", "device", "mass1", "mass2"}));
+  ASSERT_EQ(file.frames, 25u) << "ticks 280 to 520";
+  ASSERT_EQ(file.places.size(), 25u * 4 * 3);
+  for (std::size_t frame = 0; frame < file.frames; ++frame) {
+    const double x = MadeRun::valueAt(280 + 10 * frame);
+    const double expected[4][3] = {{x, -x, 2 * x}, {x, -x, 2 * x}, {x, 0, 0}, {x + 1, 0, 0}};
+    for (std::size_t point = 0; point < 4; ++point) {
+      EXPECT_TRUE(file.seen[4 * frame + point]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(file.places[3 * (4 * frame + point) + axis], static_cast<float>(1000 * expected[point][axis])) << frame << point << axis;
+    }
+  }
+  std::map<std::string, std::size_t> signals;
+  for (std::size_t k = 0; k < file.analogs.size(); ++k) signals[file.analogs[k].name] = k;
+  EXPECT_FALSE(signals.contains("latency") || signals.contains("measured_time") || signals.contains("hand_pos_x")) << "clocks and points";
+  EXPECT_EQ(signals.size(), run.configuration().table.size() - 2 - 3 * 4);
+  EXPECT_EQ(file.analogs[signals.at("coupling_force_x")].unit, "N");
+  EXPECT_EQ(file.analogs[signals.at("phase")].unit, "");
+  for (std::size_t frame = 0; frame < file.frames; ++frame)
+    EXPECT_EQ(file.signals[frame * signals.size() + signals.at("coupling_force_x")],
+              static_cast<float>(10 * MadeRun::valueAt(280 + 10 * frame)));
+  ASSERT_EQ(file.events.size(), 3u);
+  const std::pair<const char*, double> events[] = {{"go", 0.025}, {"onset", 0.045}, {"end", 0.245}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(file.events[k].label, events[k].first);
+    EXPECT_NEAR(file.events[k].time, events[k].second, 1e-12) << "since the first frame";
+  }
+  std::map<std::string, std::string> notes(file.notes.begin(), file.notes.end());
+  EXPECT_EQ(notes["BEGIN_S"], "0.28");
+  EXPECT_EQ(notes["TRIAL"], "2");
+  EXPECT_EQ(notes["OUTCOME"], "failure");
+}
+
+TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
+  configuration_.sampleEveryTicks = 5;
+  const std::string path = folder_ / "lost_log.reach";
+  {
+    Recorder recorder(path, configuration_, {.threaded = false});
+    MadeRun run;
+    for (int tick = 0; tick < 275; ++tick) {
+      haptics::TickState state = run.next();
+      state.device.valid = tick != 20;
+      if (tick == 30) state.masses[1].r.z = std::nan("");
+      if (tick < 40 || tick >= 50) recorder.onTick(state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  const RunLog run = RunLog::open(path);
+  const C3dFile file = c3dOf(run, run.trials()[0]);
+  ASSERT_EQ(file.frames, 51u);
+  const auto seen = [&](std::size_t frame) {
+    return std::string(file.seen.begin() + 4 * static_cast<int>(frame), file.seen.begin() + 4 * static_cast<int>(frame) + 4);
+  };
+  EXPECT_EQ(seen(3), "\1\1\1\1");
+  EXPECT_EQ(seen(4), std::string("\0\0\1\1", 4)) << "hand and device; the masses are simulated";
+  EXPECT_EQ(seen(6), std::string("\1\1\1\0", 4));
+  for (const std::size_t frame : {8, 9}) {
+    EXPECT_EQ(seen(frame), std::string(4, '\0')) << "dropped: the frames keep their times";
+    EXPECT_TRUE(std::isnan(file.signals[frame * file.analogs.size()]));
+  }
+  EXPECT_EQ(seen(10), "\1\1\1\1");
+  EXPECT_EQ(writeC3d({}, folder_ / "").size(), 0u);
+}
+
+TEST_F(Tables, EveryTrialHasAC3dFileOfItsOwn) {
+  std::vector<RunLog> runs;
+  runs.push_back(recorded());
+  const std::vector<std::string> written = writeC3d(runs, folder_ / "c3d");
+  ASSERT_EQ(written.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(written[i], folder_ / ("c3d/sub-01_ses-01_task-made_run-01_trial-00" + std::to_string(i + 1) + ".c3d"));
+    EXPECT_EQ(readC3d(readWholeFile(written[i]), "c3d").frames, c3dOf(runs[0], runs[0].trials()[i]).frames);
+  }
+}
+
+// Whatever is in memory at a time, every column comes once, in order and whole.
+TEST_F(Tables, ColumnsAreTheSameHoweverFewAreReadAtATime) {
+  const RunLog run = recorded();
+  const SampleRows rows = run.allRows();
+  for (const std::size_t most : {std::size_t{0}, std::size_t{1}, rows.size() * 7 - 1, rows.size() * 7, std::size_t{1} << 22}) {
+    std::size_t next = 0;
+    eachSampleColumn(
+        run,
+        [&](std::size_t channel, std::span<const double> values) {
+          ASSERT_EQ(channel, next++);
+          ASSERT_EQ(values.size(), rows.size());
+          for (std::size_t row = 0; row < rows.size(); ++row) ASSERT_EQ(values[row], rows.at(row, channel));
+        },
+        most);
+    EXPECT_EQ(next, run.configuration().table.size()) << most;
+  }
+}
+
+TEST_F(Tables, EventsAreATableOfTheirOwn) {
+  const ColumnTable table = eventTable(recorded(1));
+  std::vector<std::string> names;
+  for (const auto& column : table.columns()) names.push_back(column.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"time_s", "event", "trial", "value", "text"}));
+  EXPECT_EQ(table.rows(), 5u);
+  EXPECT_EQ(table.columns()[0].numbers, (std::vector<double>{0, 0.02, 0.025, 0.05, 0.25}));
+  EXPECT_EQ(table.columns()[1].texts, (std::vector<std::string>{"trial_start", "armed", "go", "onset", "trial_end"}));
+  EXPECT_TRUE(table.columns()[1].isText);
+  EXPECT_FALSE(table.columns()[2].isText);
+  EXPECT_EQ(table.columns()[2].numbers, (std::vector<double>(5, 1)));
+  EXPECT_EQ(table.columns()[3].numbers, (std::vector<double>{0, 0, 0, 0, 1}));
+}
+
+TEST_F(Tables, ATrialsRowHasEveryNumberUnderItsName) {
+  RunConfiguration c = configuration_;
+  c.run = 3, c.block = 4, c.day = 5, c.seed = 18446744073709551615ull;
+  c.participant = {31.5, "F", "L"};
+  RecordedTrial t;
+  t.trial = 7;
+  t.planned = {6, 700, true};
+  t.result = {trial::Outcome::Failure, trial::Reason::TimeLong, 2, 0.25, 1.75, 1500, 3250};
+  t.startTick = 100, t.armedTick = 200, t.goTick = 900, t.lastTick = 3251;
+  t.peakHandSpeed = 0.5, t.handPathLength = 0.75, t.peakForce = 8.5, t.meanForce = 4.5;
+  t.clampedTicks = 11, t.missedTicks = 12, t.droppedTicks = 13, t.elapsed = 2.125;
+  t.complete = false;
+  experiment::Task task;
+  task.duration = 1.35;
+  task.tolerance = {0.012, 0.02, 0.5};
+  ColumnTable table(kTrialColumns);
+  addTrial(table, c, task, t);
+  const std::map<std::string, double> numbers{{"run", 3},
+                                              {"block", 4},
+                                              {"trial", 7},
+                                              {"mass", 2},
+                                              {"movement_time_s", 1.75},
+                                              {"by", 0.25},
+                                              {"day", 5},
+                                              {"order_index", 6},
+                                              {"catch_trial", 1},
+                                              {"foreperiod_s", 0.7},
+                                              {"target_time_s", 1.35},
+                                              {"position_tolerance_m", 0.012},
+                                              {"velocity_tolerance_m_per_s", 0.02},
+                                              {"time_tolerance_s", 0.5},
+                                              {"start_s", 0.1},
+                                              {"armed_s", 0.2},
+                                              {"go_s", 0.9},
+                                              {"onset_s", 1.5},
+                                              {"end_s", 3.25},
+                                              {"reaction_time_s", 0.6},
+                                              {"peak_hand_speed_m_per_s", 0.5},
+                                              {"hand_path_m", 0.75},
+                                              {"peak_force_n", 8.5},
+                                              {"mean_force_n", 4.5},
+                                              {"clamped_ticks", 11},
+                                              {"missed_ticks", 12},
+                                              {"dropped_samples", 13},
+                                              {"elapsed_s", 2.125},
+                                              {"complete", 0},
+                                              {"age_years", 31.5}};
+  const std::map<std::string, std::string> texts{{"subject", "01"},     {"session", "01"},      {"phase", "recorded"},
+                                                 {"condition", "made"}, {"outcome", "failure"}, {"reason", "time_long"},
+                                                 {"by_unit", "s"},      {"experiment", "made"}, {"seed", "18446744073709551615"},
+                                                 {"device", "made"},    {"sex", "F"},           {"handedness", "L"},
+                                                 {"notes", ""}};
+  EXPECT_EQ(numbers.size() + texts.size(), table.columns().size());
+  for (const auto& column : table.columns())
+    if (column.isText) EXPECT_EQ(column.texts.at(0), texts.at(column.name)) << column.name;
+    else EXPECT_EQ(column.numbers.at(0), numbers.at(column.name)) << column.name;
+  EXPECT_EQ(table.rows(), 1u);
+}
+
+TEST_F(Tables, WhatAnUnreadableExperimentAskedForIsNotKnown) {
+  configuration_.experimentText = "no experiment";
+  const experiment::Task task = taskOf(configuration_);
+  for (const double unknown : {task.duration, task.tolerance.position, task.tolerance.velocity, task.tolerance.time})
+    EXPECT_TRUE(std::isnan(unknown));
+}
+
+TEST_F(Tables, TheClockIsToldInOneSentence) {
+  const std::string steady = clockStatement(configuration_);
+  EXPECT_NE(steady.find("CLOCK_MONOTONIC"), std::string::npos);
+  EXPECT_TRUE(steady.ends_with("the run began at 2026-11-20T10:00:00.000Z by the system's clock (UTC).")) << steady;
+  configuration_.clock = "virtual";
+  configuration_.startedUtc = "";
+  const std::string fast = clockStatement(configuration_);
+  EXPECT_EQ(fast.find("CLOCK_MONOTONIC"), std::string::npos);
+  EXPECT_TRUE(fast.ends_with("a virtual clock that ran as fast as it could; the run began at a time that was not recorded.")) << fast;
+}
+
+TEST(ColumnDictionary, ExplainsEachColumnOfAHeader) {
+  const ColumnMeaning meanings[] = {{"trial", "which"}, {"mass*", "of a mass"}, {"percent", "a share"}};
+  const auto j = nlohmann::ordered_json::parse(columnDictionary("subject,trial,mass12_x_m,percent,odd\n1,2,3,4,5\n", meanings));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : j.items()) keys.push_back(key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"subject", "trial", "mass12_x_m", "percent", "odd"}));
+  EXPECT_EQ(j["trial"], (json{{"Description", "which"}}));
+  EXPECT_EQ(j["mass12_x_m"], (json{{"Description", "of a mass"}, {"Units", "m"}}));
+  EXPECT_EQ(j["percent"], (json{{"Description", "a share"}, {"Units", "%"}}));
+  EXPECT_EQ(j["odd"], (json{{"Description", ""}}));
+  EXPECT_EQ(j["subject"]["Format"], "string");
+  EXPECT_EQ(columnDictionary("", meanings), "{}\n");
+  EXPECT_EQ(dictionaryPathOf("a.b/trials.csv"), "a.b/trials.json");
+}
+
+TEST(Derivative, SaysWhatItIsAndIsKeptWhereItIsThere) {
+  const TemporaryFolder folder("derivative");
+  const auto described = [&](const std::string& software) {
+    std::filesystem::remove(folder / "dataset_description.json");
+    EXPECT_EQ(describeDerivative(folder / ".", "Tables", software, "../.."), folder / "./dataset_description.json");
+    return json::parse(readWholeFile(folder / "dataset_description.json"));
+  };
+  EXPECT_EQ(described("reachlab 0.1.0")["GeneratedBy"], (json::array({{{"Name", "reachlab"}, {"Version", "0.1.0"}}})));
+  EXPECT_EQ(described("mylab")["GeneratedBy"], (json::array({{{"Name", "mylab"}, {"Version", "n/a"}}})));
+  EXPECT_EQ(described("")["GeneratedBy"], (json::array({{{"Name", "reachlab"}, {"Version", "n/a"}}})));
+  EXPECT_EQ(described("")["SourceDatasets"], (json::array({{{"URL", "../.."}}})));
+  EXPECT_EQ(describeDerivative(folder / ".", "Others", "", ""), "");
+  EXPECT_EQ(json::parse(readWholeFile(folder / "dataset_description.json"))["Name"], "Tables");
+}
+
+TEST_F(Tables, EveryWayToExportIsFoundByItsNameAndWritesIntoItsFolder) {
+  std::vector<RunLog> runs;
+  runs.push_back(recorded(1));
+  for (const Exporter& exporter : exporters()) {
+    SCOPED_TRACE(exporter.name);
+    EXPECT_EQ(findExporter(exporter.name), &exporter);
+    EXPECT_EQ(exporter.withEachRun, exporter.name == "bids") << "the dataset alone is kept up to date";
+    const std::string data = folder_ / ("data-" + std::string(exporter.name));
+    EXPECT_EQ(folderIn(data, exporter), exporter.name == "bids" ? data : data + "/derivatives/" + std::string(exporter.name));
+    const std::vector<std::string> written = writeInto(data, exporter, runs);
+    for (const std::string& file : written) EXPECT_TRUE(std::filesystem::exists(file)) << file;
+    const std::string description = folderIn(data, exporter) + "/dataset_description.json";
+    EXPECT_EQ(std::count(written.begin(), written.end(), description), 1);
+    EXPECT_EQ(json::parse(readWholeFile(description))["DatasetType"], exporter.name == "bids" ? "raw" : "derivative");
+    const std::vector<std::string> again = writeInto(data, exporter, runs);
+    EXPECT_EQ(std::count(again.begin(), again.end(), description), 0) << "it is there";
+  }
+  EXPECT_EQ(findExporter("pdf"), nullptr);
+}
+
+TEST(Utf16, HasOneUnitForACharacterOfTheBasicPlaneAndTwoBeyond) {
+  EXPECT_EQ(utf16Of(""), u"");
+  EXPECT_EQ(utf16Of("a\x7f"), u"a\u007f");
+  EXPECT_EQ(utf16Of("\xc2\x80\xdf\xbf"), u"\u0080\u07ff");
+  EXPECT_EQ(utf16Of("\xe0\xa0\x80\xed\x9f\xbf\xee\x80\x80\xef\xbf\xbf"), u"\u0800\ud7ff\ue000\uffff");
+  EXPECT_EQ(utf16Of("\xf0\x90\x80\x80"), (std::u16string{0xd800, 0xdc00}));
+  EXPECT_EQ(utf16Of("\xf4\x8f\xbf\xbf"), (std::u16string{0xdbff, 0xdfff}));
+  EXPECT_EQ(utf16Of("x\xf0\x9d\x9b\xbdy"), (std::u16string{'x', 0xd835, 0xdefd, 'y'}));
+  EXPECT_EQ(utf16Of("x\xf0\x9d\x9b\xbdy", false), u"x\ufffdy") << "where two cannot be written";
+  EXPECT_EQ(utf16Of("\xef\xbf\xbf", false), u"\uffff");
+}
+
+TEST(Utf16, WhatIsNoUtf8IsTheSignForThat) {
+  const std::u16string unknown = u"\ufffd";
+  EXPECT_EQ(utf16Of("\x80") + utf16Of("\xff"), unknown + unknown) << "no first byte";
+  EXPECT_EQ(utf16Of("\xc0\xaf")[0], 0xfffd) << "a slash in two bytes";
+  EXPECT_EQ(utf16Of("\xc1\xbf")[0], 0xfffd);
+  EXPECT_EQ(utf16Of("\xe0\x9f\xbf"), unknown) << "in three what fits in two";
+  EXPECT_EQ(utf16Of("\xf0\x8f\xbf\xbf"), unknown) << "in four what fits in three";
+  EXPECT_EQ(utf16Of("\xed\xa0\x80"), unknown) << "half a pair";
+  EXPECT_EQ(utf16Of("\xed\xbf\xbf"), unknown);
+  EXPECT_EQ(utf16Of("\xf4\x90\x80\x80"), unknown) << "beyond the last character";
+  EXPECT_EQ(utf16Of("\xf5\x80")[0], 0xfffd);
+  EXPECT_EQ(utf16Of("\xc3"), unknown) << "cut at the end";
+  EXPECT_EQ(utf16Of("\xe2\x82"), unknown);
+  EXPECT_EQ(utf16Of("\xc3z"), unknown + u"z") << "and goes on with what is no part of it";
+  EXPECT_EQ(utf16Of("\xe2\x82z"), unknown + u"z");
+}
+
+}  // namespace
+}  // namespace reachlab::record
