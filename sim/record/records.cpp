@@ -95,7 +95,7 @@ void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick
     tick.device.valid = flags & kValid;
     tick.command = flags & kCommand ? getEnum(in, trial::Command::Interrupt, "tick") : trial::Command::None;
     tick.missedTicks = flags & kMissed ? in.get<std::uint32_t>() : 0;
-    if (in.ok()) out.push_back(tick);
+    out.push_back(tick);
   }
   requireWhole(in, "tick");
 }
@@ -142,7 +142,7 @@ HandTicks decodeHandTicks(std::span<const std::uint8_t> payload) {
     sample.velocity = flags & kHasVelocity ? getVec3(in) : Vec3{};
     sample.buttons = flags & kButtons ? in.get<std::uint32_t>() : 0;
     sample.valid = flags & kValid;
-    if (in.ok()) ticks.samples.push_back(sample);
+    ticks.samples.push_back(sample);
   }
   requireWhole(in, "hand");
   return ticks;

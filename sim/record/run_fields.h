@@ -30,9 +30,9 @@ void visitFields(T& t, const Visit& visit) {
   visit(Field{"mass_count", 1, experiment::kMaxMasses}, t.massCount);
   visit(Field{"parameter_count", 0, 3}, t.parameterCount);
   visit(Field{"body"}, t.body);
-  visit(Field{"port_energy", 0, 0, kMayMiss}, t.portEnergy);
+  visit(Field{.key = "port_energy", .mayMiss = true}, t.portEnergy);
   visit(Field{"hands", 1, experiment::kMaxHands, kMayMiss}, t.hands);
-  visit(Field{"channels", 0, kMaxChannels}, t.channels);
+  visit(Field{.key = "channels", .most = kMaxChannels}, t.channels);
 }
 
 template <MaybeConst<trial::PlannedTrial> T, class Visit>
@@ -45,8 +45,8 @@ void visitFields(T& t, const Visit& visit) {
 template <MaybeConst<Participant> T, class Visit>
 void visitFields(T& p, const Visit& visit) {
   visit(Field{"age_years", 0, kMaxAge}, p.age);
-  visit(Field{"sex", 0, 0, kMayMiss}, p.sex);
-  visit(Field{"handedness", 0, 0, kMayMiss}, p.handedness);
+  visit(Field{.key = "sex", .mayMiss = true}, p.sex);
+  visit(Field{.key = "handedness", .mayMiss = true}, p.handedness);
 }
 
 template <MaybeConst<experiment::TimingLimits> T, class Visit>
@@ -100,22 +100,22 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"repeat_aborted"}, c.repeatAborted);
   visit(Field{"experiment_name"}, c.experimentName);
   visit(Field{"experiment_text"}, c.experimentText);
-  visit(Field{"definition_text", 0, 0, kMayMiss}, c.definitionText);
+  visit(Field{.key = "definition_text", .mayMiss = true}, c.definitionText);
   visit(Field{"plan_name"}, c.planName);
   visit(Field{"plan_text"}, c.planText);
   visit(Field{"seed"}, c.seed);
   visit(Field{"session_seed"}, c.sessionSeed);
   visit(Field{"order_seed"}, c.orderSeed);
-  visit(Field{"trials", 0, kMaxTrials}, c.trials);
+  visit(Field{.key = "trials", .most = kMaxTrials}, c.trials);
   visit(Field{"device"}, c.device);
   visit(Field{"device_name"}, c.deviceName);
   visit(Field{"device_version"}, c.deviceVersion);
   visit(Field{"device_max_force_n", 0, kMaxNewtons}, c.deviceMaxForce);
   visit(Field{"virtual_hand"}, c.virtualHand);
-  visit(Field{"device_renders_force", 0, 0, kMayMiss}, c.rendersForce);
+  visit(Field{.key = "device_renders_force", .mayMiss = true}, c.rendersForce);
   visit(Field{"device_continuous_force_n", 0, kMaxNewtons, kMayMiss}, c.deviceContinuousForce);
   visit(Field{"device_thermal_s", 1e-3, 1e6, kMayMiss}, c.deviceThermalSeconds);
-  visit(Field{"instruments", 0, 0, kMayMiss}, c.instruments);
+  visit(Field{.key = "instruments", .mayMiss = true}, c.instruments);
   visit(Field{"method"}, c.method);
   visit(Field{"method_reason"}, c.methodReason);
   visit(Field{"software_version"}, c.softwareVersion);
@@ -125,13 +125,13 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"clock"}, c.clock);
   visit(Field{"sampling_hz", 1e-3, 1e6}, c.samplingHz);
   visit(Field{"sample_every_ticks", 1, 1e6}, c.sampleEveryTicks);
-  visit(Field{"timing", 0, 0, kMayMiss}, c.timing);
-  visit(Field{"start_rest", 0, 0, kMayMiss}, c.rest);
-  visit(Field{"guards", 0, 0, kMayMiss}, c.guards);
-  visit(Field{"device_mapping", 0, 0, kMayMiss}, c.deviceMapping);
+  visit(Field{.key = "timing", .mayMiss = true}, c.timing);
+  visit(Field{.key = "start_rest", .mayMiss = true}, c.rest);
+  visit(Field{.key = "guards", .mayMiss = true}, c.guards);
+  visit(Field{.key = "device_mapping", .mayMiss = true}, c.deviceMapping);
   visit(Field{"participant"}, c.participant);
   visit(Field{"notes"}, c.notes);
-  visit(Field{"other_hands", 0, experiment::kMaxHands, kMayMiss}, c.otherHands);
+  visit(Field{.key = "other_hands", .most = experiment::kMaxHands, .mayMiss = true}, c.otherHands);
   visit(Field{"table"}, c.table);
 }
 
