@@ -174,7 +174,9 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   LogReader reader(path_);
   const auto after = std::upper_bound(trials_.begin(), trials_.end(), firstTick,
                                       [](std::uint64_t tick, const RecordedTrial& trial) { return tick < trial.startTick; });
-  if (after != trials_.begin() && std::prev(after)->offset != 0) reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
+  // Whoever asks from the first tick on asks for what was before it too: setups, notes.
+  if (firstTick > 0 && after != trials_.begin() && std::prev(after)->offset != 0)
+    reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
   RecordView record;
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "sim/record/log.h"
 #include "sim/record/recorder.h"
 #include "sim/record/run_log.h"
 #include "test_paths.h"
@@ -106,6 +107,15 @@ inline void writeMadeRun(const std::string& path, int trials, const RunConfigura
     recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? trial::Command::NextTrial : trial::Command::None, 0);
   }
   if (close) recorder.close();
+}
+
+/// As a disk leaves it that took half of the record by which the last trial ends.
+inline void cutInTheLastTrialsRecord(const std::string& path) {
+  std::uint64_t last = 0;
+  LogReader reader(path);
+  for (RecordView record; reader.next(record);)
+    if (record.type == RecordType::Trial) last = record.offset;
+  std::filesystem::resize_file(path, last + 100);
 }
 
 }  // namespace reachlab::record

@@ -2,8 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -135,6 +142,47 @@ TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndTheOriginalBesideIt) {
   EXPECT_FALSE(recoverLog(path).mended) << "a mended log is healthy";
 }
 
+TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
+  const TemporaryFolder folder("close");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 3);
+  const RunLog whole = RunLog::open(path);
+  const std::size_t rows = whole.rows(whole.trials()[2]).size();
+  cutInTheLastTrialsRecord(path);
+  const RunLog cut = RunLog::open(path);
+  const Recovery recovery = recoverLog(path);
+  EXPECT_TRUE(recovery.mended);
+  EXPECT_EQ(recovery.trials, 3);
+  EXPECT_TRUE(recovery.interruptedTrial);
+  EXPECT_EQ(recovery.keptBytes, cut.goodBytes());
+  EXPECT_EQ(recovery.lostBytes, cut.fileBytes() - cut.goodBytes());
+  EXPECT_GT(recovery.lostBytes, 0u);
+  for (const LogCheck check : {LogCheck::Everything, LogCheck::Trials}) {
+    const RunLog mended = RunLog::open(path, check);
+    EXPECT_TRUE(mended.closed());
+    EXPECT_TRUE(mended.healthy());
+    ASSERT_EQ(mended.trials().size(), 3u);
+    expectSameTrial(mended.trials()[1], whole.trials()[1]);
+    EXPECT_EQ(mended.trials()[2].result.outcome, trial::Outcome::Interrupted);
+    EXPECT_EQ(mended.trials()[2].startTick, whole.trials()[2].startTick);
+    EXPECT_EQ(mended.rows(mended.trials()[2]).size(), rows);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path + ".mended"));
+}
+
+TEST(RecoverLog, WhatIsCutBetweenTwoTrialsHasNoneThatIsInterrupted) {
+  const TemporaryFolder folder("between");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 2);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  const Recovery recovery = recoverLog(path);
+  EXPECT_TRUE(recovery.mended);
+  EXPECT_FALSE(recovery.interruptedTrial);
+  EXPECT_EQ(recovery.trials, 2);
+  EXPECT_EQ(recovery.lostBytes, 27u) << "of the closing record of 28 bytes";
+  EXPECT_TRUE(RunLog::open(path, LogCheck::Trials).healthy());
+}
+
 TEST(RecoverLog, KeepsEachDamagedOriginalUnderANameOfItsOwn) {
   const TemporaryFolder folder("again");
   const std::string path = folder / "a_log.reach";
@@ -239,6 +287,111 @@ TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
   }
   EXPECT_GT(refused, 0);
   EXPECT_GT(shortened, 1000);
+}
+
+// Every reader of a part gives what is in the whole.
+TEST(RunLog, GivesTheRowsBetweenAnyTwoTicks) {
+  const TemporaryFolder folder("part");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 4);
+  const RunLog log = RunLog::open(path);
+  const SampleRows all = log.allRows();
+  const auto end = 4 * MadeRun::kTicksPerTrial;
+  for (const auto& [first, last] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{
+           {0, 0}, {0, end}, {1, 9}, {10, 10}, {270, 280}, {274, 275}, {275, 549}, {280, 820}, {551, 559}, {end, end + 100}, {30, 20}}) {
+    std::vector<std::uint64_t> expected;
+    for (const std::uint64_t tick : all.ticks)
+      if (tick >= first && tick <= last) expected.push_back(tick);
+    EXPECT_EQ(log.rows(first, last).ticks, expected) << first << " to " << last;
+  }
+  std::vector<double> blocks;
+  log.eachBlock([&](const SampleRows& block) { blocks.insert(blocks.end(), block.values.begin(), block.values.end()); });
+  EXPECT_EQ(blocks, all.values);
+}
+
+TEST(RunLog, GivesSetupsAndEventsOfTheWholeRun) {
+  const TemporaryFolder folder("setups");
+  const std::string path = folder / "a_log.reach";
+  writeMadeRun(path, 6);
+  const std::vector<TrialSetup> setups = RunLog::open(path).setups();
+  ASSERT_EQ(setups.size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    const TrialSetup& setup = setups[static_cast<std::size_t>(i)];
+    EXPECT_EQ(setup.trial, i + 1);
+    EXPECT_EQ(setup.planned.index, i);
+    EXPECT_EQ(setup.planned.foreperiodTicks, 5 * (i + 1));
+    EXPECT_EQ(setup.planned.catchTrial, i == 4);
+  }
+  std::map<EventKind, int> kinds;
+  for (const RecordedEvent& event : RunLog::open(path).events()) ++kinds[event.kind];
+  EXPECT_EQ(kinds[EventKind::TrialStart], 6);
+  EXPECT_EQ(kinds[EventKind::Go], 5) << "but in the catch trial";
+  EXPECT_EQ(kinds[EventKind::TrialEnd], 6);
+}
+
+TEST(RunLog, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
+  const TemporaryFolder folder("known");
+  const std::string path = folder / "a_log.reach";
+  {
+    Recorder recorder(folder / "whole_log.reach", madeConfiguration(), {.threaded = false});
+    MadeRun run;
+    recorder.announce(1, {4, 12, false});
+    for (std::uint64_t i = 0; i < 150; ++i) recorder.onTick(run.next(), trial::Command::None, 0);
+    recorder.note("");
+    std::filesystem::copy_file(folder / "whole_log.reach", path);
+  }
+  for (const LogCheck check : {LogCheck::Everything, LogCheck::Trials}) {
+    const RunLog log = RunLog::open(path, check);
+    EXPECT_FALSE(log.closed());
+    ASSERT_EQ(log.trials().size(), 1u);
+    const RecordedTrial& t = log.trials()[0];
+    EXPECT_EQ(t.trial, 1);
+    EXPECT_EQ(t.planned.index, 4);
+    EXPECT_EQ(t.planned.foreperiodTicks, 12);
+    EXPECT_EQ(t.armedTick, 20u);
+    EXPECT_EQ(t.goTick, 32u);
+    EXPECT_EQ(t.result.onsetTick, 50u);
+    EXPECT_EQ(t.result.endTick, 149u);
+    EXPECT_EQ(t.result.movementTime, 0.099);
+    EXPECT_FALSE(t.complete);
+    for (const double unknown : {t.peakHandSpeed, t.handPathLength, t.peakForce, t.meanForce}) EXPECT_TRUE(std::isnan(unknown));
+    EXPECT_EQ(log.rows(t).size(), 15u);
+  }
+}
+
+TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
+  const TemporaryFolder folder("find");
+  const auto put = [&](const char* name) { writeFileAtomically(folder / name, ""); };
+  for (const char* name : {"data/sourcedata/sub-01_ses-01_task-a_run-01_log.reach", "data/sourcedata/sub-01_ses-02_task-a_run-01_log.reach",
+                           "data/sourcedata/sub-02_ses-01_task-a_run-01_log.reach", "data/sourcedata/notes.txt", "data/sub-01/ses-01/x",
+                           "data/sub-01/ses-09/x", "plain/b_log.reach", "plain/a_log.reach", "plain/a_log.reach.damaged"})
+    put(name);
+  const auto found = [&](const std::string& path) {
+    std::vector<std::string> names;
+    for (const std::string& log : findLogs(folder / path)) names.push_back(std::filesystem::path(log).filename().string());
+    return names;
+  };
+  const auto run = [](const char* subject, const char* session) {
+    return std::string("sub-") + subject + "_ses-" + session + "_task-a_run-01_log.reach";
+  };
+  EXPECT_EQ(found("data"), (std::vector<std::string>{run("01", "01"), run("01", "02"), run("02", "01")}));
+  EXPECT_EQ(found("data/"), found("data"));
+  EXPECT_EQ(found("data/sourcedata"), found("data"));
+  EXPECT_EQ(found("data/sub-01"), (std::vector<std::string>{run("01", "01"), run("01", "02")}));
+  EXPECT_EQ(found("data/sub-01/ses-01"), (std::vector<std::string>{run("01", "01")}));
+  EXPECT_EQ(found("data/sub-01/ses-01/"), (std::vector<std::string>{run("01", "01")}));
+  EXPECT_EQ(found("plain"), (std::vector<std::string>{"a_log.reach", "b_log.reach"})) << "sorted";
+  EXPECT_EQ(found("data/sourcedata/notes.txt"), (std::vector<std::string>{"notes.txt"})) << "a file is taken as it is";
+  const auto refusal = [&](const std::string& path) {
+    try {
+      findLogs(folder / path);
+      return std::string("found");
+    } catch (const FaultError& error) {
+      return std::string(error.what()).substr((folder / path).size());
+    }
+  };
+  EXPECT_EQ(refusal("data/sub-01/ses-09"), ": no logs (…_log.reach) in this folder");
+  EXPECT_EQ(refusal("nothing"), ": no such log or folder");
 }
 
 TEST(LogWriter, RefusesToOverwrite) {
