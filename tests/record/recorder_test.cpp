@@ -2,9 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 #include "base/error.h"
+#include "sim/record/records.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {
@@ -80,6 +86,184 @@ TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
   const RunLog log = RunLog::open(folder / "a_log.reach");
   ASSERT_EQ(log.trials().size(), 2u);
   for (const RecordedTrial& trial : log.trials()) EXPECT_EQ(trial.planned.index, trial.trial - 1);
+}
+
+// Two further hands, over several blocks of a thousand ticks.
+TEST(Recorder, KeepsEveryHandsRawSamples) {
+  const TemporaryFolder folder("hands");
+  RunConfiguration configuration = madeConfiguration();
+  experiment::Experiment scene;
+  scene.object.kind = experiment::ObjectKind::Chain;
+  scene.object.masses.assign(2, 0.6);
+  scene.hands.resize(3);
+  configuration.table = makeChannelTable(scene, 1);
+  configuration.otherHands.resize(2);
+  constexpr std::uint64_t kTicks = 2500;
+  const auto placeOf = [](std::uint64_t tick, std::size_t hand) {
+    return Vec3{0.25 * static_cast<double>(tick / 3), 0, static_cast<double>(hand)};
+  };
+  {
+    Recorder recorder(folder / "a_log.reach", configuration, {.threaded = false});
+    auto state = std::make_unique<haptics::TickState>();
+    state->massCount = 2;
+    state->handCount = 3;
+    for (state->tick = 0; state->tick < kTicks; ++state->tick) {
+      for (std::size_t hand = 0; hand < 2; ++hand) {
+        state->others[hand].device.position = placeOf(state->tick, hand);
+        state->others[hand].device.buttons = static_cast<std::uint32_t>(state->tick % 7 * hand);
+      }
+      recorder.onTick(*state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  const RunLog log = RunLog::open(folder / "a_log.reach");
+  const auto hands = log.otherTicks();
+  ASSERT_EQ(hands.size(), 2u);
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    ASSERT_EQ(hands[hand].size(), kTicks);
+    for (std::uint64_t tick = 0; tick < kTicks; ++tick) {
+      ASSERT_EQ(hands[hand][tick].position, placeOf(tick, hand)) << tick;
+      ASSERT_EQ(hands[hand][tick].buttons, tick % 7 * hand);
+    }
+  }
+  std::size_t blocks = 0;
+  LogReader reader(folder / "a_log.reach");
+  for (RecordView record; reader.next(record);) blocks += record.type == RecordType::HandTicks;
+  EXPECT_EQ(blocks, 2 * 3u) << "a block for each hand with every thousand ticks, and the rest";
+}
+
+TEST(Recorder, TimeIsCountedFromItsFirstTick) {
+  const TemporaryFolder folder("time");
+  RunConfiguration configuration = madeConfiguration();
+  configuration.sampleEveryTicks = 4;
+  {
+    Recorder recorder(folder / "a_log.reach", configuration, {.threaded = false});
+    EXPECT_EQ(recorder.massesEvery(), 2u) << "for its rows and for a picture every hundredth of a second";
+    MadeRun run;
+    for (int tick = 0; tick < 5; ++tick) run.next();
+    for (int tick = 5; tick < 40; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
+    recorder.close();
+    EXPECT_EQ(recorder.processorSeconds(), 0) << "of a thread that is not there";
+  }
+  const SampleRows rows = RunLog::open(folder / "a_log.reach").allRows();
+  ASSERT_EQ(rows.ticks, (std::vector<std::uint64_t>{8, 12, 16, 20, 24, 28, 32, 36}));
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    EXPECT_DOUBLE_EQ(rows.at(row, 1), static_cast<double>(rows.ticks[row] - 5) * 1.000003e-3);
+}
+
+TEST(Recorder, TellsTheDiskOnceAndForAll) {
+  for (const bool threaded : {false, true}) {
+    const TemporaryFolder folder("once");
+    const std::string path = folder / "a_log.reach";
+    Recorder recorder(path, madeConfiguration(), {.threaded = threaded});
+    EXPECT_EQ(recorder.fault(), "");
+    std::filesystem::remove(path);
+    MadeRun run;
+    for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial; ++tick)
+      EXPECT_TRUE(recorder.onTick(run.next(), trial::Command::None, 0)) << "the hand goes on";
+    EXPECT_THROW(recorder.awaitTrial(1), ResourceError) << "which never waits for a trial that cannot come";
+    const std::string first = recorder.fault();
+    EXPECT_NE(first.find("is no longer there"), std::string::npos) << first;
+    EXPECT_THROW(recorder.announce(2, {}), ResourceError);
+    EXPECT_THROW(recorder.note("too late"), ResourceError);
+    EXPECT_THROW(recorder.add(std::vector<RecordedEvent>(1)), ResourceError);
+    EXPECT_NO_THROW(recorder.add({})) << "nothing is asked of it";
+    EXPECT_THROW(recorder.close(), ResourceError);
+    EXPECT_NO_THROW(recorder.close()) << "closed is closed";
+    EXPECT_EQ(recorder.fault(), first);
+  }
+}
+
+TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
+  const TemporaryFolder folder("notes");
+  {
+    Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
+    recorder.note("before");
+    MadeRun run;
+    for (int tick = 0; tick < 100; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
+    recorder.note("in the trial");
+    for (std::uint64_t tick = 100; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
+    EXPECT_NO_THROW(recorder.awaitTrial(1));
+    EXPECT_EQ(recorder.lastTrial().trial, 1);
+    recorder.note("after");
+    recorder.add({{77, EventKind::Instrument, 1, 0.5, "lamp"}});
+    recorder.append(RecordType::PeerTicks, {});
+    recorder.close();
+  }
+  const RunLog log = RunLog::open(folder / "a_log.reach");
+  EXPECT_TRUE(log.healthy());
+  std::vector<std::tuple<std::uint64_t, std::int32_t, std::string>> notes;
+  for (const RecordedEvent& event : log.events())
+    if (event.kind == EventKind::Note || event.kind == EventKind::Instrument) notes.emplace_back(event.tick, event.trial, event.text);
+  EXPECT_EQ(notes, (std::vector<std::tuple<std::uint64_t, std::int32_t, std::string>>{
+                       {0, 0, "before"}, {99, 1, "in the trial"}, {274, 0, "after"}, {77, 1, "lamp"}}));
+}
+
+TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
+  const TemporaryFolder folder("closed");
+  {
+    Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
+    MadeRun run;
+    for (int tick = 0; tick < 120; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
+    recorder.close();
+  }
+  const RunLog log = RunLog::open(folder / "a_log.reach", LogCheck::Trials);
+  EXPECT_TRUE(log.healthy());
+  ASSERT_EQ(log.trials().size(), 1u);
+  EXPECT_EQ(log.trials()[0].result.outcome, trial::Outcome::Interrupted);
+  EXPECT_EQ(log.trials()[0].lastTick, 119u);
+}
+
+// A thousand ticks are a block, whatever the clock says; a trial begins one of its own.
+TEST(Recorder, OnAVirtualClockBlocksAreCutByTicksAlone) {
+  const TemporaryFolder folder("blocks");
+  {
+    Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
+    auto state = std::make_unique<haptics::TickState>();
+    state->massCount = 2;
+    for (state->tick = 0; state->tick < 3300; ++state->tick) {
+      if (state->tick == 2300) state->trial = 1, state->phase = trial::Phase::Waiting;
+      recorder.onTick(*state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  std::vector<std::size_t> sizes;
+  LogReader reader(folder / "a_log.reach");
+  for (RecordView record; reader.next(record);) {
+    if (record.type != RecordType::Ticks) continue;
+    std::vector<RecordedTick> ticks;
+    decodeTicks(record.payload, ticks);
+    sizes.push_back(ticks.size());
+  }
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{1000, 1000, 300, 1000}));
+}
+
+TEST(Recorder, FurtherColumnsStandBehindTheScenes) {
+  class Counted : public FurtherColumns {
+   public:
+    void fill(double* columns) const noexcept override { columns[0] = 12.5, columns[1] = -3; }
+  };
+  const TemporaryFolder folder("further");
+  const Counted further;
+  RunConfiguration configuration = madeConfiguration();
+  const std::size_t scene = configuration.table.size();
+  for (const char* name : {"station_a", "station_b"}) {
+    configuration.table.channels.push_back(configuration.table.channels.back());
+    configuration.table.channels.back().name = name;
+  }
+  {
+    Recorder recorder(folder / "a_log.reach", configuration, {.threaded = false, .further = &further});
+    MadeRun run;
+    for (int tick = 0; tick < 30; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
+    recorder.close();
+  }
+  const SampleRows rows = RunLog::open(folder / "a_log.reach").allRows();
+  ASSERT_EQ(rows.size(), 3u);
+  for (std::size_t row = 0; row < 3; ++row) {
+    EXPECT_EQ(rows.at(row, scene), 12.5);
+    EXPECT_EQ(rows.at(row, scene + 1), -3);
+    EXPECT_EQ(rows.at(row, configuration.table.indexOf("mass2_pos_x")), MadeRun::valueAt(10 * row) + 1);
+  }
 }
 
 TEST(Recorder, NoticesThatItsFileWasTakenAway) {
