@@ -1,0 +1,185 @@
+// What a replay says of a recording in which something was changed.
+#include "sim/record/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/fault.h"
+#include "sim/record/records.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+const std::string kRecorded = REACHLAB_SOURCE_DIR "/tests/record/golden_runs/run-version-2_log.reach";
+
+// A copy of the recorded run, whose records `edit` may change, or leave out by false.
+template <typename Edit>
+RunLog edited(const TemporaryFolder& folder, Edit edit) {
+  const std::string path = folder / "edited_log.reach";
+  std::filesystem::remove(path);
+  LogReader reader(kRecorded);
+  {
+    LogWriter writer = LogWriter::create(path);
+    for (RecordView record; reader.next(record);) {
+      Bytes payload(record.payload.begin(), record.payload.end());
+      if (edit(record.type, payload)) writer.append(record.type, payload);
+    }
+  }
+  return RunLog::open(path);
+}
+
+// The number in a row of the first record of samples that is long enough, times 1 + 1e-9.
+auto changeOf(std::size_t row, std::size_t column, std::size_t columns) {
+  return [=, done = false](RecordType type, Bytes& payload) mutable {
+    const std::size_t at = 8 + row * 8 * (columns + 1) + 8 * (column + 1);
+    if (done || type != RecordType::Samples || payload.size() < at + 8) return true;
+    double value = 0;
+    std::memcpy(&value, payload.data() + at, 8);
+    value = value * (1 + 1e-9) + 1e-12;
+    std::memcpy(payload.data() + at, &value, 8);
+    done = true;
+    return true;
+  };
+}
+
+TEST(Replay, LooksAtEveryTickRowAndTrial) {
+  const TemporaryFolder folder("replay");
+  const RunLog log = edited(folder, [](RecordType, Bytes&) { return true; });
+  const Replay replay = replayRun(log);
+  EXPECT_TRUE(replay.identical());
+  EXPECT_EQ(replay.ticks, log.ticks().size());
+  EXPECT_EQ(replay.rows, log.allRows().size());
+  EXPECT_EQ(replay.rowsThatDiffer, 0u);
+  EXPECT_EQ(replay.firstDifference, "");
+  ASSERT_EQ(replay.trials.size(), log.trials().size());
+  for (std::size_t i = 0; i < replay.trials.size(); ++i) {
+    ByteWriter a, b;
+    RecordedTrial again = replay.trials[i];
+    const RecordedTrial& recorded = log.trials()[i];
+    again.offset = recorded.offset, again.sequence = recorded.sequence;
+    encode(again, {}, a);
+    encode(recorded, {}, b);
+    EXPECT_TRUE(std::equal(a.bytes().begin(), a.bytes().end(), b.bytes().begin(), b.bytes().end())) << "trial " << i;
+  }
+}
+
+TEST(Replay, OneNumberThatDiffersIsNamedWithItsTickAndChannel) {
+  const TemporaryFolder folder("replay");
+  const ChannelTable table = RunLog::open(kRecorded).configuration().table;
+  for (const std::size_t column : {std::size_t{0}, table.indexOf("mass1_pos_x"), table.size() - 1}) {
+    const RunLog log = edited(folder, changeOf(3, column, table.size()));
+    const Replay replay = replayRun(log);
+    EXPECT_FALSE(replay.identical());
+    EXPECT_EQ(replay.rowsThatDiffer, 1u);
+    EXPECT_EQ(replay.trialsThatDiffer, 0);
+    const std::string what = "tick " + std::to_string(log.allRows().ticks[3]) + ", " + table.channels[column].name + ": recorded ";
+    EXPECT_EQ(replay.firstDifference.find(what), 0u) << replay.firstDifference;
+  }
+  EXPECT_TRUE(replayRun(edited(folder, changeOf(3, table.indexOf("measured_time"), table.size()))).identical())
+      << "the computer's clock is not simulated";
+}
+
+TEST(Replay, ATrialThatDiffersInAnythingIsCounted) {
+  const TemporaryFolder folder("replay");
+  const auto withSecond = [&](const std::function<void(trial::TrialResult&)>& change) {
+    int trials = 0;
+    return replayRun(edited(folder, [&](RecordType type, Bytes& payload) {
+      if (type != RecordType::Trial || ++trials != 2) return true;
+      TrialLink link;
+      RecordedTrial t = decodeTrial(payload, link);
+      change(t.result);
+      ByteWriter out;
+      encode(t, link, out);
+      payload.assign(out.bytes().begin(), out.bytes().end());
+      return true;
+    }));
+  };
+  using trial::TrialResult;
+  const std::vector<std::function<void(TrialResult&)>> changes{
+      [](TrialResult& r) { r.outcome = r.outcome == trial::Outcome::Success ? trial::Outcome::Failure : trial::Outcome::Success; },
+      [](TrialResult& r) { r.reason = trial::Reason::Timing; },
+      [](TrialResult& r) { ++r.mass; },
+      [](TrialResult& r) { r.by += 1e-12; },
+      [](TrialResult& r) { r.movementTime += 1e-12; },
+      [](TrialResult& r) { ++r.onsetTick; },
+      [](TrialResult& r) { ++r.endTick; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const Replay replay = withSecond(changes[i]);
+    EXPECT_EQ(replay.trialsThatDiffer, 1) << i;
+    EXPECT_FALSE(replay.identical());
+    EXPECT_EQ(replay.firstDifference, "trial 2: the result differs");
+    EXPECT_EQ(replay.rowsThatDiffer, 0u);
+  }
+  const Replay broken = withSecond([](TrialResult& r) { r.reason = trial::Reason::Program, r.mass = 9; });
+  EXPECT_EQ(broken.trialsThatDiffer, 0) << "what the program's end broke off has no result to compare";
+}
+
+TEST(Replay, StopsWhereATickIsMissing) {
+  const TemporaryFolder folder("replay");
+  int blocks = 0;
+  std::uint64_t missing = 0;
+  const RunLog log = edited(folder, [&](RecordType type, Bytes& payload) {
+    if (type != RecordType::Ticks || ++blocks != 3) return true;
+    std::vector<RecordedTick> ticks;
+    decodeTicks(payload, ticks);
+    missing = ticks.front().tick;
+    return false;
+  });
+  ASSERT_GT(missing, 0u);
+  try {
+    replayRun(log);
+    FAIL();
+  } catch (const FaultError& refusal) {
+    EXPECT_EQ(refusal.what(), log.path() + ": tick " + std::to_string(missing) +
+                                  " is missing (dropped while recording), so the run cannot be simulated past it");
+  }
+}
+
+TEST(Replay, ATrialThatNobodyAnnouncedIsSimulatedAsAPlainOne) {
+  const TemporaryFolder folder("replay");
+  const Replay replay = replayRun(edited(folder, [](RecordType type, Bytes&) { return type != RecordType::TrialSetup; }));
+  EXPECT_EQ(replay.trials.size(), 2u);
+}
+
+TEST(Replay, ATableOfOtherMassesOrHandsIsRefused) {
+  const TemporaryFolder folder("replay");
+  const RunConfiguration recorded = RunLog::open(kRecorded).configuration();
+  const auto refusalOf = [&](int masses, int parameters, int hands, bool body) {
+    experiment::Experiment scene;
+    scene.object.kind = body ? experiment::ObjectKind::Body : experiment::ObjectKind::Chain;
+    scene.object.masses.assign(static_cast<std::size_t>(masses), 1);
+    if (hands > 1) scene.hands.resize(static_cast<std::size_t>(hands));
+    RunConfiguration c = recorded;
+    c.table = makeChannelTable(scene, parameters);
+    c.otherHands.resize(static_cast<std::size_t>(hands - 1));
+    const std::string text = toJson(c);
+    const std::string path = folder / "table_log.reach";
+    std::filesystem::remove(path);
+    LogWriter::create(path).append(RecordType::Configuration, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    try {
+      replayRun(RunLog::open(path));
+      return std::string("replayed");
+    } catch (const FaultError& refusal) {
+      return std::string(refusal.what()).substr(path.size());
+    }
+  };
+  const ChannelTable& t = recorded.table;
+  const std::string words = ": table: has not the masses and hands of its experiment, so the run cannot be simulated again";
+  EXPECT_EQ(refusalOf(t.massCount, t.parameterCount, 1, t.body), "replayed");
+  EXPECT_EQ(refusalOf(t.massCount + 1, t.parameterCount, 1, t.body), words);
+  EXPECT_EQ(refusalOf(t.massCount, t.parameterCount + 1, 1, t.body), words);
+  EXPECT_NE(refusalOf(t.massCount, t.parameterCount, 2, t.body), "replayed");
+  EXPECT_EQ(refusalOf(t.massCount, t.parameterCount, 1, !t.body), words);
+}
+
+}  // namespace
+}  // namespace reachlab::record

@@ -1,0 +1,116 @@
+#include "sim/record/trial_index.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/record/append_file.h"
+#include "sim/record/records.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::record {
+namespace {
+
+std::string bytesOf(const RecordedTrial& trial) {
+  ByteWriter out;
+  encode(trial, {}, out);
+  return {out.bytes().begin(), out.bytes().end()};
+}
+
+// Two runs of which no two numbers or words are equal, the second broken off in its third trial.
+std::string writeTwoRuns(const TemporaryFolder& folder) {
+  RunConfiguration c = madeConfiguration();
+  c.subject = "11", c.session = "12", c.condition = "slow", c.experimentName = "made", c.device = "robot";
+  c.run = 3, c.block = 4, c.day = 5, c.practice = true;
+  c.startedUtc = "2026-11-20T10:00:00.000Z";
+  writeMadeRun(folder / "data/a_log.reach", 2, c);
+  c.condition = "";
+  c.practice = false;
+  c.run = 6;
+  const std::string broken = folder / "data/b_log.reach";
+  writeMadeRun(broken, 3, c);
+  cutInTheLastTrialsRecord(broken);
+  return folder / "data";
+}
+
+TEST(TrialIndex, KnowsOfARunWhatItsLogSaysWhetherReadOrKept) {
+  const TemporaryFolder folder("index");
+  const std::string data = writeTwoRuns(folder), file = folder / "an.index";
+  for (const std::size_t read : {2u, 0u}) {
+    SCOPED_TRACE(read);
+    const TrialIndex index = openTrialIndex(data, file);
+    EXPECT_EQ(index.read, read);
+    ASSERT_EQ(index.runs.size(), 2u);
+    EXPECT_EQ(index.trialCount(), 5u);
+    const IndexedRun &a = index.runs[0], &b = index.runs[1];
+    EXPECT_EQ(a.path, data + "/a_log.reach");
+    EXPECT_EQ(a.bytes, std::filesystem::file_size(a.path));
+    EXPECT_EQ(a.subject, "11");
+    EXPECT_EQ(a.session, "12");
+    EXPECT_EQ(a.condition, "slow");
+    EXPECT_EQ(b.condition, "made") << "without one the experiment's name";
+    EXPECT_EQ(a.experiment, "made");
+    EXPECT_EQ(a.device, "robot");
+    EXPECT_EQ(a.startedUtc, "2026-11-20T10:00:00.000Z");
+    EXPECT_EQ(a.run, 3);
+    EXPECT_EQ(b.run, 6);
+    EXPECT_EQ(a.block, 4);
+    EXPECT_EQ(a.day, 5);
+    EXPECT_TRUE(a.practice);
+    EXPECT_FALSE(b.practice);
+    EXPECT_TRUE(a.healthy);
+    EXPECT_FALSE(b.healthy);
+    for (const IndexedRun& run : index.runs) {
+      const RunLog log = RunLog::open(run.path);
+      ASSERT_EQ(run.trials.size(), log.trials().size());
+      for (std::size_t i = 0; i < run.trials.size(); ++i) {
+        EXPECT_EQ(bytesOf(run.trials[i]), bytesOf(log.trials()[i])) << i;
+        EXPECT_EQ(run.trials[i].complete, log.trials()[i].complete);
+      }
+    }
+    EXPECT_FALSE(b.trials[2].complete);
+  }
+}
+
+TEST(TrialIndex, ALogOfAnotherTimeOrSizeIsReadAnew) {
+  const TemporaryFolder folder("index");
+  const std::string data = writeTwoRuns(folder), file = folder / "an.index", log = data + "/a_log.reach";
+  EXPECT_EQ(openTrialIndex(data, file).read, 2u);
+  std::filesystem::last_write_time(log, std::filesystem::last_write_time(log) - std::chrono::seconds(5));
+  EXPECT_EQ(openTrialIndex(data, file).read, 1u);
+  EXPECT_EQ(openTrialIndex(data, file).read, 0u);
+  const auto time = std::filesystem::last_write_time(log);
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) - 1);
+  std::filesystem::last_write_time(log, time);
+  const TrialIndex shorter = openTrialIndex(data, file);
+  EXPECT_EQ(shorter.read, 1u);
+  EXPECT_FALSE(shorter.runs[0].healthy);
+  EXPECT_EQ(openTrialIndex(data, "").read, 2u) << "without a file all are read";
+}
+
+TEST(TrialIndex, AsksBeforeEachLogThatItMustOpen) {
+  const TemporaryFolder folder("index");
+  const std::string data = writeTwoRuns(folder);
+  std::vector<std::pair<std::size_t, std::size_t>> asked;
+  const TrialIndex index = openTrialIndex(data, "", [&](std::size_t done, std::size_t of) {
+    asked.emplace_back(done, of);
+    return done < 1;
+  });
+  EXPECT_EQ(asked, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {1, 2}}));
+  EXPECT_EQ(index.runs.size(), 1u) << "given up before the second";
+}
+
+TEST(TrialIndex, EveryDatasetHasAFileOfItsOwn) {
+  const std::string here = indexFileFor("/data/one", "/cache");
+  EXPECT_TRUE(here.starts_with("/cache/") && here.ends_with(".index")) << here;
+  EXPECT_EQ(here.size(), std::string("/cache/0123456789abcdef.index").size());
+  EXPECT_EQ(indexFileFor("/data/./two/../one", "/cache"), here) << "the same folder by another way";
+  EXPECT_NE(indexFileFor("/data/two", "/cache"), here);
+}
+
+}  // namespace
+}  // namespace reachlab::record
