@@ -50,10 +50,10 @@ double InputAxis::share(std::int32_t value) const noexcept {
   return there() ? std::clamp((value - middle) / half, -1.0, 1.0) : 0;
 }
 
-std::vector<InputNode> findInputNodes(InputKind kind) {
+std::vector<InputNode> findInputNodes(InputKind kind, const std::string& folder) {
   std::vector<std::string> paths;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/input", error))
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (entry.path().filename().string().starts_with("event")) paths.push_back(entry.path().string());
   std::sort(paths.begin(), paths.end(), [](const std::string& a, const std::string& b) { return numberOf(a) < numberOf(b); });
   std::vector<InputNode> found;

@@ -31,7 +31,7 @@ struct InputNode {
 };
 
 /// What is there of that kind, in the order of their numbers. A node that may not be read is listed where the system tells its kind.
-std::vector<InputNode> findInputNodes(InputKind kind);
+std::vector<InputNode> findInputNodes(InputKind kind, const std::string& folder = "/dev/input");
 
 /// Keeps the state that events tell of. One thread.
 class InputState {

@@ -19,11 +19,13 @@ struct Line {
   std::deque<Report> waiting;
   std::vector<Report> sent;
   bool gone = false, refuses = false;
+  std::vector<std::pair<std::size_t, int>> readings;  // room [bytes] and wait [ms]
 };
 class FakePort final : public HidPort {
  public:
   explicit FakePort(std::shared_ptr<Line> line) : line_(std::move(line)) {}
-  int read(std::span<std::uint8_t> bytes, int) noexcept override {
+  int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept override {
+    line_->readings.emplace_back(bytes.size(), milliseconds);
     if (line_->gone) return -1;
     if (line_->waiting.empty()) return 0;
     const Report report = line_->waiting.front();
@@ -51,7 +53,10 @@ class OpenArmOverAPort : public ::testing::Test {
  protected:
   OpenArmOverAPort() {
     options.model = findArmModel("woodenhaptics_v2015");
-    arm = std::make_unique<OpenArm>(options, "1", [this]() -> std::unique_ptr<HidPort> {
+    open();
+  }
+  void open(const std::string& serial = "1") {
+    arm = std::make_unique<OpenArm>(options, serial, [this]() -> std::unique_ptr<HidPort> {
       if (line->gone) throw ResourceError("gone");
       return std::make_unique<FakePort>(line);
     });
@@ -161,6 +166,133 @@ TEST_F(OpenArmOverAPort, TheLastWordIsZero) {
   arm->exchange(wish, sample);
   arm->close();
   for (const std::uint8_t byte : line->sent.back()) EXPECT_EQ(byte, 0);
+}
+
+TEST_F(OpenArmOverAPort, TellsWhatItIs) {
+  const haptics::DeviceInfo info = arm->info();
+  EXPECT_EQ(info.name, "woodenhaptics_v2015 1");
+  EXPECT_EQ(info.version, "open arm over HID");
+  EXPECT_EQ(info.maxForce, 5);
+  EXPECT_TRUE(info.rendersForce);
+  EXPECT_EQ(info.workspaceRadius, 0.1);
+  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
+  open("");
+  EXPECT_EQ(arm->info().name, "woodenhaptics_v2015");
+  EXPECT_EQ(OpenArm::Options{}.maxCurrent, 2);
+}
+
+TEST_F(OpenArmOverAPort, WaitsForItsTurnOnceAndTakesWhatHasPiledUpWithoutWaiting) {
+  line->waiting = {reportOf({}), reportOf({})};
+  arm->exchange(wish, sample);
+  EXPECT_EQ(line->readings, (std::vector<std::pair<std::size_t, int>>{{64, 10}, {64, 0}, {64, 0}}));
+  line->readings.clear();
+  line->waiting = {Report(3, 0), reportOf({})};
+  arm->exchange(wish, sample);
+  EXPECT_EQ(line->readings[1].second, 10) << "garbage is not its turn";
+}
+
+TEST_F(OpenArmOverAPort, OneThatNeverStopsSendingIsAnsweredAfterSixtyFour) {
+  for (int i = 0; i < 70; ++i) line->waiting.push_back(reportOf({0.0005 * i, 0, 0}));
+  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(line->waiting.size(), 6u);
+  EXPECT_NEAR(sample.position.z, 0.0005 * 63, 2e-4);
+}
+
+TEST_F(OpenArmOverAPort, ItsButtonIsTheFirst) {
+  Report pressed = reportAt({0, 0, 6000});
+  pressed[6] = 0x10, pressed[7] = 0x27;  // 10000 in encoder d
+  line->waiting.push_back(pressed);
+  arm->exchange(wish, sample);
+  EXPECT_EQ(sample.buttons, 1u);
+  EXPECT_FALSE(sample.hasVelocity);
+  line->waiting.push_back(reportAt({0, 0, 6000}));
+  arm->exchange(wish, sample);
+  EXPECT_EQ(sample.buttons, 0u);
+}
+
+TEST_F(OpenArmOverAPort, AtItsStartItIsCalibratedOnlyWhereItIsAskedFor) {
+  EXPECT_TRUE(line->sent.empty());
+  options.calibrateAtStart = true;
+  open();
+  ASSERT_EQ(line->sent.size(), 1u);
+  EXPECT_EQ(field(line->sent[0], 7), 1);
+  EXPECT_EQ(field(line->sent[0], 13), 6000);
+}
+
+TEST_F(OpenArmOverAPort, OlderFirmwaresHaveReportsOfFourteenBytes) {
+  options.commandBytes = 15, options.reportBytes = 14;
+  open();
+  Report report = reportAt({0, 0, 6000});
+  report.resize(14);
+  line->waiting.push_back(report);
+  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_LT(norm(sample.position - Vec3{0, 0.205, 0.025}), 1e-12);
+  EXPECT_EQ(line->sent.at(0).size(), 15u);
+  EXPECT_EQ(line->readings.at(0).first, 14u);
+  options.commandBytes = options.reportBytes = 1000;
+  open();
+  line->waiting.push_back(Report(64, 0));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report) << "no more than a report of USB has";
+  EXPECT_EQ(line->sent.back().size(), 65u);
+}
+
+TEST_F(OpenArmOverAPort, AfterTheCalibrationAndAfterAnUnpluggingItsCountsBeginAnew) {
+  const auto place = [&](double counts) {
+    line->waiting.push_back(reportAt({counts, 0, 6000}));
+    EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+    return sample.position;
+  };
+  const Vec3 fresh = place(30'000);
+  const auto goOnPastTheEnd = [&] {
+    ASSERT_TRUE(arm->reopen());
+    place(-30'000);
+    EXPECT_GT(norm(place(30'000) - fresh), 1e-3) << "the shorter way there is on to the left";
+  };
+  goOnPastTheEnd();
+  EXPECT_EQ(arm->calibrate(), "");
+  EXPECT_LT(norm(place(30'000) - fresh), 1e-12);
+  goOnPastTheEnd();
+  ASSERT_TRUE(arm->reopen());
+  EXPECT_LT(norm(place(30'000) - fresh), 1e-12);
+}
+
+TEST_F(OpenArmOverAPort, SaysHowItIsCalibratedAndWhyItIsNot) {
+  options.model = findArmModel("polhem_v1");
+  open();
+  EXPECT_EQ(arm->calibrationHint(), "hold the arm in its calibration pose (encoders 0, 0, -5000)");
+  line->refuses = true;
+  EXPECT_EQ(arm->calibrate(), "it does not take the calibration");
+  line->waiting.push_back(reportAt({0, 0, 0}, 1));
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "its own button";
+  arm->close();
+  EXPECT_EQ(arm->calibrate(), "it is not connected");
+}
+
+TEST_F(OpenArmOverAPort, ZeroIsToldWithoutBeingAskedFor) {
+  EXPECT_TRUE(arm->tellZero());
+  ASSERT_EQ(line->sent.size(), 1u);
+  EXPECT_EQ(line->sent[0], Report(65, 0));
+  line->refuses = true;
+  EXPECT_FALSE(arm->tellZero());
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "nothing was read, and nothing can be told";
+  arm->close();
+  EXPECT_TRUE(arm->tellZero()) << "there is nobody to tell";
+}
+
+TEST_F(OpenArmOverAPort, BeforeItsLastWordItHasItsTurn) {
+  line->waiting.push_back(reportOf({}));
+  arm->close();
+  EXPECT_TRUE(line->waiting.empty());
+  EXPECT_EQ(line->readings, (std::vector<std::pair<std::size_t, int>>{{64, 10}}));
+  EXPECT_EQ(line->sent.size(), 1u);
+  arm->close();
+  EXPECT_EQ(line->sent.size(), 1u) << "closed once";
+  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
+}
+
+TEST(FirmwareFault, FourteenBytesAreEnough) {
+  EXPECT_EQ(firmwareFault(14), "");
+  EXPECT_NE(firmwareFault(13).find("sends reports of 13 bytes, and 14 are needed"), std::string::npos);
 }
 
 // 1,000 seeded runs of everything a wire can do: garbage, gaps, short reads, jumps, absurd forces, unplugging. No current beyond the

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +13,55 @@
 
 namespace reachlab::devices {
 namespace {
+
+// As the project publishes them: diameters, lengths and origin in mm, torque constants in mNm/A.
+TEST(OpenSerialArm, EveryModelsNumbersAreThePublishedOnes) {
+  struct Published {
+    const char* name;
+    std::array<double, 3> capstan, length, body, origin, torque;
+    double counts, force, stiffness;
+    std::array<int, 3> calibration;
+    std::array<bool, 3> aligned;
+  };
+  const std::array<double, 3> ten{10, 10, 10};
+  const std::vector<Published> published{
+      {"woodenhaptics_v2015", ten, {80, 205, 245}, {160, 120, 120}, {220, 0, 80}, {25.9, 25.9, 25.9}, 2000, 5, 1000, {0, 0, 6000}, {}},
+      {"woodenhaptics_v2019", ten, {80, 205, 245}, {160, 120, 120}, {220, 0, 80}, {321, 60.3, 60.3}, 2000, 5, 1000, {0, 0, 6000}, {}},
+      {"default_woody", ten, {80, 205, 245}, {160, 120, 120}, {220, 0, 80}, {25.9, 25.9, 25.9}, 2000, 5, 1000, {}, {false, true, false}},
+      {"polhem_v1",
+       ten,
+       {58, 174, 133},
+       {180, 100, 100},
+       {140, 0, 100},
+       {53.8, 53.8, 53.8},
+       2000,
+       5,
+       800,
+       {0, 0, -5000},
+       {true, true, true}},
+      {"aluhaptics_v2", {13.8, 9.8, 9.8}, {111, 140, 111}, {116, 76, 76}, {140, 0, 0}, {25.9, 25.9, 25.9}, 2000, 5, 1000, {}, {}},
+      {"vintage", {13, 10, 10}, {56, 138, 112}, {117, 77, 77}, {140, 0, 0}, {16.3, 16.3, 16.3}, 4000, 5, 800, {}, {}}};
+  ASSERT_EQ(armModels().size(), published.size());
+  for (std::size_t i = 0; i < published.size(); ++i) {
+    const Published& p = published[i];
+    const ArmModel& m = armModels()[i];
+    EXPECT_EQ(m.name, p.name);
+    EXPECT_EQ(findArmModel(p.name), &m);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(m.capstan[k], 1e-3 * p.capstan[k], 1e-15) << p.name;
+      EXPECT_NEAR(m.length[k], 1e-3 * p.length[k], 1e-15) << p.name;
+      EXPECT_NEAR(m.body[k], 1e-3 * p.body[k], 1e-15) << p.name;
+      EXPECT_NEAR(m.torqueConstant[k], 1e-3 * p.torque[k], 1e-15) << p.name;
+      EXPECT_EQ(m.calibrationCounts[k], p.calibration[k]) << p.name;
+      EXPECT_EQ(m.aligned[k], p.aligned[k]) << p.name;
+    }
+    EXPECT_LT(norm(m.origin - 1e-3 * Vec3{p.origin[0], p.origin[1], p.origin[2]}), 1e-15) << p.name;
+    EXPECT_EQ(m.countsPerTurn, p.counts) << p.name;
+    EXPECT_EQ(m.maxForce, p.force) << p.name;
+    EXPECT_EQ(m.maxStiffness, p.stiffness) << p.name;
+  }
+  EXPECT_EQ(findArmModel("polhem_v9"), nullptr);
+}
 
 // Places of the workspace: a ball of 8 cm about its origin.
 class Places {
@@ -121,6 +171,28 @@ TEST(OpenSerialArm, CurrentsBeyondTheLimitKeepTheForcesDirection) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(held[i] / free[i], held[0] / free[0], 1e-12);
 }
 
+TEST(OpenSerialArm, CurrentsWithinTheLimitAreTheForces) {
+  const ArmModel& model = *findArmModel("polhem_v1");
+  const auto angles = anglesAt(model, {0.01, 0.02, -0.01});
+  const auto free = motorCurrents(model, angles, {3, -2, 1}, 1e9);
+  double most = 0;
+  for (const double i : free) most = std::max(most, std::abs(i));
+  EXPECT_EQ(motorCurrents(model, angles, {3, -2, 1}, 1.001 * most), free);
+  // The work of the motors is that of the joints: I kt r s = tau.
+  const auto torque = jointTorques(model, angles, {3, -2, 1});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(-free[i] * model.torqueConstant[i] * model.body[i] / model.capstan[i], torque[i], 1e-14);
+}
+
+// The elbow is on the user's side of the line from the shoulder to the handle, as in the workspace: the upper arm leans less than it.
+TEST(OpenSerialArm, TheElbowLiesAsInTheWorkspace) {
+  for (const ArmModel& model : armModels()) {
+    const auto angles = anglesAt(model, {});
+    EXPECT_LT(angles[1], std::atan2(model.origin.x, model.origin.z - model.length[0])) << model.name;
+    EXPECT_NEAR(angles[0], 0, 1e-15) << model.name;
+  }
+  EXPECT_TRUE(std::isnan(anglesAt(armModels()[0], {1, 0, 0})[1])) << "it does not reach as far";
+}
+
 TEST(OpenSerialArm, WhatIsNoNumberIsNoCurrent) {
   const ArmModel& model = armModels()[0];
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -139,6 +211,35 @@ TEST(ArmReport, IsLittleEndianWithTheButtonFoldedIn) {
   EXPECT_EQ(report->encoders[3], 0) << "10000 off";
   EXPECT_TRUE(report->calibrationButton);
   EXPECT_FALSE(decodeArmReport(std::span(bytes, 13)));
+}
+
+TEST(ArmReport, EveryEncoderHasItsPlaceAndTheButtonBeginsBeyondHalfItsOffset) {
+  const auto reportOf = [](const std::array<int, 7>& fields) {
+    std::vector<std::uint8_t> bytes;
+    for (const int value : fields)
+      bytes.push_back(static_cast<std::uint8_t>(value & 0xFF)), bytes.push_back(static_cast<std::uint8_t>(value >> 8 & 0xFF));
+    return decodeArmReport(bytes).value();
+  };
+  const ArmReport plain = reportOf({-1, 258, -32768, 5000, 32767, -300, 2});
+  EXPECT_EQ(plain.encoders, (std::array<std::int16_t, 6>{-1, 258, -32768, 5000, 32767, -300}));
+  EXPECT_FALSE(plain.button);
+  EXPECT_FALSE(plain.calibrationButton) << "another bit";
+  const ArmReport pressed = reportOf({0, 0, 0, 5001, 0, 0, 3});
+  EXPECT_TRUE(pressed.button);
+  EXPECT_EQ(pressed.encoders[3], -4999);
+  EXPECT_TRUE(pressed.calibrationButton);
+}
+
+TEST(ArmReport, ACommandFitsIntoFifteenBytesAndIsNoneInFewer) {
+  ArmCommand command;
+  command.currents = {0.0004, -0.0006, -1000};
+  command.encoders = {1, 2, 3, 4, 5, 6};
+  std::vector<std::uint8_t> enough(15, 0xAA), fewer(14, 0xAA);
+  encodeArmCommand(command, enough);
+  EXPECT_EQ(enough, (std::vector<std::uint8_t>{0, 0, 0, 0xFF, 0xFF, 0x01, 0x80, 0, 0, 0, 0, 0, 0, 0, 0}))
+      << "rounded to 0 and -1 mA, held to -32767; currents carry no encoders";
+  encodeArmCommand(command, fewer);
+  EXPECT_EQ(fewer, std::vector<std::uint8_t>(14, 0));
 }
 
 TEST(ArmReport, CurrentsAreMilliamperesAndNeverWrap) {
@@ -169,6 +270,7 @@ TEST(ArmReport, SettingEncodersCarriesThemInTheCommandsAttributes) {
   EXPECT_EQ(field(11), 2);
   EXPECT_EQ(field(13), -5000);
   EXPECT_EQ(field(1), 7);
+  EXPECT_EQ(field(3), 8);
   EXPECT_EQ(field(5), 9);
 }
 
@@ -177,6 +279,56 @@ TEST(UnwrappedCount, GoesOnPastTheEndsOfSixteenBits) {
   std::int32_t truth = 0;
   for (int i = 0; i < 1000; ++i, truth += 997) EXPECT_EQ(count.take(static_cast<std::int16_t>(truth)), truth);
   for (int i = 0; i < 3000; ++i, truth -= 1009) EXPECT_EQ(count.take(static_cast<std::int16_t>(truth)), truth);
+}
+
+TEST(UnwrappedCount, HalfATurnIsTakenDownwardsAndForgottenItBeginsWhereItIs) {
+  UnwrappedCount count;
+  EXPECT_EQ(count.take(100), 100);
+  EXPECT_EQ(count.take(static_cast<std::int16_t>(100 + 32767)), 100 + 32767);
+  count.reset();
+  EXPECT_EQ(count.take(-5), -5);
+  EXPECT_EQ(count.take(static_cast<std::int16_t>(-5 - 32768 + 65536)), -5 - 32768);
+}
+
+TEST(SpaceMouseReport, EveryAxisHasItsPlace) {
+  SpaceMouseState state;
+  // 35, 70, 105 of 350: sensor x, y, z; then -35, -70, -105.
+  const std::uint8_t push[7] = {1, 35, 0, 70, 0, 105, 0}, twist[7] = {2, 221, 255, 186, 255, 151, 255};
+  ASSERT_TRUE(takeSpaceMouseReport(push, state));
+  EXPECT_EQ(state.push, (Vec3{0.1, -0.3, 0.2}));
+  EXPECT_EQ(state.twist, Vec3{});
+  ASSERT_TRUE(takeSpaceMouseReport(twist, state));
+  EXPECT_EQ(state.twist, (Vec3{-0.1, 0.3, -0.2}));
+  EXPECT_EQ(state.push, (Vec3{0.1, -0.3, 0.2}));
+  SpaceMouseState both;
+  const std::uint8_t six[13] = {1, 35, 0, 70, 0, 105, 0, 221, 255, 186, 255, 151, 255};
+  ASSERT_TRUE(takeSpaceMouseReport(six, both));
+  EXPECT_EQ(both.push, state.push);
+  EXPECT_EQ(both.twist, state.twist);
+  std::vector<std::uint8_t> two(six, six + 13);
+  two.insert(two.end(), six, six + 13);
+  two[14] = 70;
+  ASSERT_TRUE(takeSpaceMouseReport(two, both));
+  EXPECT_EQ(both.push.x, 0.2) << "two of them joined: the second";
+}
+
+TEST(SpaceMouseReport, ButtonsAreOneToFourBytes) {
+  const auto buttonsOf = [](const std::vector<std::uint8_t>& report) {
+    SpaceMouseState state;
+    state.buttons = 7;
+    return std::pair{takeSpaceMouseReport(report, state), state.buttons};
+  };
+  EXPECT_EQ(buttonsOf({3}), (std::pair{false, 7u}));
+  EXPECT_EQ(buttonsOf({3, 0x81}), (std::pair{true, 0x81u}));
+  EXPECT_EQ(buttonsOf({3, 1, 2, 3, 0x84}), (std::pair{true, 0x84030201u}));
+  EXPECT_EQ(buttonsOf({3, 1, 2, 3, 4, 5}), (std::pair{false, 7u}));
+}
+
+TEST(SpaceMouseReport, WhatComesBehindAWholeReportDoesNotUndoIt) {
+  SpaceMouseState state;
+  const std::uint8_t broken[14] = {1, 35, 0, 0, 0, 0, 0, 9, 9, 9, 9, 9, 9, 9};
+  EXPECT_TRUE(takeSpaceMouseReport(broken, state));
+  EXPECT_EQ(state.push.x, 0.1);
 }
 
 TEST(SpaceMouseReport, BothLayoutsAreToldByTheirLength) {

@@ -19,7 +19,8 @@ using Firmware = test::PidFirmware;
 class FirmwarePort final : public HidPort {
  public:
   explicit FirmwarePort(std::shared_ptr<Firmware> firmware) : firmware_(std::move(firmware)) {}
-  int read(std::span<std::uint8_t> bytes, int) noexcept override {
+  int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept override {
+    waits.push_back(milliseconds);
     if (firmware_->gone) return -1;
     if (firmware_->inputs.empty()) return 0;
     const Bytes report = firmware_->inputs.front();
@@ -35,6 +36,8 @@ class FirmwarePort final : public HidPort {
     std::copy(answer.begin(), answer.end(), bytes.begin());
     return static_cast<int>(answer.size());
   }
+
+  static inline std::vector<int> waits;  // [ms] of each reading
 
  private:
   std::shared_ptr<Firmware> firmware_;
@@ -143,6 +146,176 @@ TEST_F(PidStick, WithoutAMeasuredForceItRendersNone) {
   EXPECT_EQ(stick.exchange(wish, sample), Exchange::Report);
   EXPECT_TRUE(firmware->effects.empty());
   EXPECT_FALSE(stick.info().rendersForce);
+}
+
+TEST_F(PidStick, TellsWhatItIs) {
+  StickDevice stick = make();
+  const haptics::DeviceInfo info = stick.info();
+  EXPECT_EQ(info.name, "stick");
+  EXPECT_EQ(info.version, "HID");
+  EXPECT_EQ(info.maxForce, 2);
+  EXPECT_TRUE(info.rendersForce);
+  EXPECT_EQ(info.degreesOfFreedom, 2);
+  EXPECT_EQ(info.workspaceRadius, 0.05);
+  EXPECT_NEAR(info.resolution, 0.1 / 65534, 1e-18) << "a step of its axis";
+  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
+}
+
+TEST_F(PidStick, WhatWaitsIsTakenAtOnceUpToSixtyFour) {
+  StickDevice stick = make();
+  FirmwarePort::waits.clear();
+  for (int i = 1; i <= 70; ++i) firmware->inputs.push_back(at(static_cast<std::int16_t>(100 * i), 0));
+  ASSERT_EQ(stick.exchange(wish, sample), Exchange::Report);
+  EXPECT_NEAR(sample.position.x, 0.05 * 6400 / 32767, 1e-12);
+  EXPECT_EQ(firmware->inputs.size(), 6u) << "one that never stops is told its force all the same";
+  EXPECT_EQ(FirmwarePort::waits.size(), 64u);
+  EXPECT_EQ(FirmwarePort::waits[0], 1);
+  EXPECT_EQ(FirmwarePort::waits[1], 0);
+  stick.exchange(wish, sample);
+  EXPECT_NEAR(sample.position.x, 0.05 * 7000 / 32767, 1e-12);
+}
+
+TEST_F(PidStick, TwentyReportsInARowThatAreNoneOfItsOwnAreALoss) {
+  StickDevice stick = make();
+  const auto garbage = [&](int count) { firmware->inputs.insert(firmware->inputs.end(), static_cast<std::size_t>(count), Bytes{9, 9}); };
+  garbage(19);
+  EXPECT_EQ(stick.exchange(wish, sample), Exchange::Report);
+  firmware->inputs.push_back(at(5, 5));
+  garbage(19);
+  EXPECT_EQ(stick.exchange(wish, sample), Exchange::Report) << "one of its own begins the count anew";
+  garbage(1);
+  EXPECT_EQ(stick.exchange(wish, sample), Exchange::Lost);
+  firmware->inputs.clear();
+  EXPECT_TRUE(stick.reopen());
+  garbage(19);
+  EXPECT_EQ(stick.exchange(wish, sample), Exchange::Report) << "and so does opening it again";
+}
+
+TEST_F(PidStick, ZeroIsToldToOneThatRendersForce) {
+  StickDevice stick = make();
+  wish.force = {2, 0, 2};
+  stick.exchange(wish, sample);
+  EXPECT_TRUE(stick.tellZero());
+  EXPECT_EQ(firmware->felt(), (std::pair{0.0, 0.0}));
+  stick.exchange(wish, sample);
+  firmware->gone = true;
+  EXPECT_FALSE(stick.tellZero());
+  EXPECT_FALSE(stick.reopen());
+  firmware->gone = false;
+  EXPECT_TRUE(stick.tellZero()) << "by the old connection";
+  stick.close();
+  EXPECT_TRUE(stick.tellZero());
+  EXPECT_EQ(stick.exchange(wish, sample), Exchange::Lost) << "closed";
+}
+
+TEST_F(PidStick, AForceThatCannotBeToldIsALoss) {
+  StickDevice stick = make();
+  wish.force = {1, 0, 0};
+  firmware->inputs.clear();
+  struct Deaf final : HidPort {
+    int read(std::span<std::uint8_t>, int) noexcept override { return 0; }
+    bool write(std::span<const std::uint8_t>) noexcept override { return false; }
+  };
+  const HidLayout layout = parseReportDescriptor(pidDescriptor());
+  const auto deaf = [] { return std::make_unique<Deaf>(); };
+  StickDevice quiet({0.05, 0, false}, "stick", layout, makePidForce(layout), deaf);
+  EXPECT_EQ(quiet.exchange(wish, sample), Exchange::Report) << "none is told to it";
+  EXPECT_TRUE(quiet.tellZero());
+  try {
+    StickDevice loud({0.05, 2, false}, "stick", layout, makePidForce(layout), deaf);
+    FAIL();
+  } catch (const ResourceError& error) {
+    EXPECT_STREQ(error.what(), "stick: it makes no new effect (Create New Effect is refused)");
+  }
+}
+
+TEST_F(PidStick, OneThatCountsTheOtherWayIsToldTheOpposite) {
+  const HidLayout layout = parseReportDescriptor(pidDescriptor());
+  StickDevice stick({0.05, 2.0, true}, "stick", layout, makePidForce(layout), [this] { return std::make_unique<FirmwarePort>(firmware); });
+  wish.force = {1, 0, -0.5};
+  stick.exchange(wish, sample);
+  EXPECT_EQ(firmware->felt(), (std::pair{-0.5, 0.25}));
+}
+
+// Axes of another range each, and a button of another page between those of the ninth: page 9 counts from 1, and 32 are kept.
+class OddStick : public ::testing::Test {
+ protected:
+  static Bytes descriptorOf(const Bytes& axes) {
+    Bytes d{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01};
+    d.insert(d.end(), axes.begin(), axes.end());
+    d.push_back(0xC0);
+    return d;
+  }
+  static StickDevice make(const Bytes& axes, const std::shared_ptr<Firmware>& firmware) {
+    return {{0.1, 0, false}, "odd", parseReportDescriptor(descriptorOf(axes)), makeWheelForce(), [firmware] {
+              return std::make_unique<FirmwarePort>(firmware);
+            }};
+  }
+  std::shared_ptr<Firmware> firmware = std::make_shared<Firmware>();
+  Wish wish;
+  haptics::DeviceSample sample;
+};
+
+TEST_F(OddStick, EachAxisHasItsOwnMiddle) {
+  StickDevice stick =
+      make({0x15, 0x00, 0x75, 0x10, 0x95, 0x01, 0x26, 0xFF, 0x03, 0x09, 0x30, 0x81, 0x02, 0x15, 0x9C, 0x25, 0x32, 0x09, 0x31, 0x81, 0x02},
+           firmware);  // X: 0 to 1023, Y: -100 to 50
+  EXPECT_NEAR(stick.info().resolution, 0.2 / 1023, 1e-15);
+  const auto placeOf = [&](int x, int y) {
+    firmware->inputs.push_back({static_cast<std::uint8_t>(x & 0xFF), static_cast<std::uint8_t>(x >> 8), static_cast<std::uint8_t>(y & 0xFF),
+                                static_cast<std::uint8_t>(y >> 8 & 0xFF)});
+    EXPECT_EQ(stick.exchange(wish, sample), Exchange::Report);
+    return sample.position;
+  };
+  EXPECT_LT(norm(placeOf(1023, 50) - Vec3{0.1, 0, 0.1}), 1e-15);
+  EXPECT_LT(norm(placeOf(0, -100) - Vec3{-0.1, 0, -0.1}), 1e-15);
+  EXPECT_LT(norm(placeOf(767, -10) - Vec3{0.1 * 255.5 / 511.5, 0, 0.1 * 15 / 75.0}), 1e-15);
+  EXPECT_LT(norm(placeOf(2000, -300) - Vec3{0.1, 0, -0.1}), 1e-15) << "no further than its end";
+}
+
+TEST_F(OddStick, AWheelsSteeringIsItsOnlyAxis) {
+  StickDevice stick = make({0x05, 0x02, 0x15, 0x9C, 0x25, 0x64, 0x75, 0x08, 0x95, 0x01, 0x09, 0xC8, 0x81, 0x02}, firmware);
+  firmware->inputs.push_back({50});
+  ASSERT_EQ(stick.exchange(wish, sample), Exchange::Report);
+  EXPECT_NEAR(sample.position.x, 0.05, 1e-15);
+  EXPECT_EQ(sample.position.z, 0);
+}
+
+TEST_F(OddStick, WithoutAnAxisItIsRefused) {
+  const auto refusalOf = [&](const Bytes& axes) {
+    try {
+      make(axes, firmware);
+      return std::string("made");
+    } catch (const FaultError& error) {
+      return error.faults.at(0).key + ": " + error.faults.at(0).what;
+    }
+  };
+  const std::string none = "device: odd: its report descriptor has no axis X";
+  EXPECT_EQ(refusalOf({0x15, 0x00, 0x25, 0x01, 0x75, 0x08, 0x95, 0x01, 0x09, 0x31, 0x81, 0x02}), none) << "Y alone";
+  EXPECT_EQ(refusalOf({0x15, 0x05, 0x25, 0x05, 0x75, 0x08, 0x95, 0x01, 0x09, 0x30, 0x81, 0x02}), none) << "without a range";
+  EXPECT_EQ(refusalOf({0x15, 0x05, 0x25, 0x06, 0x75, 0x08, 0x95, 0x01, 0x09, 0x30, 0x81, 0x00}), none) << "an array";
+  EXPECT_EQ(refusalOf({0x15, 0x05, 0x25, 0x06, 0x75, 0x08, 0x95, 0x01, 0x09, 0x30, 0x91, 0x02}), none) << "an output";
+  EXPECT_EQ(refusalOf({0x15, 0x05, 0x25, 0x06, 0x75, 0x08, 0x95, 0x01, 0x09, 0x30, 0x81, 0x02}), "made");
+}
+
+TEST_F(OddStick, ItsFirstThirtyTwoButtonsAreKept) {
+  // X of 8 bits, buttons 0 to 39, and eight bits of another page.
+  StickDevice stick =
+      make({0x15, 0x9C, 0x25, 0x64, 0x75, 0x08, 0x95, 0x01, 0x09, 0x30, 0x81, 0x02, 0x05, 0x09, 0x19, 0x00, 0x29, 0x27, 0x15,
+            0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x28, 0x81, 0x02, 0x05, 0x0C, 0x19, 0x01, 0x29, 0x08, 0x95, 0x08, 0x81, 0x02},
+           firmware);
+  const auto buttons = [&](const Bytes& bits) {
+    Bytes report{0};
+    report.insert(report.end(), bits.begin(), bits.end());
+    firmware->inputs.push_back(report);
+    stick.exchange(wish, sample);
+    return sample.buttons;
+  };
+  EXPECT_EQ(buttons({0x02, 0, 0, 0, 0, 0}), 1u) << "number 1";
+  EXPECT_EQ(buttons({0x01, 0, 0, 0, 0, 0}), 0u) << "0 is none";
+  EXPECT_EQ(buttons({0, 0, 0, 0, 0x01, 0}), 1u << 31) << "number 32";
+  EXPECT_EQ(buttons({0, 0, 0, 0, 0x02, 0}), 0u) << "number 33";
+  EXPECT_EQ(buttons({0x10, 0x01, 0, 0, 0, 0xFF}), (1u << 3) | (1u << 7)) << "numbers 4 and 8, and nothing of the other page";
 }
 
 // What Logitech's own reports look like, byte for byte as the kernel's drivers send them.

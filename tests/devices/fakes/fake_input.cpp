@@ -1,0 +1,85 @@
+#include "tests/devices/fakes/fake_input.h"
+
+#include <sys/ioctl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdarg>
+#include <cstring>
+#include <filesystem>
+
+#define REACHLAB_FIND_NODES "_ZN8reachlab7devices14findInputNodesENS0_9InputKindERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
+
+namespace reachlab::test {
+namespace {
+
+using devices::InputKind;
+using devices::InputNode;
+
+FakeInputs inputs;
+
+std::optional<FakeInput> nodeOf(int file) {
+  std::error_code error;
+  const std::string path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), error);
+  const std::lock_guard lock(inputs.mutex);
+  const auto at = inputs.nodes.find(path);
+  return at == inputs.nodes.end() ? std::nullopt : std::optional(at->second);
+}
+
+int answer(const FakeInput& node, unsigned long request, void* argument) {
+  const unsigned number = _IOC_NR(request), size = _IOC_SIZE(request);
+  auto* bytes = static_cast<unsigned char*>(argument);
+  if (number == _IOC_NR(EVIOCGNAME(0))) {
+    const std::size_t count = std::min<std::size_t>(node.name.size() + 1, size);
+    std::memcpy(bytes, node.name.c_str(), count);
+    return static_cast<int>(count);
+  }
+  if (number == 0x20 + EV_KEY || number == 0x20 + EV_ABS) {
+    for (const int bit : number == 0x20 + EV_KEY ? node.keys : node.axes) {
+      const auto at = static_cast<unsigned>(bit);
+      if (at / 8 < size) bytes[at / 8] = static_cast<unsigned char>(bytes[at / 8] | 1u << at % 8);
+    }
+    return static_cast<int>(size);
+  }
+  const auto range = number >= 0x40 ? node.ranges.find(static_cast<int>(number - 0x40)) : node.ranges.end();
+  if (range == node.ranges.end()) return errno = EINVAL, -1;
+  auto* info = static_cast<input_absinfo*>(argument);
+  info->minimum = range->second.first, info->maximum = range->second.second;
+  return 0;
+}
+
+}  // namespace
+
+FakeInputs& fakeInputs() { return inputs; }
+
+std::vector<InputNode> reallyFind(InputKind kind, const std::string& folder) asm("__real_" REACHLAB_FIND_NODES);
+std::vector<InputNode> findFakes(InputKind kind, const std::string& folder) asm("__wrap_" REACHLAB_FIND_NODES);
+std::vector<InputNode> findFakes(InputKind kind, const std::string& folder) {
+  {
+    const std::lock_guard lock(inputs.mutex);
+    if (inputs.listed && folder == "/dev/input") {
+      std::vector<InputNode> found = *inputs.listed;
+      std::erase_if(found, [&](const InputNode& node) { return node.kind != kind; });
+      return found;
+    }
+  }
+  return reallyFind(kind, folder);
+}
+
+}  // namespace reachlab::test
+
+using namespace reachlab::test;
+
+extern "C" {
+
+int __real_ioctl(int file, unsigned long request, ...);
+int __wrap_ioctl(int file, unsigned long request, ...) {
+  va_list arguments;
+  va_start(arguments, request);
+  void* const argument = va_arg(arguments, void*);
+  va_end(arguments);
+  if (_IOC_TYPE(request) == 'E')
+    if (const auto node = nodeOf(file)) return answer(*node, request, argument);
+  return __real_ioctl(file, request, argument);
+}
+}

@@ -1,0 +1,452 @@
+// What is plugged in, as hidapi tells it, behind the drivers that look for it.
+#include <gtest/gtest.h>
+
+#include <cerrno>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "devices/hid/hid_port.h"
+#include "devices/hid/open_serial_arm.h"
+#include "devices/hot_plug.h"
+#include "devices/make_device.h"
+#include "devices/registry.h"
+#include "tests/devices/fakes/fake_hidapi.h"
+#include "tests/devices/fakes/pid_firmware.h"
+#include "tests/until.h"
+
+namespace reachlab::devices {
+namespace {
+
+using test::FakeHid;
+using test::fakeHids;
+using test::until;
+using Bytes = std::vector<std::uint8_t>;
+
+// A vendor's page with so many bytes in and out.
+Bytes vendorPage(std::uint8_t bytes) {
+  return {0x06, 0xAB, 0xFF,  0x0A, 0x00, 0x02, 0xA1, 0x01, 0x15, 0x00, 0x26,  0xFF, 0x00, 0x75,
+          0x08, 0x95, bytes, 0x09, 0x01, 0x81, 0x02, 0x09, 0x02, 0x95, bytes, 0x91, 0x02, 0xC0};
+}
+FakeHid teensy(const std::string& path = "/dev/hidraw3", const std::wstring& serial = L"A1") {
+  return {.path = path,
+          .vendor = 0x16C0,
+          .product = 0x0486,
+          .serial = serial,
+          .maker = L"KTH",
+          .title = L"Arm",
+          .descriptor = vendorPage(64),
+          .steady = Bytes(64, 0)};
+}
+FakeHid mbed() {
+  return {.path = "/dev/hidraw4", .vendor = 0x1234, .product = 0x0006, .descriptor = vendorPage(14), .steady = Bytes(14, 0)};
+}
+FakeHid spaceMouse(std::uint16_t vendor = 0x256F, std::uint16_t product = 0xC635) {
+  return {.path = "/dev/hidraw5",
+          .vendor = vendor,
+          .product = product,
+          .serial = L"",
+          .title = L"SpaceMouse Compact",
+          .steady = {1, 0x5E, 0x01, 0, 0, 0, 0}};  // full push to the right
+}
+FakeHid joystick() {
+  return {.path = "/dev/hidraw6",
+          .vendor = 0x045E,
+          .product = 0x001B,
+          .serial = L"FFB2",
+          .title = L"Sidewinder",
+          .descriptor = test::pidDescriptor(),
+          .steady = {1, 0xFF, 0x7F, 0, 0, 0}};  // at its right end
+}
+// X of 16 bits and nothing else: a wheel or a G940 by its name alone.
+FakeHid plainAxis(std::uint16_t vendor, std::uint16_t product) {
+  return {.path = "/dev/hidraw7",
+          .vendor = vendor,
+          .product = product,
+          .serial = L"W",
+          .title = L"Wheel",
+          .descriptor = {0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x09, 0x30, 0x16, 0x01, 0x80,
+                         0x26, 0xFF, 0x7F, 0x75, 0x10, 0x95, 0x01, 0x81, 0x02, 0xC0},
+          .steady = {0xFF, 0x7F}};
+}
+
+class HidDevices : public ::testing::Test {
+ protected:
+  ~HidDevices() override { test::resetFakeHids(); }
+  static std::vector<FoundDevice> rows(const std::string& driver) { return findDriver(driver)->find(*findDriver(driver)); }
+  std::unique_ptr<haptics::HapticDevice> make(const std::string& spec) const { return makeDevice(spec, experiment, 1); }
+  std::string refusalOf(const std::string& spec) const {
+    try {
+      make(spec);
+      return "made";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+  static std::vector<Bytes> written(std::size_t i = 0) {
+    const std::lock_guard lock(fakeHids().mutex);
+    return fakeHids().list[i].written;
+  }
+  experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+};
+
+TEST_F(HidDevices, InterfacesComeInTheOrderOfTheirPathsWithTheirStrings) {
+  test::resetFakeHids({teensy("/dev/hidraw9", L"Z"), mbed(), teensy("/dev/hidraw1", L"S\u00e9r\x7f~\x1f ")});
+  const auto all = findHid();
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].path, "/dev/hidraw1");
+  EXPECT_EQ(all[0].serial, "S?r?~? ") << "what is not ASCII is shown as a question mark";
+  EXPECT_EQ(all[0].maker, "KTH");
+  EXPECT_EQ(all[0].title, "Arm");
+  EXPECT_EQ(all[0].key(), all[0].serial);
+  EXPECT_EQ(all[1].key(), "/dev/hidraw4") << "one without a serial number is named by its path";
+  EXPECT_EQ(all[1].vendor, 0x1234);
+  EXPECT_EQ(all[1].product, 6);
+  EXPECT_EQ(all[2].path, "/dev/hidraw9");
+  EXPECT_EQ(findHid(0x16C0).size(), 2u);
+  EXPECT_EQ(findHid(0x16C0, 1).size(), 0u);
+  EXPECT_EQ(findHid(0, 6).size(), 1u);
+}
+
+TEST_F(HidDevices, OneThatMayNotBeOpenedSaysWhatToDo) {
+  const auto why = [&](int error) {
+    FakeHid hid = teensy();
+    hid.closedBy = error;
+    test::resetFakeHids({hid});
+    return whyNotOpen(findHid().at(0));
+  };
+  EXPECT_EQ(why(0), "");
+  const std::string remedy = "; install packaging/udev/70-reachlab.rules and plug it in again";
+  EXPECT_EQ(why(EACCES), "/dev/hidraw3: Permission denied" + remedy);
+  EXPECT_EQ(why(EPERM), "/dev/hidraw3: Operation not permitted" + remedy);
+  EXPECT_EQ(why(ENXIO), "/dev/hidraw3: No such device or address");
+  EXPECT_THROW(openHid(findHid().at(0)), ResourceError);
+  HidInterface nowhere;
+  nowhere.path = "/dev/null";  // it may be opened, but not as HID
+  try {
+    openHid(nowhere);
+    FAIL();
+  } catch (const ResourceError& error) {
+    EXPECT_STREQ(error.what(), "/dev/null: the library?s own words");
+  }
+}
+
+TEST_F(HidDevices, APortIsReadWrittenAndClosed) {
+  FakeHid hid = teensy();
+  hid.steady.clear();
+  hid.reports = {{1, 2, 3}};
+  test::resetFakeHids({hid});
+  {
+    const auto port = openHid(findHid().at(0));
+    Bytes report(8);
+    EXPECT_EQ(port->read(report, 5), 3);
+    EXPECT_EQ(report[2], 3);
+    EXPECT_EQ(port->read(report, 0), 0);
+    EXPECT_TRUE(port->write(Bytes{0, 9}));
+    EXPECT_TRUE(port->sendFeature(Bytes{1, 8}));
+    Bytes feature{2, 0, 0, 0};
+    EXPECT_EQ(port->getFeature(feature), 3);
+    EXPECT_EQ(feature[1], 1);
+    fakeHids().list[0].gone = true;
+    EXPECT_EQ(port->read(report, 0), -1);
+    EXPECT_FALSE(port->write(Bytes{0, 9}));
+    EXPECT_FALSE(port->sendFeature(Bytes{1, 8}));
+    EXPECT_EQ(port->getFeature(feature), -1);
+  }
+  EXPECT_EQ(fakeHids().list[0].waits, (std::vector<int>{5, 0, 0}));
+  EXPECT_EQ(fakeHids().list[0].open, 0);
+}
+
+TEST_F(HidDevices, ArmsAreListedByTheNamesThatOpenThem) {
+  EXPECT_EQ(rows("hid").at(0).whyNot, "no WoodenHaptics or Polhem arm (USB 16c0:0486 or 1234:0006) is connected");
+  FakeHid closed = teensy("/dev/hidraw8", L"C"), old = teensy("/dev/hidraw9", L"O"), noMaker = teensy();
+  closed.closedBy = EACCES;
+  closed.descriptor = vendorPage(8);
+  old.descriptor = vendorPage(13);
+  noMaker.maker.clear();
+  test::resetFakeHids({noMaker, mbed(), closed, old, spaceMouse()});
+  const auto found = rows("hid");
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].name, "hid:A1");
+  EXPECT_EQ(found[0].description, "Arm");
+  EXPECT_EQ(found[0].maxForce, 5);
+  EXPECT_TRUE(found[0].present);
+  EXPECT_EQ(found[1].name, "hid:C");
+  EXPECT_FALSE(found[1].present);
+  EXPECT_EQ(found[1].description, "KTH Arm");
+  EXPECT_NE(found[1].whyNot.find("Permission denied"), std::string::npos) << "before its firmware: " << found[1].whyNot;
+  EXPECT_FALSE(found[2].present);
+  EXPECT_NE(found[2].whyNot.find("reports of 13 bytes, and 14 are needed"), std::string::npos) << found[2].whyNot;
+  EXPECT_EQ(found[3].name, "hid:/dev/hidraw4") << "the older ones behind";
+  EXPECT_EQ(found[3].description, findDriver("hid")->description) << "one that has no title";
+  EXPECT_TRUE(found[3].present) << "14 bytes are enough";
+  for (const FakeHid& hid : fakeHids().list) EXPECT_EQ(hid.opened, 0) << "nothing is opened for it";
+}
+
+TEST_F(HidDevices, AnArmWhoseDescriptorIsNotKnownIsLeftToItsFirstReports) {
+  FakeHid silent = teensy(), broken = teensy("/dev/hidraw8", L"B");
+  silent.descriptor.clear();
+  broken.descriptor = {0x05};
+  test::resetFakeHids({silent, broken});
+  for (const FoundDevice& row : rows("hid")) EXPECT_TRUE(row.present) << row.whyNot;
+}
+
+TEST_F(HidDevices, AnArmIsChosenBySerialNumberOrPathOrTheFirst) {
+  EXPECT_EQ(refusalOf("hid"), "device hid: no WoodenHaptics or Polhem arm (USB 16c0:0486 or 1234:0006) is connected");
+  test::resetFakeHids({teensy("/dev/hidraw3", L"A1"), teensy("/dev/hidraw4", L"A2")});
+  EXPECT_EQ(make("hid")->info().name, "woodenhaptics_v2015 A1");
+  EXPECT_EQ(make("hid:A2")->info().name, "woodenhaptics_v2015 A2");
+  EXPECT_EQ(make("hid:/dev/hidraw4,model=polhem_v1")->info().name, "polhem_v1 A2");
+  EXPECT_EQ(refusalOf("hid:A3"), "device hid:A3: not connected; there is: A1, A2");
+  EXPECT_NE(refusalOf("hid,model=omni").find("woodenhaptics_v2015, woodenhaptics_v2019"), std::string::npos);
+  EXPECT_NE(refusalOf("hid,calibrate=now").find("no, start"), std::string::npos);
+  EXPECT_THROW(make("hid,colour=red"), FaultError);
+  fakeHids().list[0].descriptor = vendorPage(8);
+  EXPECT_NE(refusalOf("hid").find("device hid: its firmware is too old: it sends reports of 8 bytes"), std::string::npos);
+}
+
+// A force to the right at the angles of no counts: what the motors are told is held to the largest current, 2 A unless it is told.
+TEST_F(HidDevices, AnArmsCurrentIsHeldToTwoAmperesUnlessItIsTold) {
+  test::resetFakeHids({teensy()});
+  const auto most = [&](const std::string& spec) {
+    int largest = 0;
+    const auto device = make(spec);
+    until([&] {
+      device->write({1000, 1000, 1000});
+      const auto all = written();
+      if (all.size() < 20) return false;
+      for (const std::size_t at : {1u, 3u, 5u})
+        largest = std::max(largest, std::abs(static_cast<int>(static_cast<std::int16_t>(all.back()[at] | all.back()[at + 1] << 8))));
+      return largest > 0;
+    });
+    return largest;
+  };
+  EXPECT_EQ(most("hid"), 2000);
+  fakeHids().list[0].written.clear();
+  EXPECT_EQ(most("hid,max-current=0.5"), 500);
+}
+
+TEST_F(HidDevices, AnArmIsCalibratedAtItsStartWhereItIsAskedFor) {
+  for (const bool asked : {false, true}) {
+    test::resetFakeHids({teensy()});
+    make(asked ? "hid,calibrate=start" : "hid");
+    const Bytes first = written().at(0);
+    ASSERT_EQ(first.size(), 65u);
+    EXPECT_EQ(first[7], asked ? 1 : 0);
+    EXPECT_EQ(first[13] | first[14] << 8, asked ? 6000 : 0);
+  }
+}
+
+TEST_F(HidDevices, AnOlderArmHasReportsOfFourteenBytes) {
+  test::resetFakeHids({mbed()});
+  const auto device = make("hid");
+  EXPECT_TRUE(until([&] { return device->read().reports > 3; }));
+  EXPECT_EQ(written().at(0).size(), 15u);
+}
+
+TEST_F(HidDevices, AnArmThatComesBackIsTakenUpAgainByItsName) {
+  test::resetFakeHids({teensy()});
+  const auto device = make("hid:A1");
+  ASSERT_TRUE(until([&] { return device->read().reports > 3; }));
+  const auto setGone = [](bool gone) {
+    const std::lock_guard lock(fakeHids().mutex);
+    fakeHids().list[0].gone = gone;
+  };
+  setGone(true);
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  setGone(false);
+  EXPECT_TRUE(until([&] { return device->read().valid; }));
+  EXPECT_EQ(fakeHids().list[0].opened, 2);
+}
+
+TEST_F(HidDevices, ASpaceMouseIsKnownByItsVendorAndTheOlderOnesByTheirProduct) {
+  EXPECT_EQ(rows("spacemouse").at(0).whyNot, "no 3Dconnexion SpaceMouse (USB 256f, 046d:c6xx) is connected");
+  EXPECT_FALSE(rows("spacemouse").at(0).present);
+  const auto isOne = [&](std::uint16_t vendor, std::uint16_t product) {
+    test::resetFakeHids({spaceMouse(vendor, product)});
+    return rows("spacemouse").at(0).present;
+  };
+  EXPECT_TRUE(isOne(0x256F, 1));
+  for (const int product : {0xC603, 0xC605, 0xC606, 0xC621, 0xC623, 0xC625, 0xC626, 0xC627, 0xC628, 0xC629, 0xC62B})
+    EXPECT_TRUE(isOne(0x046D, static_cast<std::uint16_t>(product))) << product;
+  EXPECT_FALSE(isOne(0x046D, 0xC604));
+  EXPECT_FALSE(isOne(0x046E, 0xC603));
+  EXPECT_FALSE(isOne(0x256E, 0xC635));
+  test::resetFakeHids({spaceMouse()});
+  const FoundDevice row = rows("spacemouse").at(0);
+  EXPECT_EQ(row.name, "spacemouse:/dev/hidraw5");
+  EXPECT_EQ(row.description, "SpaceMouse Compact");
+  EXPECT_EQ(row.degreesOfFreedom, 6);
+  EXPECT_EQ(row.rate, 125);
+  EXPECT_EQ(row.maxForce, 0);
+  fakeHids().list[0].closedBy = EACCES;
+  EXPECT_FALSE(rows("spacemouse").at(0).present);
+}
+
+TEST_F(HidDevices, ASpaceMousesPushIsTheHandsSpeed) {
+  EXPECT_EQ(refusalOf("spacemouse:X"), "device spacemouse:X: no such 3Dconnexion SpaceMouse is connected");
+  FakeHid half = spaceMouse();
+  half.steady = {1, 0xAF, 0, 0, 0, 0, 0};  // half a push
+  test::resetFakeHids({half});
+  const auto speed = [&](const std::string& spec) {
+    const auto hand = make(spec);
+    double x = 0;
+    until([&] { return (x = hand->read().velocity.x) > 0; });
+    return x;
+  };
+  EXPECT_NEAR(speed("spacemouse"), 0.5 * (0.5 - 0.05) / 0.95, 1e-12);
+  EXPECT_NEAR(speed("spacemouse:/dev/hidraw5,gain=2,dead-zone=0.2"), 2 * (0.5 - 0.2) / 0.8, 1e-12);
+  const haptics::DeviceInfo info = make("spacemouse")->info();
+  EXPECT_EQ(info.name, "SpaceMouse Compact");
+  EXPECT_EQ(info.version, "HID");
+  EXPECT_EQ(info.rate, 125);
+  fakeHids().list[0].title.clear();
+  EXPECT_EQ(make("spacemouse")->info().name, "SpaceMouse");
+  for (const char* good : {"gain=0.01", "gain=5", "dead-zone=0", "dead-zone=0.5"})
+    EXPECT_EQ(refusalOf(std::string("spacemouse,") + good), "made");
+  for (const char* bad : {"gain=0.0099", "gain=5.1", "dead-zone=-0.1", "dead-zone=0.51", "travel=1"})
+    EXPECT_THROW(make(std::string("spacemouse,") + bad), FaultError) << bad;
+}
+
+TEST_F(HidDevices, AnUnpluggedSpaceMouseIsLostAndComesBackWithoutItsPush) {
+  FakeHid mouse = spaceMouse();
+  mouse.steady.clear();
+  mouse.reports = {{1, 0x5E, 0x01, 0, 0, 0, 0}};
+  test::resetFakeHids({mouse});
+  const auto hand = make("spacemouse");
+  ASSERT_TRUE(until([&] { return hand->read().velocity.x > 0; }));
+  const auto change = [](bool gone, const std::deque<Bytes>& reports) {
+    const std::lock_guard lock(fakeHids().mutex);
+    fakeHids().list[0].gone = gone;
+    fakeHids().list[0].reports = reports;
+  };
+  change(true, {});
+  ASSERT_TRUE(until([&] { return !hand->read().valid; }));
+  EXPECT_EQ(hand->health(), haptics::DeviceHealth::Lost);
+  change(false, {{3, 1}});  // a button, no push
+  EXPECT_TRUE(until([&] { return hand->read().valid; }));
+  EXPECT_TRUE(until([&] { return hand->read().buttons == 1; }));
+  EXPECT_EQ(hand->read().velocity.x, 0);
+}
+
+// All that waits is taken at once, and only the first is waited for.
+TEST_F(HidDevices, ASpaceMousesNewestPushCounts) {
+  FakeHid mouse = spaceMouse();
+  mouse.steady.clear();
+  for (int i = 0; i < 200; ++i) mouse.reports.push_back({1, static_cast<std::uint8_t>(i), 0, 0, 0, 0, 0});
+  test::resetFakeHids({mouse});
+  const auto hand = make("spacemouse,dead-zone=0,gain=1");
+  double first = 0;
+  ASSERT_TRUE(until([&] { return (first = hand->read().velocity.x) > 0; }));
+  EXPECT_NEAR(first, 199 / 350.0, 1e-12);
+  const std::lock_guard lock(fakeHids().mutex);
+  const std::vector<int>& waits = fakeHids().list[0].waits;
+  ASSERT_GT(waits.size(), 200u);
+  EXPECT_EQ(waits[0], 50);
+  EXPECT_EQ(std::count(waits.begin() + 1, waits.begin() + 201, 0), 200);
+}
+
+TEST_F(HidDevices, SticksAreListedByTheirDescriptorOrTheirName) {
+  EXPECT_EQ(rows("stick").at(0).whyNot, "no force-feedback joystick or wheel (HID PID, Logitech G940, G25, G27, G29, DFGT) is connected");
+  FakeHid noForce = plainAxis(0x045E, 0x0001), noAxis = mbed(), twice = joystick();
+  test::resetFakeHids({noForce, noAxis, twice, twice});
+  const auto found = rows("stick");
+  ASSERT_EQ(found.size(), 1u) << "each interface once, and only what can be felt";
+  EXPECT_EQ(found[0].name, "stick:FFB2");
+  EXPECT_EQ(found[0].description, "Sidewinder (its force needs full-force=N, measured)");
+  EXPECT_EQ(found[0].degreesOfFreedom, 2);
+  EXPECT_TRUE(found[0].present);
+  fakeHids().list[2].closedBy = fakeHids().list[3].closedBy = EACCES;
+  EXPECT_FALSE(rows("stick").at(0).present);
+  EXPECT_NE(rows("stick").at(0).whyNot.find("Permission denied"), std::string::npos);
+  const auto axes = [&](std::uint16_t vendor, std::uint16_t product) {
+    test::resetFakeHids({plainAxis(vendor, product)});
+    return rows("stick").at(0).degreesOfFreedom.value_or(0);
+  };
+  EXPECT_EQ(axes(0x046D, 0xC287), 2) << "G940";
+  for (const int wheel : {0xC24F, 0xC294, 0xC298, 0xC299, 0xC29A, 0xC29B})
+    EXPECT_EQ(axes(0x046D, static_cast<std::uint16_t>(wheel)), 1) << wheel;
+  EXPECT_EQ(axes(0x046D, 0xC29C), 0);
+  EXPECT_EQ(axes(0x046E, 0xC29B), 0);
+  EXPECT_EQ(axes(0x046E, 0xC287), 0);
+}
+
+TEST_F(HidDevices, AStickGivesItsPlaceByItsTravelAndItsForceByWhatWasMeasured) {
+  test::resetFakeHids({plainAxis(0x046D, 0xC29B)});
+  const auto told = [&](const std::string& options) {
+    const auto device = make("stick:W" + options);
+    haptics::DeviceSample sample;
+    until([&] { return (sample = device->read()).position.x > 0; });
+    int level = 0;
+    if (device->info().rendersForce)
+      until([&] {
+        device->write({1, 0, 0});
+        const auto all = written();
+        return !all.empty() && (level = all.back()[3] - 0x80) != 0;
+      });
+    return std::pair{sample.position.x, level};
+  };
+  const auto usual = told("");
+  EXPECT_NEAR(usual.first, 0.05, 1e-15);
+  EXPECT_EQ(usual.second, 0) << "no force that was not measured";
+  EXPECT_TRUE(written().empty());
+  EXPECT_EQ(told(",full-force=2,travel=0.5"), (std::pair{0.5, 64})) << "half of 127, rounded";
+  fakeHids().list[0].written.clear();
+  EXPECT_EQ(told(",full-force=-4").second, -32) << "the other way round";
+  const haptics::DeviceInfo info = make("stick,full-force=-4")->info();
+  EXPECT_EQ(info.maxForce, 4);
+  EXPECT_EQ(info.name, "Wheel");
+  fakeHids().list[0].title.clear();
+  EXPECT_EQ(make("stick:/dev/hidraw7")->info().name, "force-feedback stick");
+}
+
+TEST_F(HidDevices, AStickIsChosenBySerialNumberOrPathAndItsOptionsAreBounded) {
+  FakeHid other = joystick();
+  other.path = "/dev/hidraw9";
+  other.serial = L"SECOND";
+  other.title = L"Other";
+  test::resetFakeHids({joystick(), other});
+  EXPECT_EQ(make("stick")->info().name, "Sidewinder");
+  EXPECT_EQ(make("stick:SECOND")->info().name, "Other");
+  EXPECT_EQ(make("stick:/dev/hidraw9")->info().name, "Other");
+  EXPECT_EQ(refusalOf("stick:third"),
+            "device stick:third: no force-feedback joystick or wheel (HID PID, Logitech G940, G25, G27, G29, DFGT) is connected");
+  for (const char* good : {"travel=0.005", "travel=1", "full-force=50", "full-force=-50"})
+    EXPECT_EQ(refusalOf(std::string("stick,") + good), "made");
+  for (const char* bad : {"travel=0.0049", "travel=1.1", "full-force=51", "full-force=-51", "gain=1"})
+    EXPECT_THROW(make(std::string("stick,") + bad), FaultError) << bad;
+}
+
+TEST_F(HidDevices, AStickThatIsPluggedInElsewhereIsFoundAgainByItsSerialNumber) {
+  FakeHid other = joystick();
+  other.path = "/dev/hidraw2";
+  other.serial = L"OTHER";
+  test::resetFakeHids({joystick(), other});
+  const auto device = make("stick:FFB2");
+  ASSERT_TRUE(until([&] { return device->read().reports > 3; }));
+  {
+    const std::lock_guard lock(fakeHids().mutex);
+    fakeHids().list[0].gone = true;
+  }
+  ASSERT_TRUE(until([&] { return !device->read().valid; }));
+  {
+    const std::lock_guard lock(fakeHids().mutex);
+    FakeHid moved = joystick();
+    moved.path = "/dev/hidraw8";
+    fakeHids().list.push_back(moved);
+  }
+  EXPECT_TRUE(until([&] { return device->read().valid; }));
+  EXPECT_EQ(fakeHids().list[1].opened, 0) << "not the other one";
+  EXPECT_EQ(fakeHids().list[2].opened, 1);
+}
+
+TEST_F(HidDevices, WhatIsPluggedInIsFoundAsFarAsItIsPresent) {
+  FakeHid closed = teensy("/dev/hidraw9", L"C");
+  closed.closedBy = EACCES;
+  test::resetFakeHids({teensy(), closed, spaceMouse(), joystick()});
+  std::vector<std::string> names;
+  for (const FoundDevice& device : findPlugged()) names.push_back(device.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"hid:A1", "spacemouse:/dev/hidraw5", "stick:FFB2"}));
+}
+
+}  // namespace
+}  // namespace reachlab::devices
