@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -9,7 +10,9 @@
 
 #include <unistd.h>
 
+#include "base/error.h"
 #include "base/fault.h"
+#include "devices/kept_mapping.h"
 #include "devices/make_device.h"
 #include "devices/mapping/guarded_device.h"
 
@@ -29,8 +32,25 @@ class Recorded final : public haptics::HapticDevice {
   }
   haptics::DeviceSample read() noexcept override { return sample; }
   void write(const Vec3& force) noexcept override { told = force; }
+  void prepareTrial(int index) override { calls += "prepare " + std::to_string(index) + "; "; }
+  void cue(haptics::Cue cue) noexcept override { calls += cue == haptics::Cue::Go ? "go; " : "place; "; }
+  void see(std::span<const dynamics::MassState> masses) noexcept override { calls += "see " + std::to_string(masses.size()) + "; "; }
+  haptics::DeviceHealth health() const noexcept override { return haptics::DeviceHealth::Warm; }
+  std::string healthText() const override { return "warm"; }
+  std::string calibrationHint() const override { return "hold it"; }
+  void calibrate() override { calls += "calibrate; "; }
+  bool stopForce() noexcept override {
+    calls += "stop; ";
+    return true;
+  }
+  void startClock(ClockTick tick, void* context) override {
+    calls += "clock; ";
+    tick(context);
+  }
+  void stopClock() noexcept override { calls += "no clock; "; }
   haptics::DeviceSample sample;
   Vec3 told;
+  std::string calls;
 };
 
 struct Guarded {
@@ -42,6 +62,29 @@ struct Guarded {
   Recorded* inner;
   std::unique_ptr<haptics::HapticDevice> device;
 };
+
+TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
+  HandOptions options;
+  options.speedLimit = 1;
+  Guarded guarded(options);
+  haptics::HapticDevice& device = *guarded.device;
+  device.prepareTrial(7);
+  device.cue(haptics::Cue::Go);
+  const std::array<dynamics::MassState, 3> masses{};
+  device.see(masses);
+  device.calibrate();
+  EXPECT_TRUE(device.stopForce());
+  bool ticked = false;
+  device.startClock([](void* flag) noexcept { *static_cast<bool*>(flag) = true; }, &ticked);
+  device.stopClock();
+  EXPECT_TRUE(ticked);
+  EXPECT_EQ(guarded.inner->calls, "prepare 7; go; see 3; calibrate; stop; clock; no clock; ");
+  EXPECT_EQ(device.health(), haptics::DeviceHealth::Warm);
+  EXPECT_EQ(device.healthText(), "warm");
+  EXPECT_EQ(device.calibrationHint(), "hold it");
+  EXPECT_EQ(device.info().speedLimit, 1);
+  EXPECT_EQ(device.info().mapping, "");
+}
 
 HandOptions mapped(const Mapping& mapping) {
   HandOptions options;
@@ -102,6 +145,107 @@ TEST(Mapping, MirrorsForTheLeftHandThenTurnsThenScalesThenShifts) {
   EXPECT_FALSE(guarded.device->info().mapping.empty());
 }
 
+// Turned by R M as any vector is: what a handle's own axis points to in the world. Mirrored: turned the other way about the mirrored axis.
+TEST(Mapping, AHandlesAxesAreTurnedAsItsPlaceIs) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto turn = [](const std::array<double, 4>& q, const Vec3& v) {
+    const Vec3 n{q[1], q[2], q[3]};
+    return v + 2 * q[0] * cross(n, v) + 2 * cross(n, cross(n, v));
+  };
+  for (int i = 0; i < 200; ++i) {
+    const Mapping mapping{1.5, {}, {2 * any(random), 2 * any(random), 2 * any(random)}, i % 2 == 1};
+    Guarded guarded(mapped(mapping));
+    std::array<double, 4> q{any(random), any(random), any(random), any(random)};
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (double& part : q) part /= length;
+    guarded.inner->sample.hasOrientation = true;
+    guarded.inner->sample.orientation = q;
+    const Vec3 mirrored{mapping.mirrorX ? -1.0 : 1.0, 1, 1};
+    const auto mirror = [&](const Vec3& v) { return Vec3{mirrored.x * v.x, v.y, v.z}; };
+    for (const Vec3& own : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      // M q M turns what M took there; then R.
+      guarded.inner->sample.velocity = turn(q, mirror(own));
+      const haptics::DeviceSample sample = guarded.device->read();
+      EXPECT_LT(norm(turn(sample.orientation, own) - sample.velocity / mapping.scale), 1e-13) << i;
+    }
+  }
+}
+
+TEST(Mapping, WithoutOneEverythingIsAsItIs) {
+  HandOptions options;
+  options.stylusMass = 0.5;
+  Guarded guarded(options);
+  guarded.inner->sample.position = {0.1, 0.2, 0.3};
+  guarded.inner->sample.velocity = {1, 2, 3};
+  guarded.inner->sample.orientation = {0.5, 0.5, -0.5, 0.5};
+  guarded.inner->sample.hasOrientation = true;
+  const haptics::DeviceSample sample = guarded.device->read();
+  EXPECT_EQ(sample.position, (Vec3{0.1, 0.2, 0.3}));
+  EXPECT_EQ(sample.velocity, (Vec3{1, 2, 3}));
+  EXPECT_EQ(sample.orientation, (std::array<double, 4>{0.5, 0.5, -0.5, 0.5}));
+  guarded.inner->sample.hasOrientation = false;
+  guarded.inner->sample.orientation = {9, 9, 9, 9};
+  EXPECT_EQ(guarded.device->read().orientation[0], 9) << "what it has not is not turned";
+  guarded.device->write({4, 5, 6});
+  EXPECT_EQ(guarded.inner->told, (Vec3{4, 5, 6}));
+  EXPECT_EQ(guarded.device->info().stylusMass, 0.5);
+  EXPECT_EQ(guarded.device->info().guards.wallRadius, haptics::DeviceInfo{}.guards.wallRadius);
+}
+
+// Twice as large in the world: lengths, steps and speeds as well. The stylus' weight is held along the device's own upwards.
+TEST(Mapping, WhatTheDeviceTellsOfItselfIsOfTheWorld) {
+  HandOptions options = mapped({2, {0.1, 0, 0}, {0, 0, std::numbers::pi / 2}, false});
+  options.wall = 0;
+  options.stylusMass = 0.5;
+  const haptics::DeviceInfo info = Guarded(options).device->info();
+  EXPECT_NEAR(info.resolution, 2e-5, 1e-18);
+  EXPECT_NEAR(info.speedLimit, 2 * haptics::DeviceInfo{}.speedLimit, 1e-15);
+  EXPECT_NEAR(info.guards.wallRadius, 0.2, 1e-15);
+  EXPECT_EQ(info.guards.wallCentre, (Vec3{0.1, 0, 0}));
+  EXPECT_LT(norm(info.guards.compensation - Vec3{-0.5 * 9.80665, 0, 0}), 1e-14);
+  options.wall = 0.07;
+  EXPECT_EQ(Guarded(options).device->info().guards.wallRadius, 0.07);
+}
+
+TEST(Mapping, IsWrittenInDegreesAndReadWithEveryKeyLeftOut) {
+  EXPECT_EQ(toJson({1.5, {0.1, -0.2, 0.3}, {std::numbers::pi, 0, -std::numbers::pi / 2}, true}),
+            R"({"scale":1.5,"offset_m":[0.1,-0.2,0.3],"rotation_deg":[180.0,0.0,-90.0],"mirror_x":true})");
+  const Mapping none = mappingFromJson("{}", "here");
+  EXPECT_EQ(none.scale, 1);
+  EXPECT_EQ(none.offset, Vec3{});
+  EXPECT_EQ(none.rotation, Vec3{});
+  EXPECT_FALSE(none.mirrorX);
+}
+
+TEST(Mapping, ItsNumbersAreBounded) {
+  const auto refusalOf = [](const std::string& text) {
+    try {
+      (void)mappingFromJson(text, "here");
+      return std::string("read");
+    } catch (const FaultError& error) {
+      return std::string(error.what());
+    }
+  };
+  for (const char* good : {"{\"scale\":0.01}", "{\"scale\":100}", "{\"offset_m\":[10,-10,0]}", "{\"rotation_deg\":[360,-360,0]}"})
+    EXPECT_EQ(refusalOf(good), "read") << good;
+  EXPECT_EQ(refusalOf("{\"scale\":0.009}"), "here: scale: is 0.009; allowed: a number from 0.01 to 100");
+  EXPECT_EQ(refusalOf("{\"scale\":100.5}"), "here: scale: is 100.5; allowed: a number from 0.01 to 100");
+  EXPECT_EQ(refusalOf("{\"scale\":\"two\"}"), "here: scale: is string; allowed: a number from 0.01 to 100");
+  EXPECT_EQ(refusalOf("{\"offset_m\":[0,0,10.5]}"), "here: offset_m: is 10.5; allowed: a number from -10 to 10");
+  EXPECT_EQ(refusalOf("{\"offset_m\":[0,-10.5,0]}"), "here: offset_m: is -10.5; allowed: a number from -10 to 10");
+  EXPECT_EQ(refusalOf("{\"rotation_deg\":[361,0,0]}"), "here: rotation_deg: is 361; allowed: a number from -360 to 360");
+  EXPECT_EQ(refusalOf("{\"rotation_deg\":[1,2]}"), "here: rotation_deg: is array; allowed: three numbers");
+  EXPECT_EQ(refusalOf("{\"colour\":1}"), "here: colour: is 1; allowed: scale, offset_m, rotation_deg, mirror_x (true or false)");
+  EXPECT_EQ(refusalOf("["), "here: is no JSON object of a mapping");
+  EXPECT_LT(norm(mappingFromJson("{\"rotation_deg\":[90,-45,180]}", "").rotation - std::numbers::pi * Vec3{0.5, -0.25, 1}), 1e-15);
+}
+
+TEST(Mapping, OneThatCannotBeSavedIsSaid) {
+  EXPECT_THROW(saveMapping({}, "/proc/nowhere/mapping.json"), ResourceError);
+  EXPECT_EQ(mappingFile("/data", "03", "phantom"), "/data/sourcedata/mappings/sub-03_phantom.json");
+}
+
 TEST(Mapping, ATurnedHandleTurnsInTheWorld) {
   Guarded guarded(mapped({1, {}, {0, 0, std::numbers::pi / 2}, false}));
   guarded.inner->sample.hasOrientation = true;  // not turned
@@ -146,6 +290,152 @@ TEST(HandOptions, AreTakenBeforeTheDriversOwn) {
   EXPECT_THROW(makeDevice("virtual:omni,wall=maybe", experiment, 1), FaultError);
   EXPECT_THROW(makeDevice("virtual:omni,offset=1/2", experiment, 1), FaultError);
   EXPECT_THROW(makeDevice("virtual:omni,colour=red,scale=2", experiment, 1), FaultError);
+}
+
+std::string refusalOf(const std::string& options) {
+  DeviceOptions asked(options, "device x");
+  try {
+    (void)takeHandOptions(asked);
+    asked.done();
+    return "taken";
+  } catch (const FaultError& error) {
+    return error.what();
+  }
+}
+
+HandOptions taken(const std::string& options) {
+  DeviceOptions asked(options, "device x");
+  return takeHandOptions(asked);
+}
+
+TEST(HandOptions, AreBoundedAndNoneIsNone) {
+  EXPECT_FALSE(taken("").any());
+  for (const char* good : {"scale=0.01", "scale=100", "offset=10/-10/0", "rotation=360/0/-360", "mirror=no", "mirror=x", "wall=yes",
+                           "wall=no", "wall=10", "wall=0.001", "speed-limit=0.01", "speed-limit=20", "stylus-mass=0", "stylus-mass=2",
+                           "passivity=observe", "passivity=control", "dead-man-button=1", "dead-man-button=32"})
+    EXPECT_EQ(refusalOf(good), "taken") << good;
+  for (const char* bad :
+       {"scale=0.009",        "scale=101",        "offset=10.1/0/0", "offset=0/0/-10.1", "offset=1/2/3/4",    "offset=1/2/3x",
+        "offset=1/2",         "offset=1",         "offset=/1/2",     "offset=1,2,3",     "rotation=361/0/0",  "rotation=0/-361/0",
+        "mirror=y",           "wall=0",           "wall=-1",         "wall=10.1",        "wall=1x",           "speed-limit=0.009",
+        "speed-limit=21",     "stylus-mass=-0.1", "stylus-mass=2.1", "passivity=yes",    "dead-man-button=0", "dead-man-button=33",
+        "dead-man-button=1.5"})
+    EXPECT_NE(refusalOf(bad), "taken") << bad;
+  EXPECT_NE(refusalOf("offset=1/2").find("offset=1/2; allowed: X/Y/Z, each within 10"), std::string::npos) << refusalOf("offset=1/2");
+  EXPECT_NE(refusalOf("rotation=a/b/c").find("each within 360"), std::string::npos);
+  EXPECT_NE(refusalOf("wall=maybe").find("wall=maybe; allowed: yes, no or a radius up to 10 m"), std::string::npos);
+  EXPECT_NE(refusalOf("dead-man-button=1.5").find("dead-man-button=1.5; allowed: a button's number, 1 to 32"), std::string::npos);
+}
+
+TEST(HandOptions, SayWhatWasAskedFor) {
+  const HandOptions all =
+      taken("scale=2,offset=0.1/-0.2/0.3,rotation=90/0/-180,mirror=x,wall=0.4,speed-limit=2.5,stylus-mass=0.3,dead-man-button=3");
+  EXPECT_TRUE(all.mapped);
+  EXPECT_EQ(all.mapping.scale, 2);
+  EXPECT_EQ(all.mapping.offset, (Vec3{0.1, -0.2, 0.3}));
+  EXPECT_LT(norm(all.mapping.rotation - std::numbers::pi * Vec3{0.5, 0, -1}), 1e-15);
+  EXPECT_TRUE(all.mapping.mirrorX);
+  EXPECT_EQ(all.wall, 0.4);
+  EXPECT_EQ(all.speedLimit, 2.5);
+  EXPECT_EQ(all.stylusMass, 0.3);
+  EXPECT_FALSE(all.passivityControl);
+  EXPECT_EQ(all.deadManButton, 3);
+  for (const char* one : {"scale=2", "offset=1/0/0", "rotation=1/0/0", "mirror=x"}) EXPECT_TRUE(taken(one).mapped) << one;
+  for (const char* one : {"wall=yes", "speed-limit=1", "stylus-mass=0", "passivity=control", "dead-man-button=1"}) {
+    EXPECT_FALSE(taken(one).mapped) << one;
+    EXPECT_TRUE(taken(one).any()) << one;
+  }
+  EXPECT_EQ(taken("wall=yes").wall, 0) << "the device's own";
+  EXPECT_FALSE(taken("wall=no").wall);
+  EXPECT_EQ(taken("stylus-mass=0").stylusMass, 0);
+  EXPECT_FALSE(taken("mirror=no").any());
+}
+
+TEST(HandOptions, AWallNeedsAWorkspaceOrARadius) {
+  struct Unknown final : haptics::HapticDevice {
+    haptics::DeviceInfo info() const override {
+      haptics::DeviceInfo info;
+      info.name = "unknown";
+      return info;
+    }
+    haptics::DeviceSample read() noexcept override { return {}; }
+    void write(const Vec3&) noexcept override {}
+  };
+  const auto refusal = [](const HandOptions& options) {
+    try {
+      (void)guardDevice(std::make_unique<Unknown>(), options);
+      return std::string("made");
+    } catch (const FaultError& error) {
+      return std::string(error.what());
+    }
+  };
+  HandOptions options;
+  options.wall = 0;
+  EXPECT_NE(refusal(options).find("wall=yes: the workspace of unknown is not known; allowed: wall=RADIUS_M"), std::string::npos);
+  options.wall = 0.1;
+  EXPECT_EQ(refusal(options), "made");
+  options = {};
+  EXPECT_EQ(refusal(options), "made");
+  options.deadManButton = 1;
+  EXPECT_NE(refusal(options).find("dead-man-button: unknown renders no force"), std::string::npos);
+  auto own = std::make_unique<Unknown>();
+  const haptics::HapticDevice* const inner = own.get();
+  EXPECT_EQ(guardDevice(std::move(own), {}).get(), inner) << "nothing asked for: itself";
+}
+
+TEST(DeadManButton, TheLastIsTheThirtySecond) {
+  HandOptions options;
+  options.deadManButton = 32;
+  Guarded guarded(options);
+  guarded.inner->sample.buttons = 0x7FFFFFFF;
+  EXPECT_TRUE(guarded.device->read().released);
+  guarded.inner->sample.buttons = 0x80000000;
+  EXPECT_FALSE(guarded.device->read().released);
+  options.deadManButton = 0;
+  options.speedLimit = 1;
+  Guarded without(options);
+  EXPECT_FALSE(without.device->read().released) << "none is asked for";
+}
+
+/// A dataset of its own.
+class KeptMappings : public ::testing::Test {
+ protected:
+  KeptMappings() : data((std::filesystem::temp_directory_path() / ("reach-kept-" + std::to_string(::getpid()))).string()) {}
+  ~KeptMappings() override { std::filesystem::remove_all(data); }
+  std::string file(const std::string& name) const { return data + "/sourcedata/mappings/sub-07_" + name + ".json"; }
+  std::string with(const std::string& device) {
+    files.clear();
+    return withKeptMappings(device, data, "07", files);
+  }
+  const std::string data;
+  std::vector<std::string> files;
+};
+
+TEST_F(KeptMappings, AreTakenUpWhereNoneIsAskedFor) {
+  EXPECT_EQ(keepMappings("phantom:Left,scale=2", data, "07"), std::vector<std::string>{file("phantom")});
+  EXPECT_EQ(readMapping(file("phantom")).scale, 2);
+  EXPECT_TRUE(keepMappings("phantom:Left", data, "07").empty());
+  EXPECT_TRUE(keepMappings("phantom,wall=0.1", data, "07").empty()) << "a wall is no mapping";
+  const std::string mapping = "mapping=" + file("phantom");
+  EXPECT_EQ(with("phantom"), "phantom," + mapping);
+  EXPECT_EQ(files, std::vector<std::string>{file("phantom")});
+  EXPECT_EQ(with("phantom:"), "phantom:" + mapping);
+  EXPECT_EQ(with("phantom:Right"), "phantom:Right," + mapping) << "of one hand the kind alone counts";
+  EXPECT_EQ(with("phantom,wall=0.2"), "phantom,wall=0.2," + mapping);
+  EXPECT_EQ(with("phantom,scale=3"), "phantom,scale=3") << "what is asked for goes first";
+  EXPECT_TRUE(files.empty());
+  EXPECT_EQ(with("virtual:omni"), "virtual:omni") << "none is kept of it";
+  saveMapping({}, file("replay"));
+  EXPECT_EQ(with("replay:x"), "replay:x") << "a recording has no mapping";
+}
+
+TEST_F(KeptMappings, OfSeveralHandsEachHasItsOwn) {
+  const auto kept = keepMappings("phantom:Le-ft!,scale=2 + phantom:Right,mirror=x + hid,scale=3", data, "07");
+  EXPECT_EQ(kept, (std::vector<std::string>{file("phantom-Left"), file("phantom-Right"), file("hid")}));
+  EXPECT_TRUE(readMapping(kept[1]).mirrorX);
+  EXPECT_EQ(with("phantom:Right + hid + phantom:Middle"),
+            "phantom:Right,mapping=" + file("phantom-Right") + " + hid,mapping=" + file("hid") + " + phantom:Middle");
+  EXPECT_EQ(files.size(), 2u);
 }
 
 }  // namespace
