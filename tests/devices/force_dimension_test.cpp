@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -140,6 +143,126 @@ TEST_F(ForceDimension, ClosingLeavesNoForce) {
   EXPECT_EQ(fakeDhd().force[1], 0);
   EXPECT_FALSE(fakeDhd().open);
   EXPECT_FALSE(fakeDhd().forceOn);
+}
+
+TEST_F(ForceDimension, GivesItsOwnVelocityWhereItIsAskedFor) {
+  fakeDhd().velocity[0] = 0.1, fakeDhd().velocity[1] = 0.2, fakeDhd().velocity[2] = 0.3;
+  const haptics::DeviceSample sample = newest(*open("forcedimension:0,velocity=device"));
+  EXPECT_TRUE(sample.hasVelocity);
+  EXPECT_EQ(sample.velocity, (Vec3{0.2, 0.3, 0.1}));
+  EXPECT_EQ(sample.buttons, 1u);
+  EXPECT_FALSE(newest(*open()).hasVelocity);
+  EXPECT_THROW(open("forcedimension,velocity=best"), FaultError);
+}
+
+// Peak force [N] and radius [mm] by the library's numbers of its models, and of any other the least of these.
+TEST_F(ForceDimension, WhatTheLibraryDoesNotTellIsOfItsModel) {
+  const auto infoOf = [](int type, double told) {
+    fakeDhd().type = type;
+    fakeDhd().maxForce = told;
+    return openForceDimension(0, "device x", false)->info();
+  };
+  for (const auto& [type, force, millimetres] : {std::tuple{63, 20, 150},
+                                                 {33, 12, 75},
+                                                 {34, 12, 75},
+                                                 {36, 12, 75},
+                                                 {35, 12, 75},
+                                                 {37, 12, 75},
+                                                 {104, 12, 75},
+                                                 {105, 12, 75},
+                                                 {60, 8, 40},
+                                                 {-1, 8, 40},
+                                                 {38, 8, 40},
+                                                 {106, 8, 40}}) {
+    EXPECT_EQ(infoOf(type, -1).maxForce, force) << type;
+    EXPECT_NEAR(infoOf(type, 0).workspaceRadius, 1e-3 * millimetres, 1e-15) << type;
+  }
+  EXPECT_EQ(infoOf(33, 7.5).maxForce, 7.5);
+  EXPECT_EQ(infoOf(33, std::numeric_limits<double>::quiet_NaN()).maxForce, 12);
+  const haptics::DeviceInfo info = infoOf(33, -1);
+  EXPECT_TRUE(info.rendersForce);
+  EXPECT_EQ(info.rate, 2000);
+  EXPECT_EQ(openForceDimension(0, "device x", false)->period(), 500'000);
+  EXPECT_TRUE(info.version.starts_with("DHD, libd")) << info.version;
+  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
+}
+
+struct NoForce final : ForceSource {
+  Vec3 newest() noexcept override { return {1, 2, 3}; }
+  std::int64_t now() const noexcept override { return 0; }
+};
+
+TEST_F(ForceDimension, TwentyErrorsInARowAreALossAndOneThatSaysItIsGoneIsAtOnce) {
+  NoForce force;
+  haptics::DeviceSample sample;
+  for (const auto& [error, calls] : {std::pair{2, 20}, {7, 20}, {12, 20}, {5, 1}, {6, 1}}) {
+    test::resetFakeDhd();
+    const auto device = openForceDimension(0, "device x", false);
+    for (int i = 0; i < 19; ++i) {
+      fakeDhd().error = 2;
+      EXPECT_EQ(device->exchange(force, sample), Exchange::Nothing);
+    }
+    fakeDhd().error = 0;
+    EXPECT_EQ(device->exchange(force, sample), Exchange::Report) << "one that is fine begins the count anew";
+    fakeDhd().error = error;
+    int lost = 1;
+    while (device->exchange(force, sample) != Exchange::Lost && lost < 100) ++lost;
+    EXPECT_EQ(lost, calls) << error;
+    fakeDhd().error = 0;
+    ASSERT_TRUE(device->reopen());
+    fakeDhd().error = 2;
+    for (int i = 0; i < 19; ++i) EXPECT_EQ(device->exchange(force, sample), Exchange::Nothing) << "opened again";
+  }
+}
+
+TEST_F(ForceDimension, ZeroIsToldWhileItIsOpenAndItIsClosedOnce) {
+  NoForce force;
+  haptics::DeviceSample sample;
+  const auto device = openForceDimension(0, "device x", false);
+  device->exchange(force, sample);
+  EXPECT_EQ(fakeDhd().force[0], 3);
+  EXPECT_TRUE(device->tellZero());
+  for (const auto& part : fakeDhd().force) EXPECT_EQ(part, 0);
+  fakeDhd().error = 2;
+  EXPECT_FALSE(device->tellZero());
+  EXPECT_FALSE(device->reopen());
+  EXPECT_TRUE(device->tellZero()) << "it is closed: there is nobody to tell";
+  fakeDhd().error = 0;
+  EXPECT_TRUE(device->reopen());
+  EXPECT_TRUE(fakeDhd().forceOn);
+  device->exchange(force, sample);
+  device->close();
+  EXPECT_FALSE(fakeDhd().forceOn);
+  for (const auto& part : fakeDhd().force) EXPECT_EQ(part, 0);
+}
+
+TEST_F(ForceDimension, AVelocityThatCannotBeReadIsAnError) {
+  NoForce force;
+  haptics::DeviceSample sample;
+  const auto device = openForceDimension(0, "device x", true);
+  fakeDhd().callsUntilFailure = 1;  // the place is read
+  EXPECT_EQ(device->exchange(force, sample), Exchange::Nothing);
+  EXPECT_EQ(fakeDhd().force[0], 3) << "its force is told all the same";
+  EXPECT_EQ(device->exchange(force, sample), Exchange::Report);
+}
+
+TEST_F(ForceDimension, OneThatCannotBeOpenedIsListedByItsNameWithTheLibrarysWords) {
+  test::fakeDhdCount() = 2;
+  fakeDhd(1).error = 2;
+  const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_TRUE(rows[0].present);
+  EXPECT_FALSE(rows[1].present);
+  EXPECT_EQ(rows[1].name, "forcedimension:1");
+  EXPECT_NE(rows[1].whyNot.find("device forcedimension:1: libd"), std::string::npos) << rows[1].whyNot;
+  EXPECT_NE(rows[1].whyNot.find("communication error (DHD error 2)"), std::string::npos) << rows[1].whyNot;
+}
+
+TEST_F(ForceDimension, AnIndexHasOneOrTwoDigits) {
+  EXPECT_THROW(open("forcedimension:12"), ResourceError) << "there is no such device";
+  EXPECT_THROW(open("forcedimension:123"), FaultError);
+  EXPECT_THROW(open("forcedimension:-1"), FaultError);
+  EXPECT_EQ(open("forcedimension")->info().name, "omega.3 4711") << "the first";
 }
 
 class TwoForceDimensions : public ForceDimension {

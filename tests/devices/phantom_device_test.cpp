@@ -2,13 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/os.h"
 #include "devices/registry.h"
+#include "devices/vendor/clock_timing.h"
+#include "devices/vendor/shared_library.h"
 #include "tests/devices/fakes/fake_hd.h"
 
 namespace reachlab::devices {
@@ -360,6 +369,282 @@ TEST_F(Phantom, TheSecondPathSwitchesItsForcesOff) {
   EXPECT_EQ(feltAlongX(), 0);
   test::stepFakeHd();
   EXPECT_EQ(feltAlongX(), 1) << "and a new force switches them on again";
+}
+
+TEST_F(Phantom, GivesButtonsVelocityAndTheHandlesTurn) {
+  PhantomDevice::Options options;
+  options.deviceVelocity = true;
+  PhantomDevice device(options);
+  Ticks ticks{&device, 0, {}, {}};
+  device.startClock(tick, &ticks);
+  auto& one = fakeHd().devices[""];
+  one.buttons = 5;
+  one.velocity[0] = 100, one.velocity[1] = -200, one.velocity[2] = 300;
+  one.position[1] = 7;
+  // A turn by 2 rad about (0.6, 0, 0.8), column by column as OpenGL keeps it.
+  const double c = std::cos(2.0), s = std::sin(2.0), n[3] = {0.6, 0, 0.8};
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) {
+      const double crossed[3][3] = {{0, -n[2], n[1]}, {n[2], 0, -n[0]}, {-n[1], n[0], 0}};
+      one.transform[4 * column + row] = (row == column ? c : 0) + s * crossed[row][column] + (1 - c) * n[row] * n[column];
+    }
+  test::stepFakeHd();
+  EXPECT_EQ(ticks.sample.buttons, 5u);
+  EXPECT_TRUE(ticks.sample.hasVelocity);
+  EXPECT_LT(norm(ticks.sample.velocity - Vec3{0.1, -0.2, 0.3}), 1e-15);
+  EXPECT_NEAR(ticks.sample.position.y, 0.007, 1e-15);
+  EXPECT_EQ(ticks.sample.reports, 1u);
+  const double expected[] = {std::cos(1.0), 0.6 * std::sin(1.0), 0, 0.8 * std::sin(1.0)};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(ticks.sample.orientation[i], expected[i], 1e-14) << i;
+  device.stopClock();
+  test::resetFakeHd();
+  PhantomDevice plain({});
+  Ticks others{&plain, 0, {}, {}};
+  plain.startClock(tick, &others);
+  test::stepFakeHd();
+  EXPECT_FALSE(others.sample.hasVelocity) << "unless it is asked for";
+}
+
+TEST_F(Phantom, IsNamedByItsModelAndSerialNumberAsFarAsItTellsThem) {
+  EXPECT_EQ(PhantomDevice({}).info().name, "PHANToM Omni SN7");
+  fakeHd().failures["hdGetString"] = 0x0100;
+  EXPECT_EQ(PhantomDevice({}).info().name, "PHANToM");
+  const haptics::DeviceInfo info = PhantomDevice({}).info();
+  EXPECT_TRUE(info.version.starts_with("OpenHaptics, libHD.so")) << info.version;
+  EXPECT_EQ(info.secondPath, "hdDisable(HD_FORCE_OUTPUT) from the watchdog's thread");
+  EXPECT_EQ(PhantomDevice({}).calibrationHint(), "put the stylus into the inkwell, or hold the arm in its neutral place");
+}
+
+TEST_F(Phantom, AContinuousForceThatIsNoneIsUnknown) {
+  for (const double told : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.0}) {
+    fakeHd().continuousForce = told;
+    EXPECT_EQ(PhantomDevice({}).info().maxContinuousForce, 0);
+  }
+  for (const double told : {-3.3, std::numeric_limits<double>::infinity()}) {
+    fakeHd().maxForce = told;
+    EXPECT_NE(refusal().find("it does not tell its largest force (HD_NOMINAL_MAX_FORCE)"), std::string::npos);
+  }
+}
+
+TEST_F(Phantom, IsCalibratedByTheStyleThatNeedsTheFewestHands) {
+  for (const auto& [styles, used] : {std::pair{7u, 2u}, {2u, 2u}, {5u, 4u}, {4u, 4u}, {1u, 1u}, {0u, 1u}}) {
+    test::resetFakeHd();
+    fakeHd().calibration = 0x5001;
+    fakeHd().styles = styles;
+    EXPECT_EQ(refusal(), "");
+    EXPECT_EQ(fakeHd().updatedBy, used) << styles;
+  }
+  test::resetFakeHd();
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(fakeHd().updatedBy, 0u) << "nothing is to be done";
+  PhantomDevice device({});
+  fakeHd().calibration = 0x5001;
+  EXPECT_NO_THROW(device.calibrate());
+  EXPECT_EQ(fakeHd().calibration, 0x5000u);
+  fakeHd().calibration = 0x5002;
+  EXPECT_THROW(device.calibrate(), ResourceError);
+}
+
+TEST_F(Phantom, AForceThatTheTickDoesNotRenewIsNone) {
+  PhantomDevice device({});
+  struct Once {
+    PhantomDevice* device;
+    int count = 0;
+  } once{&device};
+  device.startClock(
+      [](void* context) noexcept {
+        auto& self = *static_cast<Once*>(context);
+        if (self.count++ == 0) self.device->write({1, 0, 0});
+      },
+      &once);
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 1);
+  os::sleepUntil(os::now() + 21'000'000);
+  test::stepFakeHd();
+  EXPECT_EQ(feltAlongX(), 0);
+}
+
+// The frame of the error is not counted, and what comes after a thousand good ones is another.
+TEST_F(Phantom, ASecondIsAThousandFrames) {
+  for (const std::uint32_t error : {0x0200u, 0x0203u}) {
+    test::resetFakeHd();
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {1, 0, 0}, {}};
+    device.startClock(tick, &ticks);
+    fakeHd().failures["hdEndFrame"] = error;
+    test::stepFakeHd();
+    int frames = 0;
+    while (device.health() != haptics::DeviceHealth::Ready && frames < 5000) test::stepFakeHd(), ++frames;
+    EXPECT_EQ(frames, 1001) << std::hex << error;
+  }
+}
+
+TEST_F(Phantom, WhatIsWrongIsToldInTheLibrarysWords) {
+  PhantomDevice device({});
+  Ticks ticks{&device, 0, {}, {}};
+  device.startClock(tick, &ticks);
+  test::stepFakeHd();
+  EXPECT_EQ(device.healthText(), "");
+  for (const auto& [code, health] : {std::pair{0x0200u, haptics::DeviceHealth::Warm},
+                                     {0x0203u, haptics::DeviceHealth::Failed},
+                                     {0x0200u, haptics::DeviceHealth::Failed},
+                                     {0x0302u, haptics::DeviceHealth::Lost},
+                                     {0x0203u, haptics::DeviceHealth::Lost}}) {
+    fakeHd().failures["hdEndFrame"] = code;
+    test::stepFakeHd();
+    EXPECT_EQ(device.health(), health) << std::hex << code;
+  }
+  EXPECT_EQ(device.healthText(), "HD_EXCEEDED_MAX_VELOCITY (0x0203)");
+}
+
+TEST_F(Phantom, EveryFaultOfTheDeviceIsALossAndNoOtherIs) {
+  for (const std::uint32_t error : {0x0300u, 0x0301u, 0x0302u, 0x0303u, 0x0304u, 0x02FFu, 0x0305u}) {
+    test::resetFakeHd();
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {}, {}};
+    device.startClock(tick, &ticks);
+    fakeHd().failures["hdEndFrame"] = error;
+    test::stepFakeHd();
+    EXPECT_EQ(device.health() == haptics::DeviceHealth::Lost, error >= 0x0300 && error <= 0x0304) << std::hex << error;
+  }
+}
+
+TEST_F(Phantom, AnArgumentThatItDoesNotKnowIsTheTurnOfItsHandleOnce) {
+  for (const std::uint32_t error : {0x0100u, 0x0104u}) {
+    test::resetFakeHd();
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {}, {}};
+    device.startClock(tick, &ticks);
+    fakeHd().errors.push_back(error);
+    test::stepFakeHd();
+    EXPECT_EQ(device.health(), haptics::DeviceHealth::Ready) << std::hex << error;
+    fakeHd().errors.push_back(error);
+    test::stepFakeHd();
+    EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << "it is not asked for any more";
+  }
+  PhantomDevice::Options other;
+  fakeHd().devices["Other"];
+  other.name = "Other";
+  PhantomDevice device(other);
+  Ticks ticks{&device, 0, {}, {}};
+  device.startClock(tick, &ticks);
+  fakeHd().errors.push_back({0x0105, test::fakeHdHandle("Other")});
+  test::stepFakeHd();
+  EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << "no error of an argument";
+}
+
+// Warm: held to the continuous force in its own direction, where that is known and the force is larger.
+TEST_F(Phantom, WarmMotorsKeepTheForcesDirection) {
+  for (const double continuous : {1.0, 0.0}) {
+    test::resetFakeHd();
+    fakeHd().continuousForce = continuous;
+    PhantomDevice device({});
+    Ticks ticks{&device, 0, {1.2, 0, -1.6}, {}};
+    device.startClock(tick, &ticks);
+    fakeHd().failures["hdEndFrame"] = 0x0200;
+    test::stepFakeHd();
+    test::stepFakeHd();
+    EXPECT_NEAR(feltAlongX(), continuous > 0 ? 0.6 : 1.2, 1e-12);
+    EXPECT_NEAR(fakeHd().devices[""].force[2], continuous > 0 ? -0.8 : -1.6, 1e-12);
+    ticks.force = {0.3, 0, 0};
+    test::stepFakeHd();
+    EXPECT_NEAR(feltAlongX(), 0.3, 1e-12);
+  }
+}
+
+TEST_F(Phantom, ItsOptionsAreRead) {
+  const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
+  const DeviceDriver& driver = *findDriver("phantom");
+  const auto make = [&](const std::string& argument) { return driver.make({"phantom", argument, experiment, 1}); };
+  EXPECT_TRUE(make("")->info().drivesClock);
+  EXPECT_FALSE(make("clock=computer")->info().drivesClock);
+  EXPECT_THROW(make("clock=mine"), FaultError);
+  EXPECT_THROW(make("velocity=best"), FaultError);
+  EXPECT_THROW(make("dead-man=maybe"), FaultError);
+  EXPECT_THROW(make("gain=1"), FaultError);
+  fakeHd().devices["Left"];
+  const auto sampled = make("Left,clock=computer,velocity=device,dead-man=yes");
+  fakeHd().devices["Left"].switchClosed = false;
+  test::stepFakeHd();
+  EXPECT_TRUE(sampled->read().released);
+  EXPECT_TRUE(sampled->read().hasVelocity);
+  const auto rows = driver.find(driver);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "phantom:Left") << "the one that is in use";
+}
+
+TEST_F(Phantom, NoneThereIsSaidInTheLibrarysWords) {
+  fakeHd().devices.clear();
+  const DeviceDriver& driver = *findDriver("phantom");
+  const auto rows = driver.find(driver);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_FALSE(rows[0].present);
+  EXPECT_NE(rows[0].whyNot.find("HD_DEVICE_FAULT (0x0300); is it connected, switched on"), std::string::npos) << rows[0].whyNot;
+  for (const auto& [code, hint] : {std::pair{0x0302u, "is it connected"}, {0x0303u, "is it connected"}, {0x0600u, "licence manager"}}) {
+    test::resetFakeHd();
+    fakeHd().failures["hdInitDevice"] = code;
+    EXPECT_NE(refusal().find(hint), std::string::npos) << refusal();
+  }
+  test::resetFakeHd();
+  fakeHd().failures["hdInitDevice"] = 0x0304;
+  EXPECT_TRUE(refusal().ends_with("HD_OTHER (0x0304)")) << "no hint where there is none";
+}
+
+// By themselves as the vendor's scheduler runs: the device's own clock first, then the computer's.
+TEST_F(Phantom, BothWaysToServeItAreTimed) {
+  ::setenv("FAKE_HD_ALONE", "1", 1);
+  const auto rows = compareClocks("", 0.2);
+  ::unsetenv("FAKE_HD_ALONE");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].clock, "device");
+  EXPECT_EQ(rows[1].clock, "computer");
+  for (const ClockTiming& row : rows) {
+    EXPECT_GT(row.ticks, 0u);
+    EXPECT_LT(row.ticks, 2000u);
+    EXPECT_GT(row.rate, 0);
+    EXPECT_LE(row.jitterP50, row.jitterP99);
+    EXPECT_LE(row.jitterP99, row.jitterMax * 1.1);
+    EXPECT_GT(row.jitterMax, 0);
+    EXPECT_LT(row.jitterMax, 10) << "seconds";
+    EXPECT_LE(row.ageP50, row.ageP99);
+    EXPECT_GT(row.ageMax, 0);
+    EXPECT_LT(row.ageMax, 10);
+  }
+}
+
+TEST(SharedLibrary, OneThatIsNotThereIsRefusedWithAllNamesAndTheLoadersWords) {
+  try {
+    const SharedLibrary library({"libnowhere.so.7", "libnowhere.so"});
+    FAIL();
+  } catch (const ResourceError& error) {
+    const std::string said = error.what();
+    EXPECT_TRUE(said.starts_with("libnowhere.so.7: ")) << said;
+    EXPECT_NE(said.find("; looked for libnowhere.so.7, libnowhere.so where the loader looks"), std::string::npos) << said;
+  }
+  const SharedLibrary found({"libnowhere.so", "libm.so.6", "libc.so.6"});
+  EXPECT_EQ(found.name(), "libm.so.6") << "the first that there is";
+  EXPECT_NE(found.find("cos"), nullptr);
+  EXPECT_EQ(found.find("no_such_function"), nullptr);
+  void (*function)() = nullptr;
+  try {
+    found.bind(function, "no_such_function");
+    FAIL();
+  } catch (const ResourceError& error) {
+    EXPECT_STREQ(error.what(), "libm.so.6: has no function no_such_function; is it another version?");
+  }
+}
+
+// A file that is there but is no library tells more than one that is not there.
+TEST(SharedLibrary, OneThatCannotBeLoadedIsSaidBeforeOneThatIsNotThere) {
+  const std::string broken = (std::filesystem::temp_directory_path() / ("reach-broken-" + std::to_string(::getpid()) + ".so")).string();
+  std::ofstream(broken) << "no library";
+  try {
+    const SharedLibrary library({"libnowhere.so", broken, "libm.so.6"});
+    ADD_FAILURE();
+  } catch (const ResourceError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with(broken)) << error.what();
+  }
+  std::filesystem::remove(broken);
 }
 
 }  // namespace

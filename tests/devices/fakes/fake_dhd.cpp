@@ -60,6 +60,9 @@ void resetFakeDhd() {
     device.tellsSerial = true;
     device.wrist = false;
     device.wristTurn = 0;
+    for (auto& part : device.velocity) part = 0;
+    device.type = 33;
+    device.maxForce = -1;
     device.positions = device.forces = device.error = device.failOnce = 0;
     device.most = 0;
   }
@@ -114,7 +117,7 @@ int dhdSetForce(double x, double y, double z, char id) {
 }
 int dhdErrorGetLast() { return last; }
 const char* dhdErrorGetLastStr() { return last == 5 ? "no device found" : last == 2 ? "communication error" : "other"; }
-int dhdGetSystemType(char) { return 33; }
+int dhdGetSystemType(char id) { return fakeDhd(id).type; }
 const char* dhdGetSystemName(char) { return "omega.3"; }
 int dhdGetSerialNumber(std::uint16_t* serial, char id) {
   if (!fakeDhd(id).tellsSerial) return -1;
@@ -131,5 +134,11 @@ int dhdGetOrientationFrame(double matrix[3][3], char id) {
     for (int j = 0; j < 3; ++j) matrix[i][j] = turned[i][j];
   return 0;
 }
-double dhdGetMaxForce(char) { return -1; }
+double dhdGetMaxForce(char id) { return fakeDhd(id).maxForce; }
+int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
+  if (answer(id) < 0) return -1;
+  const FakeDhd& device = fakeDhd(id);
+  *x = device.velocity[0], *y = device.velocity[1], *z = device.velocity[2];
+  return 0;
+}
 }

@@ -19,6 +19,9 @@ struct FakeDhd {
   std::atomic<bool> tellsSerial{true};     // false: dhdGetSerialNumber fails
   std::atomic<bool> wrist{false};          // dhdHasWrist
   std::atomic<double> wristTurn{0};        // [rad] of dhdGetOrientationFrame, about the device's z
+  std::atomic<double> velocity[3]{};       // [m/s], the device's axes
+  std::atomic<int> type{33};               // dhdGetSystemType
+  std::atomic<double> maxForce{-1};        // [N] dhdGetMaxForce
 };
 FakeDhd& fakeDhd(int id = 0);  // 0 to 3
 /// How many of them are connected.

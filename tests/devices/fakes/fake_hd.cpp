@@ -213,9 +213,8 @@ void hdGetDoublev(std::uint32_t what, double* values) {
       if (openFrame < 0) breakRule(0x0402);
       std::memcpy(values, device->position, sizeof device->position);
       break;
-    case 0x2052:
-      for (int i = 0; i < 16; ++i) values[i] = i % 5 == 0 ? 1 : 0;
-      break;
+    case 0x2051: std::memcpy(values, device->velocity, sizeof device->velocity); break;
+    case 0x2052: std::memcpy(values, device->transform, sizeof device->transform); break;
     case 0x2551: {
       const double workspace[6] = {-80, -60, -35, 80, 60, 35};
       std::memcpy(values, workspace, sizeof workspace);
@@ -226,7 +225,11 @@ void hdGetDoublev(std::uint32_t what, double* values) {
     default: state.errors.push_back(0x0100);
   }
 }
-void hdGetIntegerv(std::uint32_t, std::int32_t* value) { *value = 0; }
+void hdGetIntegerv(std::uint32_t what, std::int32_t* value) {
+  const std::lock_guard lock(mutex);
+  if (what != 0x2000) return state.errors.push_back(0x0100);
+  if (const FakeHdDevice* device = currentDevice()) *value = device->buttons;
+}
 void hdGetBooleanv(std::uint32_t what, std::uint8_t* value) {
   const std::lock_guard lock(mutex);
   if (what != 0x2001) return state.errors.push_back(0x0100);
@@ -247,8 +250,9 @@ void hdSetDoublev(std::uint32_t what, const double* values) {
 }
 
 std::uint32_t hdCheckCalibration() { return state.calibration; }
-std::uint32_t hdCheckCalibrationStyle() { return 4; }
-void hdUpdateCalibration(std::uint32_t) {
+std::uint32_t hdCheckCalibrationStyle() { return state.styles; }
+void hdUpdateCalibration(std::uint32_t style) {
+  state.updatedBy = style;
   state.calls.push_back("hdUpdateCalibration");
   if (state.calibration == 0x5001) state.calibration = 0x5000;
 }

@@ -9,8 +9,11 @@
 namespace reachlab::test {
 
 struct FakeHdDevice {
-  double position[3] = {0, 0, 0};  // [mm]
-  double force[3] = {0, 0, 0};     // [N] in effect since the last frame's end
+  double position[3] = {0, 0, 0};                                           // [mm]
+  double force[3] = {0, 0, 0};                                              // [N] in effect since the last frame's end
+  double velocity[3] = {0, 0, 0};                                           // [mm/s]
+  double transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // column by column
+  int buttons = 0;
   int frames = 0;
   bool open = false, forceOutput = false, switchClosed = true;
 };
@@ -28,8 +31,8 @@ struct FakeHd {
   std::vector<FakeHdError> errors;                // that wait
   int violations = 0;                             // of the documented rules
   bool schedulerRuns = false;
-  std::uint32_t calibration = 0x5000;
-  double maxForce = 3.3, continuousForce = 0.88;  // [N]
+  std::uint32_t calibration = 0x5000, styles = 4, updatedBy = 0;  // styles that it knows, and the one that it was told
+  double maxForce = 3.3, continuousForce = 0.88;                  // [N]
 };
 FakeHd& fakeHd();
 /// As new: one default device.
