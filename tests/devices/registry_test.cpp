@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <functional>
 #include <set>
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
 #include "devices/options.h"
 #include "tests/devices/fakes/fake_dhd.h"
@@ -63,6 +66,292 @@ TEST(DeviceOptions, TakeWhatIsKnownAndRefuseTheRest) {
     DeviceOptions wrong(bad, "device x");
     EXPECT_THROW(wrong.number("gain", 1, 0, 2), FaultError) << bad;
   }
+}
+
+TEST(DeviceOptions, OnlyTheFirstItemMayBePlain) {
+  DeviceOptions options("a=1,flag", "device x");
+  EXPECT_EQ(options.plain(), "");
+  EXPECT_EQ(options.take("flag"), "") << "a key without a value";
+  EXPECT_EQ(options.take("a"), "1");
+  EXPECT_EQ(options.take("a"), std::nullopt) << "taken";
+  DeviceOptions empty("", "device x");
+  EXPECT_EQ(empty.plain(), "");
+  EXPECT_EQ(empty.rest(), "");
+  EXPECT_NO_THROW(empty.done());
+  DeviceOptions several("S,b=2,c=x=y", "device x");
+  EXPECT_EQ(several.rest(), "b=2,c=x=y");
+}
+
+TEST(DeviceOptions, WhatIsWrongIsSaidWithWhatIsAllowed) {
+  const auto refusalOf = [](const std::function<void()>& work) {
+    try {
+      work();
+      return std::string("taken");
+    } catch (const FaultError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refusalOf([] { DeviceOptions("a=1,b=1,a=2", "device x"); }), "device: device x: a is given twice");
+  DeviceOptions options("gain=2.5,mode=slow,other=1", "device x");
+  EXPECT_EQ(refusalOf([&] { DeviceOptions(options).number("gain", 1, 0, 2); }),
+            "device: device x: gain=2.5; allowed: a number from 0 to 2");
+  EXPECT_EQ(refusalOf([&] { DeviceOptions(options).word("mode", {"a", "b"}); }), "device: device x: mode=slow; allowed: a, b");
+  EXPECT_EQ(refusalOf([&] { options.done(); }), "device: device x: gain is not known; allowed: nothing behind the name");
+  EXPECT_EQ(options.number("gain", 1, 2.5, 2.5), 2.5) << "both bounds are within";
+  EXPECT_EQ(options.word("absent", {"first", "second"}), "first");
+  (void)options.word("mode", {"slow"});
+  EXPECT_EQ(refusalOf([&] { options.done(); }), "device: device x: other is not known; allowed: gain, absent, mode");
+}
+
+TEST(Registry, ARowSaysWhatTheDeviceSays) {
+  DeviceDriver driver{"kind", "usage", "its description", false, nullptr, nullptr};
+  haptics::DeviceInfo info;
+  info.name = "Arm 7";
+  info.maxForce = 4, info.maxContinuousForce = 1.5, info.rendersForce = true, info.degreesOfFreedom = 2, info.rate = 500;
+  const FoundDevice felt = presentDevice(driver, "kind:7", info);
+  EXPECT_EQ(felt.name, "kind:7");
+  EXPECT_EQ(felt.kind, "kind");
+  EXPECT_EQ(felt.description, "Arm 7");
+  EXPECT_TRUE(felt.present);
+  EXPECT_EQ(felt.maxForce, 4);
+  EXPECT_EQ(felt.continuousForce, 1.5);
+  EXPECT_EQ(felt.degreesOfFreedom, 2);
+  EXPECT_EQ(felt.rate, 500);
+  info.maxContinuousForce = 0;
+  EXPECT_FALSE(presentDevice(driver, "kind:7", info).continuousForce) << "unknown";
+  info.rendersForce = false;
+  info.name.clear();
+  EXPECT_EQ(presentDevice(driver, "kind:7", info).maxForce, 0);
+  EXPECT_EQ(presentDevice(driver, "kind:7", info).continuousForce, 0);
+  EXPECT_EQ(presentDevice(driver, "kind:7", info).description, "its description");
+  const FoundDevice absent = absentDevice(driver, "it is out");
+  EXPECT_EQ(absent.name, "kind");
+  EXPECT_EQ(absent.kind, "kind");
+  EXPECT_EQ(absent.description, "its description");
+  EXPECT_FALSE(absent.present);
+  EXPECT_EQ(absent.whyNot, "it is out");
+  EXPECT_FALSE(absent.rate);
+  const FoundDevice always = alwaysThere(driver).at(0);
+  EXPECT_TRUE(always.present);
+  EXPECT_EQ(always.degreesOfFreedom, 3);
+  EXPECT_EQ(always.maxForce, 0);
+  EXPECT_EQ(always.continuousForce, 0);
+  EXPECT_EQ(always.rate, 1000);
+  EXPECT_EQ(findDriver("mouse")->find(*findDriver("mouse")).at(0).rate, 125);
+  EXPECT_TRUE(findDriver("mouse")->inWindowOnly);
+  for (const char* made : {"simulated", "partner", "replay", "virtual"}) EXPECT_TRUE(findDriver(made)->isMade) << made;
+  for (const char* had : {"phantom", "hid", "mouse", "haply"}) EXPECT_FALSE(findDriver(had)->isMade) << had;
+  const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
+  EXPECT_EQ((DeviceRequest{"phantom", "Left", experiment}).words(), "device phantom:Left");
+  EXPECT_EQ((DeviceRequest{"phantom", "", experiment}).words(), "device phantom");
+}
+
+TEST(Registry, AHandBeginsWhereItsTaskDoes) {
+  experiment::Experiment experiment = experiment::readExperiment("free-point");
+  experiment.task->start = {0.01, -0.02, 0.03};
+  EXPECT_EQ(startOf(experiment::CompiledExperiment(experiment)), (Vec3{0.01, -0.02, 0.03}));
+  experiment.task.reset();
+  EXPECT_EQ(startOf(experiment::CompiledExperiment(experiment)), Vec3{});
+}
+
+TEST(Registry, ANameThatIsNearlyOneIsAskedAfter) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  try {
+    makeDevice("phantm:Left", experiment, 1);
+    FAIL();
+  } catch (const FaultError& error) {
+    EXPECT_NE(std::string(error.what()).find("device: is phantm:Left, which is unknown; did you mean phantom?"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(MakeDevice, AResourcesWordsSayWhichDeviceWasAskedFor) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  try {
+    makeDevice("replay:/nowhere", experiment, 1);
+    FAIL();
+  } catch (const ResourceError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("device replay: /nowhere: no such file")) << error.what();
+  }
+}
+
+// One of a kind that is not made by the program may be one device twice; those that are made there are as many of as are asked for.
+TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
+  const experiment::CompiledExperiment both(experiment::readExperiment("chain-two-hands"));
+  const auto refusalOf = [&](const std::string& spec) {
+    try {
+      makeDevice(spec, both, 1);
+      return std::string("made");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refusalOf("hid:A + hid"),
+            "device: is hid:A + hid, which may be one device twice; allowed: each hid by a name of its own, as `reach list "
+            "devices` has them");
+  EXPECT_NE(refusalOf("hid + hid:A").find("twice"), std::string::npos);
+  EXPECT_NE(refusalOf("hid:A + simulated + hid:A").find("twice"), std::string::npos);
+  EXPECT_EQ(refusalOf("hid:A + hid:B").find("twice"), std::string::npos) << "two";
+  EXPECT_EQ(refusalOf("simulated + simulated"), "made");
+  // Two subjects of one seed move each in its own way, and the first as it would alone.
+  const auto placeOf = [](haptics::HapticDevice& device) {
+    device.cue(haptics::Cue::Go);
+    Vec3 place;
+    for (int i = 0; i < 900; ++i) place = device.read().position;
+    return place;
+  };
+  const auto device = makeDevice("simulated + simulated + simulated", both, 5);
+  const auto alone = makeDevice("simulated", both, 5);
+  for (haptics::HapticDevice* one : {device.get(), alone.get()}) one->prepareTrial(0), one->cue(haptics::Cue::Place);
+  ASSERT_EQ(device->otherHands().size(), 2u);
+  Vec3 second, third;
+  device->cue(haptics::Cue::Go);
+  Vec3 first;
+  for (int i = 0; i < 900; ++i) {
+    first = device->read().position;
+    second = device->otherHands()[0]->read().position;
+    third = device->otherHands()[1]->read().position;
+  }
+  EXPECT_EQ(first, placeOf(*alone));
+  EXPECT_FALSE(second == first);
+  EXPECT_FALSE(third == first);
+  EXPECT_FALSE(third == second);
+}
+
+TEST(MakeDevice, AReplayOffersEachOfItsReachesOnceAndAllElseOneTrial) {
+  EXPECT_EQ(trialsOnOffer("simulated"), 1);
+  EXPECT_EQ(trialsOnOffer("replay"), 1);
+  const std::string reaches = "replay:" + experiment::resourceFolder() + "/reaches";
+  EXPECT_EQ(trialsOnOffer(reaches), 19);
+  EXPECT_EQ(trialsOnOffer("simulated + " + reaches), 19) << "the most of the hands";
+  EXPECT_EQ(trialsOnOffer("simulated + mouse"), 1);
+  EXPECT_THROW(trialsOnOffer("replay:/nowhere"), ResourceError);
+}
+
+TEST(MakeDevice, HandOptionsAreOfTheDeviceWithOrWithoutAName) {
+  EXPECT_EQ(handOptionsOf("virtual:omni,scale=2").mapping.scale, 2);
+  EXPECT_EQ(handOptionsOf("hid,scale=3").mapping.scale, 3);
+  EXPECT_FALSE(handOptionsOf("hid").any());
+  EXPECT_FALSE(handOptionsOf("replay:a,scale=2.csv").any()) << "what a file is called is its own business";
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  EXPECT_EQ(makeDevice("simulated,scale=2,noise=0", experiment, 1)->info().name, "simulated") << "the rest is the driver's own";
+  EXPECT_THROW(makeDevice("simulated,scale=2,colour=1", experiment, 1), FaultError);
+}
+
+/// Says what it is asked under a name of its own.
+struct Named final : haptics::HapticDevice {
+  explicit Named(std::string n) : name(std::move(n)) {}
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info;
+    info.name = name;
+    info.virtualHand = isVirtual;
+    info.drivesClock = drives;
+    return info;
+  }
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample;
+    sample.position.x = static_cast<double>(name.size());
+    return sample;
+  }
+  void write(const Vec3& f) noexcept override { force = f; }
+  void prepareTrial(int index) override { prepared = index; }
+  void cue(haptics::Cue) noexcept override { ++cues; }
+  void see(std::span<const dynamics::MassState> masses) noexcept override { seen = masses.size(); }
+  haptics::DeviceHealth health() const noexcept override { return state; }
+  std::string healthText() const override { return said; }
+  std::string calibrationHint() const override { return hint; }
+  void calibrate() override { ++calibrated; }
+  bool stopForce() noexcept override { return ++stopped, stops; }
+  void startClock(ClockTick, void*) override { ++clocks; }
+  void stopClock() noexcept override { --clocks; }
+  std::string name, said, hint;
+  bool isVirtual = true, drives = false, stops = true;
+  haptics::DeviceHealth state = haptics::DeviceHealth::Ready;
+  Vec3 force;
+  int prepared = -1, cues = 0, calibrated = 0, stopped = 0, clocks = 0;
+  std::size_t seen = 0;
+};
+
+TEST(SeveralHands, AreOneDeviceInTheFirstOnesNameAndAllAreAsked) {
+  std::vector<Named*> parts;
+  std::vector<std::unique_ptr<haptics::HapticDevice>> owned;
+  for (const char* name : {"one", "second", "third"}) {
+    auto part = std::make_unique<Named>(name);
+    parts.push_back(part.get());
+    owned.push_back(std::move(part));
+  }
+  const auto device = joinDevices(std::move(owned));
+  EXPECT_EQ(device->info().name, "one");
+  EXPECT_TRUE(device->info().virtualHand);
+  parts[2]->isVirtual = false;
+  EXPECT_FALSE(device->info().virtualHand) << "all must be";
+  device->prepareTrial(3);
+  device->cue(haptics::Cue::Go);
+  const std::array<dynamics::MassState, 2> masses{};
+  device->see(masses);
+  device->calibrate();
+  for (const Named* part : parts) {
+    EXPECT_EQ(part->prepared, 3) << part->name;
+    EXPECT_EQ(part->cues, 1) << part->name;
+    EXPECT_EQ(part->seen, 2u) << part->name;
+    EXPECT_EQ(part->calibrated, 1) << part->name;
+  }
+  EXPECT_EQ(device->read().position.x, 3);
+  device->write({1, 0, 0});
+  EXPECT_EQ(parts[0]->force.x, 1);
+  EXPECT_EQ(parts[1]->force.x, 0) << "each is told for itself";
+  ASSERT_EQ(device->otherHands().size(), 2u);
+  EXPECT_EQ(device->otherHands()[1], parts[2]);
+  device->startClock(nullptr, nullptr);
+  EXPECT_EQ(parts[0]->clocks, 1);
+  EXPECT_EQ(parts[1]->clocks, 0);
+  device->stopClock();
+  EXPECT_EQ(parts[0]->clocks, 0);
+  EXPECT_EQ(device->health(), haptics::DeviceHealth::Ready);
+  parts[1]->state = haptics::DeviceHealth::Lost;
+  parts[2]->state = haptics::DeviceHealth::Warm;
+  EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost) << "the worst of them";
+  EXPECT_EQ(device->healthText(), "");
+  parts[1]->said = "gone", parts[2]->said = "hot", parts[2]->hint = "hold it";
+  EXPECT_EQ(device->healthText(), "second: gone; third: hot");
+  EXPECT_EQ(device->calibrationHint(), "third: hold it");
+  EXPECT_TRUE(device->stopForce());
+  parts[0]->stops = false;
+  EXPECT_FALSE(device->stopForce());
+  for (const Named* part : parts) EXPECT_EQ(part->stopped, 2) << "each is stopped, whatever another says";
+}
+
+TEST(SeveralHands, OnlyTheFirstMayDriveTheClock) {
+  for (const bool first : {true, false}) {
+    std::vector<std::unique_ptr<haptics::HapticDevice>> owned;
+    for (const bool here : {first, !first}) {
+      auto part = std::make_unique<Named>("P");
+      part->drives = here;
+      owned.push_back(std::move(part));
+    }
+    if (first) {
+      EXPECT_TRUE(joinDevices(std::move(owned))->info().drivesClock);
+      continue;
+    }
+    try {
+      joinDevices(std::move(owned));
+      ADD_FAILURE();
+    } catch (const FaultError& error) {
+      EXPECT_STREQ(error.what(),
+                   "device: P drives the clock, and is not the first; allowed: one device that drives the clock, named first");
+    }
+  }
+  std::vector<std::unique_ptr<haptics::HapticDevice>> alone;
+  alone.push_back(std::make_unique<Named>("A"));
+  const haptics::HapticDevice* const it = alone[0].get();
+  EXPECT_EQ(joinDevices(std::move(alone)).get(), it) << "one is itself";
+}
+
+TEST(SeveralHands, ALineOfDevicesIsTakenApartAndPutTogether) {
+  EXPECT_EQ(splitHands("a"), std::vector<std::string>{"a"});
+  EXPECT_EQ(splitHands("a:b,c=1 + d + e+f"), (std::vector<std::string>{"a:b,c=1", "d", "e+f"}));
+  EXPECT_EQ(splitHands(" + "), (std::vector<std::string>{"", ""}));
+  EXPECT_EQ(joinHands({"a", "b", "c"}), "a + b + c");
 }
 
 }  // namespace
