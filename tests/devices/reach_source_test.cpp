@@ -8,6 +8,7 @@
 
 #include "base/c3d_file.h"
 #include "base/error.h"
+#include "base/fault.h"
 #include "devices/replay/replayed_reach.h"
 
 namespace reachlab::devices {
@@ -209,6 +210,111 @@ TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
   const std::vector<RecordedReach> reaches = read(folder.string());
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_TRUE(reaches[1].file.ends_with("b.c3d"));
+}
+
+TEST_F(OthersFiles, CellsMayBeQuotedAndSpacedAndColumnsMayComeInAnyUnit) {
+  expectTwoRows(read(write("q.csv", "\"time_s\" , \"x_m\",y_m,z_m\r\n \"0\",1, 2 ,3\r\n  \r\n0.5,4,5,\"6\"\r\n")).front());
+  expectTwoRows(
+      read(write("named.csv", "clock_ms,hx_cm,hy_mm,hz_m\n0,100,2000,3\n500,400,5000,6\n") + ",time=clock_ms,x=hx_cm,y=hy_mm,z=hz_m")
+          .front());
+  expectTwoRows(read(write("mixed.csv", "time_s,x_cm,y_mm,z_m\n0,100,2000,3\n0.5,400,5000,6\n")).front());
+  EXPECT_NE(refusalOf(write("end.csv", "time_s,x_m,y_m,z_m\n0,1,2,\n")).find("end.csv:2: z_m: '' is not a number"), std::string::npos);
+  EXPECT_NE(refusalOf(write("few.csv", "time_s,x_m,y_m,z_m\n0,1,2\n")).find("few.csv:2: has 3 cells; allowed: 4, as the header"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(write("back.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0,4,5,6\n")).find("back.csv:3: time_s: does not increase"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(write("none.csv", "time_s,x_m,y_m,z_m\n")).find("none.csv: has no samples; allowed: at least one row"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(write("wide.csv", "X,Y\n1,2\n3,4\n") + ",rate=2,x=X,unit=m").find("y_m: column is missing"), std::string::npos)
+      << "a plane has two named axes";
+}
+
+TEST_F(OthersFiles, RatesAreBounded) {
+  const std::string file = write("rate.csv", "x_m,y_m,z_m\n1,2,3\n4,5,6\n");
+  EXPECT_EQ(read(file + ",rate=1").front().time, (std::vector<double>{0, 1}));
+  EXPECT_EQ(read(file + ",rate=1000000").front().time[1], 1e-6);
+  for (const char* bad : {",rate=0.9", ",rate=1000001", ",time_unit=h", ",unit=km"}) EXPECT_THROW(read(file + bad), FaultError) << bad;
+  for (const char* good : {",unit=mm", ",unit=cm", ",time_unit=ms"}) EXPECT_EQ(refusalOf(file + ",rate=2" + good), "read") << good;
+}
+
+TEST_F(OthersFiles, ABidsLatencyIsTheTimeSinceItsFirstRow) {
+  Bids bids;
+  bids.channels =
+      "name\tcomponent\ttype\ttracked_point\tunits\nt\tn/a\tLATENCY\tn/a\ts\nhx\tx\tPOS\thand\tcm\nhy\ty\tPOS\thand\tmm\n"
+      "hz\tz\tPOS\thand\tm\nhv\tx\tVEL\thand\tm\nq\tquat_w\tPOS\thand\tm\n";
+  bids.motion = "10\t100\t2000\t3\t9\t9\r\nn/a\t0\t0\t0\t0\t0\n\n10.5\t400\t5000\t6\t9\t9\n";
+  bids.json.clear();
+  const RecordedReach reach = read(writeBids(*this, folder, bids)).front();
+  expectTwoRows(reach);
+  EXPECT_EQ(reach.time.front(), 0);
+  EXPECT_EQ(reach.file.substr(reach.file.size() - 11), "_motion.tsv");
+  bids.motion = "0\t1\t1\t1\t0\t0\n0\t1\t1\t1\t0\t0\n";
+  EXPECT_NE(refusalOf(writeBids(*this, folder, bids)).find("time does not increase at 0 s"), std::string::npos);
+}
+
+TEST_F(OthersFiles, TheEffectiveRateGoesBeforeTheNominalOneAndTheAskedOneBeforeBoth) {
+  Bids bids;
+  bids.json = R"({"SamplingFrequency": 3, "SamplingFrequencyEffective": 2})";
+  expectTwoRows(read(writeBids(*this, folder, bids) + ",point=hand").front());
+  bids.json = R"({"SamplingFrequency": 2, "SamplingFrequencyEffective": "n/a"})";
+  expectTwoRows(read(writeBids(*this, folder, bids) + ",point=hand").front());
+  EXPECT_EQ(read(writeBids(*this, folder, bids) + ",point=hand,rate=4").front().time[1], 0.25);
+  bids.json = R"({"SamplingFrequency": 0})";
+  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand").find("SamplingFrequency: is missing or no number above 0"),
+            std::string::npos);
+}
+
+TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
+  for (const auto& [gap, isRead] : {std::pair{9, true}, {10, false}}) {
+    Bids bids;
+    bids.json = R"({"SamplingFrequency": 100})";
+    bids.motion.clear();
+    for (int i = 0; i < 60; ++i) bids.motion += (i >= 20 && i < 20 + gap ? "n/a" : std::to_string(i)) + "\t0\t0\t0\t0\t0\n";
+    const std::string said = refusalOf(writeBids(*this, folder, bids) + ",point=hand");
+    EXPECT_EQ(said == "read", isRead) << gap << ": " << said;
+  }
+}
+
+// An event's own rows and no others, the first and the last among them; without events the whole file.
+TEST_F(OthersFiles, AnEventHoldsTheSamplesFromItsOnsetToItsEnd) {
+  Bids bids;
+  bids.json = R"({"SamplingFrequency": 4})";
+  bids.motion.clear();
+  for (int i = 0; i < 40; ++i) bids.motion += std::to_string(i) + "\t0\t0\t0\t0\t0\n";
+  EXPECT_EQ(read(writeBids(*this, folder, bids) + ",point=hand").front().time.size(), 40u);
+  bids.events = "onset\tduration\n1.25\t2\n5\t0.5\n";
+  const auto reaches = read(writeBids(*this, folder, bids) + ",point=hand");
+  ASSERT_EQ(reaches.size(), 2u);
+  EXPECT_EQ(reaches[0].time.front(), 1.25);
+  EXPECT_EQ(reaches[0].time.back(), 3.25);
+  EXPECT_EQ(reaches[1].time, (std::vector<double>{5, 5.25, 5.5}));
+  EXPECT_TRUE(reaches[1].file.ends_with("_motion.tsv: event 2")) << reaches[1].file;
+  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand,trial_type=reach").find("no event of trial_type reach"),
+            std::string::npos)
+      << "a table without types has none of that type";
+  bids.events = "onset\tduration\nsoon\t2\n";
+  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand")
+                .find("_events.tsv:2: onset: 'soon' is not a number; allowed: a number or n/a"),
+            std::string::npos);
+  bids.events = "onset\tduration\n1\tn/a\n1\t-1\n";
+  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand").find("has no event that lasts"), std::string::npos);
+}
+
+TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
+  C3dFile c3d;
+  c3d.rate = 50;
+  c3d.pointUnit = "cm";
+  c3d.points = {{"A"}, {"B"}};
+  c3d.frames = 3;
+  for (const float value :
+       {1.0f, 2.0f, 3.0f, 10.0f, 20.0f, 30.0f, 4.0f, 5.0f, 6.0f, 40.0f, 50.0f, 60.0f, 7.0f, 8.0f, 9.0f, 70.0f, 80.0f, 90.0f})
+    c3d.places.push_back(value);
+  c3d.seen.assign(6, 1);
+  write("UP.C3D", c3dBytes(c3d));
+  const auto reach = read(folder.string() + ",point=B").front();
+  EXPECT_EQ(reach.time, (std::vector<double>{0, 0.02, 0.04}));
+  EXPECT_LT(norm(reach.position[1] - Vec3{0.4, 0.5, 0.6}), 1e-12);
+  EXPECT_NE(refusalOf(at("gone.c3d")).find("gone.c3d: no such file or folder to replay"), std::string::npos);
 }
 
 }  // namespace

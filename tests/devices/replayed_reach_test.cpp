@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unistd.h>
 
@@ -154,6 +155,63 @@ TEST_F(Files, NamesFileAndLine) {
   } catch (const FaultError& error) {
     EXPECT_EQ(std::string(error.what()).rfind(file + ":3:", 0), 0u) << error.what();
   }
+}
+
+// A line at constant speed, uneven in time: the spline is the line itself. At rest for 0.3 s, blended onto it over 0.1 s, held at its end.
+TEST(ReplayedReach, ALineIsPlayedAsItIsAfterItsRestAndItsJoin) {
+  RecordedReach reach;
+  const Vec3 speed{0.4, 0.3, 0};
+  for (const double t : {5.0, 5.1, 5.25, 5.3, 5.6, 5.8}) reach.time.push_back(t), reach.position.push_back(Vec3{7, 8, 9} + t * speed);
+  const Vec3 start{0.02, 0.01, -0.03}, target = start + Vec3{0, 0.8, 0};  // twice as long, along y
+  const PlayedReach played = layOnto(reach, start, target);
+  ASSERT_EQ(played.position.size(), 1101u) << "0.3 s and 0.8 s";
+  EXPECT_TRUE(played.velocity.empty());
+  for (std::size_t i = 0; i < played.position.size(); ++i) {
+    const double t = 1e-3 * static_cast<double>(i) - 0.3, s = std::clamp(t / 0.1, 0.0, 1.0);
+    const double blend = s * s * s * (10 + s * (6 * s - 15)), way = std::clamp(t, 0.0, 0.8);
+    ASSERT_LT(norm(played.position[i] - start - blend * way * Vec3{0, 1, 0}), 1e-12) << i;
+  }
+}
+
+// By the smallest rotation: what lies across both chords keeps its direction, and it is scaled as all is.
+TEST(ReplayedReach, IsTurnedByTheSmallestRotation) {
+  const RecordedReach reach{"turned.csv", {0, 0.5, 1}, {{0, 0, 0}, {0.2, 0, 0.1}, {0.4, 0, 0}}};
+  const PlayedReach played = layOnto(reach, {0, 0, 0}, {0, 0.2, 0});
+  EXPECT_LT(norm(played.position[800] - Vec3{0, 0.1, 0.05}), 1e-12);
+  const RecordedReach back{"back.csv", {0, 0.5, 1}, {{0, 0, 0}, {-0.2, 0.05, 0.03}, {-0.4, 0, 0}}};
+  const PlayedReach turned = layOnto(back, {-0.1, 0, 0}, {0.3, 0, 0});
+  EXPECT_NEAR(turned.position[800].x, 0.1, 1e-12);
+  EXPECT_NEAR(std::hypot(turned.position[800].y, turned.position[800].z), std::hypot(0.05, 0.03), 1e-12);
+  const RecordedReach down{"down.csv", {0, 0.5, 1}, {{0, 0, 0}, {0.01, -0.2, 0}, {0, -0.4, 0}}};
+  const PlayedReach up = layOnto(down, {0, 0, 0}, {0, 0.4, 0});
+  EXPECT_NEAR(up.position[800].y, 0.2, 1e-12);
+  EXPECT_NEAR(std::hypot(up.position[800].x, up.position[800].z), 0.01, 1e-12);
+}
+
+TEST(ReplayedReach, WhatCannotBeLaidIsRefusedInWords) {
+  const auto refusalOf = [](const RecordedReach& reach, const Vec3& start = {}, const Vec3& target = {1, 0, 0}) {
+    try {
+      (void)layOnto(reach, start, target);
+      return std::string("laid");
+    } catch (const FaultError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refusalOf({"f", {0, 600}, {{}, {1, 0, 0}}}), "laid");
+  EXPECT_EQ(refusalOf({"f", {1, 601.5}, {{}, {1, 0, 0}}}), "f: time_s: lasts 600.5 s; allowed: a reach of at most 600 s");
+  EXPECT_EQ(refusalOf({"f", {0}, {{}}}), "f: fewer than two samples");
+  EXPECT_EQ(refusalOf({"f", {0, 1}, {{1, 1, 1}, {1, 1, 1}}}), "f: the hand does not move");
+  EXPECT_EQ(refusalOf({"f", {0, 1}, {{}, {1, 0, 0}}}, {1, 0, 0}),
+            "task.target: start and target are the same place; a recorded reach cannot be laid "
+            "onto them; allowed: two places");
+}
+
+TEST_F(Files, AReplayIsNamedAndMovesByTickCount) {
+  const auto device = makeReplayHand(write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n"), {0, 0, 0}, {1, 0, 0});
+  EXPECT_EQ(device->info().name, "replay");
+  EXPECT_EQ(device->info().version, "1");
+  EXPECT_TRUE(device->info().virtualHand);
+  EXPECT_FALSE(device->read().hasVelocity) << "left to the estimator";
 }
 
 }  // namespace

@@ -55,5 +55,44 @@ TEST(VelocityTable, EncoderStepsMakeTheDifferenceRoughAndTheFiltersSmooth) {
     EXPECT_LT(rowOf(rows, kind).noise, 0.5 * rough.noise) << kind;
 }
 
+// A difference of a tick is the truth of half a tick ago: off by half a tick of acceleration, sqrt(120/7) d/T^2 in RMS and (10/sqrt 3) d/T^2 at
+// the most of a minimum-jerk reach. The rest's and the join's 0.45 s are left out, in which little happens.
+TEST(VelocityTable, TheDifferencesErrorIsHalfATickOfAcceleration) {
+  constexpr double kDuration = 1.5;
+  const std::string file = (std::filesystem::temp_directory_path() / ("reach-error-" + std::to_string(::getpid()) + ".csv")).string();
+  {
+    std::ofstream out(file);
+    out.precision(17);
+    out << "time_s,x_m,y_m,z_m\n";
+    for (int i = 0; i <= 300; ++i) {
+      const double s = i / 300.0;
+      out << kDuration * s << ',' << s * s * s * (10 + s * (6 * s - 15)) << ",0,0\n";
+    }
+  }
+  VelocityTableSettings settings;
+  settings.resolutions = {1e-12, 1e-4};
+  const auto rows = compareVelocityEstimators(file, settings);
+  std::filesystem::remove(file);
+  const double unit = 0.5e-3 * 0.2 / (kDuration * kDuration);
+  EXPECT_EQ(rows.front().kind, "difference");
+  EXPECT_EQ(rows.front().resolution, 1e-12);
+  EXPECT_EQ(rows.back().resolution, 1e-4);
+  EXPECT_EQ(rows.size() % 2, 0u);
+  EXPECT_NEAR(rows.front().error, std::sqrt(120.0 / 7) * unit / std::sqrt(3.0), 0.08 * 4.14 * unit / std::sqrt(3.0)) << "an axis";
+  EXPECT_NEAR(rows.front().worst, 10 / std::sqrt(3.0) * unit, 0.03 * 5.77 * unit);
+  EXPECT_LT(rows.front().noise, 0.02 * rows.front().error) << "all of it is delay";
+  // Steps of 0.1 mm: the difference is off by up to one of them within a tick, uniformly: sqrt(1/6) of it in RMS along x alone.
+  const VelocityRow& rough = rows[rows.size() / 2];
+  EXPECT_EQ(rough.kind, "difference");
+  EXPECT_NEAR(rough.noise, 0.1 / std::sqrt(6.0) / std::sqrt(3.0), 0.25 * 0.1 / std::sqrt(18.0));
+  EXPECT_LE(rough.worst, 0.1 + 1e-2);
+  for (const VelocityRow& row : rows) {
+    EXPECT_NE(row.kind, "device");
+    EXPECT_NE(row.kind, "auto");
+  }
+  EXPECT_EQ(VelocityTableSettings{}.resolutions, (std::vector<double>{0.02e-3, 0.055e-3, 0.1e-3}));
+  EXPECT_EQ(VelocityTableSettings{}.cutoff, 40);
+}
+
 }  // namespace
 }  // namespace reachlab::devices
