@@ -1,11 +1,18 @@
 #include "network/peers/peers.h"
 
 #include <gtest/gtest.h>
+#include <openssl/pem.h>
+#include <openssl/pkcs7.h>
+#include <openssl/x509v3.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <regex>
 #include <sstream>
 
 #include "base/fault.h"
@@ -80,6 +87,165 @@ TEST_F(Peers, WhatIsWrongWithAFolderIsSaid) {
   EXPECT_THROW(addStation(at("nowhere"), at("other/request.pem")), FaultError);
   std::ofstream(at("request.pem")) << "nothing";
   EXPECT_THROW(addStation(at("foreign"), at("request.pem")), FaultError);
+}
+
+using Certificate = std::unique_ptr<X509, decltype([](X509* x) { X509_free(x); })>;
+using Bio = std::unique_ptr<BIO, decltype([](BIO* b) { BIO_free_all(b); })>;
+
+Certificate certificateAt(const std::string& path) {
+  const Bio in(BIO_new_file(path.c_str(), "r"));
+  return Certificate(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr));
+}
+
+bool isCritical(const X509* certificate, int kind) {
+  const int at = X509_get_ext_by_NID(certificate, kind, -1);
+  return at >= 0 && X509_EXTENSION_get_critical(X509_get_ext(certificate, at)) == 1;
+}
+
+// RFC 5280, 4.2.1.3 and 4.2.1.9: who may sign for others says so, and who may not says that, and no reader may pass over it.
+TEST_F(Peers, AnAuthoritySignsForOthersAndAStationDoesNot) {
+  initConductor(at("lab"), "left");
+  for (const char* authority : {"lab/identity_ca.pem", "lab/permissions_ca.pem"}) {
+    const Certificate certificate = certificateAt(at(authority));
+    EXPECT_EQ(X509_check_ca(certificate.get()), 1) << authority;
+    EXPECT_TRUE(isCritical(certificate.get(), NID_basic_constraints)) << authority;
+    EXPECT_TRUE(isCritical(certificate.get(), NID_key_usage)) << authority;
+    EXPECT_EQ(X509_get_key_usage(certificate.get()), unsigned{KU_KEY_CERT_SIGN | KU_CRL_SIGN | KU_DIGITAL_SIGNATURE}) << authority;
+    EXPECT_EQ(X509_verify(certificate.get(), X509_get0_pubkey(certificate.get())), 1) << authority << " signs itself";
+  }
+  const Certificate station = certificateAt(at("lab/identity.pem"));
+  EXPECT_EQ(X509_check_ca(station.get()), 0);
+  EXPECT_TRUE(isCritical(station.get(), NID_basic_constraints));
+  EXPECT_EQ(X509_get_version(station.get()), X509_VERSION_3);
+  EXPECT_EQ(X509_verify(station.get(), X509_get0_pubkey(certificateAt(at("lab/identity_ca.pem")).get())), 1);
+  EXPECT_EQ(X509_NAME_cmp(X509_get_issuer_name(station.get()), X509_get_subject_name(certificateAt(at("lab/identity_ca.pem")).get())), 0);
+  EXPECT_NE(ASN1_INTEGER_cmp(X509_get0_serialNumber(station.get()), X509_get0_serialNumber(certificateAt(at("lab/identity_ca.pem")).get())),
+            0);
+}
+
+// Clocks of two machines may be a day apart.
+TEST_F(Peers, CertificatesAndPermissionsHoldFromTheDayBeforeForAsManyDaysAsAreAsked) {
+  std::time_t before = std::time(nullptr);
+  initConductor(at("lab"), "left", {.days = 10});
+  std::time_t after = std::time(nullptr);
+  constexpr std::time_t kDay = 24 * 60 * 60;
+  const Certificate certificate = certificateAt(at("lab/identity.pem"));
+  const auto isAt = [&](const ASN1_TIME* time, std::time_t days) {
+    std::time_t earliest = before + days * kDay - 1, latest = after + days * kDay + 1;
+    return X509_cmp_time(time, &earliest) > 0 && X509_cmp_time(time, &latest) < 0;
+  };
+  EXPECT_TRUE(isAt(X509_get0_notBefore(certificate.get()), -1));
+  EXPECT_TRUE(isAt(X509_get0_notAfter(certificate.get()), 10));
+  std::smatch found;
+  const std::string permissions = textOf(at("lab/permissions.p7s"));
+  ASSERT_TRUE(std::regex_search(permissions, found, std::regex("<not_before>(.*)</not_before><not_after>(.*)</not_after>")));
+  for (const auto& [text, days] : {std::pair{found[1].str(), -1}, std::pair{found[2].str(), 10}}) {
+    std::tm parts{};
+    ASSERT_NE(strptime(text.c_str(), "%Y-%m-%dT%H:%M:%S", &parts), nullptr) << text;
+    EXPECT_GE(timegm(&parts), before + days * kDay) << text;
+    EXPECT_LE(timegm(&parts), after + days * kDay) << text;
+  }
+}
+
+TEST_F(Peers, WhatIsPermittedIsSignedByItsOwnAuthorityAlone) {
+  initConductor(at("lab"), "left");
+  const auto isSignedBy = [&](const std::string& document, const std::string& authority) {
+    const Bio in(BIO_new_mem_buf(document.data(), static_cast<int>(document.size())));
+    BIO* raw = nullptr;
+    const std::unique_ptr<PKCS7, decltype([](PKCS7* p) { PKCS7_free(p); })> made(SMIME_read_PKCS7(in.get(), &raw));
+    const Bio text(raw);
+    const std::unique_ptr<X509_STORE, decltype([](X509_STORE* s) { X509_STORE_free(s); })> store(X509_STORE_new());
+    X509_STORE_add_cert(store.get(), certificateAt(at(authority)).get());
+    return PKCS7_verify(made.get(), nullptr, store.get(), text.get(), nullptr, PKCS7_TEXT) == 1;
+  };
+  for (const char* name : {"lab/permissions.p7s", "lab/governance.p7s"}) {
+    std::string document = textOf(at(name));
+    EXPECT_TRUE(isSignedBy(document, "lab/permissions_ca.pem")) << name;
+    EXPECT_FALSE(isSignedBy(document, "lab/identity_ca.pem")) << name;
+    const std::size_t place = document.find("<max>230");
+    ASSERT_NE(place, std::string::npos) << name;
+    document[place + 5] = '1';
+    EXPECT_FALSE(isSignedBy(document, "lab/permissions_ca.pem")) << name << ", changed by somebody";
+  }
+}
+
+TEST_F(Peers, ANameIsOneToSixtyLettersDigitsAndHyphens) {
+  initStation(at("longest"), std::string(60, 'a'));
+  EXPECT_EQ(listPeers(at("longest")).at(0).name, std::string(60, 'a'));
+  initStation(at("mixed"), "Left-2");
+  for (const std::string& name :
+       {std::string(), std::string(61, 'a'), std::string("a_b"), std::string("a/b"), std::string("l\xc3\xa4nge")}) {
+    EXPECT_THROW(initStation(at("none"), name), FaultError) << name;
+    EXPECT_THROW(initConductor(at("none"), name), FaultError) << name;
+  }
+  EXPECT_FALSE(fs::exists(at("none"))) << "nothing is made for a name that is none";
+}
+
+TEST_F(Peers, AFolderIsToldAsItStands) {
+  initStation(at("right"), "right");
+  const PeerFolder waiting = listPeers(at("right")).at(0);
+  EXPECT_EQ(waiting.name, "right");
+  EXPECT_FALSE(waiting.complete || waiting.conductor);
+  EXPECT_EQ(waiting.fault, "waits for the conductor's answer to request.pem");
+  fs::create_directories(at("empty"));
+  EXPECT_EQ(listPeers(at("empty")).at(0).fault, "holds no certificate");
+  EXPECT_THROW(listPeers(at("nowhere")), FaultError);
+
+  initConductor(at("late"), "left", {.days = -1});
+  EXPECT_EQ(listPeers(at("late")).at(0).fault, "the certificate has expired");
+  EXPECT_NE(listPeers(at("late")).at(0).validUntil, "");
+  initConductor(at("lab"), "left");
+  EXPECT_EQ(listPeers(at("lab")).at(0).fault, "");
+  fs::copy(at("right/key.pem"), at("lab/key.pem"), fs::copy_options::overwrite_existing);
+  EXPECT_EQ(listPeers(at("lab")).at(0).fault, "the certificate is not of this key");
+}
+
+TEST_F(Peers, NothingIsCompleteWithoutAnyOneOfItsFiles) {
+  initConductor(at("lab"), "left");
+  for (const char* file : {"identity.pem", "identity_ca.pem", "permissions_ca.pem", "governance.p7s", "permissions.p7s", "key.pem"}) {
+    fs::rename(at("lab") + "/" + file, at("aside"));
+    EXPECT_FALSE(listPeers(at("lab")).at(0).complete) << file;
+    fs::rename(at("aside"), at("lab") + "/" + file);
+  }
+  EXPECT_TRUE(listPeers(at("lab")).at(0).complete);
+}
+
+TEST_F(Peers, WhoWasAnsweredStandsInTheOrderOfTheNamesAndNeedsNoKeyThere) {
+  initConductor(at("lab"), "left");
+  for (const char* name : {"zeta", "alpha"}) {
+    initStation(at(name), name);
+    EXPECT_EQ(addStation(at("lab"), at(name) + "/request.pem"), at("lab") + "/for-" + name);
+    EXPECT_THROW(addStation(at("lab"), at(name) + "/request.pem"), FaultError) << "never overwritten";
+  }
+  fs::create_directories(at("lab/notes"));
+  const std::vector<PeerFolder> all = listPeers(at("lab"));
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[1].name, "alpha");
+  EXPECT_EQ(all[2].name, "zeta");
+  for (const PeerFolder& one : {all[1], all[2]}) EXPECT_TRUE(one.complete && !one.conductor && one.fault.empty()) << one.fault;
+}
+
+// Whoever changes the name in a request cannot sign it again.
+TEST_F(Peers, ARequestThatItsOwnKeyDidNotSignIsRefused) {
+  initConductor(at("lab"), "left");
+  initStation(at("right"), "right");
+  Bio in(BIO_new_file((at("right") + "/request.pem").c_str(), "r"));
+  const std::unique_ptr<X509_REQ, decltype([](X509_REQ* r) { X509_REQ_free(r); })> request(
+      PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));
+  const std::unique_ptr<X509_NAME, decltype([](X509_NAME* n) { X509_NAME_free(n); })> name(X509_NAME_new());
+  X509_NAME_add_entry_by_txt(name.get(), "CN", MBSTRING_UTF8, reinterpret_cast<const unsigned char*>("left"), -1, -1, 0);
+  X509_REQ_set_subject_name(request.get(), name.get());
+  {
+    const Bio out(BIO_new_file(at("changed.pem").c_str(), "w"));
+    PEM_write_bio_X509_REQ(out.get(), request.get());
+  }
+  try {
+    addStation(at("lab"), at("changed.pem"));
+    FAIL();
+  } catch (const FaultError& error) {
+    EXPECT_EQ(error.faults.at(0).what, "is not signed by its own key");
+    EXPECT_EQ(error.faults.at(0).place->file, at("changed.pem"));
+  }
 }
 
 }  // namespace

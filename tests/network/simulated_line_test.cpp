@@ -33,5 +33,33 @@ TEST(SimulatedLine, LosesItsShare) {
   EXPECT_NEAR(static_cast<double>(delaysOver({.delay = 0.04, .jitter = 0, .loss = 0.3}, 2000).size()), 1400, 60);
 }
 
+// What overtakes another arrives before it; a tick's rounding makes nothing late.
+TEST(SimulatedLine, GivesWhatHasArrivedByNowOnceAndInTheOrderOfSending) {
+  SimulatedLine<int> line({.delay = 0.02, .jitter = 0, .loss = 0}, 1);
+  std::vector<int> got;
+  const auto receive = [&](double now) {
+    got.clear();
+    line.receive(now, [&](int sample) { got.push_back(sample); });
+    return got;
+  };
+  for (int i = 0; i < 3; ++i) line.send(i, 0.001 * i);
+  EXPECT_EQ(receive(0.0199), std::vector<int>{});
+  EXPECT_EQ(receive(0.1 * 3 - 0.28 - 1e-16), std::vector<int>{0});
+  EXPECT_EQ(receive(0.03), (std::vector{1, 2}));
+  EXPECT_EQ(receive(1), std::vector<int>{});
+}
+
+TEST(SimulatedLine, IsTheSameForTheSameSeedAndAnotherForAnother) {
+  const auto lost = [](std::uint64_t seed) {
+    SimulatedLine<int> line({.delay = 0, .jitter = 0, .loss = 0.5}, seed);
+    std::vector<int> came;
+    for (int i = 0; i < 64; ++i) line.send(i, 0);
+    line.receive(0, [&](int sample) { came.push_back(sample); });
+    return came;
+  };
+  EXPECT_EQ(lost(5), lost(5));
+  EXPECT_NE(lost(5), lost(6));
+}
+
 }  // namespace
 }  // namespace reachlab::network
