@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <regex>
 #include <set>
+
+#include "network/study/growth.h"
 
 namespace reachlab::network {
 namespace {
@@ -144,6 +149,104 @@ TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
     EXPECT_GE(share.stable, 5) << nameOf(object);
     EXPECT_LT(share.ledgerDuration, 0.5) << nameOf(object) << " above " << kLedgerAmount << " J";
   }
+}
+
+// Speeds that fall as exp(-t/5 s) are 11 s later exp(-11/5) of what they were: once to rest, and not if they grow.
+TEST(Growth, IsTheLastSecondsSpeedOverThatSoonAfterItWasLetBe) {
+  for (const double rate : {-0.2, 0.1}) {
+    Growth growth(6.5, 20);
+    for (int k = 0; k <= 20000; ++k) {
+      const double t = 1e-3 * k, speed = t <= 6.5 ? 7 : 0.3 * std::exp(rate * (t - 6.5));
+      growth.add(t, speed * speed);
+    }
+    EXPECT_NEAR(growth.ratio(), std::exp(rate * (19 - 7)), 2e-3 * std::exp(rate * 12)) << rate;
+  }
+  EXPECT_EQ(Growth(1, 3).ratio(), 0) << "of what never moved";
+}
+
+TEST(Growth, MayBeFivePercentOrThreeTenthsMoreThanAlone) {
+  EXPECT_TRUE(Growth::isStable(1.049, 0.1));
+  EXPECT_FALSE(Growth::isStable(1.051, 0.1));
+  EXPECT_TRUE(Growth::isStable(1.29, 1));
+  EXPECT_FALSE(Growth::isStable(1.31, 1));
+  EXPECT_FALSE(Growth::isStable(std::numeric_limits<double>::quiet_NaN(), 1));
+  EXPECT_FALSE(Growth::isStable(std::numeric_limits<double>::infinity(), 1));
+}
+
+// Over no line a server renders what one simulation does, whether the force is computed there or at the client, for hands with dampers too.
+TEST(TwoHands, AServerWithoutALineIsOneSimulation) {
+  for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel}) {
+    StudySetup setup;
+    setup.experiment = makeStudyExperiment(object, 500, 4, 1);
+    setup.loss = 0;
+    const StudyReference reference = makeReference(setup);
+    double squares = 0;
+    for (const auto& force : reference.force) {
+      ASSERT_EQ(force.size(), 13000u);
+      for (std::size_t k = 0; k < 6499; ++k) squares += force[k] * force[k];
+    }
+    EXPECT_NEAR(reference.rms, std::sqrt(squares / (2 * 6499)), 1e-3);
+    for (const Coupling coupling : {Coupling::ServerForce, Coupling::ServerPlace}) {
+      const StudyOutcome outcome = runTwoHands(setup, coupling, copySettingsFor(setup.experiment), reference);
+      EXPECT_TRUE(outcome.stable) << nameOf(coupling);
+      EXPECT_LT(outcome.forceError, 1e-9) << nameOf(coupling);
+      EXPECT_EQ(outcome.apart, 0) << nameOf(coupling);
+      EXPECT_NEAR(outcome.growth, reference.growth, 1e-9) << nameOf(coupling);
+      EXPECT_EQ(outcome.force, reference.rms);
+      EXPECT_GE(outcome.given, -1e-9) << "before they move the hands have been given nothing";
+      EXPECT_LT(outcome.given, kMostGiven);
+    }
+  }
+}
+
+StudyTables twoTables() {
+  StudyTables tables;
+  tables.cells = {{StudyObject::Chain, Coupling::Design, 0.25, 7, 8, 0.001220703125, 0.5, 4, 0.25},
+                  {StudyObject::Chain, Coupling::Design, 0.125, 8, 8, 0.000244140625, 0.25, 4, 0.125},
+                  {StudyObject::Chain, Coupling::ServerForce, 0.25, 0, 8, 0.0625, 9, 4, 3}};
+  tables.shares = {{StudyObject::Chain, Coupling::Design, 0.25, 39, 40, 0.5, 0.75},
+                   {StudyObject::Chain, Coupling::ServerForce, 0.25, 3, 40, 9, 9}};
+  return tables;
+}
+
+TEST(StudyTable, HasCouplingsDownAndRoundTripsAcrossInTheirOrder) {
+  const std::string text = formatStudy(twoTables());
+  const auto lineOf = [&](const std::string& begin) {
+    const std::size_t at = text.find("\n" + begin) + 1;
+    std::string line = text.substr(at, text.find('\n', at) - at);
+    line.erase(std::unique(line.begin(), line.end(), [](char a, char b) { return a == ' ' && b == ' '; }), line.end());
+    return line;
+  };
+  EXPECT_EQ(text.substr(0, 37), "chain (4.00 N): stable, mm, N        ");
+  EXPECT_LT(text.find("125 ms"), text.find("250 ms"));
+  EXPECT_EQ(text.find("125 ms"), text.rfind("125 ms")) << "a column of the first table alone";
+  EXPECT_EQ(lineOf("this design"), "this design 8/8 0.24 0.25 7/8 1.22 0.50");
+  EXPECT_EQ(lineOf("server, force"), "server, force sent back 0/8 62.50 9.00");
+  const std::size_t second = text.find("chain, random set-ups: stable, J, s above");
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_NE(text.find("97.5 % 0.50 0.75", second), std::string::npos);
+  EXPECT_NE(text.find("7.5 %\n", second), std::string::npos) << "a ledger is the copies' alone";
+  EXPECT_EQ(text.find("parallel ("), std::string::npos) << "not studied";
+}
+
+TEST(StudyTable, AsCsvHasALineForEachCellAndShare) {
+  EXPECT_EQ(
+      studyCsv(twoTables()),
+      "table,object,coupling,round_trip_s,runs,stable,apart_rms_m,force_error_rms_n,force_rms_n,given_j,ledger_excess_j,ledger_excess_s\n"
+      "seeds,chain,design,0.25,8,7,0.001220703125,0.5,4,0.25,,\n"
+      "seeds,chain,design,0.125,8,8,0.000244140625,0.25,4,0.125,,\n"
+      "seeds,chain,server-force,0.25,8,0,0.0625,9,4,3,,\n"
+      "random,chain,design,0.25,40,39,,,,,0.5,0.75\n"
+      "random,chain,server-force,0.25,40,3,,,,,,\n");
+}
+
+TEST(StudyPlan, IsWhatTheManualSaysUnlessItIsAskedForMore) {
+  const StudyPlan plan;
+  EXPECT_EQ(plan.seeds, 8);
+  EXPECT_EQ(plan.setups, 40);
+  EXPECT_EQ(plan.loss, 0.05);
+  EXPECT_EQ(plan.jitterShare, 0.1);
+  EXPECT_EQ(plan.couplings.size(), 8u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "network/station/station_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -282,6 +283,74 @@ TEST_F(OneStation, StandingsSayHowGoodALineIs) {
   hear(2, 0.13);
   EXPECT_EQ(now().light, Light::Stop);
   EXPECT_EQ(now().obstacles, (std::vector<std::string>{"a round trip takes 130 ms; allowed: up to 120"}));
+}
+
+// What stands on a station's card is held against this one's, and each difference is said.
+TEST_F(OneStation, ACardThatDoesNotFitIsSaidWithBothSides) {
+  open(1, true);
+  const auto obstaclesOf = [&](const std::function<void(StationCard&)>& change) {
+    StationCard card;
+    card.station = 2;
+    card.version = LineMemory::kVersion;
+    card.experiment = hash_;
+    std::strcpy(card.software.data(), "reachlab");
+    change(card);
+    EXPECT_TRUE(memory().cardsIn.tryPush(card));
+    hear(2, 0.002);
+    station_->keep();
+    return station_->line().standings().at(0).obstacles;
+  };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(obstaclesOf([](StationCard&) {}), Words{});
+  EXPECT_EQ(obstaclesOf([](StationCard& card) { card.conductor = true; }), Words{"is a conductor too"});
+  EXPECT_EQ(obstaclesOf([](StationCard& card) { std::strcpy(card.software.data(), "reachlab 0.1"); }),
+            Words{"runs reachlab 0.1, and this one reachlab"});
+  EXPECT_EQ(obstaclesOf([](StationCard& card) { ++card.version; }).at(0).substr(0, 14), "speaks version");
+  const Words other = obstaclesOf([](StationCard& card) { card.experiment += 1; });
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_EQ(other[0], fmt::format("has another experiment ({:016x}, here {:016x})", hash_ + 1, hash_));
+}
+
+TEST_F(OneStation, GapsAndClocksThatJumpStandInTheWay) {
+  using Light = StationStanding::Light;
+  open(1, true);
+  showCard(2, false);
+  LineStatus& status = memory().status[1];
+  const auto standing = [&] {
+    hear(2, 0.002);
+    station_->keep();
+    return station_->line().standings().at(0);
+  };
+  status.gap.store(0.026);
+  EXPECT_EQ(standing().light, Light::Fair) << "more than half of what is allowed";
+  status.gap.store(0.051);
+  EXPECT_EQ(standing().light, Light::Stop);
+  EXPECT_EQ(standing().obstacles, (std::vector<std::string>{"nothing comes for 51 ms at a time; allowed: up to 50"}));
+  status.gap.store(0);
+  status.offset.store(2);
+  EXPECT_EQ(standing().light, Light::Good) << "in its first second the clock is still looked for";
+  for (int look = 0; look < 110; ++look) (void)standing(), std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  status.offset.store(2.004);
+  EXPECT_EQ(standing().light, Light::Good);
+  status.offset.store(2.0105);
+  EXPECT_EQ(standing().obstacles, (std::vector<std::string>{"its clock jumped by 6.5 ms against this one's; allowed: up to 5"}));
+}
+
+TEST_F(OneStation, HowAnEndpointEndedIsSaid) {
+  const auto saysOf = [&](const std::string& script) {
+    record::writeFileAtomically(folder_ / "ends", "#!/bin/sh\n" + script + "\n");
+    EXPECT_EQ(::chmod((folder_ / "ends").c_str(), 0700), 0);
+    StationOptions options;
+    options.station = 1;
+    options.endpoint = folder_ / "ends";
+    StationLine line(options, 1);
+    for (int look = 0; look < 500 && line.endpointFault().empty(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    EXPECT_FALSE(line.endpointAlive());
+    EXPECT_EQ(line.obstacles().at(0), line.endpointFault());
+    return line.endpointFault();
+  };
+  EXPECT_EQ(saysOf("exit 7"), "this station's endpoint has ended with exit code 7");
+  EXPECT_EQ(saysOf("kill -TERM $$; sleep 5"), "this station's endpoint was ended by signal 15");
 }
 
 }  // namespace
