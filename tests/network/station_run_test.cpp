@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <thread>
 
@@ -40,7 +42,7 @@ class OneStation : public testing::Test {
  protected:
   void open(int number, bool conductor, double wait = 60, const std::string& what = "chain-two-hands") {
     const std::string endpoint = folder_ / "endpoint";
-    record::writeFileAtomically(endpoint, "#!/bin/sh\nexec sleep 60\n");
+    record::writeFileAtomically(endpoint, "#!/bin/sh\necho $$ > \"$0.pid\"\nexec sleep 60\n");
     ASSERT_EQ(::chmod(endpoint.c_str(), 0700), 0);
     session::SessionRequest request;
     request.what = what;
@@ -66,7 +68,13 @@ class OneStation : public testing::Test {
     station_->begin(*run_);
     hash_ = sharedHash(block.experiment.experiment());
   }
+  // The test in the endpoint's place does not read that it is to end, and is not waited for.
+  void endEndpoint() {
+    int process = 0;
+    if (std::ifstream(folder_ / "endpoint.pid") >> process) ::kill(process, SIGKILL);
+  }
   void TearDown() override {
+    endEndpoint();
     if (station_) (void)station_->close();
     run_.reset();
     station_.reset();
@@ -201,6 +209,7 @@ TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
   station_->stop();
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
   EXPECT_TRUE(sent(EventKind::Finish));
+  endEndpoint();
   (void)station_->close();
   EXPECT_TRUE(noted("simulated with limp hands over this line (round trip 2.0 ms")) << "what was checked is in the log";
 }
@@ -241,6 +250,7 @@ TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
     }
   });
   (void)pollUntil(never, 0.3);
+  endEndpoint();
   (void)station_->close();
   others.request_stop();
   others.join();
@@ -261,6 +271,7 @@ TEST_F(OneStation, TheConductorsOutcomeIsKeptBesideWhatTheCopyHereCameTo) {
   const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; });
   ASSERT_EQ(told.words.size(), 2u);
   EXPECT_EQ(told.words[1], "trial 1: success by the conductor's copy, which counts; aborted (experimenter) by the copy here");
+  endEndpoint();
   (void)station_->close();
   EXPECT_TRUE(noted("trial 1: outcome success by the conductor, station 1; aborted (experimenter) here, where the copies were"));
 }
