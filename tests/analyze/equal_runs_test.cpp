@@ -48,5 +48,30 @@ TEST(EqualRuns, RepeatsInsideARunAreCounted) {
   EXPECT_EQ(countRepeats({trialWith(0.3), trialWith(0.4)}), 0);
 }
 
+// Whatever is told of a movement tells it from another: to the last bit, and no more than that.
+TEST(EqualRuns, AnyMeasureOfATrialTellsItApart) {
+  using Change = void (*)(record::RecordedTrial&);
+  const Change changes[] = {[](record::RecordedTrial& t) { t.result.outcome = trial::Outcome::Failure; },
+                            [](record::RecordedTrial& t) { t.result.reason = trial::Reason::Velocity; },
+                            [](record::RecordedTrial& t) { t.planned.catchTrial = true; },
+                            [](record::RecordedTrial& t) { ++t.result.onsetTick; },
+                            [](record::RecordedTrial& t) { ++t.result.endTick; },
+                            [](record::RecordedTrial& t) { t.peakHandSpeed = 0.3; },
+                            [](record::RecordedTrial& t) { t.handPathLength = 0.2; },
+                            [](record::RecordedTrial& t) { t.peakForce = 1; },
+                            [](record::RecordedTrial& t) { t.meanForce = 1; }};
+  for (const Change change : changes) {
+    record::RecordedTrial first = trialWith(0.25), second = trialWith(0.25);
+    EXPECT_EQ(countRepeats({first, second}), 1);
+    change(second);
+    EXPECT_EQ(countRepeats({first, second}), 0);
+    EXPECT_EQ(countRepeats({second, first, second}), 1);
+  }
+  record::RecordedTrial slow = trialWith(0), never = trialWith(0.3);
+  never.result.onsetTick = 0;
+  EXPECT_EQ(countRepeats({slow, slow}), 0) << "a hand that did not move repeats nothing";
+  EXPECT_EQ(countRepeats({never, never}), 0);
+}
+
 }  // namespace
 }  // namespace reachlab::analyze

@@ -1,0 +1,176 @@
+#include "sim/study/columns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "sim/study/run_study.h"
+#include "sim/study/trial_row.h"
+
+namespace reachlab::study {
+namespace {
+
+std::vector<std::string> namesOf(const Design& design) {
+  std::vector<std::string> names;
+  for (const Column& column : columnsOf(design)) names.push_back(column.name);
+  return names;
+}
+Design asking(std::vector<std::string> measures) {
+  Design design;
+  design.measures = std::move(measures);
+  return design;
+}
+
+TEST(StudyColumns, BeginWithWhoAndWhatWasVaried) {
+  Design design = asking({"by", "mass"});
+  design.axes = {{"coupling.stiffness_n_per_m", {"300", "1e3"}, {}},
+                 {"subject.criterion", {"\"a\"", "\"b c\""}, {}},
+                 {"profiled", {"true", "false"}, {}}};
+  EXPECT_EQ(namesOf(design), (std::vector<std::string>{"point", "subject", "trial", "seed", "coupling.stiffness_n_per_m",
+                                                       "subject.criterion", "profiled", "outcome", "reason", "by", "mass"}));
+  const std::vector<Column> columns = columnsOf(design);
+  EXPECT_TRUE(columns[4].words.empty()) << "numbers";
+  EXPECT_EQ(columns[5].words, (std::vector<std::string>{"a", "b c"}));
+  EXPECT_EQ(columns[6].words, (std::vector<std::string>{"true", "false"}));
+  EXPECT_EQ(columns[7].words, (std::vector<std::string>{"none", "success", "failure", "aborted", "interrupted"}));
+  EXPECT_EQ(columns[8].words.size(), 16u);
+  EXPECT_EQ(columns[8].words[0], "");
+  EXPECT_EQ(columns[8].words[15], "peer_lost");
+  EXPECT_EQ(identityColumns(design), 7u);
+  design.planText = R"({ "schema_version": 1, "name": "p", "blocks": [{ "experiment": "chain-slow", "trials": 2, "day": 1 },
+      { "experiment": "chain-fast", "trials": 3, "condition": "quick", "day": 2 }, { "experiment": "chain-slow", "trials": 1, "day": 2 }] })";
+  design.plan = "p.json";
+  const std::vector<Column> ofPlan = columnsOf(design);
+  EXPECT_EQ(identityColumns(design), 12u);
+  EXPECT_EQ(ofPlan[2].name, "session");
+  EXPECT_EQ(ofPlan[5].name, "condition");
+  EXPECT_EQ(ofPlan[5].words, (std::vector<std::string>{"chain-slow", "quick"})) << "each once";
+  EXPECT_EQ(ofPlan[7].name, "trial");
+}
+
+TEST(StudyColumns, OfFamiliesAreOneForEachCriterion) {
+  Design design = asking({"epsilon", "score"});
+  design.criteria = {"min-hand-jerk", "min-crackle"};
+  EXPECT_EQ(namesOf(design),
+            (std::vector<std::string>{"point", "subject", "trial", "seed", "outcome", "reason", "epsilon_hand_min_hand_jerk_m_per_s",
+                                      "epsilon_hand_min_crackle_m_per_s", "epsilon_object_min_hand_jerk_m_per_s",
+                                      "epsilon_object_min_crackle_m_per_s", "score_min_hand_jerk", "score_min_crackle", "score_reference",
+                                      "fit_effective_samples", "fit_poorness"}));
+  design.criteria.clear();
+  EXPECT_EQ(criteriaOf(design).size(), 7u) << "all, where none is named";
+  EXPECT_EQ(columnsOf(design).size(), 6u + 14 + 7 + 3);
+}
+
+TEST(StudyColumns, AskForNoMoreThanTheirMeasuresNeed) {
+  const auto needs = [](const Design& design) {
+    const Needs n = needsOf(design);
+    return std::vector<bool>{n.samples, n.errors, n.fits};
+  };
+  using Bits = std::vector<bool>;
+  EXPECT_EQ(needs(asking({})), (Bits{false, false, false}));
+  EXPECT_EQ(needs(asking({"by", "peak_hand_speed_m_per_s"})), (Bits{false, false, false}));
+  EXPECT_EQ(needs(asking({"by", "sparc"})), (Bits{true, false, false}));
+  EXPECT_EQ(needs(asking({"epsilon"})), (Bits{true, true, false}));
+  EXPECT_EQ(needs(asking({"score"})), (Bits{true, false, true}));
+  Design profiled = asking({"by"});
+  profiled.profiles = true;
+  EXPECT_EQ(needs(profiled), (Bits{true, false, false}));
+}
+
+// Every number of a trial is another: each stands under its own name.
+TEST(StudyColumns, PutEachMeasureUnderItsName) {
+  Design design;
+  design.measures = measureNames();
+  design.criteria = {"min-hand-jerk", "min-crackle"};
+  MeasuredTrial trial;
+  trial.recorded.result.outcome = trial::Outcome::Failure;
+  trial.recorded.result.reason = trial::Reason::Velocity;
+  trial.recorded.result.mass = 3, trial.recorded.result.by = 0.5, trial.recorded.clampedTicks = 17;
+  trial.recorded.peakHandSpeed = 0.6, trial.recorded.handPathLength = 0.7, trial.recorded.peakForce = 0.8, trial.recorded.meanForce = 0.9;
+  analyze::TrialMeasures& m = trial.measures;
+  const std::pair<const char*, double*> measures[] = {{"onset_s", &m.onset},
+                                                      {"offset_s", &m.offset},
+                                                      {"duration_s", &m.duration},
+                                                      {"peak_speed_m_per_s", &m.peakSpeed},
+                                                      {"time_to_peak_s", &m.timeToPeak},
+                                                      {"time_to_peak_percent", &m.timeToPeakPercent},
+                                                      {"symmetry_ratio", &m.symmetryRatio},
+                                                      {"path_length_m", &m.pathLength},
+                                                      {"speed_peaks", &m.speedPeaks},
+                                                      {"hand_endpoint_error_m", &m.handEndpointError},
+                                                      {"object_endpoint_error_m", &m.objectEndpointError},
+                                                      {"hand_overshoot_m", &m.handOvershoot},
+                                                      {"object_overshoot_m", &m.objectOvershoot},
+                                                      {"sparc", &m.sparc},
+                                                      {"ldlj", &m.ldlj}};
+  double value = 100;
+  for (const auto& [name, at] : measures) *at = ++value;
+  trial.epsilonHand = {0.01, 0.02}, trial.epsilonObject = {0.03};
+  trial.score = {-1, -2, -3, 12, 0.04};
+  const std::vector<std::string> names = namesOf(design);
+  std::vector<double> row(names.size(), -7);
+  putMeasures(design, trial, row);
+  const auto at = [&](const std::string& name) {
+    return row[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+  };
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(row[i], -7) << "who it was is put by others";
+  EXPECT_EQ(at("outcome"), 2);
+  EXPECT_EQ(at("reason"), 2);
+  EXPECT_EQ(at("mass"), 3);
+  EXPECT_EQ(at("by"), 0.5);
+  EXPECT_EQ(at("clamped_ticks"), 17);
+  EXPECT_EQ(at("peak_hand_speed_m_per_s"), 0.6);
+  EXPECT_EQ(at("hand_path_m"), 0.7);
+  EXPECT_EQ(at("peak_force_n"), 0.8);
+  EXPECT_EQ(at("mean_force_n"), 0.9);
+  for (const auto& [name, of] : measures) EXPECT_EQ(at(name), *of) << name;
+  EXPECT_EQ(at("epsilon_hand_min_crackle_m_per_s"), 0.02);
+  EXPECT_EQ(at("epsilon_object_min_hand_jerk_m_per_s"), 0.03);
+  EXPECT_TRUE(std::isnan(at("epsilon_object_min_crackle_m_per_s"))) << "none was computed";
+  EXPECT_EQ(at("score_min_crackle"), -2);
+  EXPECT_EQ(at("score_reference"), -3);
+  EXPECT_EQ(at("fit_effective_samples"), 12);
+  EXPECT_EQ(at("fit_poorness"), 0.04);
+}
+
+TEST(StudyColumns, RefuseMeasuresThatThereAreNoneOfOrTwice) {
+  EXPECT_TRUE(measureProblems(asking({"by", "score", "epsilon"})).empty());
+  EXPECT_EQ(usualMeasures().size(), 9u);
+  EXPECT_EQ(measureNames().size(), 26u);
+  const std::vector<Fault> twice = measureProblems(asking({"by", "mass", "by"}));
+  ASSERT_EQ(twice.size(), 1u);
+  EXPECT_EQ(twice[0].key, "measures[2]");
+  EXPECT_EQ(twice[0].what, "\"by\" stands here twice");
+  Design unknown = asking({"by", "bye"});
+  unknown.criteria = {"min-hand-jerk", "min-jerk"};
+  const std::vector<Fault> faults = measureProblems(unknown);
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].key, "measures[1]");
+  EXPECT_EQ(faults[1].key, "criteria[1]");
+}
+
+TEST(StudyColumns, AreAllExplained) {
+  Design design;
+  design.measures = measureNames();
+  design.axes = {{"handmass_kg", {"1"}, {}}, {"trials", {"3"}, {}}};
+  const auto dictionary = nlohmann::json::parse(dictionaryOf(design));
+  for (const std::string& name : namesOf(design)) EXPECT_NE(dictionary.at(name).at("Description"), "") << name;
+  EXPECT_EQ(dictionary.at("handmass_kg").at("Description"), "Varied by the study");
+  EXPECT_FALSE(dictionary.at("by").contains("Units")) << "its unit hangs on the reason";
+  EXPECT_FALSE(dictionary.at("subject").contains("Format"));
+  EXPECT_FALSE(dictionary.at("score_min_crackle").contains("Units"));
+  EXPECT_EQ(dictionary.at("onset_s").at("Units"), "s");
+}
+
+TEST(StudyProgress, TellsTheRateOfNowAndTheTimeThatIsLeft) {
+  StudyProgress p;
+  EXPECT_TRUE(p.rate() == 0 && p.secondsLeft() == 0 && p.trials == 0 && p.trialsDone == 0 && p.trialsNow == 0);
+  p.trials = 1000, p.trialsDone = 400, p.trialsNow = 100, p.seconds = 5;
+  EXPECT_DOUBLE_EQ(p.rate(), 20);
+  EXPECT_DOUBLE_EQ(p.secondsLeft(), 30);
+}
+
+}  // namespace
+}  // namespace reachlab::study
