@@ -182,6 +182,7 @@ TEST(PaperFigure, DrawsSixtyTrialsAtMost) {
   study.results[0].onlyFailures = false;
   EXPECT_EQ(paperFigure(study, 0).figure.panels[0].series[0].label, "1 trial");
   study.options.predictFor = PredictionDuration::Moved;
+  EXPECT_NE(paperFigure(study, 1).caption.find("no movement to show"), std::string::npos);
   EXPECT_NE(paperFigure(study, 0).caption.find("for the T whose movement lasts as long"), std::string::npos);
 }
 

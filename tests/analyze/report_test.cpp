@@ -199,6 +199,7 @@ TEST(Report, DrawsEachFigureOnceUnderItsName) {
   }
   expectIn(text, {"<figure><svg role=\"img\" aria-label=\"How far each criterion", " id=\"f1-", " id=\"f6-"});
   expectNotIn(text, {" id=\"f0-", "<?xml"});
+  EXPECT_TRUE(text.ends_with("</table></body></html>"));
 }
 
 }  // namespace

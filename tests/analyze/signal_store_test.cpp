@@ -1,6 +1,11 @@
 #include "sim/analyze/signal_store.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "base/error.h"
 
 namespace reachlab::analyze {
 namespace {
@@ -20,6 +25,25 @@ TEST(SignalStore, GivesBackEveryRowFromMemoryAndFromTheFile) {
     }
     for (std::size_t row = rows.size(); row-- > 0;) EXPECT_EQ(store.get(rows[row]), written[row]) << row << " of " << most;
   }
+}
+
+// As on a full disk: no file may be larger than a megabyte.
+TEST(SignalStore, SaysWhenTheDiskTakesNoMore) {
+  struct rlimit before {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  const struct rlimit small { 1 << 20, before.rlim_max };
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string refusal;
+  SignalStore store(10);
+  try {
+    store.put(std::vector<double>(1 << 19, 1.0));
+  } catch (const ResourceError& e) {
+    refusal = e.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old);
+  EXPECT_NE(refusal.find("the temporary file of the analysis cannot be written: File too large"), std::string::npos) << refusal;
 }
 
 }  // namespace

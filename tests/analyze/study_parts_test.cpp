@@ -245,8 +245,28 @@ TEST(Recovery, NamesTheTruthsAndDoesNotHangOnTheThreads) {
   EXPECT_EQ(recover(study, 3, 7, 3).counts, one.counts);
   EXPECT_EQ(recoveryTable(one).substr(0, 54), "truth,named,studies\nmin-hand-jerk,min-hand-jerk,3\nmin-");
   EXPECT_NE(recoveryTable(one).find("reference,undecided,3\n"), std::string::npos);
+  for (const auto& row : recover(study, 1, 7, 1).counts) EXPECT_EQ(row[0] + row[1] + row[2] + row[3], 1u) << "one study is enough";
   for (const int none : {0, -1}) EXPECT_EQ(recover(study, none, 7, 1).counts, std::vector<std::vector<std::size_t>>(3, {0, 0, 0, 0}));
   EXPECT_TRUE(Recovery{}.trials == 0 && Recovery{}.studies == 0 && Recovery{}.seed == 1);
+}
+
+// What the fits try is what the options say, and each condition tells it.
+TEST(StudyOptions, GoToTheCandidates) {
+  StudyOptions options;
+  options.criteria = {Criterion::MinHandJerk, Criterion::MinHandForce};
+  options.handMasses = {0.25, 3};
+  options.measure.cutoff = 8;
+  const StudyInput input = simulatedStudy({{"m", compiledChain(1.35)}}, Criterion::MinHandJerk, 0, 1, 1, 13, 3);
+  StudyResult study = analyzeStudy(input, options);
+  EXPECT_EQ(study.results[0].candidates.masses, (std::vector<double>{0.25, 3}));
+  EXPECT_FALSE(study.results[0].candidates.massGiven);
+  EXPECT_EQ(study.results[0].signals.size(), 2u);
+  EXPECT_EQ(study.people.at(0).rest.size(), study.people[0].trials);
+  EXPECT_GT(study.people[0].fit.candidates[0].r2, 0.99) << "predictions are filtered as the recording is";
+  options.handMass = 0.5;
+  study = analyzeStudy(input, options);
+  EXPECT_EQ(study.results[0].candidates.masses, std::vector<double>{0.5});
+  EXPECT_TRUE(study.results[0].candidates.massGiven);
 }
 
 }  // namespace

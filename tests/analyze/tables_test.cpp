@@ -359,6 +359,9 @@ TEST(Tables, NameCriteriaAsThePaperNumbersThem) {
   }
   EXPECT_EQ(columnOf(predict::Criterion::MinHandForceChange), "min_hand_force_change");
   EXPECT_EQ(nameOfCandidate({}), "reference");
+  const FitRow row;
+  EXPECT_TRUE(row.epsilon == 0 && row.r2 == 0 && row.score == 0 && row.ceiling == 0 && row.duration == 0 && row.trials == 0 &&
+              !row.decided);
 }
 
 }  // namespace
