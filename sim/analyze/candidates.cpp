@@ -96,9 +96,7 @@ std::unique_ptr<ProfileFamily> costlyFamily(const Predictor& predictor, const Re
     auto family = familyAt(factor);
     // Half-way between two of them, where the interpolation is worst, and at a shorter movement, where the profile changes fastest.
     const auto between = [&](double t) { return (std::floor(t / grid.spacing) + 0.5) * grid.spacing; };
-    if (duration > 9 * grid.spacing && family->errorAt(between(0.7 * duration)) <= kSame / 2 &&
-        family->errorAt(between(duration)) <= kSame / 2)
-      return family;
+    if (family->errorAt(between(0.7 * duration)) <= kSame / 2 && family->errorAt(between(duration)) <= kSame / 2) return family;
   }
   return familyAt(1);
 }

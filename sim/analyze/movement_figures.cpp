@@ -222,8 +222,7 @@ NamedFigure peopleFigure(const StudyResult& study, std::size_t condition) {
   for (std::size_t first = 0; first < fits.size(); first += columns) {
     const std::size_t end = std::min(first + columns, fits.size());
     for (std::size_t i = first; i < end; ++i) out.figure.panels.push_back(fits[i]);
-    if (end - first < columns && end == fits.size() && first > 0)
-      for (std::size_t i = end - first; i < columns; ++i) out.figure.panels.push_back({});
+    for (std::size_t i = end - first; i < columns; ++i) out.figure.panels.push_back({});  // of the last row
     for (std::size_t i = first; i < end; ++i) out.figure.panels.push_back(residuals[i]);
   }
   out.figure.columns = static_cast<int>(columns);

@@ -231,7 +231,7 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
   const double typical = medianOf({durations.begin(), durations.end()});
   Fitter fitter(windows, rest);
   std::vector<std::size_t> everyTrial(n);
-  for (std::size_t i = 0; i < n; ++i) everyTrial[i] = i;
+  std::iota(everyTrial.begin(), everyTrial.end(), std::size_t{0});
 
   for (const Candidate& candidate : set.candidates) {
     CandidateFit fit;
