@@ -42,7 +42,9 @@ TEST(StudyReport, CountsSuccessByValueAndByStretch) {
                         : trial > 10 && chunk == 1 ? kSuccess
                                                    : kFailure,
                         0, 0});
-    if (chunk == 1) EXPECT_THROW(makeReport(study, {}), FaultError) << "half of it is not there";
+    if (chunk == 1) {
+      EXPECT_THROW(makeReport(study, {}), FaultError) << "half of it is not there";
+    }
     writeChunk(folder.path(), chunk, study.fingerprint, chunkOf(rows));
   }
   const StudyReport report = makeReport(study, {});
