@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "base/fault.h"
+#include "base/json_reader.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::experiment {
@@ -43,6 +47,57 @@ TEST(Patch, RefusesWhatIsNotThere) {
     }
   }
   EXPECT_THROW(patched({{"task.duraton_s", "1"}}), FaultError) << "an unknown key is the reader's to refuse";
+}
+
+TEST(Patch, TellsWhyAPathLeadsNowhere) {
+  const auto told = [](const std::string& path) {
+    try {
+      patched({{path, "1"}});
+      return std::string("changed");
+    } catch (const FaultError& fault) {
+      return fault.faults.at(0).what;
+    }
+  };
+  EXPECT_EQ(told("object.masses_kg[5]"), "is beyond the 5 elements that are there");
+  EXPECT_EQ(told("object.masses_kg[4]"), "changed") << "the last";
+  EXPECT_EQ(told("object.masses_kg[0"), "has a [ without ]");
+  for (const char* inside : {"x", "1x", "-1", ""})
+    EXPECT_EQ(told("object.masses_kg[" + std::string(inside) + "]"), "has no number in [" + std::string(inside) + "]");
+  for (const char* path : {"", ".", "a..b", "task.", ".task"}) EXPECT_EQ(told(path), "has an empty key") << path;
+  EXPECT_EQ(told("task.duration_s.of"), "looks for of in what is no object");
+  EXPECT_EQ(told("task[0]"), "looks for an element of what is no array");
+}
+
+TEST(Patch, GoesThroughArraysInObjectsInArrays) {
+  const auto changed = [](const std::string& path) {
+    const std::string text = patchedText(R"({"a": [{"b": [1, 2]}, {"b": [3, 4]}], "c": null})", "x", std::vector<Patch>{{path, "9"}});
+    std::string compact;
+    for (const char c : text)
+      if (c != ' ' && c != '\n') compact += c;
+    return compact;
+  };
+  EXPECT_EQ(changed("a[1].b[0]"), R"({"a":[{"b":[1,2]},{"b":[9,4]}],"c":null})");
+  EXPECT_EQ(changed("a[*].b[1]"), R"({"a":[{"b":[1,9]},{"b":[3,9]}],"c":null})");
+  EXPECT_EQ(changed("a[0]b[0]"), R"({"a":[{"b":[9,2]},{"b":[3,4]}],"c":null})") << "the point may be left out";
+  EXPECT_EQ(changed("a[0]"), R"({"a":[9,{"b":[3,4]}],"c":null})");
+  EXPECT_EQ(changed("c.d.e"), R"({"a":[{"b":[1,2]},{"b":[3,4]}],"c":{"d":{"e":9}}})") << "what was not there is made";
+}
+
+TEST(Patch, AValueIsWrittenAsItWasRead) {
+  for (const std::string text : {"null", "true", "false", "1.5", "-3", R"("a")", R"("a\"b\\c")", "[]", "[1]", "[1,[2,\"x\"],{}]", "{}",
+                                 R"({"a":1})", R"({"a":1,"b":{"c":[null,true]}})"})
+    EXPECT_EQ(valueText(parseJson(text, "x")), text);
+}
+
+TEST(Patch, OfAFileAreKeysWithTheirValues) {
+  FaultList faults("x");
+  const std::vector<Patch> patches = readPatches(parseJson(R"({"a.b": 1, "c[0]": [2, 3]})", "x"), "change", faults);
+  ASSERT_EQ(patches.size(), 2u);
+  EXPECT_EQ(patches[0].path + "=" + patches[0].value, "a.b=1");
+  EXPECT_EQ(patches[1].path + "=" + patches[1].value, "c[0]=[2,3]");
+  EXPECT_TRUE(faults.empty());
+  EXPECT_TRUE(readPatches(parseJson("[1]", "x"), "change", faults).empty());
+  EXPECT_FALSE(faults.empty());
 }
 
 }  // namespace
