@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -169,21 +172,260 @@ TEST(CoupledCopy, RefusesOneHandAndObjectsThatNoSampleHolds) {
   EXPECT_THROW(CoupledCopy(makeStudyExperiment(StudyObject::Chain), line, 2, {}), RefusedError);
 }
 
-// A copy that moves as a whole with 0.1 m/s, whose hands have done no work: what it holds too much is its kinetic energy T, which is taken out
-// at -O/(0.05 s 2 T) = 10 a second, and at most at 20 a second. Over a tick the hands' springs do a thousandth of that.
-TEST(CoupledCopy, WhatNoHandHasPutInIsTakenOut) {
-  for (const auto& [peersWork, rate] : {std::pair{0.0, 10.0}, std::pair{-1.0, 20.0}, std::pair{1.0, 0.0}}) {
+TEST(CoupledCopy, ItsSettingsAreTheDesigns) {
+  const CopySettings s;
+  EXPECT_EQ(s.loopShare, 0.25);
+  EXPECT_EQ(s.mostGuessed, 0.06);
+  EXPECT_EQ(s.fadeAfter, 0.05);
+  EXPECT_EQ(s.fadeDuration, 0.05);
+  EXPECT_TRUE(s.ledger);
+  EXPECT_EQ(s.ledgerTime, 0.05);
+  EXPECT_EQ(s.ledgerMost, 20);
+  EXPECT_EQ(copySettingsFor(makeStudyExperiment(StudyObject::Chain)).frequency, 3);
+  EXPECT_EQ(copySettingsFor(makeStudyExperiment(StudyObject::Parallel)).frequency, 1);
+  EXPECT_NEAR(synchronisationLimit(s, 0.047), 5, 1e-12) << "a quarter over 47 ms and the 3 ms of the ticks";
+}
+
+// One tick after rest a mass in the middle, which no hand holds, has the speed that its acceleration makes in a millisecond.
+TEST(CoupledCopy, IsDrawnToThePeersPlaceAndSpeedByTheDesignsLaw) {
+  const auto speedAfter = [](double apart, double faster, double frequency, double roundTrip) {
     Station s;
-    s.copy.place(std::array{kStart}, std::array{0.1});
-    s.copy.fill(s.peer, {{}, {}, true});
-    s.peer.work = peersWork;
-    const double before = s.copy.objectEnergy();
-    ASSERT_NEAR(before, 0.5 * 5 * 0.6 * 0.1 * 0.1, 1e-12);
-    s.hear();
-    ASSERT_EQ(s.step(), dynamics::StepStatus::Ok);
-    EXPECT_NEAR(s.copy.ledger(), peersWork - before, 1e-12);
-    EXPECT_NEAR(s.copy.objectEnergy() / before, std::exp(-2 * rate * kTickSeconds), 2e-3) << rate;
+    s.copy.setFrequency(frequency);
+    for (std::size_t i = 0; i < 5; ++i) s.peer.places[i] += apart, s.peer.rates[i] += faster;
+    s.hear(0.01, roundTrip);
+    (void)s.step();
+    CopySample after;
+    s.copy.fill(after, {{}, {}, true});
+    return after.rates[2] / kTickSeconds;
+  };
+  EXPECT_NEAR(speedAfter(0.01, 0, 3, -1), 3 * 3 * 0.01, 1e-4);
+  EXPECT_NEAR(speedAfter(-0.02, 0, 2, -1), 2 * 2 * -0.02, 1e-4);
+  EXPECT_NEAR(speedAfter(0, 0.1, 3, -1), 2 * 3 * 0.1, 1e-3);
+  EXPECT_NEAR(speedAfter(0.01, 0.1, 2, -1), 2 * 2 * 0.01 + 2 * 2 * 0.1, 1e-3);
+  EXPECT_NEAR(speedAfter(0.01, 0, 3, 0.122), 2 * 2 * 0.01, 1e-4) << "0.25 over 125 ms are 2 rad/s";
+}
+
+TEST(CoupledCopy, EveryPeerHasItsShareOfTheSynchronisation) {
+  experiment::Experiment three = makeStudyExperiment(StudyObject::Chain);
+  three.hands.push_back({1, {600}, {0}, {}});
+  const auto speedAfter = [&](std::vector<double> apart) {
+    CoupledCopy copy(three, constraints::makeConstraint(three.constraint), 0, copySettingsFor(three));
+    copy.placeAtRest(std::array{kStart});
+    EXPECT_EQ(copy.peerCount(), 2);
+    CopySample peer;
+    copy.fill(peer, {{}, {}, true});
+    copy.beginTick(kTickSeconds);
+    for (std::size_t k = 0; k < apart.size(); ++k) {
+      CopySample sample = peer;
+      sample.sequence = 1;
+      for (std::size_t i = 0; i < 5; ++i) sample.places[i] += apart[k];
+      copy.take(static_cast<int>(k), sample, -1);
+    }
+    dynamics::HandSegment still;
+    (void)copy.step(still, kTickSeconds);
+    copy.fill(peer, {{}, {}, true});
+    return peer.rates[2] / kTickSeconds;
+  };
+  EXPECT_NEAR(speedAfter({0.01, 0.01}), 9 * 0.01, 1e-4);
+  EXPECT_NEAR(speedAfter({0.01, -0.01}), 0, 1e-6);
+  EXPECT_NEAR(speedAfter({0.01, 0.03}), 9 * 0.02, 1e-4) << "to their mean";
+  EXPECT_NEAR(speedAfter({0.01}), 9 * 0.01 / 2, 1e-4) << "who was not heard yet draws nothing";
+}
+
+// The copy moves as the peer does, so that nothing but the ledger acts on its middle: 3 kg at 1 m/s are 1.5 J.
+TEST(CoupledCopy, WhatNoHandHasPutInIsTakenOut) {
+  const auto after = [](double peersWork, CopySettings settings, bool heard = true) {
+    const experiment::Experiment chain = makeStudyExperiment(StudyObject::Chain);
+    CoupledCopy copy(chain, constraints::makeConstraint(chain.constraint), 0, settings);
+    copy.place(std::array{kStart}, std::array{1.0});
+    CopySample peer;
+    copy.fill(peer, {{}, {}, true});
+    peer.sequence = 1;
+    peer.work = peersWork;
+    copy.beginTick(kTickSeconds);
+    if (heard) copy.take(0, peer, -1);
+    dynamics::HandSegment still;
+    (void)copy.step(still, kTickSeconds);
+    copy.fill(peer, {{}, {}, true});
+    return std::pair{copy.ledger(), 1 - peer.rates[2]};
+  };
+  const CopySettings usual = copySettingsFor(makeStudyExperiment(StudyObject::Chain));
+  EXPECT_NEAR(after(2, usual).first, 0.5, 1e-9);
+  EXPECT_NEAR(after(2, usual).second, 0, 1e-5) << "what they have put in it may have";
+  EXPECT_NEAR(after(1.2, usual).first, -0.3, 1e-9);
+  EXPECT_NEAR(after(1.2, usual).second, 1e-3 * 0.3 / (0.05 * 3), 2e-5) << "in 50 ms";
+  EXPECT_NEAR(after(-4, usual).second, 1e-3 * 20, 3e-4) << "with 20/s at most";
+  EXPECT_NEAR(after(-4, usual, false).second, 0, 1e-5) << "not before everybody was heard";
+  CopySettings without = usual;
+  without.ledger = false;
+  EXPECT_NEAR(after(-4, without).second, 0, 1e-5);
+}
+
+TEST(CoupledCopy, AFadeFollowsTheSilenceBeyondTheUsualAge) {
+  Station s;
+  for (int i = 0; i < 200; ++i) s.hear(0.012), (void)s.step();
+  for (int i = 0; i < 130; ++i) {
+    (void)s.step();
+    const PeerLine& line = s.copy.line(0);
+    EXPECT_NEAR(line.age, 0.012 + 1e-3 * (i + 1), 1e-9);
+    if (!line.lost) {
+      EXPECT_NEAR(line.fade, std::clamp(1 - (line.age - 0.012 - 0.05) / 0.05, 0.0, 1.0), 1e-9);
+    }
+    EXPECT_EQ(line.lost, i >= 99) << i;
   }
+}
+
+TEST(CoupledCopy, TheUsualAgeIsTheMedianOfThoseLately) {
+  Station s;
+  const auto hear = [&](int times, double age) {
+    for (int i = 0; i < times; ++i) s.hear(age), (void)s.step();
+  };
+  hear(1, 0.01);
+  EXPECT_NEAR(s.copy.line(0).usualAge, 0.01, 1e-9) << "at once";
+  hear(6, 0.03);
+  EXPECT_NEAR(s.copy.line(0).usualAge, 0.01, 1e-9);
+  hear(1, 0.03);
+  EXPECT_NEAR(s.copy.line(0).usualAge, 0.03, 1e-9) << "looked at again with every eighth";
+  hear(200, 0.02);
+  EXPECT_NEAR(s.copy.line(0).usualAge, 0.02, 1e-9);
+  for (int i = 0; i < 128; ++i) hear(1, i % 3 == 0 ? 0.045 : 0.025);
+  EXPECT_NEAR(s.copy.line(0).usualAge, 0.025, 1e-9) << "a third that is late is not usual";
+}
+
+TEST(CoupledCopy, LossIsTheShareOfASecondsSamplesThatDidNotCome) {
+  Station s;
+  s.peer.sequence = 1000;
+  EXPECT_EQ(s.copy.line(0).loss, -1) << "not known yet";
+  const auto run = [&](int ticks, int lostOf) {  // every fourth tick one is sent
+    for (int i = 0; i < ticks; ++i) {
+      const bool lost = lostOf > 0 && i / 4 % lostOf == 1;
+      if (i % 4 == 0) {
+        if (lost) s.peer.sequence += 4;
+        else s.peer.sequence += 3, s.hear();
+      }
+      (void)s.step();
+    }
+  };
+  run(1004, 10);
+  EXPECT_NEAR(s.copy.line(0).loss, 25.0 / 250, 1e-12);
+  run(1008, 0);
+  EXPECT_NEAR(s.copy.line(0).loss, 0, 1e-12);
+}
+
+TEST(CoupledCopy, TheRoundTripIsFilteredOverASecond) {
+  Station s;
+  s.hear(0.01, -1);
+  EXPECT_EQ(s.copy.line(0).roundTrip, 0) << "not known";
+  s.hear(0.01, 0.02);
+  EXPECT_EQ(s.copy.line(0).roundTrip, 0.02);
+  s.hear(0.01, 0.12);
+  EXPECT_NEAR(s.copy.line(0).roundTrip, 0.0201, 1e-12);
+  s.hear(0.01, -1);
+  EXPECT_NEAR(s.copy.line(0).roundTrip, 0.0201, 1e-12);
+}
+
+TEST(CoupledCopy, TheNextTrialKnowsTheLineAndNothingOfTheLastOne) {
+  Station s;
+  for (int i = 0; i < 1200; ++i) {
+    s.peer.places[0] = 0.001;
+    s.hear();
+    if (i % 3 == 0) --s.peer.sequence, s.hear(), s.copy.take(0, s.peer, -1);
+    (void)s.step();
+  }
+  const PeerLine before = s.copy.line(0);
+  ASSERT_GT(before.apart, 0);
+  ASSERT_GT(before.old, 0u);
+  s.copy.placeAtRest(std::array{kStart});
+  const PeerLine& line = s.copy.line(0);
+  EXPECT_EQ(line.roundTrip, before.roundTrip);
+  EXPECT_EQ(line.usualAge, before.usualAge);
+  EXPECT_EQ(line.taken, before.taken);
+  EXPECT_EQ(line.old, before.old);
+  EXPECT_EQ(line.loss, before.loss);
+  EXPECT_FALSE(line.heard || line.lost);
+  EXPECT_EQ(line.apart, 0);
+  EXPECT_EQ(line.frequency, 3);
+  EXPECT_EQ(s.copy.ledger(), 0);
+  s.copy.take(0, s.peer, -1);
+  EXPECT_FALSE(s.copy.line(0).heard) << "a sample of the last trial is old";
+}
+
+// What it is told of itself, as late as the line makes it, is no distance.
+TEST(CoupledCopy, IsComparedWithWhatItWasWhenTheSampleWasTaken) {
+  Station s;
+  s.copy.place(std::array{kStart}, std::array{0.5});
+  std::vector<CopySample> past;
+  for (int i = 0; i < 300; ++i) {
+    if (i >= 20) {
+      const CopySample& then = past[static_cast<std::size_t>(i - 20)];
+      s.peer.places = then.places;
+      s.peer.rates = then.rates;
+      s.peer.work = 10;
+      ++s.peer.sequence;
+      s.peer.time = s.now - 19e-3;
+      s.copy.beginTick(s.now + kTickSeconds);
+      s.copy.take(0, s.peer, -1);
+    }
+    (void)s.step();
+    if (i >= 20) {
+      EXPECT_NEAR(s.copy.line(0).apart, 0, 1e-12) << i;
+    }
+    s.copy.fill(past.emplace_back(), {{}, {}, true});
+  }
+  EXPECT_GT(std::abs(past[10].places[2] - past[5].places[2]), 1e-3) << "it moves";
+}
+
+TEST(CoupledCopy, ASampleIsItsOwnHandWorkAndCoordinates) {
+  Station s;
+  for (int i = 0; i < 5; ++i) s.hear();
+  dynamics::HandSegment hand;
+  hand.position[0] = {0.01, 0, 0};
+  for (int i = 0; i < 50; ++i) {
+    s.now += kTickSeconds;
+    s.copy.beginTick(s.now);
+    (void)s.copy.step(hand, kTickSeconds);
+  }
+  CopySample sample;
+  s.copy.fill(sample, {{1, 2, 3}, {4, 5, 6}, true});
+  EXPECT_EQ(sample.hand, (Vec3{1, 2, 3}));
+  EXPECT_EQ(sample.handVelocity, (Vec3{4, 5, 6}));
+  EXPECT_EQ(sample.work, s.copy.ownWork());
+  EXPECT_NE(sample.work, 0);
+  EXPECT_EQ(s.copy.placeCount(), 5);
+  EXPECT_EQ(s.copy.rateCount(), 5);
+  std::array<dynamics::MassState, 5> masses{};
+  s.copy.observe({{0.01, 0, 0}, {}, true}, masses);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(sample.places[i], masses[i].r.x, 1e-12) << "on this line the coordinate is x";
+    EXPECT_NEAR(sample.rates[i], masses[i].v.x, 1e-12);
+  }
+  EXPECT_NEAR(s.copy.ownFixedPoint().x, masses[0].r.x, 1e-12);
+}
+
+TEST(CoupledCopy, SaysWhyItCannotBe) {
+  const auto told = [](const experiment::Experiment& e, int own) {
+    try {
+      const CoupledCopy copy(e, constraints::makeConstraint(e.constraint), own, {});
+      return std::string("made");
+    } catch (const RefusedError& refusal) {
+      return std::string(refusal.what());
+    }
+  };
+  experiment::Experiment e = makeStudyExperiment(StudyObject::Chain);
+  for (const int own : {0, 1}) EXPECT_EQ(told(e, own), "made");
+  for (const int own : {-1, 2})
+    EXPECT_EQ(told(e, own), "this station has hand " + std::to_string(own + 1) + " of an experiment of 2 hands");
+  const auto withMasses = [&](std::size_t count) {
+    e.object.masses.assign(count, 0.6);
+    e.object.stiffness.assign(count - 1, 600);
+    e.object.damping.assign(count - 1, 0);
+    return told(e, 0);
+  };
+  EXPECT_EQ(withMasses(64), "made");
+  EXPECT_EQ(withMasses(65), "an object that stations share has up to 64 coordinates, and this one has 65");
+  e = makeStudyExperiment(StudyObject::Chain);
+  e.hands.pop_back();
+  EXPECT_EQ(told(e, 0), "stations move one object together: the experiment needs hands, one for each station");
 }
 
 TEST(CoupledCopy, NothingIsTakenOutBeforeEveryPeerWasHeard) {
@@ -207,90 +449,6 @@ TEST(CoupledCopy, AHandIsMovedOnNoFurtherThan60MillisecondsTakeIt) {
   EXPECT_NEAR(s.copy.objectEnergy() / still.copy.objectEnergy(), 1, 1e-9);
 }
 
-// The copy lies beside the peer's by 10 mm at rest: in the first tick every mass gains omega^2 10 mm dt; beside two peers, by each half of it.
-TEST(CoupledCopy, SynchronisationIsAnEvenShareOfEachPeersDifference) {
-  for (const std::size_t peers : {1u, 2u}) {
-    experiment::Experiment experiment = makeStudyExperiment(StudyObject::Chain);
-    experiment.hands.resize(2);
-    if (peers == 2) experiment.hands.push_back({3, {1}, {0}, {}});
-    CoupledCopy copy(experiment, constraints::makeConstraint(experiment.constraint), 0, copySettingsFor(experiment));
-    copy.placeAtRest(std::array{kStart});
-    CopySample sample, own;
-    copy.fill(own, {{}, {}, true});
-    sample = own;
-    for (std::size_t i = 0; i < 5; ++i) sample.places[i] += 0.01, sample.rates[i] = 0.02;
-    copy.beginTick(kTickSeconds);
-    for (std::size_t peer = 0; peer < peers; ++peer) {
-      CopySample& one = peer == 0 ? sample : own;
-      one.sequence = 1, one.time = kTickSeconds, one.work = 1;
-      copy.take(static_cast<int>(peer), one, 0.02);
-    }
-    ASSERT_EQ(copy.step({}, kTickSeconds), dynamics::StepStatus::Ok);
-    CopySample after;
-    copy.fill(after, {{}, {}, true});
-    const double omega = 3;
-    for (std::size_t i = 0; i < 5; ++i)
-      EXPECT_NEAR(after.rates[i], (omega * omega * 0.01 + 2 * omega * 0.02) * kTickSeconds / static_cast<double>(peers), 2e-6) << i;
-  }
-}
-
-// What moved evenly for a while lay 2 mm further back 20 ms ago, where the peer's sample says that it was.
-TEST(CoupledCopy, HowFarCopiesAreApartIsSaidOfTheSamplesTime) {
-  Station s;
-  s.copy.setCoupled(false);
-  s.copy.place(std::array{kStart}, std::array{0.1});
-  std::vector<CopySample> past(100);
-  for (std::size_t i = 0; i < past.size(); ++i) {
-    ASSERT_EQ(s.step(), dynamics::StepStatus::Ok);
-    s.copy.fill(past[i], {{}, {}, true});
-  }
-  const CopySample then = past[80];
-  s.peer = then;
-  s.peer.sequence = 0;
-  s.hear(0.02);
-  ASSERT_EQ(s.step(), dynamics::StepStatus::Ok);
-  EXPECT_NEAR(s.copy.line(0).apart, 0, 1e-6);
-  s.peer = then;
-  s.peer.sequence = 1;
-  for (std::size_t i = 0; i < 5; ++i) s.peer.places[i] += 0.003;
-  s.hear(0.021);
-  ASSERT_EQ(s.step(), dynamics::StepStatus::Ok);
-  EXPECT_NEAR(s.copy.line(0).apart, 0.003, 1e-6);
-}
-
-TEST(CoupledCopy, CountsWhatIsLostOfAPeersSamplesInAWholeSecond) {
-  Station whole, lossy, everyFourth;
-  for (int i = 0; i < 1200; ++i) {
-    whole.hear();
-    if (i % 4 != 3) lossy.hear();
-    else ++lossy.peer.sequence;
-    if (i == 500) EXPECT_EQ(lossy.copy.line(0).loss, -1) << "no whole second yet";
-    if (i % 4 == 0) everyFourth.peer.sequence += 3, everyFourth.hear();
-    for (Station* station : {&whole, &lossy, &everyFourth}) (void)station->step();
-  }
-  EXPECT_EQ(whole.copy.line(0).loss, 0);
-  EXPECT_NEAR(lossy.copy.line(0).loss, 0.25, 0.002);
-  EXPECT_EQ(everyFourth.copy.line(0).loss, 0) << "not every tick need be sent";
-  EXPECT_EQ(lossy.copy.line(0).taken, 900u);
-}
-
-TEST(CoupledCopy, TheUsualAgeIsTheMedian) {
-  Station s;
-  for (int i = 0; i < 300; ++i) s.hear(i % 5 < 2 ? 0.04 : 0.012), (void)s.step();
-  EXPECT_NEAR(s.copy.line(0).usualAge, 0.012, 1e-9) << "three of five";
-}
-
-// The first is taken as it is; from then on the mean forgets in a second.
-TEST(CoupledCopy, TheRoundTripIsAMeanOverASecond) {
-  Station s;
-  s.hear(0.01, -1);
-  EXPECT_EQ(s.copy.line(0).roundTrip, 0) << "not known";
-  s.hear(0.01, 0.1);
-  EXPECT_EQ(s.copy.line(0).roundTrip, 0.1);
-  for (int i = 0; i < 1000; ++i) s.hear(0.01, 0.2), (void)s.step();
-  EXPECT_NEAR(s.copy.line(0).roundTrip, 0.1 + 0.1 * (1 - std::exp(-1)), 1e-4);
-}
-
 TEST(CoupledCopy, TheFrequencyIsThatOfTheObjectOrAQuarterOfTheLoop) {
   const CopySettings chain = copySettingsFor(makeStudyExperiment(StudyObject::Chain));
   EXPECT_EQ(chain.frequency, 3);
@@ -302,29 +460,6 @@ TEST(CoupledCopy, TheFrequencyIsThatOfTheObjectOrAQuarterOfTheLoop) {
   EXPECT_EQ(s.copy.line(0).frequency, 1);
   s.copy.setFrequency(5);
   EXPECT_NEAR(s.copy.line(0).frequency, 1.25, 1e-12);
-}
-
-TEST(CoupledCopy, WhatIsKnownOfALineOutlastsTheTrialAndNothingElseDoes) {
-  Station s;
-  for (int i = 0; i < 1200; ++i) {
-    s.hear(0.01, 0.05);
-    if (i % 2 == 0) s.copy.take(0, s.peer, 0.05);
-    (void)s.step();
-  }
-  const PeerLine before = s.copy.line(0);
-  s.copy.placeAtRest(std::array{kStart});
-  const PeerLine after = s.copy.line(0);
-  EXPECT_EQ(after.roundTrip, before.roundTrip);
-  EXPECT_EQ(after.usualAge, before.usualAge);
-  EXPECT_EQ(after.loss, before.loss);
-  EXPECT_EQ(after.taken, 1200u);
-  EXPECT_EQ(after.old, 600u);
-  EXPECT_FALSE(after.heard);
-  EXPECT_EQ(after.age, 0);
-  EXPECT_EQ(s.copy.ledger(), 0);
-  const std::uint64_t old = after.old;
-  s.copy.take(0, s.peer, 0.05);
-  EXPECT_EQ(s.copy.line(0).old, old + 1) << "a sample of the trial before";
 }
 
 }  // namespace

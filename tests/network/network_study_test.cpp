@@ -8,8 +8,6 @@
 #include <regex>
 #include <set>
 
-#include "network/study/growth.h"
-
 namespace reachlab::network {
 namespace {
 
@@ -148,54 +146,6 @@ TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
     const StudyShare share = runRandomSetups(plan, object, Coupling::Design, 0.1);
     EXPECT_GE(share.stable, 5) << nameOf(object);
     EXPECT_LT(share.ledgerDuration, 0.5) << nameOf(object) << " above " << kLedgerAmount << " J";
-  }
-}
-
-// Speeds that fall as exp(-t/5 s) are 11 s later exp(-11/5) of what they were: once to rest, and not if they grow.
-TEST(Growth, IsTheLastSecondsSpeedOverThatSoonAfterItWasLetBe) {
-  for (const double rate : {-0.2, 0.1}) {
-    Growth growth(6.5, 20);
-    for (int k = 0; k <= 20000; ++k) {
-      const double t = 1e-3 * k, speed = t <= 6.5 ? 7 : 0.3 * std::exp(rate * (t - 6.5));
-      growth.add(t, speed * speed);
-    }
-    EXPECT_NEAR(growth.ratio(), std::exp(rate * (19 - 7)), 2e-3 * std::exp(rate * 12)) << rate;
-  }
-  EXPECT_EQ(Growth(1, 3).ratio(), 0) << "of what never moved";
-}
-
-TEST(Growth, MayBeFivePercentOrThreeTenthsMoreThanAlone) {
-  EXPECT_TRUE(Growth::isStable(1.049, 0.1));
-  EXPECT_FALSE(Growth::isStable(1.051, 0.1));
-  EXPECT_TRUE(Growth::isStable(1.29, 1));
-  EXPECT_FALSE(Growth::isStable(1.31, 1));
-  EXPECT_FALSE(Growth::isStable(std::numeric_limits<double>::quiet_NaN(), 1));
-  EXPECT_FALSE(Growth::isStable(std::numeric_limits<double>::infinity(), 1));
-}
-
-// Over no line a server renders what one simulation does, whether the force is computed there or at the client, for hands with dampers too.
-TEST(TwoHands, AServerWithoutALineIsOneSimulation) {
-  for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel}) {
-    StudySetup setup;
-    setup.experiment = makeStudyExperiment(object, 500, 4, 1);
-    setup.loss = 0;
-    const StudyReference reference = makeReference(setup);
-    double squares = 0;
-    for (const auto& force : reference.force) {
-      ASSERT_EQ(force.size(), 13000u);
-      for (std::size_t k = 0; k < 6499; ++k) squares += force[k] * force[k];
-    }
-    EXPECT_NEAR(reference.rms, std::sqrt(squares / (2 * 6499)), 1e-3);
-    for (const Coupling coupling : {Coupling::ServerForce, Coupling::ServerPlace}) {
-      const StudyOutcome outcome = runTwoHands(setup, coupling, copySettingsFor(setup.experiment), reference);
-      EXPECT_TRUE(outcome.stable) << nameOf(coupling);
-      EXPECT_LT(outcome.forceError, 1e-9) << nameOf(coupling);
-      EXPECT_EQ(outcome.apart, 0) << nameOf(coupling);
-      EXPECT_NEAR(outcome.growth, reference.growth, 1e-9) << nameOf(coupling);
-      EXPECT_EQ(outcome.force, reference.rms);
-      EXPECT_GE(outcome.given, -1e-9) << "before they move the hands have been given nothing";
-      EXPECT_LT(outcome.given, kMostGiven);
-    }
   }
 }
 

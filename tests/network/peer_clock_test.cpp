@@ -57,6 +57,53 @@ TEST(PeerClock, SamplesOfEveryFourthTickAreNoLoss) {
   EXPECT_NEAR(clock.gap, 0.004, 1e-9);
 }
 
+// Each second by itself: how many of its numbers came.
+TEST(PeerClock, CountsEverySecondByItself) {
+  PeerClock clock;
+  const auto second = [&](std::uint32_t from, std::uint32_t to, std::uint32_t lostFrom, std::uint32_t lostTo) {
+    for (std::uint32_t i = from; i <= to; ++i)
+      if (i < lostFrom || i >= lostTo) Peer().send(clock, 20 * kTick, i);
+  };
+  second(1, 1000, 500, 600);
+  EXPECT_EQ(clock.loss, 0) << "not before the second is over";
+  EXPECT_EQ(clock.gap, 0);
+  Peer().send(clock, 20 * kTick, 1001);
+  EXPECT_NEAR(clock.loss, 100.0 / 1001, 1e-12);
+  EXPECT_NEAR(clock.gap, 0.101, 1e-12);
+  second(1002, 2001, 0, 0);
+  EXPECT_EQ(clock.loss, 0);
+  EXPECT_NEAR(clock.gap, 0.001, 1e-12);
+  second(2002, 3001, 2100, 2350);
+  EXPECT_NEAR(clock.loss, 0.25, 1e-12);
+  EXPECT_EQ(clock.echoHeard, 3021 * kTick);
+  EXPECT_EQ(clock.echoSent, 3001 * kTick + kAhead);
+}
+
+TEST(PeerClock, OfAPeerThatBeginsAnewCountsFromItsNewNumber) {
+  PeerClock clock;
+  for (std::uint32_t i = 5000; i <= 5400; ++i) Peer().send(clock, 20 * kTick, i);
+  for (std::uint32_t i = 1; i <= 1001; ++i) clock.add({i, 0, 0, 0}, (5500 + i) * kTick);  // its program was started again
+  EXPECT_EQ(clock.loss, 0);
+  EXPECT_NEAR(clock.gap, 0.081, 1e-12);
+  EXPECT_NEAR(clock.roundTrip, 0.04, 1e-12) << "it has heard nothing of ours since";
+}
+
+// Of the last 128 exchanges.
+TEST(PeerClock, ForgetsAnExchangeAfter127Others) {
+  PeerClock clock;
+  const auto exchange = [&](std::uint32_t number, std::int64_t there, std::int64_t back) {
+    const std::int64_t left = number * kTick;
+    clock.add({number, left + kAhead, left - kTick - there, left - kTick + kAhead}, left + back);
+  };
+  exchange(1000, 2 * kTick, 2 * kTick);
+  for (std::uint32_t i = 1; i <= 127; ++i) exchange(1000 + i, 4 * kTick, 12 * kTick);
+  EXPECT_NEAR(clock.offset, 5, 1e-12) << "of the one whose ways were the same";
+  EXPECT_NEAR(clock.jitter, 0.012 * std::sqrt(127.0) / 128, 1e-9) << "one of 4 ms among 127 of 16 ms";
+  exchange(1128, 4 * kTick, 12 * kTick);
+  EXPECT_NEAR(clock.offset, 5 - 0.004, 1e-12) << "half of what the way here is longer";
+  EXPECT_NEAR(clock.jitter, 0, 1e-8);
+}
+
 // RFC 5905: round trip (t4 - t1) - (t3 - t2), offset half of (t2 - t1) + (t3 - t4); here 30 ms there, 50 ms back, and 7 ms on the peer's desk.
 TEST(PeerClock, TakesThePeersOwnTimeOffTheRoundTripAndHalvesWhatTheWaysDiffer) {
   PeerClock clock;
@@ -67,40 +114,6 @@ TEST(PeerClock, TakesThePeersOwnTimeOffTheRoundTripAndHalvesWhatTheWaysDiffer) {
   EXPECT_NEAR(clock.offset, 5 + (0.03 - 0.05) / 2, 1e-9);
   EXPECT_EQ(clock.echoSent, answered);
   EXPECT_EQ(clock.echoHeard, back);
-}
-
-// Clocks drift: an exchange counts as long as it is among the latest 128.
-TEST(PeerClock, ForgetsAnExchangeAfter128Others) {
-  PeerClock clock;
-  const auto exchange = [&](std::uint32_t number, std::int64_t way, std::int64_t ahead) {
-    const std::int64_t left = number * kTick;
-    clock.add({number, left + ahead, left - kTick - way, left - kTick + ahead}, left + way);
-  };
-  exchange(1000, 5 * kTick, kAhead + 3 * kTick);
-  for (std::uint32_t i = 1; i <= 127; ++i) exchange(1000 + i, 20 * kTick, kAhead);
-  EXPECT_NEAR(clock.offset, 5.003, 1e-9);
-  EXPECT_NEAR(clock.jitter, 0.03 * std::sqrt(127.0) / 128, 1e-9) << "one of 128 is 30 ms faster";
-  exchange(1128, 20 * kTick, kAhead);
-  EXPECT_NEAR(clock.offset, 5, 1e-9);
-  EXPECT_NEAR(clock.jitter, 0, 1e-7);
-}
-
-// 1001 samples make a second, of which three are missing: of the next second nothing is, nor of a peer that begins to count anew.
-TEST(PeerClock, SaysOfEachSecondWhatWasLostInIt) {
-  PeerClock clock;
-  const auto send = [&](std::uint32_t number, std::int64_t at) { clock.add({number, number * kTick, 0, 0}, at * kTick); };
-  for (std::uint32_t i = 1; i <= 1000; ++i)
-    if (i < 400 || i > 402) send(i, i);
-  EXPECT_EQ(clock.loss, 0) << "no whole second yet";
-  EXPECT_EQ(clock.gap, 0);
-  send(1001, 1001);
-  EXPECT_NEAR(clock.loss, 3 / 1001.0, 1e-12);
-  EXPECT_NEAR(clock.gap, 0.004, 1e-12);
-  for (std::uint32_t i = 1002; i <= 2001; ++i) send(i, i);
-  EXPECT_EQ(clock.loss, 0);
-  EXPECT_NEAR(clock.gap, 0.001, 1e-12);
-  for (std::uint32_t i = 1; i <= 1001; ++i) send(i, 2001 + i);
-  EXPECT_EQ(clock.loss, 0) << "it was started again";
 }
 
 }  // namespace

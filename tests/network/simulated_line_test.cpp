@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace reachlab::network {
@@ -33,32 +34,40 @@ TEST(SimulatedLine, LosesItsShare) {
   EXPECT_NEAR(static_cast<double>(delaysOver({.delay = 0.04, .jitter = 0, .loss = 0.3}, 2000).size()), 1400, 60);
 }
 
-// What overtakes another arrives before it; a tick's rounding makes nothing late.
-TEST(SimulatedLine, GivesWhatHasArrivedByNowOnceAndInTheOrderOfSending) {
-  SimulatedLine<int> line({.delay = 0.02, .jitter = 0, .loss = 0}, 1);
-  std::vector<int> got;
-  const auto receive = [&](double now) {
-    got.clear();
-    line.receive(now, [&](int sample) { got.push_back(sample); });
-    return got;
-  };
-  for (int i = 0; i < 3; ++i) line.send(i, 0.001 * i);
-  EXPECT_EQ(receive(0.0199), std::vector<int>{});
-  EXPECT_EQ(receive(0.1 * 3 - 0.28 - 1e-16), std::vector<int>{0});
-  EXPECT_EQ(receive(0.03), (std::vector{1, 2}));
-  EXPECT_EQ(receive(1), std::vector<int>{});
+TEST(SimulatedLine, WithoutJitterASampleComesAfterItsDelayAndOnce) {
+  SimulatedLine<int> line({.delay = 0.04, .jitter = 0, .loss = 0}, 1);
+  std::vector<int> came;
+  const auto look = [&](double now) { line.receive(now, [&](int sample) { came.push_back(sample); }); };
+  line.send(7, 1);
+  line.send(8, 1.01);
+  look(1.0399);
+  EXPECT_TRUE(came.empty());
+  look(1.04);
+  look(1.045);
+  EXPECT_EQ(came, std::vector<int>{7});
+  line.send(9, 1.045);
+  look(2);
+  EXPECT_EQ(came, (std::vector<int>{7, 8, 9})) << "in the order of sending";
 }
 
-TEST(SimulatedLine, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const auto lost = [](std::uint64_t seed) {
-    SimulatedLine<int> line({.delay = 0, .jitter = 0, .loss = 0.5}, seed);
-    std::vector<int> came;
-    for (int i = 0; i < 64; ++i) line.send(i, 0);
-    line.receive(0, [&](int sample) { came.push_back(sample); });
-    return came;
-  };
-  EXPECT_EQ(lost(5), lost(5));
-  EXPECT_NE(lost(5), lost(6));
+// A sample may overtake those before it, which still come, each once.
+TEST(SimulatedLine, WhatIsOvertakenComesLater) {
+  SimulatedLine<int> line({.delay = 0.04, .jitter = 0.03, .loss = 0}, 5);
+  std::vector<int> came;
+  for (int i = 0; i < 400; ++i) {
+    line.send(i, 1e-3 * i);
+    line.receive(1e-3 * i, [&](int sample) { came.push_back(sample); });
+  }
+  line.receive(10, [&](int sample) { came.push_back(sample); });
+  EXPECT_FALSE(std::is_sorted(came.begin(), came.end()));
+  std::sort(came.begin(), came.end());
+  ASSERT_EQ(came.size(), 400u);
+  for (int i = 0; i < 400; ++i) EXPECT_EQ(came[static_cast<std::size_t>(i)], i);
+}
+
+TEST(SimulatedLine, TheSameSeedGivesTheSameArrivals) {
+  const LineConditions conditions{.delay = 0.04, .jitter = 0.02, .loss = 0.2};
+  EXPECT_EQ(delaysOver(conditions, 300), delaysOver(conditions, 300));
 }
 
 }  // namespace
