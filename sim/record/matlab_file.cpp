@@ -181,7 +181,7 @@ std::u16string utf16Of(const std::string& text, bool pairs) {
       code = kUnknown;
     if (code >= 0x10000) {
       out += static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
-      out += static_cast<char16_t>(0xdc00 + ((code - 0x10000) & 0x3ff));
+      out += static_cast<char16_t>(0xdc00 + (code & 0x3ff));
     } else {
       out += static_cast<char16_t>(code);
     }
