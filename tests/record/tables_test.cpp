@@ -313,6 +313,33 @@ TEST_F(Tables, EveryTrialHasAC3dFileOfItsOwn) {
   }
 }
 
+TEST_F(Tables, ATrialBetweenTwoRowsHasNoC3dFile) {
+  const std::string path = folder_ / "short_log.reach";
+  {
+    Recorder recorder(path, configuration_, {.threaded = false});
+    auto state = std::make_unique<haptics::TickState>();
+    state->massCount = 2;
+    for (state->tick = 0; state->tick < 40; ++state->tick) {
+      state->trial = state->tick < 11 ? 0 : state->tick < 18 ? 1 : 2;
+      state->phase = state->trial == 0 ? trial::Phase::Idle : state->tick % 10 == 7 ? trial::Phase::Done : trial::Phase::Waiting;
+      recorder.onTick(*state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path));
+  ASSERT_EQ(runs[0].trials().size(), 2u);
+  EXPECT_EQ(c3dOf(runs[0], runs[0].trials()[0]).frames, 0u) << "ticks 11 to 17";
+  EXPECT_EQ(writeC3d(runs, folder_ / "c3d").size(), 1u);
+}
+
+TEST_F(Tables, OfNoRunsThereIsNothingToDescribe) {
+  const std::string data = folder_ / "none";
+  EXPECT_EQ(writeInto(data, *findExporter("csv"), {}).size(), 2u) << "the empty table and its dictionary";
+  EXPECT_TRUE(writeInto(data, *findExporter("c3d"), {}).empty());
+  EXPECT_FALSE(std::filesystem::exists(data + "/derivatives/csv/dataset_description.json"));
+}
+
 // Whatever is in memory at a time, every column comes once, in order and whole.
 TEST_F(Tables, ColumnsAreTheSameHoweverFewAreReadAtATime) {
   const RunLog run = recorded();
