@@ -1,0 +1,87 @@
+#include "cli/trial_profile.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/experiment/experiment.h"
+#include "tests/record/made_run.h"
+
+namespace reachlab::cli {
+namespace {
+
+// A trial of three masses whose speeds and force are multiples of the tick in three dimensions; onset at tick 40, or none.
+record::RunLog recorded(const record::TemporaryFolder& folder, bool moves) {
+  record::RunConfiguration configuration = record::madeConfiguration(3);
+  const experiment::Experiment chain = experiment::readExperiment("chain-moderate");
+  configuration.experimentText = chain.text;
+  configuration.definitionText = experiment::definitionTextOf(chain);
+  const std::string path = folder / "a_log.reach";
+  std::filesystem::remove(path);
+  {
+    record::Recorder recorder(path, configuration, {.threaded = false});
+    auto state = std::make_unique<haptics::TickState>();
+    state->massCount = 3;
+    state->trial = 1;
+    for (state->tick = 10; state->tick <= 100; ++state->tick) {
+      const auto t = static_cast<double>(state->tick);
+      state->phase = state->tick == 100 ? trial::Phase::Done : moves && state->tick >= 40 ? trial::Phase::Moving : trial::Phase::Waiting;
+      state->result.onsetTick = moves ? 40 : 0;
+      state->hand.velocity = {2 * t, -3 * t, 6 * t};   // of size 7
+      state->masses[0].v = {t, 4 * t, -8 * t};         // of size 9
+      state->masses[1].v = {1e3, 1e3, 1e3};            // not looked at
+      state->masses[2].v = {-2 * t, 6 * t, 9 * t};     // of size 11
+      state->couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
+      recorder.onTick(*state, trial::Command::None, 0);
+    }
+    recorder.close();
+  }
+  return record::RunLog::open(path);
+}
+
+TEST(TrialProfile, IsOfTheSamplesSinceTheOnset) {
+  const record::TemporaryFolder folder("profile");
+  const record::RunLog log = recorded(folder, true);
+  const TrialProfile profile = profileOf(log, log.trials()[0]);
+  EXPECT_TRUE(profile.sinceOnset);
+  ASSERT_EQ(profile.time.size(), 10u) << "ticks 10, 20 … 100";
+  for (std::size_t i = 0; i < 10; ++i) {
+    const double tick = 10.0 * static_cast<double>(i + 1);
+    EXPECT_DOUBLE_EQ(profile.time[i], (tick - 40) / 1000);
+    EXPECT_DOUBLE_EQ(profile.handSpeed[i], 7 * tick);
+    EXPECT_DOUBLE_EQ(profile.firstSpeed[i], 9 * tick);
+    EXPECT_DOUBLE_EQ(profile.lastSpeed[i], 11 * tick);
+    EXPECT_DOUBLE_EQ(profile.force[i], 3 * tick);
+  }
+}
+
+TEST(TrialProfile, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
+  const record::TemporaryFolder folder("profile");
+  const record::RunLog log = recorded(folder, false);
+  const TrialProfile profile = profileOf(log, log.trials()[0]);
+  EXPECT_FALSE(profile.sinceOnset);
+  EXPECT_EQ(profile.time.front(), 0);
+  EXPECT_EQ(profile.time.back(), 0.09);
+}
+
+TEST(TrialProfile, IsDrawnWithTheTasksTimes) {
+  const record::TemporaryFolder folder("profile");
+  const record::RunLog moved = recorded(folder, true);
+  const figure::Figure drawn = drawTrial(moved, moved.trials()[0]);
+  ASSERT_EQ(drawn.panels.size(), 2u);
+  EXPECT_EQ(drawn.columns, 2);
+  ASSERT_EQ(drawn.panels[0].series.size(), 3u);
+  EXPECT_EQ(drawn.panels[0].series[2].label, "mass 3");
+  EXPECT_EQ(drawn.panels[0].series[1].y, profileOf(moved, moved.trials()[0]).firstSpeed);
+  EXPECT_EQ(drawn.panels[1].series[0].y, profileOf(moved, moved.trials()[0]).force);
+  std::vector<double> rules;
+  for (const figure::Rule& rule : drawn.panels[0].rules) rules.push_back(rule.at);
+  EXPECT_EQ(rules, (std::vector<double>{0, 1.35 - 0.5, 1.35 + 0.5})) << "onset, and the earliest and the latest arrival";
+  const record::RunLog still = recorded(folder, false);
+  EXPECT_TRUE(drawTrial(still, still.trials()[0]).panels[0].rules.empty());
+}
+
+}  // namespace
+}  // namespace reachlab::cli
