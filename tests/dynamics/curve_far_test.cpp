@@ -322,5 +322,53 @@ TEST(Cusps, HowLongATickIsDoesNotMatter) {
   }
 }
 
+/// Right-hand sides: of a tick on average, of the dearest, and how many ticks in a hundred are dearer than two sub-steps.
+struct Price {
+  double mean = 0, most = 0, dear = 0;
+};
+Price priceOf(const Scene& scene, const Vec3& hand, int ticks) {
+  Price price;
+  const std::uint64_t first = scene.plant->rhsEvaluations();
+  for (int tick = 0; tick < ticks; ++tick) {
+    const std::uint64_t before = scene.plant->rhsEvaluations();
+    EXPECT_EQ(scene.plant->step(heldSegment(hand), 1e-3), StepStatus::Ok);
+    const double spent = static_cast<double>(scene.plant->rhsEvaluations() - before);
+    price.most = std::max(price.most, spent);
+    price.dear += spent > 26 ? 100.0 / ticks : 0;
+  }
+  price.mean = static_cast<double>(scene.plant->rhsEvaluations() - first) / ticks;
+  return price;
+}
+
+// What is promised of hard curves: one or two right-hand sides a tick where nothing is hard (twelve by sub-steps), and a tick that passes a
+// cusp stays far below the thousand that cap it.
+TEST(Cusps, ArePassedWithinTheirBudget) {
+  struct Case {
+    const char *x, *y;
+    double phi, rate;
+    Price abm, adaptive;
+  };
+  for (const Case& c :
+       {Case{"0.08*cos(phi)-0.0198*cos(4*phi)", "0.08*sin(phi)-0.0198*sin(4*phi)", 1.047, 9, {12.5, 370, 6}, {16.5, 370, 6}},
+        Case{"0.08*cos(phi)-0.01998*cos(4*phi)", "0.08*sin(phi)-0.01998*sin(4*phi)", 1.047, 9, {12.5, 420, 5}, {16.5, 420, 5}},
+        Case{"0.08*cos(phi)-0.02*cos(4*phi)", "0.08*sin(phi)-0.02*sin(4*phi)", 0.5, 4, {3.8, 100, 0.3}, {12.5, 100, 0.3}},
+        Case{"0.1*cos(phi)", "0.0001*sin(phi)", 0.8, 8, {5.2, 380, 1}, {13.5, 380, 1}}})
+    for (const bool steps : {false, true}) {
+      const Scene scene = freeScene(onCurve(bead(), c.x, c.y, "0"), {c.phi}, {c.rate}, steps ? "adaptive" : "abm");
+      const Price price = priceOf(scene, {}, 2000), most = steps ? c.adaptive : c.abm;
+      EXPECT_LE(price.mean, most.mean) << c.x << steps;
+      EXPECT_LE(price.most, most.most) << c.x << steps;
+      EXPECT_LE(price.dear, most.dear) << c.x << steps;
+      EXPECT_GE(price.mean, steps ? 12 : 1) << c.x;
+    }
+  const Scene star =
+      compileScene(onCurve(makeChain(2, 0.5, 200, {150, 0}), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"), {"adaptive", 1e-3, 0});
+  star.plant->place(std::array{0.7}, std::array{7.0});
+  const Price price = priceOf(star, {0.02, 0.05, 0}, 800);
+  EXPECT_LE(price.mean, 15);
+  EXPECT_LE(price.most, 175);
+  EXPECT_LE(price.dear, 5);
+}
+
 }  // namespace
 }  // namespace reachlab::dynamics

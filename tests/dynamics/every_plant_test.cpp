@@ -71,6 +71,7 @@ std::vector<Case> cases() {
       {"sphere", surface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)"), {0.4, 1.2}, {2, 4}, {0.1, 0.1, 0.1}},
       {"saddle", surface("0.1*u", "0.1*v", "0.05*(u^3 - 3*u*v^2)"), {0.4, 0.2}, {2, -3}, {0.05, 0.1, 0.1}},
       {"oblique", surface("0.1*(u + v)", "0.1*v + 0.004*u", "0.03*sin(u - v)"), {0.4, 0.2}, {2, -3}, {0.05, 0.1, 0.1}},
+      {"all but parallel", surface("0.1*(u + v)", "0.001*(u - v)", "0.03*sin(u + v)"), {0.4, 0.2}, {12, -8}, {0.05, 0.1, 0.1}},
       {"past a pole",
        surface("(0.1+0.02*cos(2*v))*cos(v)*cos(u)", "(0.1+0.02*cos(2*v))*cos(v)*sin(u)", "(0.1+0.02*cos(2*v))*sin(v)"),
        {0.3, 1.1},

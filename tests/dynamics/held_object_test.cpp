@@ -50,8 +50,12 @@ Scene inMotion(const Experiment& e) {
   for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = 0.4 - 0.23 * static_cast<double>(i) + 0.03 * static_cast<double>(i * i);
   plant.placeAtRest(std::vector<double>(e.constraint.name == "free" ? 3 : 1, 0.2));
   plant.show(places, rates);
-  for (int h = 1; h < plant.handCount(); ++h)
-    plant.setHand(h, heldSegment(handAt(h).position), handAt(h), kGrip[static_cast<std::size_t>(h)]);
+  for (int h = 1; h < plant.handCount(); ++h) {
+    HandSegment moving = heldSegment(handAt(h).position);
+    moving.degree = 2;
+    moving.position[2] = {0.01, -0.02, 0.03}, moving.velocity[1] = {0.3, 0.2, 0.1};
+    plant.setHand(h, moving, handAt(h), kGrip[static_cast<std::size_t>(h)]);
+  }
   return scene;
 }
 
