@@ -119,6 +119,23 @@ TEST(LinearPlant, ParallelMassesAndModesMoveAslantAsTheirEquationsSay) {
   expectExact(damped, slanted());
 }
 
+// Many undamped masses, side by side (each a mode of its own, with a mass that is not 1) and in a chain of more than 128.
+TEST(LinearPlant, ManyMassesMoveAsTheirEquationsSay) {
+  for (const ObjectKind kind : {ObjectKind::Parallel, ObjectKind::Chain}) {
+    ObjectModel model = unlike(kind, 130);
+    model.viscosity = 0;
+    model.gravity = {};
+    model.damping.assign(model.damping.size(), 0), model.handDamping.assign(130, 0);
+    const auto exact = makeExactPlant(model, slanted(), 1e-3);
+    const auto other = makeLinePlant(model, slanted(), {"adaptive", 0});
+    for (Plant* p : {exact.get(), other.get()}) {
+      p->place(std::array{0.2}, std::array{0.5});
+      ASSERT_EQ(run(*p, swinging, 0.03), StepStatus::Ok);
+    }
+    expectSame(*exact, *other, swinging(0.03), 1e-11);
+  }
+}
+
 // A cubic path and a held one as well as a smooth hand's seventh degree.
 TEST(LinearPlant, AHandOfAnyDegreePullsAsTheEquationsSay) {
   for (const ObjectModel& model : {unlike(ObjectKind::Chain, 3), unlike(ObjectKind::Parallel, 3), alike(4, 0, {})})

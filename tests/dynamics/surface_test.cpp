@@ -101,6 +101,25 @@ TEST(Surface, AnEdgeIsMetAtTheSameMomentInBothForms) {
   }
 }
 
+// Ends are looked for only where a mass may have met one.
+TEST(Surface, WithinItsEdgesATickCostsWhatItCostsWithoutThem) {
+  const auto spent = [](bool ended) {
+    constraints::Constraint c = patch(constraints::AtEnd::Bounce);
+    if (!ended) c.domain = {};
+    const auto plant = makeChartPlant(held(), c, nullptr, {"abm", 0});
+    plant->place(std::array{0.1, 0.1}, std::array{0.2, -0.1});
+    EXPECT_EQ(run(
+                  *plant,
+                  [](double) {
+                    return HandSample{{0.01, 0.01, 0}, {}, true};
+                  },
+                  0.3),
+              StepStatus::Ok);
+    return plant->rhsEvaluations();
+  };
+  EXPECT_EQ(spent(true), spent(false));
+}
+
 TEST(Surface, ElasticEdgesThrowAMassBackAlikeInBothForms) {
   ObjectModel alone = held();
   alone.viscosity = 0;
