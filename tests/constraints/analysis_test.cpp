@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include "constraints/definition.h"
 #include "constraints/geometry/arc_length.h"
@@ -218,6 +220,193 @@ TEST(TypedFormula, UnusedShapeIsNamed) {
             std::string::npos);
   EXPECT_NE(refusal({.name = {}, .curve = {"phi", "0", "0"}, .surface = {}, .shape = {{"phi", 1}}}).find("variable"), std::string::npos);
   EXPECT_NE(refusal({.name = {}, .curve = {"phi", "0"}, .surface = {}, .shape = {}}).find("allowed: three"), std::string::npos);
+}
+
+Constraint surface(const std::vector<std::string>& formula) {
+  return makeConstraint({.name = {}, .curve = {}, .surface = formula, .shape = {}});
+}
+
+TEST(Domains, WithoutAnEndAreLookedAtOnATurnOrOnASquare) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const auto bounded = [](ConstraintKind kind, double lo, double hi) {
+    Constraint c;
+    c.kind = kind;
+    c.domain[0].lo = lo, c.domain[0].hi = hi;
+    return std::pair(boundedDomain(c)[0].lo, boundedDomain(c)[0].hi);
+  };
+  using Range = std::pair<double, double>;
+  EXPECT_EQ(bounded(ConstraintKind::Curve, -kInf, kInf), Range(0, 2 * kPi));
+  EXPECT_EQ(bounded(ConstraintKind::Curve, 3, kInf), Range(3, 3 + 2 * kPi));
+  EXPECT_EQ(bounded(ConstraintKind::Curve, -kInf, 3), Range(3 - 2 * kPi, 3));
+  EXPECT_EQ(bounded(ConstraintKind::Curve, -5, 7), Range(-5, 7));
+  EXPECT_EQ(bounded(ConstraintKind::Surface, -kInf, kInf), Range(-1, 1));
+  EXPECT_EQ(bounded(ConstraintKind::Surface, 3, kInf), Range(3, 5));
+  EXPECT_EQ(bounded(ConstraintKind::Surface, -kInf, 3), Range(1, 3));
+}
+
+TEST(MinSpeed, IsFoundInsideOrAtAnEnd) {
+  const Constraint parabola = curve({"0.1*phi", "0.05*(phi - 0.5)^2", "0"});  // |r_phi|^2 = 0.01 (1 + (phi - 1/2)^2)
+  for (const auto& [lo, hi, at] : {std::tuple{-1.0, 3.0, 0.5}, {3.0, -1.0, 0.5}, {1.0, 3.0, 1.0}, {-3.0, 0.25, 0.25}}) {
+    const SlowPlace slow = findMinSpeed(parabola, lo, hi);
+    EXPECT_NEAR(slow.phi, at, 1e-9) << lo << " to " << hi;
+    EXPECT_NEAR(slow.speed, 0.1 * std::hypot(1, at - 0.5), 1e-15);
+  }
+  const Constraint slowest = curve({"sin(phi)*0.1 + 0.2*phi", "0", "0"});  // 0.2 + 0.1 cos(phi)
+  EXPECT_NEAR(findMinSpeed(slowest, -40, 40).speed, 0.1, 1e-15);
+  EXPECT_NEAR(std::cos(findMinSpeed(slowest, -40, 40).phi), -1, 1e-14);
+  EXPECT_THROW((void)findMinSpeed(surface({"u", "v", "0"}), 0, 1), RefusedError);
+}
+
+TEST(Cusps, AtTheEndsOfTheRangeAreFoundToo) {
+  const Constraint astroid = named("astroid");
+  EXPECT_EQ(findCusps(astroid, 0, kPi / 2).size(), 2u);
+  EXPECT_EQ(findCusps(astroid, 0.1, 1.5).size(), 0u);
+  EXPECT_EQ(findCusps(astroid, 1, 1).size(), 0u);
+  EXPECT_EQ(findCusps(astroid, 2, 1).size(), 0u);
+  EXPECT_EQ(findCusps(named("line"), 0, 1).size(), 0u);
+  EXPECT_EQ(findCusps(named("sphere"), 0, 1).size(), 0u);
+  const std::vector<double> many = findCusps(astroid, -0.1, 40 * kPi - 0.1);
+  EXPECT_EQ(many.size(), 80u);
+  EXPECT_TRUE(std::is_sorted(many.begin(), many.end()));
+}
+
+TEST(HigherDerivatives, AreThoseThatAreAskedForOrRefusedInWords) {
+  const Constraint cubic = curve({"phi^3", "2*phi", "phi^4 + 7"});
+  const std::vector<Vec3> d = computeDerivatives(cubic, 2, 3);
+  const std::vector<Vec3> expected{{8, 4, 23}, {12, 2, 32}, {12, 0, 48}, {6, 0, 48}};
+  EXPECT_EQ(d, expected);
+  EXPECT_EQ(computeDerivatives(cubic, 2, 0), std::vector<Vec3>{expected[0]});
+  for (const int order : {-1, 5}) try {
+      (void)computeDerivatives(cubic, 2, order);
+      ADD_FAILURE() << order;
+    } catch (const RefusedError& error) {
+      EXPECT_EQ(error.what(), "derivative " + std::to_string(order) + " of curve can't be formed; allowed: orders up to 4");
+    }
+}
+
+TEST(AngleSine, IsThatOfTheParameterLines) {
+  SurfacePoint p;
+  p.rU = {2, 0, 0}, p.rV = {3, 3, 0};
+  EXPECT_NEAR(computeAngleSine(p), std::sqrt(0.5), 1e-16);
+  p.rV = {0, 0, -5};
+  EXPECT_EQ(computeAngleSine(p), 1);
+  p.rV = {-4, 0, 0};
+  EXPECT_EQ(computeAngleSine(p), 0);
+  p.rV = {};
+  EXPECT_EQ(computeAngleSine(p), 0);
+}
+
+TEST(NonFinite, IsToldByTheLowestDerivativeAndItsPlace) {
+  const auto ofCurve = [](const std::string& y, double lo, double hi) {
+    return findNonFinite(curve({"phi", y, "0"}), {Domain{lo, hi}, Domain{0, 0}});
+  };
+  EXPECT_EQ(ofCurve("sqrt(phi)", -1, 1), "r is not finite at phi = -1");
+  EXPECT_EQ(ofCurve("sqrt(phi)", 0, 1), "r_phi is not finite at phi = 0");
+  EXPECT_EQ(ofCurve("phi^1.5", 0, 1), "r_phiphi is not finite at phi = 0");
+  EXPECT_EQ(ofCurve("1/(phi - 0.3)", 0, 1), "r is not finite at phi = 0.3");
+  EXPECT_EQ(ofCurve("1/(phi - 0.9)", 0, 1), "r is not finite at phi = 0.9");
+  EXPECT_EQ(ofCurve("abs(phi - 0.3)^1.5", 0, 1), "r_phiphi is not finite at phi = 0.3");
+  EXPECT_EQ(ofCurve("1/(phi - 1.3)", 0, 1), "");
+  EXPECT_EQ(ofCurve("sin(phi)/(2 + cos(5*phi))", 0, 100), "");
+  const auto ofSurface = [](const std::string& z) { return findNonFinite(surface({"u", "v", z}), {Domain{-1, 1}, Domain{0, 2}}); };
+  EXPECT_EQ(ofSurface("sqrt(u)"), "r is not finite at u = -1, v = 0");
+  EXPECT_EQ(ofSurface("abs(u)^0.5"), "r_u is not finite at u = 0, v = 0");
+  EXPECT_EQ(ofSurface("v^0.5"), "r_v is not finite at u = -1, v = 0");
+  EXPECT_EQ(ofSurface("abs(u)^1.5"), "r_uu is not finite at u = 0, v = 0");
+  EXPECT_EQ(ofSurface("v^1.5"), "r_vv is not finite at u = -1, v = 0");
+  EXPECT_EQ(ofSurface("1/(u - 0.3)").substr(0, 27), "r is not finite at u = 0.3,");
+  EXPECT_NE(ofSurface("1/(v - 1.7)").find("v = 1.7"), std::string::npos);
+  EXPECT_EQ(ofSurface("1/((u + 2)*(v + 1))"), "");
+  EXPECT_EQ(findNonFinite(named("free"), {Domain{0, 1}, Domain{0, 1}}), "");
+}
+
+TEST(DegeneratesEverywhere, IsToldOfTheRangeAlone) {
+  const std::array<Domain, 2> range{Domain{0.1, 1}, Domain{0.2, 2}};
+  EXPECT_FALSE(degeneratesEverywhere(named("circle"), range));
+  EXPECT_FALSE(degeneratesEverywhere(named("sphere"), range));
+  EXPECT_FALSE(degeneratesEverywhere(named("free"), range));
+  EXPECT_TRUE(degeneratesEverywhere(named("sphere"), {Domain{0.1, 1}, Domain{kPi / 2, kPi / 2}})) << "at its pole";
+  EXPECT_FALSE(degeneratesEverywhere(curve({"abs(phi - 0.5) + phi", "0", "0"}), range)) << "still below a half alone";
+  EXPECT_TRUE(degeneratesEverywhere(curve({"abs(phi - 0.5) + phi", "0", "0"}), {Domain{0.1, 0.4}, Domain{0, 0}}));
+  EXPECT_FALSE(degeneratesEverywhere(curve({"sqrt(-1 - phi^2)", "0", "0"}), range)) << "where there is nothing, nothing degenerates";
+}
+
+// A sphere whose latitude is u: what is fixed is the other parameter, and the poles are where they are.
+TEST(DegeneratePlaces, AreToldByTheParameterThatIsFixed) {
+  Constraint sphere = surface({"0.3*cos(u)*cos(v) + 1", "0.3*cos(u)*sin(v) + 2", "0.3*sin(u) + 3"});
+  sphere.domain = {Domain{-kPi / 2, kPi / 2}, Domain{0, 2 * kPi, true}};
+  const std::vector<DegeneratePlace> poles = findDegeneratePlaces(sphere);
+  ASSERT_EQ(poles.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double side = k == 0 ? -1 : 1;
+    EXPECT_EQ(poles[k].kind, DegenerateKind::Pole);
+    EXPECT_EQ(poles[k].fixed, 0);
+    EXPECT_NEAR(poles[k].u, side * kPi / 2, 1e-9);
+    EXPECT_NEAR(norm(poles[k].r - Vec3{1, 2, 3 + 0.3 * side}), 0, 1e-9);
+    EXPECT_NEAR(std::abs(poles[k].normal.z), 1, 1e-5);
+  }
+  Constraint cone = surface({"u*cos(v)", "u*sin(v)", "2*u + 1"});
+  cone.domain = {Domain{-0.37, 1}, Domain{0, 2 * kPi, true}};
+  const std::vector<DegeneratePlace> tip = findDegeneratePlaces(cone);
+  ASSERT_EQ(tip.size(), 1u) << "inside of its range, between the lines that are looked at";
+  EXPECT_EQ(tip[0].kind, DegenerateKind::Apex);
+  EXPECT_EQ(tip[0].fixed, 0);
+  EXPECT_NEAR(tip[0].u, 0, 1e-9);
+  EXPECT_NEAR(norm(tip[0].r - Vec3{0, 0, 1}), 0, 1e-8);
+}
+
+TEST(DegeneratePlaces, ACuspidalEdgeIsALineOfPlacesAndAPinchIsOne) {
+  for (const int fixed : {0, 1}) {
+    Constraint edge = fixed == 0 ? surface({"(u - 0.3)^2", "(u - 0.3)^3", "v"}) : surface({"u", "(v - 0.3)^2", "(v - 0.3)^3"});
+    edge.domain = {Domain{-1, 1}, Domain{-0.5, 1}};
+    const std::vector<DegeneratePlace> places = findDegeneratePlaces(edge);
+    ASSERT_EQ(places.size(), 1u);
+    EXPECT_EQ(places[0].kind, DegenerateKind::Edge);
+    EXPECT_EQ(places[0].fixed, fixed);
+    EXPECT_NEAR(fixed == 0 ? places[0].u : places[0].v, 0.3, 1e-7);
+  }
+  Constraint umbrella = surface({"(u - 0.21)*(v - 0.13)", "u", "(v - 0.13)^2"});  // Whitney's, moved
+  umbrella.domain = {Domain{-1, 1.5}, Domain{-0.5, 0.8}};
+  const std::vector<DegeneratePlace> pinch = findDegeneratePlaces(umbrella);
+  ASSERT_EQ(pinch.size(), 1u);
+  EXPECT_EQ(pinch[0].kind, DegenerateKind::Pinch);
+  EXPECT_EQ(pinch[0].fixed, -1);
+  EXPECT_NEAR(pinch[0].u, 0.21, 1e-7);
+  EXPECT_NEAR(pinch[0].v, 0.13, 1e-7);
+  EXPECT_NEAR(norm(pinch[0].r - Vec3{0, 0.21, 0}), 0, 1e-7);
+  EXPECT_TRUE(findDegeneratePlaces(named("circle")).empty());
+  EXPECT_STREQ(nameOf(DegenerateKind::Pole), "pole");
+  EXPECT_STREQ(nameOf(DegenerateKind::Apex), "apex");
+  EXPECT_STREQ(nameOf(DegenerateKind::Edge), "edge");
+  EXPECT_STREQ(nameOf(DegenerateKind::Pinch), "pinch");
+}
+
+// s = a sinh(phi) on a catenary, from either end; and of a spiral whose pace grows a hundredfold.
+TEST(ArcLength, FindsTheParameterWhereSoMuchIsDone) {
+  const Constraint catenary = named("catenary");
+  for (const auto& [from, to] : {std::pair{-0.4, 1.3}, {1.3, -0.4}}) {
+    const ArcLength way(catenary, from, to);
+    EXPECT_NEAR(way.length(), 0.08 * (std::sinh(1.3) + std::sinh(0.4)), 1e-14);
+    for (const double part : {0.0, 0.1, 0.5, 0.93, 1.0}) {
+      const double done = part * way.length() * (to > from ? 1 : -1);
+      EXPECT_NEAR(way.parameterAt(part * way.length()), std::asinh(std::sinh(from) + done / 0.08), 1e-12) << part;
+    }
+    EXPECT_NEAR(way.parameterAt(2 * way.length()), to, 1e-12) << "beyond it the end";
+  }
+  const ArcLength spiral(curve({"0.1*exp(phi)*cos(phi)", "0.1*exp(phi)*sin(phi)", "0"}), 0, std::log(100.0));
+  EXPECT_NEAR(spiral.length(), 0.1 * std::sqrt(2.0) * 99, 1e-11);
+  EXPECT_NEAR(spiral.parameterAt(0.1 * std::sqrt(2.0) * 9), std::log(10.0), 1e-11);
+  const auto refused = [](const Constraint& c) -> std::string {
+    try {
+      (void)ArcLength(c, -1, 1);
+    } catch (const RefusedError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refused(named("sphere")), "sphere is no curve");
+  EXPECT_EQ(refused(curve({"phi", "sqrt(phi)", "0"})).substr(0, 66), "the curve has no value, or no end to its length, near phi = -1.000");
+  EXPECT_NEAR(ArcLength(curve({"phi", "abs(phi - 0.3)", "0"}), 0, 1).length(), std::sqrt(2.0), 1e-12) << "over a kink";
 }
 
 }  // namespace
