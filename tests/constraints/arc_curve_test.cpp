@@ -160,7 +160,7 @@ TEST(ArcCurve, RefusesInWordsWhatNoSmoothMovementPasses) {
   EXPECT_EQ(refusal(typed("phi/10", "0.1*phi*abs(phi)"), -1, 2), refusedFor("a step of its curvature (abs(phi))", "0"));
   EXPECT_EQ(refusal(typed("phi/10", "0.15*sign(phi - 1)"), 0, 2), refusedFor("a jump of 0.3 m (sign(phi - 1))", "1"));
   EXPECT_EQ(refusal(typed("phi/10", "0.1*sqrt(abs(phi))"), -1, 2), refusedFor("a spike (sqrt(abs(phi)))", "0"));
-  EXPECT_EQ(refusal(typed("phi^2", "phi^3"), -1, 2).substr(0, 64), "the curve has a cusp, or a place where it stands still, at phi =");
+  EXPECT_EQ(refusal(typed("phi^2", "phi^3"), -1, 3), refusedFor("a cusp, or a place where it stands still,", "0"));
   EXPECT_EQ(refusal(typed("phi/10", "0.1*abs(phi - 0.5)"), 0.5, 2), "") << "at the start it is met at rest";
   EXPECT_EQ(refusal(typed("phi/10", "0.1*abs(phi - 0.5)"), 0, 0.5), "");
   EXPECT_NE(refusal(typed("0.1*(2*phi + abs(phi))", "0"), -1, 1, Along::Parameter), "") << "the pace changes";
