@@ -256,6 +256,54 @@ TEST(Expressions, AreWrittenAsFormulasThatReadBack) {
   });
 }
 
+// Each as "argument level": what decides, and the value at which the operation is not analytic.
+TEST(Expressions, AreGuardedWhereAnOperationIsNotAnalytic) {
+  const std::pair<const char*, std::vector<std::string>> rows[] = {{"abs(u)", {"u 0"}},
+                                                                   {"sign(u)", {"u 0"}},
+                                                                   {"sqrt(u)", {"u 0"}},
+                                                                   {"log(u)", {"u 0"}},
+                                                                   {"v/u", {"u 0"}},
+                                                                   {"asin(u)", {"u 1", "u -1"}},
+                                                                   {"acos(u)", {"u 1", "u -1"}},
+                                                                   {"tan(u)", {"cos(u) 0"}},
+                                                                   {"atan2(u, v)", {"u 0"}},
+                                                                   {"atan2(0, v)", {"v 0"}},
+                                                                   {"atan2(1, v)", {}},
+                                                                   {"atan2(a - a, v)", {"v 0"}},
+                                                                   {"u^1.5", {"u 0"}},
+                                                                   {"u^a", {"u 0"}},
+                                                                   {"u^v", {"u 0"}},
+                                                                   {"u^65", {}},
+                                                                   {"u^(-65)", {"u 0"}},
+                                                                   {"u^3", {}},
+                                                                   {"2^u", {}},
+                                                                   {"abs(a)", {}},
+                                                                   {"1/a", {}},
+                                                                   {"sin(u) + cosh(v)*exp(u)", {}},
+                                                                   {"abs(abs(u) - v)", {"u 0", "abs(u) - v 0"}}};
+  for (const auto& [text, expected] : rows) {
+    ExpressionGraph graph;
+    const int root = nodeOf(graph, text);
+    std::vector<std::string> told;
+    for (const Guard& guard : findGuards(graph, {root}, kShape)) {
+      told.push_back(writeFormula(graph, guard.argument, kVariables, kParameters) + " " + std::to_string(static_cast<int>(guard.level)));
+      EXPECT_EQ(guard.branches(), guard.op == Op::Abs || guard.op == Op::Sign || guard.op == Op::Atan2);
+    }
+    EXPECT_EQ(told, expected) << text;
+  }
+}
+
+TEST(Expressions, AreCutWhereTheyAreTooLongToBeTold) {
+  ExpressionGraph graph;
+  const int root = nodeOf(graph, "u + v*(a + b)^2 - 3*sin(u)");
+  const std::string whole = writeFormula(graph, root, kVariables, kParameters);
+  EXPECT_EQ(whole, "u + v*(a + b)^2 - 3*sin(u)");
+  EXPECT_EQ(writeFormula(graph, root, kVariables, kParameters, whole.size()), whole);
+  EXPECT_EQ(writeFormula(graph, root, kVariables, kParameters, 5), "u + v…");
+  EXPECT_EQ(writeFormula(graph, nodeOf(graph, "pi*u - v/(u/b)"), kVariables, kParameters), "pi*u - v/(u/b)");
+  EXPECT_EQ(writeFormula(graph, nodeOf(graph, "atan2(u - (v - a), (-2)*u)^v"), kVariables, kParameters), "atan2(u - (v - a), -(2*u))^v");
+}
+
 /// A line of C++ as a formula: without std::, with sign for signOf and (x)^(y) for pow(x, y).
 std::string asFormula(std::string text) {
   text = replacedAll(replacedAll(text, "std::", ""), "signOf", "sign");
@@ -670,6 +718,9 @@ TEST(WrittenCode, HasNamesThatNobodyElseHas) {
   EXPECT_EQ(cppIdentifier("_x", {}), "shape_x");
   EXPECT_EQ(cppIdentifier("a__b___c", {}), "shapea_b_c");
   EXPECT_EQ(cppIdentifier("a_b_c", {}), "a_b_c");
+  const auto twoNames = compileFormula({ConstraintKind::Curve, {"double*phi", "doubleShape*phi", "0"}, {"double", "doubleShape"}}, "here");
+  EXPECT_NE(writeEvaluator(*twoNames, "f").find("const double doubleShape = shape[0];\n  const double doubleShapeShape = shape[1];"),
+            std::string::npos);
   EXPECT_EQ(upperCamel("spherical-spiral"), "SphericalSpiral");
   EXPECT_EQ(upperCamel("a-9z-zA"), "A9zZA");
   EXPECT_EQ(upperCamel(""), "");

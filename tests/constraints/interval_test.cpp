@@ -142,6 +142,7 @@ TEST(IntervalEvaluator, KnowsCrestsCutsPolesAndEnds) {
       {"0*(1/u)", {-1, 1}, any, {0, 0}},
       {"(1/u)*v", {-1, 1}, any, all, Finiteness::Unknown},
       {"log(u) + 1/v", {-1, 0}, {-1, 1}, all, Finiteness::Nowhere},
+      {"exp(v) - exp(u)", {0, 1000}, {900, 1000}, all, Finiteness::Nowhere},
       {"1/u - 1/u^2", {-1, 1}, any, all, Finiteness::Unknown},
   };
   for (const Known& row : rows) {

@@ -61,6 +61,7 @@ TEST(Formula, FaultsPointAtTheCharacterAndSayWhatWasExpected) {
   expect("", 1, "expected a number, a name, a function or '('");
   expect("cos(phi", 8, "expected ')'");
   expect("2*phj", 3, "did you mean phi?");
+  expect("zzz", 1, "unknown name 'zzz'; expected phi, a, length_m, pi, e or a function");
   expect("lenght_m*phi", 1, "did you mean length_m?");
   expect("phi phi", 5, "expected an operator");
   expect("2phi", 2, "multiplication is written *");

@@ -221,6 +221,22 @@ TEST(Places, StillPlacesHaveTheirPointAndGoAlongWithKinks) {
   EXPECT_TRUE(computeRegularityWithin(curve("(phi - 1)^2/10", "(phi - 1)^3/10", "5"), 0, 2).places.empty()) << "not looked for";
 }
 
+TEST(Places, OfPiecesAreThoseOfTheWholeListWhicheverComesFirst) {
+  const CurveRegularity r = computeRegularity(curve("(phi - 1)^2/10", "(phi - 1)^3/10 + 0.1*(abs(phi - 3) + phi - 3)"), 0.5);
+  ASSERT_EQ(r.places.size(), 2u);
+  EXPECT_EQ(r.places[0].kind, PlaceKind::Cusp);
+  EXPECT_EQ(r.places[1].kind, PlaceKind::Kink);
+  EXPECT_EQ(r.pieces.at(0).placeAtHi, 1);
+  EXPECT_EQ(r.pieces.at(1).placeAtLo, 1);
+}
+
+TEST(Places, WhereACycloidStandsStillAreToldOnFourTurnsEitherWay) {
+  const CurveRegularity r = computeRegularity(curve("0.1*(phi - sin(phi))", "0.1*(1 - cos(phi))"), 1);
+  EXPECT_TRUE(r.whole);
+  ASSERT_EQ(r.places.size(), 8u);
+  for (int k = 0; k < 8; ++k) EXPECT_NEAR(r.places[static_cast<std::size_t>(k)].at, 2 * kPi * (k - 3), 1e-6);
+}
+
 TEST(Places, OfAStretchAreThoseInIt) {
   const Constraint two = curve("phi/10", "abs(phi - 1)/10 + 0.2*abs(phi - 3)");
   const CurveRegularity within = computeRegularityWithin(two, 0, 2);
