@@ -10,6 +10,7 @@ namespace reachlab::haptics {
 namespace {
 
 constexpr double kCautiousFrom = 0.8;  // of the heat budget
+constexpr double kRampTicks = ForceSafety::kRampSeconds / kTickSeconds;
 
 }  // namespace
 
@@ -17,7 +18,7 @@ double ForceSafety::heat() const noexcept { return limits_.continuous > 0 ? heat
 
 Vec3 ForceSafety::bound(const Vec3& force) noexcept {
   double bound = limits_.instantaneous * rampTicks_ * kTickSeconds / kRampSeconds;
-  std::uint8_t by = bound < limits_.instantaneous ? intervention::kRamp : intervention::kLimit;
+  std::uint8_t by = rampTicks_ < kRampTicks ? intervention::kRamp : intervention::kLimit;  // rounding leaves 12 N a bit below 12 N
   if (limits_.continuous > 0 && limits_.continuous < limits_.instantaneous) {
     const double used = std::clamp((heat() - kCautiousFrom) / (1 - kCautiousFrom), 0.0, 1.0);
     const double peak = limits_.instantaneous * limits_.instantaneous, rest = limits_.continuous * limits_.continuous;
@@ -38,7 +39,7 @@ Vec3 ForceSafety::limit(const Vec3& force, bool engaged, bool held) noexcept {
     rampTicks_ = 0;
     last_ = {};
   } else {
-    rampTicks_ = std::min(rampTicks_ + 1, kRampSeconds / kTickSeconds);
+    rampTicks_ = std::min(rampTicks_ + 1, kRampTicks);
     const Vec3 bounded = bound(force);
     const Vec3 change = bounded - last_;
     const double step = norm(change);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/haptics/hand_guard.h"
+
 namespace reachlab::haptics {
 namespace {
 
@@ -103,6 +105,16 @@ TEST(ForceSafety, ShortPeaksAreFeltInFull) {
         ASSERT_EQ(felt, wish);
       }
     }
+}
+
+TEST(ForceSafety, SaysLimitAndNotRampOnceTheRampIsOver) {
+  for (const double limit : {3.0, 5.0, 6.0, 12.0}) {  // three of them are no multiple of 1/200 to the bit
+    ForceSafety safety({limit});
+    for (int tick = 1; tick <= 300; ++tick) {
+      safety.limit({0, 50, 0}, true, true);
+      ASSERT_EQ(safety.interventions(), tick < 200 ? intervention::kRamp : intervention::kLimit) << limit << " N, tick " << tick;
+    }
+  }
 }
 
 }  // namespace
