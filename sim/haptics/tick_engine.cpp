@@ -82,7 +82,7 @@ TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene
 }
 
 void TickEngine::putUp(Port& port) noexcept {
-  port.fpOffset = port.anchor = {};
+  port.fpOffset = {};
   port.anchorTicks = 0;
   port.broken = port.clamped = false;
   port.safety.rearm();
