@@ -4,6 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/haptics/watchdog.h"
 
@@ -185,6 +189,137 @@ TEST_F(Watch, AHandThatWasLostMayComeBackElsewhere) {
   EXPECT_TRUE(look({0.2, 0, 0}).valid);
 }
 
+// 10 ms for a device that says so, from when its newest report came on the clock.
+TEST_F(Watch, TheBoundOnSilenceIsTheDevicesOwn) {
+  DeviceInfo info = forceDevice();
+  info.silenceLimit = 0.01;
+  watch = DeviceWatch(info);
+  settle({});
+  for (int i = 1; i < 10; ++i) ASSERT_TRUE(look({}, false).valid) << i;
+  EXPECT_FALSE(look({}, false).valid);
+}
+
+// Told by its clock, a report is as old as the device says, but never from a time to come.
+TEST_F(Watch, AReportIsAsOldAsTheDeviceSays) {
+  for (const std::int64_t age : {19'999'999, 20'000'000, -1'000'000'000}) {
+    watch = DeviceWatch(forceDevice());
+    settle({});
+    DeviceSample sample;
+    sample.reports = ++reports;
+    context.nowNs = now += kTickNs;
+    sample.takenNs = now - age;
+    EXPECT_EQ(watch.look(sample, context).valid, age < 20'000'000) << age;
+    EXPECT_EQ(watch.fault(), age < 20'000'000 ? DeviceFault::None : DeviceFault::Silent);
+    if (age > 0) continue;
+    for (int i = 1; i < 20; ++i) ASSERT_TRUE(look({}, false).valid) << i;
+    EXPECT_FALSE(look({}, false).valid) << "20 ms after it came";
+  }
+}
+
+TEST_F(Watch, TheVelocityThatADeviceMeasuresIsHeldToTheSameLimit) {
+  for (const double speed : {2.99, 3.01})
+    for (const bool measures : {false, true}) {
+      watch = DeviceWatch(forceDevice());
+      settle({});
+      DeviceSample sample;
+      sample.hasVelocity = measures;
+      sample.velocity = {0, 0.6 * speed, -0.8 * speed};
+      sample.reports = ++reports;
+      context.nowNs = now += kTickNs;
+      EXPECT_EQ(watch.look(sample, context).valid, !measures || speed < 3) << speed;
+    }
+}
+
+// A hand may have gone on at its limit while it was not seen: 20 mm more than that is a jump.
+TEST_F(Watch, HowFarAHandMayBeGrowsWithTheTimeItWasNotSeen) {
+  DeviceInfo info = forceDevice();
+  info.speedLimit = 2;
+  for (const int silent : {0, 3})
+    for (const std::uint32_t missed : {0u, 4u})
+      for (const double beyond : {-1e-5, 1e-5}) {
+        watch = DeviceWatch(info);
+        settle({});
+        for (int i = 0; i < silent; ++i) look({}, false);
+        look({0.6 * (0.02 + 2e-3 * (silent + missed) + beyond), 0.8 * (0.02 + 2e-3 * (silent + missed) + beyond), 0}, true, missed);
+        EXPECT_EQ(watch.fault() == DeviceFault::Jump, beyond > 0) << silent << " silent, " << missed << " missed";
+      }
+}
+
+// A computer that was held up asks twice at once: ten ticks are never taken for less than 10 ms, and for what the clock says if it is more.
+TEST_F(Watch, TheSpeedIsTakenOverTenTicksOrTheirTimeOnTheClock) {
+  for (const std::uint32_t missed : {0u, 1u})
+    for (const double speed : {2.9, 3.1}) {
+      watch = DeviceWatch(forceDevice());
+      for (int i = 0; i < 25; ++i) look({}, true, missed);
+      for (int i = 1; i <= 10; ++i) look({0, 0, speed * 1e-3 * (1 + missed) * i}, true, missed);
+      EXPECT_EQ(watch.fault(), speed < 3 ? DeviceFault::None : DeviceFault::Speed) << speed;
+    }
+  watch = DeviceWatch(forceDevice());
+  settle({});
+  for (int i = 1; i <= 10; ++i) {
+    now -= kTickNs / 2;
+    ASSERT_TRUE(look({2e-3 * i, 0, 0}).valid) << "4 m/s if the clock were believed";
+  }
+}
+
+TEST_F(Watch, APlaceThatIsNoNumberIsNotLookedAt) {
+  settle({});
+  DeviceSample sample;
+  sample.position = {0, std::numeric_limits<double>::quiet_NaN(), 0};
+  sample.reports = ++reports;
+  context.nowNs = now += kTickNs;
+  watch.look(sample, context);
+  EXPECT_EQ(watch.fault(), DeviceFault::None);
+  EXPECT_TRUE(look({0.2, 0, 0}).valid) << "as after a loss";
+}
+
+TEST(DeviceHealth, EachHasItsName) {
+  EXPECT_EQ(nameOf(DeviceHealth::Ready), "ready");
+  EXPECT_EQ(nameOf(DeviceHealth::NeedsCalibration), "needs_calibration");
+  EXPECT_EQ(nameOf(DeviceHealth::Warm), "warm");
+  EXPECT_EQ(nameOf(DeviceHealth::Lost), "lost");
+  EXPECT_EQ(nameOf(DeviceHealth::Failed), "failed");
+}
+
+TEST(DeviceInfo, OfADeviceThatSaysNothingOfItself) {
+  const DeviceInfo info;
+  EXPECT_EQ(info.maxForce, 12);
+  EXPECT_EQ(info.maxContinuousForce, 0);
+  EXPECT_EQ(info.thermalSeconds, 10);
+  EXPECT_FALSE(info.virtualHand || info.rendersForce || info.drivesClock);
+  EXPECT_EQ(info.speedLimit, 3);
+  EXPECT_EQ(info.silenceLimit, 0.02);
+  EXPECT_EQ(info.degreesOfFreedom, 3);
+  EXPECT_EQ(info.rate, 1000);
+  EXPECT_EQ(info.workspaceRadius, 0);
+  for (const double unknown : {info.apparentMass, info.coulombFriction, info.viscosity, info.resolution, info.stylusMass})
+    EXPECT_EQ(unknown, 0);
+  const DeviceSample sample;
+  EXPECT_TRUE(sample.valid);
+  EXPECT_FALSE(sample.hasVelocity || sample.released || sample.hasOrientation);
+  EXPECT_EQ(sample.buttons, 0u);
+  EXPECT_EQ(sample.reports, 0u);
+  EXPECT_EQ(sample.takenNs, 0);
+  EXPECT_EQ(sample.orientation, (std::array<double, 4>{1, 0, 0, 0}));
+}
+
+// A device that overrides nothing.
+class PlainDevice final : public HapticDevice {
+ public:
+  DeviceInfo info() const override { return {}; }
+  DeviceSample read() noexcept override { return {}; }
+  void write(const Vec3&) noexcept override {}
+};
+
+TEST(HapticDevice, IsReadyAloneAndWithoutASecondPathUnlessItSaysSo) {
+  PlainDevice device;
+  EXPECT_EQ(device.health(), DeviceHealth::Ready);
+  EXPECT_EQ(device.healthText(), "");
+  EXPECT_EQ(device.calibrationHint(), "");
+  EXPECT_TRUE(device.otherHands().empty());
+  EXPECT_FALSE(device.stopForce());
+}
+
 TEST(DeviceWatch, LeavesDevicesWithoutForceAlone) {
   DeviceWatch watch{DeviceInfo{}};
   DeviceSample sample;
@@ -202,6 +337,17 @@ TEST(Watchdog, FiresWhenNoTickIsCompletedForTwentyMillisecondsUnderForce) {
   EXPECT_EQ(judgeLoop({kLast + 400 * kMs, 0, true, false}), DeviceFault::None) << "no tick yet";
 }
 
+TEST(Watchdog, LooksAtNothingThatItIsNotTold) {
+  constexpr std::int64_t kMs = 1'000'000, kLast = 1000 * kMs;
+  EXPECT_EQ(judgeLoop({}), DeviceFault::None);
+  EXPECT_EQ(judgeLoop({kLast}), DeviceFault::None) << "no tick yet";
+  EXPECT_EQ(judgeLoop({kLast + 900 * kMs, kLast}), DeviceFault::None) << "neither force nor a device's clock";
+  const WatchContext context;
+  EXPECT_FALSE(context.engaged);
+  EXPECT_EQ(context.missed, 0u);
+  EXPECT_EQ(context.nowNs, 0);
+}
+
 TEST(Watchdog, ADeviceThatDrivesTheClockMustCall) {
   constexpr std::int64_t kMs = 1'000'000, kLast = 1000 * kMs;
   EXPECT_EQ(judgeLoop({kLast + 500 * kMs, kLast, false, true}), DeviceFault::None);
@@ -209,12 +355,18 @@ TEST(Watchdog, ADeviceThatDrivesTheClockMustCall) {
   EXPECT_EQ(judgeLoop({kLast + 501 * kMs, kLast, false, false}), DeviceFault::None) << "our own clock needs none";
 }
 
-TEST(DeviceFault, EverySentenceNamesDeviceAndFault) {
-  for (int i = 1; i <= static_cast<int>(DeviceFault::Device); ++i) {
+TEST(DeviceFault, EverySentenceNamesDeviceAndFaultAndSaysWhatHappened) {
+  const std::vector<std::pair<std::string_view, const char*>> all{
+      {"none", "is in order"},       {"silent", "no new report"},     {"jump", "more than 20 mm within a tick"},
+      {"speed", "speed limit"},      {"not_finite", "not a number"},  {"stalled", "more than 20 ms"},
+      {"no_clock", "does not call"}, {"device", "a fault of its own"}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const auto fault = static_cast<DeviceFault>(i);
+    EXPECT_EQ(nameOf(fault), all[i].first);
     const std::string text = describe(fault, "Omni");
-    EXPECT_NE(text.find("Omni"), std::string::npos);
-    EXPECT_NE(text.find(nameOf(fault)), std::string::npos);
+    EXPECT_NE(text.find("device Omni "), std::string::npos) << text;
+    EXPECT_NE(text.find(all[i].second), std::string::npos) << text;
+    EXPECT_NE(text.find("(fault: " + std::string(all[i].first) + ")"), std::string::npos) << text;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/haptics/hand_guard.h"
@@ -105,6 +106,99 @@ TEST(ForceSafety, ShortPeaksAreFeltInFull) {
         ASSERT_EQ(felt, wish);
       }
     }
+}
+
+// A steady force leaves h(n) = F^2 (1 - (1 - dt/tau)^n), which fades by the same factor while no force is given.
+TEST(ForceSafety, HeatFollowsItsLawUpAndDown) {
+  constexpr double kContinuous = 2, kTau = 3, kForce = 1.5, kStep = 1 - 1e-3 / kTau;
+  ForceSafety safety({7, kContinuous, kTau});
+  for (int tick = 0; tick < 300; ++tick) safety.limit({}, true, true);
+  EXPECT_EQ(safety.heat(), 0);
+  for (int tick = 1; tick <= 2000; ++tick) {
+    safety.limit({0, kForce, 0}, true, true);
+    ASSERT_NEAR(safety.heat(), kForce * kForce / (kContinuous * kContinuous) * (1 - std::pow(kStep, tick)), kRounding) << tick;
+  }
+  const double warm = safety.heat();
+  for (int tick = 1; tick <= 2000; ++tick) {
+    safety.limit({0, kForce, 0}, tick % 2 == 0, false);
+    ASSERT_NEAR(safety.heat(), warm * std::pow(kStep, tick), kRounding) << tick;
+  }
+}
+
+// Between 80 and 100 % of the budget the square of the limit falls evenly from the peak's to the continuous force's.
+TEST(ForceSafety, TheBudgetTakesTheForceDownAlongItsLaw) {
+  constexpr double kPeak = 6, kContinuous = 2;
+  ForceSafety safety({kPeak, kContinuous, 0.5});
+  for (int tick = 0; tick < 300; ++tick) safety.limit({}, true, true);
+  double last = 0;
+  int full = 0, between = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const double used = std::min(std::max((safety.heat() - 0.8) / 0.2, 0.0), 1.0);
+    const double bound = std::sqrt(kPeak * kPeak - used * (kPeak * kPeak - kContinuous * kContinuous));
+    const double felt = norm(safety.limit({0, 0, -20}, true, true));
+    ASSERT_NEAR(felt, std::min(bound, last + ForceSafety::kSlewPerTick), 1e-9) << tick;
+    EXPECT_EQ((safety.interventions() & intervention::kHeat) != 0, used > 0) << tick;
+    EXPECT_EQ((safety.interventions() & intervention::kLimit) != 0, used == 0) << tick;
+    (used > 0 ? between : full) += 1;
+    last = felt;
+  }
+  EXPECT_GT(full, 10);
+  EXPECT_GT(between, 10);
+  EXPECT_NEAR(last, kContinuous, 1e-3);
+}
+
+TEST(ForceSafety, ADeviceThatStandsItsPeakForEverIsNeverWornDown) {
+  for (const double continuous : {0.0, 5.0, 6.0}) {
+    ForceSafety safety({5, continuous, 0.1});
+    for (int tick = 0; tick < 2000; ++tick) safety.limit({20, 0, 0}, true, true);
+    EXPECT_NEAR(norm(safety.limit({20, 0, 0}, true, true)), 5, kRounding) << continuous;
+    EXPECT_NEAR(safety.heat(), continuous > 0 ? 25 / (continuous * continuous) : 0, 1e-6) << "kept where the continuous force is known";
+  }
+}
+
+TEST(ForceSafety, ADeviceOfWhichNothingIsSaidGetsTwelveNewtonsAndNoBudget) {
+  const ForceLimits limits;
+  EXPECT_EQ(limits.instantaneous, 12);
+  EXPECT_EQ(limits.continuous, 0);
+  EXPECT_EQ(limits.thermalSeconds, 10);
+  EXPECT_EQ(ForceSafety(limits).limit(), 12);
+  EXPECT_EQ(ForceSafety({3}).limit(), 3);
+}
+
+TEST(ForceSafety, AStepBeyondTheSlewKeepsItsDirection) {
+  ForceSafety safety = settled(12, {1, 2, -3});
+  const Vec3 step = safety.limit({4, -2, -3}, true, true) - Vec3{1, 2, -3};
+  EXPECT_NEAR(step.x, 0.6 * ForceSafety::kSlewPerTick, kRounding);
+  EXPECT_NEAR(step.y, -0.8 * ForceSafety::kSlewPerTick, kRounding);
+  EXPECT_NEAR(step.z, 0, kRounding);
+  EXPECT_EQ(ForceSafety::kSlewPerTick, 2);
+}
+
+TEST(ForceSafety, AStepOfExactlyTheSlewIsTakenWhole) {
+  ForceSafety safety = settled(12, {1, 0, 0});
+  EXPECT_EQ(safety.limit({3, 0, 0}, true, true), (Vec3{3, 0, 0}));
+  EXPECT_EQ(safety.interventions(), 0);
+}
+
+TEST(ForceSafety, TheRampBeginsAnewAfterEachTickWithoutForce) {
+  ForceSafety safety = settled(10, {5, 0, 0});
+  safety.limit({5, 0, 0}, true, false);
+  for (int tick = 1; tick <= 7; ++tick) safety.limit({5, 0, 0}, true, true);
+  safety.limit({5, 0, 0}, false, true);
+  EXPECT_EQ(safety.interventions(), 0) << "between trials nothing is held back";
+  EXPECT_NEAR(norm(safety.limit({5, 0, 0}, true, true)), 10.0 / 200, kRounding);
+  EXPECT_EQ(safety.interventions(), intervention::kRamp);
+  EXPECT_EQ(ForceSafety::kRampSeconds, 0.2);
+}
+
+TEST(ForceSafety, ALatchIsSaidAsLongAsItHolds) {
+  ForceSafety safety = settled(10, {5, 0, 0});
+  EXPECT_FALSE(safety.latched());
+  safety.limit({0, 0, std::numeric_limits<double>::quiet_NaN()}, false, true);
+  safety.limit({5, 0, 0}, true, false);
+  EXPECT_EQ(safety.interventions(), intervention::kNotFinite);
+  safety.rearm();
+  EXPECT_FALSE(safety.latched());
 }
 
 TEST(ForceSafety, SaysLimitAndNotRampOnceTheRampIsOver) {

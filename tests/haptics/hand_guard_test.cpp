@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/haptics/tick_engine.h"
 #include "tests/haptics/armed_at_once.h"
@@ -67,6 +71,101 @@ TEST(PassivityObserver, APassiveDamperIsLeftAlone) {
   EXPECT_GT(port.energy(), 0);
 }
 
+TEST(Wall, PushesAlongTheRayFromItsCentre) {
+  GuardSettings settings;
+  settings.wallCentre = {0.01, -0.02, 0.03};
+  settings.wallRadius = 0.1;
+  settings.wallStiffness = 700;
+  settings.wallDamping = 3;
+  const Vec3 outwards{2.0 / 7, -3.0 / 7, 6.0 / 7}, place = settings.wallCentre + 0.105 * outwards;
+  const Vec3 along = wallForce(settings, place, 0.4 * outwards + Vec3{3, 2, 0});  // the second part is along the wall
+  EXPECT_LT(norm(along + (700 * 0.005 + 3 * 0.4) * outwards), 1e-9);
+  EXPECT_LT(norm(wallForce(settings, place, -0.4 * outwards) + 700 * 0.005 * outwards), 1e-9);
+  EXPECT_EQ(wallForce(settings, settings.wallCentre + 0.0999 * outwards, outwards), Vec3{});
+  settings.wallRadius = 0.5;  // narrower than a metre, and a wall all the same
+  EXPECT_NEAR(norm(wallForce(settings, settings.wallCentre + Vec3{0, 0.51, 0}, {})), 7, 1e-9);
+}
+
+TEST(GuardSettings, SayNothingUnlessAsked) {
+  const GuardSettings settings;
+  EXPECT_EQ(settings.wallRadius, 0);
+  EXPECT_EQ(settings.wallStiffness, 500);
+  EXPECT_EQ(settings.wallDamping, 2);
+  EXPECT_EQ(settings.compensation, Vec3{});
+  EXPECT_FALSE(settings.passivityControl);
+}
+
+TEST(GuardSettings, AreEqualWhereEveryOneIs) {
+  const GuardSettings settings;
+  EXPECT_TRUE(settings == GuardSettings{});
+  for (const auto& change : std::vector<std::function<void(GuardSettings&)>>{
+           [](GuardSettings& s) { s.wallCentre.y = 1; }, [](GuardSettings& s) { s.wallRadius = 1; },
+           [](GuardSettings& s) { s.wallStiffness = 1; }, [](GuardSettings& s) { s.wallDamping = 1; },
+           [](GuardSettings& s) { s.compensation.z = 1; }, [](GuardSettings& s) { s.passivityControl = true; }}) {
+    GuardSettings other;
+    change(other);
+    EXPECT_FALSE(settings == other);
+  }
+}
+
+TEST(DeviceState, EachHasItsName) {
+  EXPECT_EQ(nameOf(DeviceState::Off), "off");
+  EXPECT_EQ(nameOf(DeviceState::Homed), "homed");
+  EXPECT_EQ(nameOf(DeviceState::Armed), "armed");
+  EXPECT_EQ(nameOf(DeviceState::Engaged), "engaged");
+  EXPECT_EQ(nameOf(DeviceState::Fault), "fault");
+}
+
+TEST(Intervention, EachBitHasItsName) {
+  using namespace intervention;
+  const std::vector<std::pair<std::uint8_t, std::string_view>> all{
+      {kLimit, "limit"},          {kHeat, "heat"},         {kRamp, "ramp"}, {kSlew, "slew"}, {kWall, "wall"}, {kPassivity, "passivity"},
+      {kNotFinite, "not_finite"}, {kHeldBack, "held_back"}};
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(kCount));
+  for (int bit = 0; bit < kCount; ++bit) {
+    EXPECT_EQ(all[static_cast<std::size_t>(bit)].first, 1 << bit);
+    EXPECT_EQ(nameOf(bit), all[static_cast<std::size_t>(bit)].second);
+  }
+  EXPECT_EQ(nameOf(-1), "unknown");
+  EXPECT_EQ(nameOf(kCount), "unknown");
+}
+
+TEST(PassivityObserver, CountsTheWorkOnTheHeldForceAlongEveryAxis) {
+  PassivityObserver port;
+  port.render({100, 100, 100});
+  port.observe({1, 2, 3});
+  EXPECT_EQ(port.energy(), 0) << "the first place is no way";
+  port.render({2, -3, 5});
+  port.observe({1.5, 2.25, 2.875});
+  EXPECT_NEAR(port.energy(), -(2 * 0.5 - 3 * 0.25 - 5 * 0.125), 1e-15);
+  port.render({-1, 4, 0});
+  port.observe({1, 2, 3});
+  EXPECT_NEAR(port.energy(), 0.375 - (1 * 0.5 - 4 * 0.25), 1e-15);
+  port.reset();
+  EXPECT_EQ(port.energy(), 0);
+  port.observe({7, 7, 7});
+  EXPECT_EQ(port.energy(), 0);
+}
+
+// alpha = -E/(T v^2), held to 5 N s/m; a hand slower than 1 mm/s takes no energy, and nothing is taken back that was not given.
+TEST(PassivityObserver, TheControllerBrakesByTheEnergyThatIsMissing) {
+  const auto owing = [](double joules) {
+    PassivityObserver port;
+    port.observe({});
+    port.render({joules, 0, 0});
+    port.observe({1, 0, 0});
+    return port;
+  };
+  const Vec3 velocity{0.3, 0, -0.4};
+  const Vec3 some = owing(1e-3).control(velocity), most = owing(1e-2).control(velocity);
+  EXPECT_LT(norm(some + 1e-3 / (1e-3 * 0.25) * velocity), 1e-12);
+  EXPECT_LT(norm(most + 5 * velocity), 1e-12);
+  EXPECT_LT(norm(owing(1e-2).control({0, 1.01e-3, 0}) + 5 * Vec3{0, 1.01e-3, 0}), 1e-12);
+  EXPECT_EQ(owing(1e-2).control({0, 0.99e-3, 0}), Vec3{});
+  EXPECT_EQ(owing(-1e-2).control(velocity), Vec3{});
+  EXPECT_EQ(owing(0).control(velocity), Vec3{});
+}
+
 class GuardedEngine : public ::testing::Test {
  protected:
   GuardedEngine() : experiment(test::armedAtOnce("chain-slow")) { options.rendersForce = true; }
@@ -116,6 +215,77 @@ TEST_F(GuardedEngine, StatesFollowTheTrial) {
   for (int i = 0; i < 5; ++i) tick({-0.1, 0, 0});
   EXPECT_EQ(engine->state().deviceState, DeviceState::Engaged);
   EXPECT_EQ(tick({-0.1, 0, 0}, trial::Command::None, true).deviceState, DeviceState::Fault);
+}
+
+// What the observer counts is what the device was given, without the weight that is held beside it.
+TEST_F(GuardedEngine, TheWeightOfAStylusIsNoEnergyOfTheProgram) {
+  options.guards.compensation = {0, 2, 0};
+  engine = std::make_unique<TickEngine>(experiment, options);
+  for (int i = 0; i < 300; ++i) tick({0.05, 0, 0});
+  for (int i = 1; i <= 100; ++i) tick({0.05, 1e-4 * i, 0});
+  EXPECT_NEAR(engine->state().portEnergy, 0, 1e-15);
+  EXPECT_EQ(engine->state().interventions, 0);
+  EXPECT_FALSE(engine->state().clamped);
+}
+
+// Pulled out by 3 cm and back, at 600 N/m on a chain of 3 kg: the energy that is counted is the work on the forces that were given.
+TEST_F(GuardedEngine, ThePortsEnergyIsTheWorkOnTheForceThatWasFelt) {
+  armed();
+  double work = 0;
+  Vec3 place{-0.1, 0, 0}, force = engine->state().deviceForce;
+  for (int i = 0; i <= 600; ++i) {
+    const Vec3 next{-0.1 + 0.03 * std::sin(0.01 * i), 1e-5 * i, 0};
+    work -= dot(force, next - place);
+    place = next;
+    const TickState& state = tick(next);
+    ASSERT_NEAR(state.portEnergy, work, 1e-12) << i;
+    force = state.deviceForce;
+  }
+  EXPECT_GT(std::abs(work), 1e-3);
+  tick(place, trial::Command::Abort);
+  tick(place, trial::Command::NextTrial);
+  EXPECT_EQ(engine->state().portEnergy, 0) << "each trial counts for itself";
+}
+
+// The mass of 3 kg swings on its coupling without a damper: held from tick to tick, the coupling gives energy away.
+TEST_F(GuardedEngine, ThePassivityControllerActsWhereItIsWantedAlone) {
+  for (const bool wanted : {false, true}) {
+    options.guards.passivityControl = wanted;
+    armed();
+    int acted = 0;
+    double least = 0;
+    for (int i = 0; i <= 1500; ++i) {
+      const TickState& state = tick({-0.1 + 0.01 * std::sin(0.09 * i), 0, 0});
+      if (state.interventions & intervention::kPassivity) {
+        ++acted;
+        EXPECT_LT(state.portEnergy, 0);
+        EXPECT_LT(dot(state.deviceForce - state.feedbackForce, state.hand.velocity), 0) << "it brakes";
+      }
+      least = std::min(least, state.portEnergy);
+    }
+    if (wanted) {
+      EXPECT_GT(acted, 10);
+    } else {
+      EXPECT_EQ(acted, 0);
+    }
+    EXPECT_LT(least, 0);
+  }
+}
+
+TEST_F(GuardedEngine, AReleasedHandIsHomedAndALostOneOff) {
+  engine = std::make_unique<TickEngine>(experiment, options);
+  TickInput input;
+  input.device.position = {0.05, 0, 0};
+  input.device.valid = false;
+  engine->tick(input);
+  EXPECT_EQ(engine->state().deviceState, DeviceState::Off);
+  input.device.released = true;
+  engine->tick(input);
+  EXPECT_EQ(engine->state().deviceState, DeviceState::Homed);
+  input.device = {};
+  input.device.position = {0.05, std::nan(""), 0};
+  engine->tick(input);
+  EXPECT_EQ(engine->state().deviceState, DeviceState::Homed) << "no force was computed from it";
 }
 
 TEST_F(GuardedEngine, NothingAskedForChangesNoBit) {
