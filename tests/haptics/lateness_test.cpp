@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+#include <map>
+
 #include "sim/haptics/lateness.h"
 
 namespace reachlab::haptics {
@@ -23,6 +27,49 @@ TEST(LatenessHistogram, TakesAnyDuration) {
   histogram.add(std::numeric_limits<std::int64_t>::max());
   EXPECT_EQ(histogram.percentile(0.5), 0);
   EXPECT_EQ(histogram.max(), static_cast<double>(std::numeric_limits<std::int64_t>::max()));
+}
+
+// Sixteen buckets an octave: of a duration and one far above it, the half is told by the upper edge of its bucket.
+TEST(LatenessHistogram, ADurationIsToldByTheUpperEdgeOfItsBucket) {
+  for (const auto& [duration, edge] : std::map<std::int64_t, double>{{0, 0},
+                                                                     {1, 1},
+                                                                     {15, 15},
+                                                                     {16, 16},
+                                                                     {31, 31},
+                                                                     {32, 33},
+                                                                     {33, 33},
+                                                                     {34, 35},
+                                                                     {63, 63},
+                                                                     {64, 67},
+                                                                     {67, 67},
+                                                                     {68, 71},
+                                                                     {1000, 1023},
+                                                                     {1024, 1087},
+                                                                     {1'000'000, 1'015'807}}) {
+    LatenessHistogram histogram;
+    histogram.add(duration);
+    EXPECT_EQ(histogram.percentile(0.5), static_cast<double>(duration)) << "never above the longest";
+    histogram.add(10'000'000'000);
+    EXPECT_EQ(histogram.percentile(0.5), edge) << duration;
+    EXPECT_EQ(histogram.percentile(0), 0) << "nothing is below the shortest";
+    EXPECT_EQ(histogram.percentile(0.51), 1e10);
+    EXPECT_EQ(histogram.max(), 1e10);
+  }
+}
+
+TEST(LatenessHistogram, APercentileCountsEveryDuration) {
+  LatenessHistogram histogram;
+  for (const int duration : {3, 9, 1, 5, 7, 3, 3, 3, 2, 14}) histogram.add(duration);
+  EXPECT_EQ(histogram.percentile(0.1), 1);
+  EXPECT_EQ(histogram.percentile(0.2), 2);
+  EXPECT_EQ(histogram.percentile(0.21), 3);
+  EXPECT_EQ(histogram.percentile(0.6), 3);
+  EXPECT_EQ(histogram.percentile(0.61), 5);
+  EXPECT_EQ(histogram.percentile(0.9), 9);
+  EXPECT_EQ(histogram.percentile(1), 14);
+  EXPECT_EQ(histogram.max(), 14) << "also where the longest was not the last";
+  histogram.add(4);
+  EXPECT_EQ(histogram.max(), 14);
 }
 
 }  // namespace

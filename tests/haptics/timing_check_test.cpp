@@ -34,6 +34,19 @@ TEST(TimingCheck, IsGoodAsLongAsAMovementThatMissedAsMuchWouldCount) {
   EXPECT_FALSE(judgeTiming(watched(20, 21), many).good);
 }
 
+TEST(TimingCheck, TheLongestGapIsTheCountedOneOrTheLatestTicks) {
+  LoopReport report = watched(2, 4.5);
+  report.latenessMax = 3600;
+  EXPECT_NE(judgeTiming(report, limits()).sentence.find("2 of 2000 ticks missed, longest gap 4.60 ms"), std::string::npos);
+  report.latenessMax = 3400;
+  EXPECT_NE(judgeTiming(report, limits()).sentence.find("longest gap 4.50 ms"), std::string::npos);
+  EXPECT_TRUE(judgeTiming(report, limits()).realTime);
+  report.realTime = false;
+  EXPECT_FALSE(judgeTiming(report, limits()).realTime);
+  EXPECT_EQ(kTimingCheckSeconds, 2);
+  EXPECT_FALSE(TimingVerdict{}.good || TimingVerdict{}.realTime) << "nothing is good before it was looked at";
+}
+
 TEST(TimingCheck, ALoopThatNeverTickedIsNotGood) { EXPECT_FALSE(judgeTiming(LoopReport{}, limits()).good); }
 
 TEST(TimingCheck, SaysWhatAMovementMayMissAndHowToGetPriority) {
