@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "base/fault.h"
 #include "tests/haptics/armed_at_once.h"
@@ -464,6 +469,397 @@ TEST(TickEngine, AnExperimentCannotRaiseTheLimitOfADeviceThatRendersForce) {
   EXPECT_NEAR(mostForceOnAFrozenHand(20, true), kLimit, 1e-12);
   EXPECT_NEAR(mostForceOnAFrozenHand(5, true), 5, 1e-12);
   EXPECT_GT(mostForceOnAFrozenHand(20, false), 13.2) << "where no force is felt, the experiment's stands for the device's";
+}
+
+// A hand that stands where a gap has left it is seen to go there by the minimum-jerk law within 250 ticks.
+TEST_F(Engine, AfterAGapTheHandIsBlendedToWhereItIs) {
+  arm();
+  move(300);
+  for (int i = 0; i < 100; ++i) tick();  // at rest, so that the estimate is nought
+  const Vec3 seen = engine.state().hand.position, jump{0.004, -0.003, 0.002};
+  hand += jump;
+  tick(trial::Command::None, TickEngine::kGapTicks + 1);
+  for (int k = 0; k <= 260; ++k) {
+    const double x = std::min(k / 250.0, 1.0), done = x * x * x * (10 - 15 * x + 6 * x * x);
+    const double rate = 30 * x * x * (1 - x) * (1 - x) / 0.25;
+    ASSERT_LT(norm(engine.state().hand.position - (seen + done * jump)), 1e-12) << k;
+    ASSERT_LT(norm(engine.state().hand.velocity - rate * jump), 1e-9) << k;
+    tick();
+  }
+}
+
+TEST_F(Engine, AGapOfFiveTicksIsBelieved) {
+  arm();
+  move(300);
+  const double before = engine.state().hand.position.x;
+  hand.x += 0.001;
+  const TickState& state = tick(trial::Command::None, TickEngine::kGapTicks);
+  EXPECT_NEAR(state.hand.position.x, before + 0.001, 1e-12);
+  EXPECT_NE(state.deviceForce, Vec3{});
+  tick(trial::Command::None, TickEngine::kGapTicks + 1);
+  EXPECT_EQ(state.deviceForce, Vec3{});
+  EXPECT_TRUE(state.interventions & intervention::kHeldBack);
+}
+
+// 20 mm in a tick may be a hand's, more is a device's that has jumped: no speed is made of it.
+TEST_F(Engine, AJumpIsNoSpeed) {
+  for (const double step : {0.0199, 0.0201}) {
+    TickEngine fresh(experiment, {kLimit, false});
+    TickInput input;
+    input.device = handAt(hand);
+    for (int i = 0; i < 10; ++i) fresh.tick(input);
+    input.device.position.z += step;
+    fresh.tick(input);
+    EXPECT_EQ(fresh.state().hand.velocity == Vec3{}, step > 0.02) << step;
+  }
+}
+
+TEST_F(Engine, TellsTheTimeAndTheTicksThatItWasGiven) {
+  TickInput input;
+  input.device = handAt(hand);
+  input.measuredNs = 123;
+  input.missedTicks = 2;
+  engine.tick(input);
+  EXPECT_EQ(engine.state().tick, 1u);
+  EXPECT_EQ(engine.state().measuredNs, 123);
+  input.missedTicks = 5;
+  engine.tick(input);
+  EXPECT_EQ(engine.state().faults.missedTicks, 7u);
+  EXPECT_EQ(engine.state().trial, 0);
+  arm();
+  EXPECT_EQ(engine.state().trial, 1);
+  EXPECT_TRUE(engine.state().gone);
+  EXPECT_EQ(engine.state().trialTime, 0);
+  EXPECT_EQ(engine.state().faults.steps[0], 1u) << "armed at this tick: a state of the object, no step yet";
+  std::uint64_t onset = 0;
+  for (int i = 0; i < 50; ++i) {
+    move(1);
+    if (engine.state().phase != trial::Phase::Moving) continue;
+    if (onset == 0) onset = engine.state().tick;
+    EXPECT_DOUBLE_EQ(engine.state().trialTime, 1e-3 * static_cast<double>(engine.state().tick - onset));
+  }
+  EXPECT_EQ(engine.state().faults.steps[0], 51u);
+  EXPECT_GT(engine.state().energy, 0);
+  const double at = engine.state().trialTime;
+  tick(trial::Command::Abort);
+  EXPECT_NEAR(engine.state().trialTime, at + 1e-3, 1e-12) << "as it ended";
+  EXPECT_EQ(engine.state().energy, 0);
+  EXPECT_EQ(engine.state().result.outcome, trial::Outcome::Aborted);
+  tick();
+  EXPECT_EQ(engine.state().faults.steps[0], 51u) << "between trials no step is taken";
+}
+
+// A person may take any time to come to the start; a hand that moves by tick count has the time that it has for the onset.
+TEST_F(Engine, OnlyAHandWithoutAPersonMustBeAtTheStartInTime) {
+  experiment.task->timeout = 0.2;
+  experiment.task->rest.seconds = 0.05;
+  TickEngine person(experiment, {kLimit, false}), simulated(experiment, {kLimit, true});
+  EXPECT_EQ(person.protocol().startTimeoutTicks, trial::kNoLimit);
+  EXPECT_EQ(simulated.protocol().startTimeoutTicks, 250);
+}
+
+TEST_F(Engine, AForceThatIsNoNumberAbortsTheTrialWithoutForce) {
+  arm();
+  hand.x = 1e307;
+  for (int i = 0; i < 3 && engine.state().phase != trial::Phase::Done; ++i) EXPECT_EQ(tick().deviceForce, Vec3{});
+  EXPECT_EQ(engine.state().phase, trial::Phase::Done);
+  EXPECT_EQ(engine.state().result.outcome, trial::Outcome::Aborted);
+  EXPECT_EQ(engine.state().result.reason, trial::Reason::Computation);
+  hand = engine.protocol().start;
+  arm();
+  move(10);
+  EXPECT_EQ(engine.state().status, dynamics::StepStatus::Ok);
+}
+
+// Held beside its middle in one trial, the hand is seen where it is again when the next is put up.
+TEST_F(Engine, WhereTheHandHeldIsForgottenWithTheTrial) {
+  hand += Vec3{0.002, 0.003, -0.004};
+  arm();
+  EXPECT_EQ(engine.state().hand.position, engine.protocol().start);
+  tick(trial::Command::Abort);
+  hand = {0.05, 0.01, 0};
+  EXPECT_EQ(tick(trial::Command::NextTrial).hand.position, hand);
+}
+
+// A loss between trials moves nothing: the next trial begins where the hand is.
+TEST_F(Engine, AHandThatWasLostBetweenTrialsIsSeenWhereItIs) {
+  TickInput lost;
+  lost.device.valid = false;
+  engine.tick(lost);
+  tick();
+  EXPECT_EQ(engine.state().hand.position, hand);
+  EXPECT_EQ(engine.state().hand.velocity, Vec3{});
+}
+
+TEST(EngineOptions, AreWhatTheDeviceSaysOfItself) {
+  DeviceInfo info;
+  info.maxForce = 3;
+  info.virtualHand = true;
+  info.rendersForce = true;
+  info.maxContinuousForce = 1.5;
+  info.thermalSeconds = 4;
+  info.guards.wallRadius = 0.2;
+  const EngineOptions options = engineOptions(info);
+  EXPECT_EQ(options.deviceMaxForce, 3);
+  EXPECT_TRUE(options.virtualHand);
+  EXPECT_TRUE(options.rendersForce);
+  EXPECT_EQ(options.continuousForce, 1.5);
+  EXPECT_EQ(options.thermalSeconds, 4);
+  EXPECT_EQ(options.guards.wallRadius, 0.2);
+  EXPECT_TRUE(options.others.empty());
+  const EngineOptions none;
+  EXPECT_EQ(none.deviceMaxForce, 12);
+  EXPECT_FALSE(none.virtualHand || none.rendersForce);
+  EXPECT_EQ(none.continuousForce, 0);
+  EXPECT_EQ(none.thermalSeconds, 10);
+}
+
+TEST(TickState, StartsWithNothing) {
+  const TickState state;
+  EXPECT_EQ(state.tick, 0u);
+  EXPECT_EQ(state.measuredNs, 0);
+  EXPECT_EQ(state.trial, 0);
+  EXPECT_FALSE(state.gone || state.clamped || state.rendersForce);
+  EXPECT_EQ(state.trialTime, 0);
+  EXPECT_EQ(state.energy, 0);
+  EXPECT_EQ(state.portEnergy, 0);
+  EXPECT_EQ(state.work, 0);
+  EXPECT_EQ(state.interventions, 0);
+  EXPECT_EQ(state.massCount, 0);
+  EXPECT_EQ(state.handCount, 1);
+  EXPECT_EQ(state.faults.lateTicks + state.faults.missedTicks + state.faults.longestGapNs + state.faults.droppedRecords, 0u);
+  EXPECT_EQ(state.faults.clampedTicks, 0u);
+  const TickInput input;
+  EXPECT_EQ(input.missedTicks, 0u);
+  EXPECT_EQ(input.measuredNs, 0);
+  EXPECT_FALSE(input.deviceFault);
+}
+
+// What a copy leaves out are masses and hands that are not there, and nothing else.
+TEST(TickState, ACopyHasTheMassesAndHandsThatAreThere) {
+  for (const int hands : {1, 2, 3}) {
+    auto from = std::make_unique<TickState>(), to = std::make_unique<TickState>();
+    from->tick = 7;
+    from->massCount = 3;
+    from->handCount = hands;
+    from->deviceForce.z = 5;
+    for (std::size_t i = 0; i < 5; ++i) from->masses[i].r.x = 1 + static_cast<double>(i);
+    for (std::size_t i = 0; i < 4; ++i) from->others[i].work = 1 + static_cast<double>(i);
+    copyState(*from, *to);
+    EXPECT_EQ(to->tick, 7u);
+    EXPECT_EQ(to->deviceForce.z, 5);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(to->masses[i].r.x, i < 3 ? 1 + static_cast<double>(i) : 0);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(to->others[static_cast<std::size_t>(i)].work, i < hands - 1 ? 1 + i : 0);
+    EXPECT_EQ(&handOf(*from, 0), static_cast<const HandState*>(from.get()));
+    EXPECT_EQ(&handOf(*from, 2), &from->others[1]);
+  }
+}
+
+// The chain that two hands hold by its ends.
+class TwoHands : public ::testing::Test {
+ protected:
+  TwoHands() { make(); }
+  void make() {
+    experiment = test::armedAtOnce("chain-two-hands");
+    experiment.timing = experiment::kNoTimingLimits;
+    change(experiment);
+    EngineOptions options{kLimit};
+    options.others.push_back(second);
+    engine = std::make_unique<TickEngine>(experiment, options);
+    hands = {handAt(engine->protocol().start), handAt(engine->protocol().start)};
+  }
+  const TickState& tick(trial::Command command = trial::Command::None) {
+    TickInput input;
+    input.command = command;
+    input.device = hands[0];
+    if (sees) input.others = {&hands[1], 1};
+    engine->tick(input);
+    return engine->state();
+  }
+  void arm() {
+    tick(trial::Command::NextTrial);
+    tick();
+    ASSERT_EQ(engine->state().phase, trial::Phase::Armed);
+    for (int i = 0; i < 250; ++i) tick();  // until the ramps are over
+  }
+  std::function<void(experiment::Experiment&)> change = [](experiment::Experiment&) {};
+  EngineOptions second{5};
+  experiment::Experiment experiment;
+  std::unique_ptr<TickEngine> engine;
+  std::array<DeviceSample, 2> hands;
+  bool sees = true;
+};
+
+TEST_F(TwoHands, EachFeelsItsOwnEndWithinItsOwnLimit) {
+  arm();
+  for (int i = 0; i < 50; ++i) {
+    hands[0].position.x += 2e-4;
+    hands[1].position.x -= 4e-4;
+    const TickState& state = tick();
+    EXPECT_EQ(state.handCount, 2);
+    EXPECT_EQ(state.feedbackForce, -state.couplingForce);
+    EXPECT_EQ(state.others[0].feedbackForce, -state.others[0].couplingForce);
+  }
+  const TickState& state = engine->state();
+  // 600 N/m between each hand and its end, which is where the mass is.
+  EXPECT_NEAR(state.couplingForce.x, 600 * (state.hand.position.x - state.masses[0].r.x), 1e-9);
+  EXPECT_NEAR(state.others[0].couplingForce.x, 600 * (state.others[0].hand.position.x - state.masses[4].r.x), 1e-9);
+  for (int i = 0; i < 100; ++i) {
+    hands[1].position.x -= 4e-4;
+    tick();
+  }
+  EXPECT_NEAR(norm(engine->state().others[0].deviceForce), 5, 1e-9);
+  EXPECT_TRUE(engine->state().others[0].clamped);
+  EXPECT_FALSE(engine->state().clamped);
+  EXPECT_GT(engine->state().faults.clampedTicks, 10u) << "of either hand";
+}
+
+// What both hands have done is in the object, and in the springs between it and them.
+TEST_F(TwoHands, TheirWorkIsTheEnergyTheyGave) {
+  arm();
+  for (int i = 0; i < 400; ++i) {
+    hands[0].position.x += 1e-4 * std::sin(0.01 * i);
+    hands[1].position.x += 3e-5 * std::sin(0.02 * i);
+    tick();
+  }
+  const TickState& state = engine->state();
+  EXPECT_GT(std::abs(state.work), 1e-4);
+  EXPECT_GT(std::abs(state.others[0].work), 1e-5);
+  EXPECT_NE(state.work, state.others[0].work);
+  double kinetic = 0, elastic = 0;
+  for (int m = 0; m < 5; ++m) kinetic += 0.3 * dot(state.masses[m].v, state.masses[m].v);
+  for (int m = 0; m < 4; ++m) elastic += 300 * std::pow(state.masses[m + 1].r.x - state.masses[m].r.x, 2);
+  EXPECT_NEAR(state.work + state.others[0].work, kinetic + elastic, 2e-3 * (kinetic + elastic)) << "trapezoids of a tick";
+}
+
+TEST_F(TwoHands, BothAreWaitedForAtTheStart) {
+  hands[1].position.x += 0.05;
+  tick(trial::Command::NextTrial);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(tick().phase, trial::Phase::Waiting);
+  hands[1].position.x -= 0.045;
+  EXPECT_EQ(tick().phase, trial::Phase::Armed);
+  EXPECT_EQ(engine->state().others[0].couplingForce, Vec3{}) << "held where it is seen";
+  EXPECT_EQ(engine->state().others[0].hand.position, engine->state().masses[4].r);
+}
+
+TEST_F(TwoHands, BothMustBeAtRestAtTheStart) {
+  change = [](experiment::Experiment& e) { e.task->rest = {0.01, 0.005}; };
+  make();
+  tick(trial::Command::NextTrial);
+  for (int i = 0; i < 100; ++i) {
+    hands[1].position.y = 2e-5 * i;  // 20 mm/s
+    EXPECT_EQ(tick().phase, trial::Phase::Waiting) << i;
+  }
+  for (int i = 0; i < 100; ++i) tick();
+  EXPECT_EQ(engine->state().phase, trial::Phase::Armed);
+}
+
+TEST_F(TwoHands, WhoeverMovesFirstMakesTheOnset) {
+  for (const std::size_t who : {0, 1}) {
+    make();
+    arm();
+    for (int i = 0; i < 20; ++i) {
+      hands[who].position.x += 1e-4;
+      tick();
+    }
+    EXPECT_EQ(engine->state().phase, trial::Phase::Moving);
+  }
+}
+
+// Lost, not given at all, or given as no number: one hand takes the force from both, and ends the trial for both.
+TEST_F(TwoHands, OneThatIsLostTakesTheForceFromBoth) {
+  for (const int how : {0, 1, 2}) {
+    sees = true;
+    make();
+    arm();
+    for (int i = 0; i < 50; ++i) {
+      hands[0].position.x += 1e-4;
+      hands[1].position.x -= 1e-4;
+      tick();
+    }
+    ASSERT_NE(engine->state().deviceForce, Vec3{});
+    if (how == 0) hands[1].valid = false;
+    if (how == 1) sees = false;
+    if (how == 2) hands[1].position.x = std::numeric_limits<double>::quiet_NaN();
+    const TickState& state = tick();
+    EXPECT_EQ(state.deviceForce, Vec3{}) << how;
+    EXPECT_EQ(state.others[0].deviceForce, Vec3{});
+    EXPECT_EQ(state.couplingForce, Vec3{});
+    EXPECT_EQ(state.others[0].couplingForce, Vec3{});
+    EXPECT_EQ(state.status, dynamics::StepStatus::HandLost);
+    EXPECT_EQ(state.deviceState, how == 2 ? DeviceState::Homed : DeviceState::Engaged);
+    for (int i = 0; i < trial::kLostTicks; ++i) tick();
+    EXPECT_EQ(state.phase, trial::Phase::Done);
+    EXPECT_EQ(state.result.reason, trial::Reason::DeviceLost);
+  }
+}
+
+TEST_F(TwoHands, TheForceLimitOfEitherMayEndTheTrial) {
+  for (const std::size_t who : {0, 1}) {
+    change = [](experiment::Experiment& e) { e.forceLimit = 1, e.forceLimitEndsTrial = true; };
+    make();
+    arm();
+    for (int i = 0; i < 100; ++i) {
+      hands[who].position.x += 1e-4;
+      tick();
+    }
+    EXPECT_EQ(engine->state().result.reason, trial::Reason::ForceLimit) << who;
+  }
+}
+
+TEST_F(TwoHands, TheNextTrialOfBothBeginsLikeTheFirst) {
+  std::vector<Vec3> first, again;
+  for (auto* forces : {&first, &again}) {
+    hands = {handAt(engine->protocol().start), handAt(engine->protocol().start)};
+    hands[1].position.y = forces == &first ? 0 : 0.004;  // beside the start: held there
+    arm();
+    for (int i = 0; i < 100; ++i) {
+      hands[1].position.x += 1e-4;
+      tick();
+      forces->push_back(engine->state().others[0].couplingForce);
+    }
+    tick(trial::Command::Abort);
+  }
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_LT(norm(first[i] - again[i]), 1e-9) << i;
+}
+
+TEST_F(TwoHands, AreWithoutAPersonOnlyIfBothAre) {
+  for (const bool one : {false, true})
+    for (const bool other : {false, true}) {
+      EngineOptions options{kLimit, one};
+      options.others.push_back({kLimit, other});
+      EXPECT_EQ(TickEngine(experiment, options).protocol().startTimeoutTicks == trial::kNoLimit, !(one && other));
+    }
+}
+
+TEST_F(TwoHands, TheSecondDeviceMayRenderForceByItself) {
+  second.rendersForce = true;
+  make();
+  EXPECT_FALSE(engine->state().rendersForce);
+  EXPECT_TRUE(engine->state().others[0].rendersForce);
+  EngineOptions options;
+  options.rendersForce = true;
+  options.others.resize(1);
+  TickEngine other(experiment, options);
+  EXPECT_TRUE(other.state().rendersForce);
+  EXPECT_FALSE(other.state().others[0].rendersForce);
+}
+
+TEST(TickEngine, RefusesOtherThanADeviceForEachHand) {
+  const auto refusal = [](const char* name, std::size_t others) -> std::string {
+    EngineOptions options;
+    options.others.resize(others);
+    try {
+      TickEngine engine(test::armedAtOnce(name), options);
+    } catch (const FaultError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal("chain-two-hands", 0).find("is 1 device where the experiment has 2 hands"), std::string::npos);
+  EXPECT_EQ(refusal("chain-two-hands", 1), "");
+  EXPECT_NE(refusal("chain-two-hands", 2).find("is 3 devices where the experiment has 2 hands"), std::string::npos);
+  EXPECT_NE(refusal("chain-slow", 1).find("is 2 devices where the experiment has 1 hand;"), std::string::npos);
 }
 
 }  // namespace
