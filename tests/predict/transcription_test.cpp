@@ -1,0 +1,591 @@
+// The parts that the predictions found by iteration are made of: each by its own law, derivatives by differences.
+#include "sim/predict/transcription/transcription.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/gauss_legendre.h"
+#include "sim/predict/curve/curve_motion.h"
+#include "sim/predict/curve/curve_object.h"
+#include "sim/predict/curve/curve_prediction.h"
+#include "sim/predict/line/flat_output.h"
+#include "sim/predict/line/min_norm.h"
+#include "sim/predict/line/modes.h"
+#include "sim/predict/line/sparse_rows.h"
+#include "sim/predict/numerics/hyper_dual.h"
+#include "sim/predict/transcription/path_check.h"
+#include "tests/predict/objects.h"
+
+namespace reachlab::predict {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr double kStep = 1e-5;
+
+// Largest difference of a derivative from central differences of f along each unit vector.
+template <class F, class Column>
+double worstColumn(const Vector& at, const F& f, const Column& derivative) {
+  double worst = 0;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    Vector before = at, after = at;
+    before(i) -= kStep, after(i) += kStep;
+    worst = std::max(worst, ((f(after) - f(before)) / (2 * kStep) - derivative(i)).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+TEST(RestToRestBasis, GoesFromZeroToOneOrBackWithEveryDerivativeAtRest) {
+  for (const int order : {1, 2, 3, 5, 7}) {
+    constexpr int kUnknowns = 6;
+    const RestToRestBasis basis(order, kUnknowns);
+    EXPECT_EQ(basis.order(), order);
+    EXPECT_EQ(basis.columns(), kUnknowns + 1);
+    const GaussRule rule = makeGaussRule(30);
+    for (int column = 0; column <= kUnknowns; ++column) {
+      EXPECT_NEAR(valueAt(basis.derivative(column, 0), -1), 0, 1e-13) << order << column;
+      EXPECT_NEAR(valueAt(basis.derivative(column, 0), 1), column == 0 ? 1 : 0, 1e-13) << order << column;
+      for (int m = 1; m < order; ++m)
+        for (const double end : {-1.0, 1.0})
+          EXPECT_NEAR(valueAt(basis.derivative(column, m), end), 0, 1e-9 * std::pow(10, m)) << order << column << m;
+      for (int other = 1; other <= kUnknowns; ++other) {  // the highest derivatives are orthonormal, but for the length of [-1, 1]
+        double product = 0;
+        for (std::size_t i = 0; i < rule.node.size(); ++i)
+          product += rule.weight[i] * valueAt(basis.derivative(column, order), rule.node[i]) *
+                     valueAt(basis.derivative(other, order), rule.node[i]);
+        EXPECT_NEAR(product, column == other ? 2 : 0, 1e-7) << order << column << other;
+      }
+      for (int m = 0; m < order; ++m) {
+        const double x = 0.3, slope = (valueAt(basis.derivative(column, m), x + kStep) - valueAt(basis.derivative(column, m), x - kStep)) /
+                                      (2 * kStep);
+        EXPECT_NEAR(slope, valueAt(basis.derivative(column, m + 1), x), 1e-6 * (1 + std::abs(slope))) << order << column << m;
+      }
+    }
+    std::vector<double> table(static_cast<std::size_t>((kUnknowns + 1) * (order + 1)));
+    basis.tabulate(-0.37, 1.7, table.data());
+    const std::vector<double> weights{2, -1, 0.5, 3};
+    for (int m = 0; m <= order; ++m) {
+      double sum = 0;
+      for (int column = 0; column <= kUnknowns; ++column) {
+        const double value = valueAt(basis.derivative(column, m), -0.37);
+        EXPECT_NEAR(table[static_cast<std::size_t>(column * (order + 1) + m)], std::pow(1.7, m) * value, 1e-9 * (1 + std::abs(value)));
+        if (column < 4) sum += weights[static_cast<std::size_t>(column)] * value;
+      }
+      EXPECT_NEAR(valueAt(basis.combine(weights, m), -0.37), sum, 1e-9 * (1 + std::abs(sum)));
+    }
+  }
+}
+
+// Two motions, three local variables that mix them and their derivatives, two residuals that bend.
+TranscribedProblem bentProblem() {
+  constexpr int kLocals = 3;
+  TranscribedProblem problem;
+  problem.duration = 1.3;
+  problem.order = 2;
+  problem.locals = kLocals;
+  problem.residuals = 2;
+  problem.from = {0.2, -0.4};
+  problem.to = {1.1, 0.3};
+  problem.local = {{1, 0, 0.1, 0, 0.5, 0, 0, 0, 1}, {0, 0.3, 0, 1, 0, 0.2, 0.7, 0, 0}};
+  problem.residual = [](const double* a, double* r, double* ra, double* raa) {
+    using S = HyperDual<kLocals>;
+    const auto v = [&](int i) { return S::variable(i, a[i]); };
+    const std::array<S, 2> both{v(0) * v(1) + 2.0 * v(2) + sin(v(0)), v(1) * v(1) - v(2) * v(0)};
+    for (int k = 0; k < 2; ++k) {
+      std::array<double, kLocals> gradient{};
+      std::array<double, kLocals * kLocals> hessian{};
+      both[static_cast<std::size_t>(k)].store(r + k, ra == nullptr ? gradient.data() : ra + k * kLocals,
+                                              ra == nullptr ? hessian.data() : raa + k * kLocals * kLocals);
+    }
+  };
+  return problem;
+}
+
+TEST(TranscribedCost, IsTheIntegralOfItsResidualsWithItsDerivatives) {
+  const TranscribedProblem problem = bentProblem();
+  const RestToRestBasis basis(problem.order, 5);
+  const TranscribedCost cost(problem, basis);
+  Vector c(10);
+  for (int i = 0; i < 10; ++i) c(i) = 0.1 * std::sin(1.0 + 2 * i);
+  // By many intervals of Simpson's rule over the motions themselves.
+  constexpr int kParts = 2000;
+  double sum = 0;
+  for (int i = 0; i <= kParts; ++i) {
+    const double x = 2.0 * i / kParts - 1;
+    std::array<double, 3> a{}, r{};
+    for (std::size_t motion = 0; motion < 2; ++motion)
+      for (int m = 0; m <= 2; ++m) {
+        double y = m == 0 ? problem.from[motion] : 0;
+        for (int column = 0; column <= 5; ++column) {
+          const double weight =
+              column == 0 ? problem.to[motion] - problem.from[motion] : c(static_cast<Eigen::Index>(motion) * 5 + column - 1);
+          y += weight * std::pow(2 / problem.duration, m) * valueAt(basis.derivative(column, m), x);
+        }
+        for (std::size_t l = 0; l < 3; ++l) a[l] += problem.local[motion][l * 3 + static_cast<std::size_t>(m)] * y;
+      }
+    problem.residual(a.data(), r.data(), nullptr, nullptr);
+    sum += (r[0] * r[0] + r[1] * r[1]) * problem.duration / kParts / 3 * (i == 0 || i == kParts ? 1 : i % 2 == 1 ? 4 : 2);
+  }
+  EXPECT_NEAR(cost.evaluate(c) / sum, 1, 1e-6) << "few nodes, and a sine among the residuals";
+  Vector gradient, otherGradient;
+  Matrix hessian, otherHessian;
+  EXPECT_NEAR(cost.expand(c, gradient, hessian) / cost.evaluate(c), 1, 1e-13);
+  ASSERT_EQ(gradient.size(), 10);
+  const double slopes = worstColumn(
+      c, [&](const Vector& at) { return Vector::Constant(1, cost.evaluate(at)); }, [&](Eigen::Index i) { return gradient.segment(i, 1); });
+  EXPECT_LT(slopes, 1e-6 * gradient.norm());
+  const double bends = worstColumn(
+      c,
+      [&](const Vector& at) {
+        cost.expand(at, otherGradient, otherHessian);
+        return otherGradient;
+      },
+      [&](Eigen::Index i) { return hessian.col(i); });
+  EXPECT_LT(bends, 1e-6 * hessian.norm());
+  EXPECT_EQ(hessian, Matrix(hessian.transpose()));
+}
+
+// Of the third derivative alone the answer is the minimum-jerk law, whose unknowns are nought.
+TEST(Transcription, ALinearProblemIsSolvedInOneStep) {
+  TranscribedProblem problem;
+  problem.duration = 1.5;
+  problem.locals = problem.residuals = 1;
+  problem.from = {0.1};
+  problem.to = {0.4};
+  problem.local = {{0, 0, 0, 1}};
+  problem.residual = [](const double* a, double* r, double* ra, double* raa) {
+    *r = *a;
+    if (ra != nullptr) *ra = 1, *raa = 0;
+  };
+  const TranscribedMotion motion = solveTranscription(problem, 8, {{0.3, -0.2, 0.1}});
+  EXPECT_NEAR(motion.cost / (720 * 0.09 / std::pow(1.5, 5)), 1, 1e-12);
+  EXPECT_LE(motion.iterations, 2);
+  EXPECT_NEAR(motion.condition, 1, 1e-9) << "its unknowns do not see each other";
+  ASSERT_EQ(motion.coefficient.size(), 1u);
+  ASSERT_EQ(motion.coefficient[0].size(), 9u);
+  EXPECT_NEAR(motion.coefficient[0][0], 0.3, 1e-15);
+  for (std::size_t k = 1; k < 9; ++k) EXPECT_NEAR(motion.coefficient[0][k], 0, 1e-12);
+  for (const double s : {0.0, 0.3, 0.8, 1.0}) {
+    const auto [y, v, a, j] = motion.at(0, 1.5 * s);
+    EXPECT_NEAR(y, 0.1 + 0.3 * s * s * s * (10 - 15 * s + 6 * s * s), 1e-12);
+    EXPECT_NEAR(v, 0.2 * 30 * s * s * (1 - s) * (1 - s), 1e-12);
+    EXPECT_NEAR(a, 0.3 / 2.25 * 60 * s * (1 - s) * (1 - 2 * s), 1e-11);
+    EXPECT_NEAR(j, 0.3 / 3.375 * 60 * (1 - 6 * s + 6 * s * s), 1e-10);
+    for (int m = 0; m < 4; ++m)
+      EXPECT_NEAR(valueAt(motion.derivative(0, m), 2 * s - 1), motion.at(0, 1.5 * s)[static_cast<std::size_t>(m)], 1e-11) << m;
+  }
+  const TranscribedMotion found = solveFromStarts(problem, 0);
+  EXPECT_NEAR(found.cost / motion.cost, 1, 1e-12);
+  EXPECT_LT(found.uncertainty, 2e-9);
+  EXPECT_EQ(found.errorBound, 1e-12) << "rounding, not less";
+  EXPECT_EQ(solveFromStarts(problem, 11).coefficient[0].size(), 12u);
+  EXPECT_EQ(solveFromStarts(problem, 11).errorBound, 0) << "of one number of unknowns none is known";
+}
+
+TEST(Transcription, TheErrorOfAProfileFallsGeometrically) {
+  EXPECT_NEAR(estimateError(1e-4, 1e-2), 1e-4 * 1e-3, 1e-20);
+  EXPECT_EQ(estimateError(1e-4, 1e-4), 1e-4);
+  EXPECT_EQ(estimateError(1e-4, 0), 1e-4) << "nothing is known of a first raise";
+  EXPECT_NEAR(boundError(1e-4, 1e-2), 1e-6, 1e-20);
+  EXPECT_EQ(boundError(1e-4, 1e-5), 1e-4);
+  EXPECT_EQ(boundError(1e-14, 1e-2), 1e-12);
+}
+
+TEST(Transcription, AMotionOfAVelocityHasItsIntegralAndItsSlope) {
+  constexpr double T = 1.7;
+  // v(x) = 1 + 2 x + 3 x^2 - x^4 over x = 2t/T - 1.
+  const auto velocity = [](double x) { return 1 + 2 * x + 3 * x * x - std::pow(x, 4); };
+  const auto integral = [](double x) { return x + x * x + x * x * x - std::pow(x, 5) / 5; };
+  const MotionSeries series = makeSeriesOfSpeed([&](double t) { return velocity(2 * t / T - 1); }, 6, T);
+  for (const double x : {-1.0, -0.4, 0.25, 1.0}) {
+    EXPECT_NEAR(valueAt(series.velocity, x), velocity(x), 1e-12);
+    EXPECT_NEAR(valueAt(series.position, x), T / 2 * (integral(x) - integral(-1)), 1e-12);
+    EXPECT_NEAR(valueAt(series.acceleration, x), 2 / T * (2 + 6 * x - 4 * x * x * x), 1e-8);
+  }
+}
+
+TEST(Transcription, WhatIsSaidOfAMotionIsWhatIsKnown) {
+  TranscribedMotion motion{RestToRestBasis(3, 7), {{1}}, {0}, 1};
+  motion.cost = 5;
+  motion.condition = 20;
+  const auto describe = [&] {
+    auto p = makeLegendrePrediction({{0, 1}, {1}, {0}}, {{{0, 1}, {1}, {0}}}, 1);
+    describeMotion(motion, *p);
+    return p;
+  };
+  EXPECT_EQ(describe()->cost, 5);
+  EXPECT_EQ(describe()->condition, 20);
+  EXPECT_EQ(describe()->profileError, std::nullopt);
+  EXPECT_TRUE(describe()->warnings.empty());
+  EXPECT_EQ(describe()->handJump, 0);
+  EXPECT_EQ(describe()->handVelocityJump, 0);
+  motion.errorBound = 3e-9;
+  motion.uncertainty = 1.9e-9;
+  EXPECT_EQ(describe()->profileError, 3e-9);
+  EXPECT_TRUE(describe()->warnings.empty());
+  motion.uncertainty = 2e-9;
+  ASSERT_EQ(describe()->warnings.size(), 1u);
+  EXPECT_NE(describe()->warnings[0].find("known to 3e-09 of its peak only: the path bends too sharply for 7 unknowns"), std::string::npos);
+}
+
+PathPoint onCircle(double t) {
+  constexpr double r = 0.3, w = 2;
+  const double s = std::sin(w * t), c = std::cos(w * t);
+  return {{r * c, r * s, 0}, {-r * w * s, r * w * c, 0}, {-r * w * w * c, -r * w * w * s, 0}, {r * w * w * w * s, -r * w * w * w * c, 0}};
+}
+
+TEST(PathCheck, AMovementWhoseDerivativesBelongTogetherIsSmooth) {
+  const PathCheck check = checkPath(1.4, onCircle);
+  EXPECT_TRUE(check.smooth);
+  EXPECT_NEAR(check.cost, std::pow(0.3 * 8, 2) * 1.4, 1e-12) << "the square of its jerk, which does not change";
+  EXPECT_EQ(check.brokenAt, 0);
+  const PathCheck nothing;
+  EXPECT_TRUE(nothing.smooth);
+  EXPECT_EQ(nothing.cost + nothing.brokenAt, 0);
+}
+
+// In an interval of 1.4 s / 96; each derivative is broken by itself, at either end of the movement and within.
+TEST(PathCheck, TellsWhereADerivativeIsNotTheIntegralOfTheNext) {
+  for (int kind = 0; kind < 4; ++kind)
+    for (const double place : {0.005, 0.7, 0.931, 1.39}) {
+      const auto broken = [&](double t) {
+        PathPoint p = onCircle(t);
+        Vec3& part = kind == 0 ? p.r : kind == 1 ? p.velocity : kind == 2 ? p.acceleration : p.jerk;
+        if (kind < 3 && t > place) part.z += 0.01;
+        if (kind == 3 && std::abs(t - place) < 0.004) part.y = std::numeric_limits<double>::quiet_NaN();
+        return p;
+      };
+      const PathCheck check = checkPath(1.4, broken);
+      EXPECT_FALSE(check.smooth) << kind;
+      EXPECT_NEAR(check.brokenAt, place, 1.4 / 96) << kind;
+    }
+  const PathCheck atEnd = checkPath(1.4, [](double t) {
+    PathPoint p = onCircle(t);
+    if (t > 1.4 - 1e-9) p.velocity.x = std::numeric_limits<double>::infinity();
+    return p;
+  });
+  EXPECT_FALSE(atEnd.smooth);
+}
+
+// Three masses of a chain with every damper, and a parallel pair, on an ellipse.
+std::vector<CurveObject> curveObjects() {
+  experiment::Experiment chain = makeChain(3, 1, 100, 1);
+  chain.object.masses = {0.5, 0.8, 1.1};
+  chain.object.stiffness = {300, 200};
+  chain.object.damping = {4, 7};
+  chain.coupling = experiment::Coupling{500, 3};
+  chain.object.viscosity = 0.6;
+  experiment::Experiment pair = makeParallel({0.7, 1.2}, {150, 260}, 1);
+  pair.object.damping = {2, 5};
+  return {makeCurveObject(makeLineObject(chain, 0, 0)), makeCurveObject(makeLineObject(pair, 0, 0))};
+}
+const constraints::ArcCurve& ellipse() {
+  static const constraints::ArcCurve curve(
+      constraints::makeConstraint(onCurve(chainModerate(), {"0.1*cos(phi)", "0.06*sin(phi)", "0.01*phi"}, 0.2, 2.5).constraint), 0.2, 2.5);
+  return curve;
+}
+
+// R is the third derivative in space of a hand whose place on the curve is s + v t + w t^2/2 + j t^3/6, with its derivatives by s, v, w and j.
+TEST(CurveJerkProblem, ItsResidualIsTheJerkInSpaceWithItsDerivatives) {
+  const TranscribedProblem problem = makeCurveJerkProblem(ellipse(), 1.2);
+  EXPECT_EQ(problem.duration, 1.2);
+  EXPECT_EQ(problem.order, 3);
+  EXPECT_EQ(problem.from, std::vector<double>{0});
+  EXPECT_EQ(problem.to, std::vector<double>{ellipse().length()});
+  const Vector at = (Vector(4) << 0.07, 0.4, -0.9, 2.5).finished();
+  const auto residual = [&](const Vector& a) {
+    Vector r(3);
+    problem.residual(a.data(), r.data(), nullptr, nullptr);
+    return r;
+  };
+  const auto place = [&](double t) { return ellipse().expand<2>(at(0) + at(1) * t + at(2) * t * t / 2 + at(3) * t * t * t / 6)[0]; };
+  constexpr double h = 2e-3;
+  const Vec3 jerk = (place(2 * h) - 2 * place(h) + 2 * place(-h) - place(-2 * h)) / (2 * h * h * h);
+  const Vector r = residual(at);
+  EXPECT_LT(norm(Vec3{r(0), r(1), r(2)} - jerk), 1e-3 * norm(jerk));
+  std::array<double, 3> again{};
+  std::array<double, 12> first{}, other{};
+  std::array<double, 48> second{}, unused{};
+  problem.residual(at.data(), again.data(), first.data(), second.data());
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(again[static_cast<std::size_t>(k)], r(k));
+  const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> gradient(first.data());
+  EXPECT_LT(worstColumn(at, residual, [&](Eigen::Index i) { return gradient.col(i); }), 1e-6 * gradient.norm());
+  const auto gradientAt = [&](const Vector& a) {
+    std::array<double, 3> r0{};
+    problem.residual(a.data(), r0.data(), other.data(), unused.data());
+    return Vector(Eigen::Map<const Vector>(other.data(), 12));
+  };
+  const Eigen::Map<const Eigen::Matrix<double, 12, 4, Eigen::RowMajor>> hessian(second.data());
+  EXPECT_LT(worstColumn(at, gradientAt, [&](Eigen::Index i) { return hessian.col(i); }), 1e-6 * hessian.norm());
+}
+
+// m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity v_i.
+TEST(CurveObject, ItsAccelerationsAreTheirEquationWithItsDerivatives) {
+  for (const CurveObject& object : curveObjects()) {
+    const int n = object.count(), nodes = n + 1;
+    Vector at(2 * nodes);
+    for (int i = 0; i < nodes; ++i) at(i) = 0.11 - 0.021 * i + 0.004 * i * i, at(nodes + i) = 0.3 - 0.13 * i;
+    const auto accelerations = [&](const Vector& q) {
+      Vector a(n);
+      expandAccelerations(ellipse(), object, q.data(), q.data() + nodes, a.data());
+      return a;
+    };
+    Vector force = Vector::Zero(n);
+    for (int i = 1; i <= n; ++i) force(i - 1) = -object.viscosity[static_cast<std::size_t>(i - 1)] * at(nodes + i);
+    for (const CurveObject::Link& link : object.links) {
+      const auto here = ellipse().expand<2>(at(link.inner)), there = ellipse().expand<2>(at(link.outer));
+      const Vec3 pull =
+          link.stiffness * (here[0] - there[0]) + link.damping * (at(nodes + link.inner) * here[1] - at(nodes + link.outer) * there[1]);
+      force(link.outer - 1) += dot(there[1], pull);
+      if (link.inner > 0) force(link.inner - 1) -= dot(here[1], pull);
+    }
+    const Vector a = accelerations(at);
+    for (int i = 0; i < n; ++i) EXPECT_NEAR(a(i), force(i) / object.masses[static_cast<std::size_t>(i)], 1e-9);
+    Vector weight(n);
+    for (int i = 0; i < n; ++i) weight(i) = 0.7 - 0.5 * i;
+    Matrix jacobian, hessian = Matrix::Zero(2 * nodes, 2 * nodes), other;
+    Vector again(n);
+    expandAccelerations(ellipse(), object, at.data(), at.data() + nodes, again.data(), &jacobian, weight.data(), &hessian);
+    EXPECT_EQ(again, a);
+    ASSERT_EQ(jacobian.rows(), n);
+    ASSERT_EQ(jacobian.cols(), 2 * nodes);
+    EXPECT_LT(worstColumn(at, accelerations, [&](Eigen::Index i) { return jacobian.col(i); }), 1e-6 * jacobian.norm());
+    const auto weighted = [&](const Vector& q) {
+      Vector unused(n);
+      expandAccelerations(ellipse(), object, q.data(), q.data() + nodes, unused.data(), &other);
+      return Vector(other.transpose() * weight);
+    };
+    EXPECT_LT(worstColumn(at, weighted, [&](Eigen::Index i) { return hessian.col(i); }), 1e-5 * hessian.norm());
+    EXPECT_LT((hessian - hessian.transpose()).norm(), 1e-12 * hessian.norm());
+  }
+}
+
+TEST(CurveMotion, ItsEndHasItsFirstAndSecondDerivatives) {
+  for (const CurveObject& object : curveObjects()) {
+    CurveMotion motion(ellipse(), object, 0.6, 5);
+    const int nodes = motion.nodes(), n = object.count();
+    EXPECT_EQ(nodes, 5 * CurveMotion::kStages);
+    Vector place(nodes), speed(nodes);
+    Matrix placeBy(nodes, 2), speedBy(nodes, 2);
+    const auto hand = [&](const Vector& c) {
+      for (int i = 0; i < nodes; ++i) {
+        const double t = motion.timeOf(i), s = t / 0.6;
+        place(i) = 0.12 * s * s * s * (10 - 15 * s + 6 * s * s) + c(0) * s * s * s + c(1) * std::sin(3 * s) * s;
+        speed(i) =
+            0.12 / 0.6 * 30 * s * s * (1 - s) * (1 - s) + (c(0) * 3 * s * s + c(1) * (std::sin(3 * s) + 3 * s * std::cos(3 * s))) / 0.6;
+        placeBy(i, 0) = s * s * s, speedBy(i, 0) = 3 * s * s / 0.6;
+        placeBy(i, 1) = std::sin(3 * s) * s, speedBy(i, 1) = (std::sin(3 * s) + 3 * s * std::cos(3 * s)) / 0.6;
+      }
+    };
+    const auto end = [&](const Vector& c) {
+      hand(c);
+      EXPECT_TRUE(motion.follow(place, speed));
+      return motion.end();
+    };
+    const Vector c = (Vector(2) << 0.01, -0.02).finished(), multiplier = Vector::LinSpaced(2 * n, -0.4, 0.9);
+    const auto derivative = [&](const Vector& at) {
+      end(at);
+      return motion.linearise(placeBy, speedBy);
+    };
+    const Matrix first = derivative(c), second = motion.computeHessian(multiplier);
+    EXPECT_LT(worstColumn(c, end, [&](Eigen::Index i) { return first.col(i); }), 1e-6 * first.norm());
+    EXPECT_LT(worstColumn(
+                  c, [&](const Vector& at) { return Vector(derivative(at).transpose() * multiplier); },
+                  [&](Eigen::Index i) { return second.col(i); }),
+              1e-5 * second.norm());
+    // As power series the motion begins at rest, and ends where it was said to.
+    end(c);
+    const PiecewiseSeries profile = motion.makeProfile();
+    double lowest = 0, highest = 0;
+    for (int m = 0; m < n; ++m) {
+      EXPECT_EQ(profile.evaluate(m, 0).position, 0);
+      EXPECT_EQ(profile.evaluate(m, 0).velocity, 0);
+      EXPECT_NEAR(profile.evaluate(m, 0.6).position, motion.end()(m), 1e-12);
+      EXPECT_NEAR(profile.evaluate(m, 0.6).velocity, motion.end()(n + m), 1e-11);
+      for (int p = 0; p <= 5; ++p) {
+        lowest = std::min(lowest, profile.evaluate(m, 0.12 * p).position);
+        highest = std::max(highest, profile.evaluate(m, 0.12 * p).position);
+      }
+    }
+    EXPECT_NEAR(motion.lowest(), lowest, 1e-12);
+    EXPECT_NEAR(motion.highest(), highest, 1e-12);
+    // At a node the accelerations are those of the equation, to the order at which the places between the ends are right.
+    for (const int node : {3, 17, 38}) {
+      Vector s(n + 1), v(n + 1), a(n);
+      s(0) = place(node), v(0) = speed(node);
+      for (int m = 0; m < n; ++m)
+        s(m + 1) = profile.evaluate(m, motion.timeOf(node)).position, v(m + 1) = profile.evaluate(m, motion.timeOf(node)).velocity;
+      expandAccelerations(ellipse(), object, s.data(), v.data(), a.data());
+      for (int m = 0; m < n; ++m) EXPECT_NEAR(profile.evaluate(m, motion.timeOf(node)).acceleration, a(m), 3e-5 * (1 + a.norm()));
+    }
+  }
+}
+
+TEST(CurveObject, TheBoundOfItsRatesIsGershgorins) {
+  const CurveObject chain = curveObjects()[0];
+  // Masses 0.5, 0.8 and 1.1 kg; a spring to the hand counts once, one to a neighbour twice.
+  const double first = std::sqrt((500 + 2 * 300) / 0.5) + (0.6 + 3 + 2 * 4) / 0.5, second = std::sqrt(2 * 500 / 0.8) + (0.6 + 2 * 11) / 0.8,
+               third = std::sqrt(2 * 200 / 1.1) + (0.6 + 2 * 7) / 1.1;
+  EXPECT_NEAR(chain.boundRate(), std::max({first, second, third}), 1e-12);
+}
+
+TEST(Modes, SolveTheEquationsOfTheMasses) {
+  experiment::Experiment chain = makeChain(3, 1, 100, 1);
+  chain.object.masses = {0.5, 0.8, 1.1};
+  chain.object.stiffness = {300, 200};
+  chain.coupling->stiffness = 500;
+  const LineObject object = makeLineObject(chain, 0, 0), withHand = makeLineObject(chain, 0.7, 0),
+                   pair = makeLineObject(makeParallel({0.7, 1.2, 2}, {150, 260, 90}, 1), 0, 0);
+  // Springs as a matrix; -1 is the clamped hand.
+  const auto stiffness = [](int n, const std::vector<std::array<double, 3>>& springs) {
+    Matrix k = Matrix::Zero(n, n);
+    for (const auto& [from, to, size] : springs) {
+      const int i = static_cast<int>(from), j = static_cast<int>(to);
+      k(j, j) += size;
+      if (i >= 0) k(i, i) += size, k(i, j) -= size, k(j, i) -= size;
+    }
+    return k;
+  };
+  const auto holds = [](const Modes& modes, const Matrix& k, const Vector& m, Eigen::Index count) {
+    ASSERT_EQ(modes.frequency.size(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Vector shape = modes.shape.col(j);
+      EXPECT_LT((k * shape - modes.frequency(j) * modes.frequency(j) * m.cwiseProduct(shape)).norm(), 1e-9 * k.norm());
+      EXPECT_NEAR(shape.dot(m.cwiseProduct(shape)), 1, 1e-12);
+      if (j > 0) {
+        EXPECT_GT(modes.frequency(j), modes.frequency(j - 1));
+      }
+    }
+  };
+  const Vector masses = (Vector(3) << 0.5, 0.8, 1.1).finished();
+  const Modes clamped = computeClampedModes(object);
+  holds(clamped, stiffness(3, {{-1, 0, 500}, {0, 1, 300}, {1, 2, 200}}), masses, 3);
+  EXPECT_LT((clamped.drive - clamped.shape.transpose() * masses).norm(), 1e-12);
+  const Modes free = computeFreeModes(object);
+  holds(free, stiffness(3, {{0, 1, 300}, {1, 2, 200}}), masses, 2);
+  EXPECT_LT((free.drive + 2.4 * free.shape.row(0).transpose()).norm(), 1e-12) << "its force acts on the first mass";
+  const Modes handed = computeFreeModes(withHand);
+  holds(handed, stiffness(4, {{0, 1, 500}, {1, 2, 300}, {2, 3, 200}}), (Vector(4) << 0.7, 0.5, 0.8, 1.1).finished(), 3);
+  EXPECT_LT((handed.drive + 3.1 * handed.shape.row(0).transpose()).norm(), 1e-12);
+  const Vector k = (Vector(3) << 150, 260, 90).finished(), m = (Vector(3) << 0.7, 1.2, 2).finished();
+  const Modes hub = computeFreeModes(pair);
+  holds(hub, Matrix(k.asDiagonal()) - k * k.transpose() / 500, m, 2);
+  EXPECT_LT((hub.drive + 3.9 * hub.shape.transpose() * k / 500).norm(), 1e-12) << "through each spring its share";
+  Vector firm(3);
+  for (int i = 0; i < 3; ++i) firm(i) = std::sqrt(k(i) / m(i));
+  std::sort(firm.begin(), firm.end());
+  EXPECT_LT((computeClampedModes(pair).frequency - firm).norm(), 1e-12);
+}
+
+// x_i = node_i(D) z must obey every mass's equation, as polynomials of D.
+TEST(FlatOutput, ObeysTheEquationOfEachMass) {
+  const auto plus = [](FlatPolynomial a, const FlatPolynomial& b, long double factor, std::size_t shift) {
+    a.resize(std::max(a.size(), b.size() + shift), 0);
+    for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] += factor * b[i];
+    return a;
+  };
+  experiment::Experiment chain = makeChain(3, 1, 100, 1), pair = makeParallel({0.7, 1.2}, {150, 260}, 1);
+  chain.object.masses = {0.5, 0.8, 1.1};
+  chain.object.stiffness = {300, 200};
+  chain.object.damping = {4, 7};
+  chain.coupling = experiment::Coupling{500, 3};
+  pair.object.damping = {2, 5};
+  chain.object.viscosity = pair.object.viscosity = 0.6;
+  for (const experiment::Experiment& e : {chain, pair}) {
+    const LineObject object = makeLineObject(e, 0, 0);
+    const auto node = computeFlatPolynomials(object);
+    ASSERT_EQ(node.size(), object.masses.size() + 1);
+    for (const FlatPolynomial& p : node) EXPECT_EQ(p[0], 1) << "all come to rest at one place";
+    for (int i = 1; i <= object.count(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      FlatPolynomial rest = plus({}, node[at], object.masses[at - 1], 2);
+      rest = plus(rest, node[at], object.viscosity[at - 1], 1);
+      const auto pull = [&](std::size_t spring, std::size_t from, std::size_t to, double sign) {
+        for (const std::size_t derivative : {0, 1}) {
+          const double size = derivative == 0 ? object.springs[spring] : object.dampers[spring];
+          rest = plus(rest, node[to], sign * size, derivative);
+          rest = plus(rest, node[from], -sign * size, derivative);
+        }
+      };
+      pull(at - 1, object.parallel ? 0 : at - 1, at, 1);
+      if (!object.parallel && i < object.count()) pull(at, at, at + 1, -1);
+      for (const long double c : rest) EXPECT_NEAR(static_cast<double>(c), 0, 1e-13) << i;
+    }
+  }
+}
+
+// The constraints that define it, and the square that it makes smallest.
+TEST(MinNorm, MeetsItsConditionsAtTheCostItSays) {
+  for (const int order : {2, 3, 4, 5})
+    for (const Vector& frequency : {Vector(), Vector((Vector(2) << 3.1, 7.4).finished())}) {
+      constexpr double kHalf = 0.8, kWay = 0.3;
+      const MinNormMotion motion = solveMinNorm(order, kWay, kHalf, frequency);
+      EXPECT_EQ(motion.order, order);
+      EXPECT_EQ(motion.halfTime, kHalf);
+      EXPECT_GE(motion.condition, 1 - 1e-12);
+      const bool even = order % 2 == 1;
+      const auto legendre = [](int k, double x) {
+        return valueAt(
+            [&] {
+              LegendreSeries one(static_cast<std::size_t>(k) + 1, 0);
+              one.back() = 1;
+              return one;
+            }(),
+            x);
+      };
+      const GaussRule rule = makeGaussRule(60);
+      std::vector<double> moments(static_cast<std::size_t>(order), 0), waves(static_cast<std::size_t>(2 * frequency.size()), 0);
+      double square = 0;
+      const Eigen::Index polynomials = motion.polynomial.size(), unknowns = polynomials + frequency.size();
+      Matrix products = Matrix::Zero(unknowns, unknowns);
+      for (std::size_t i = 0; i < rule.node.size(); ++i) {
+        const double tau = kHalf * rule.node[i], weight = kHalf * rule.weight[i];
+        Vector basis(unknowns);
+        for (Eigen::Index k = 0; k < polynomials; ++k) basis(k) = legendre(static_cast<int>(2 * k) + (even ? 0 : 1), rule.node[i]);
+        for (Eigen::Index j = 0; j < frequency.size(); ++j)
+          basis(polynomials + j) = even ? std::cos(frequency(j) * tau) : std::sin(frequency(j) * tau);
+        const double g = basis.head(polynomials).dot(motion.polynomial) + basis.tail(frequency.size()).dot(motion.trig);
+        products += weight * basis * basis.transpose();
+        square += weight * g * g;
+        for (int k = 0; k < order; ++k) moments[static_cast<std::size_t>(k)] += weight * g * std::pow(tau, k);
+        for (Eigen::Index j = 0; j < frequency.size(); ++j) {
+          waves[static_cast<std::size_t>(2 * j)] += weight * g * std::cos(frequency(j) * tau);
+          waves[static_cast<std::size_t>(2 * j + 1)] += weight * g * std::sin(frequency(j) * tau);
+        }
+      }
+      const double size = std::sqrt(square);
+      for (int k = 0; k + 1 < order; ++k) EXPECT_NEAR(moments[static_cast<std::size_t>(k)], 0, 1e-12 * size) << order << k;
+      EXPECT_NEAR(moments.back(), (order % 2 == 1 ? 1 : -1) * std::tgamma(order) * kWay, 1e-12 * size) << order;
+      for (const double wave : waves) EXPECT_NEAR(wave, 0, 1e-12 * size);
+      EXPECT_NEAR(motion.cost / square, 1, 1e-11);
+      const Vector unit = products.diagonal().cwiseSqrt().cwiseInverse();
+      const Vector spread = Eigen::SelfAdjointEigenSolver<Matrix>(unit.asDiagonal() * products * unit.asDiagonal()).eigenvalues();
+      EXPECT_NEAR(motion.condition / std::sqrt(spread(unknowns - 1) / spread(0)), 1, 1e-6) << "of its functions, each of unit norm";
+    }
+  // Without waves it is the polynomial that goes from rest to rest: 12, 720, 100800 L^2/T^(2r-1).
+  EXPECT_NEAR(solveMinNorm(2, 0.3, 0.5, {}).cost / (12 * 0.09), 1, 1e-12);
+  EXPECT_NEAR(solveMinNorm(3, 0.3, 0.5, {}).cost / (720 * 0.09), 1, 1e-12);
+  EXPECT_NEAR(solveMinNorm(4, 0.3, 0.5, {}).cost / (100800 * 0.09), 1, 1e-12);
+}
+
+TEST(SparseRows, AreTheMatrixWithoutItsZeros) {
+  ControlProblem system;
+  system.size = 3;
+  for (const double entry : {0.0, 2.0, -1.0, 0.0, 0.0, 0.0, 4.0, -3.0, 0.5}) system.a.emplace_back(entry);
+  const SparseRows rows(system);
+  EXPECT_EQ(rows.begin, (std::vector<int>{0, 2, 2, 5}));
+  EXPECT_EQ(rows.column, (std::vector<int>{1, 2, 0, 1, 2}));
+  std::vector<double> values;
+  for (const DoubleDouble& value : rows.value) values.push_back(value.hi);
+  EXPECT_EQ(values, (std::vector<double>{2, -1, 4, -3, 0.5}));
+  EXPECT_NEAR(rows.norm(), std::sqrt(7.5 * 5), 1e-15) << "its largest row and its largest column";
+}
+
+}  // namespace
+}  // namespace reachlab::predict
