@@ -8,6 +8,7 @@
 
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"
+#include "sim/experiment/checked_experiment.h"
 #include "base/ticks.h"
 
 namespace reachlab::devices {
@@ -37,6 +38,7 @@ std::optional<double> longerDuration(const CompiledExperiment& experiment, doubl
   for (int i = 0; i < kTries; ++i) {
     if (felt <= limit) return duration;
     duration *= kMargin * std::sqrt(felt / limit);
+    if (duration > experiment::kMaxDuration) return std::nullopt;  // no task may last as long
     felt = computeReachDemand(experiment, duration).*force;
   }
   return felt <= limit ? std::optional(duration) : std::nullopt;

@@ -177,5 +177,26 @@ TEST(Preflight, EveryShippedExperimentIsJudged) {
   }
 }
 
+haptics::DeviceInfo plainDevice() {
+  haptics::DeviceInfo info;
+  info.name = "plain";
+  info.rendersForce = true;
+  info.maxForce = 100, info.maxContinuousForce = 100;
+  info.workspaceRadius = 1;
+  info.apparentMass = 0.1;
+  info.viscosity = 5;
+  return info;
+}
+
+// A weight stays however slowly it is moved.
+TEST(Preflight, WhereALongerReachDoesNotHelpThatIsSaid) {
+  experiment::Experiment e = experiment::readExperiment("chain-two-hands");
+  e.object.gravity = {0, -9.81, 0};
+  haptics::DeviceInfo info = plainDevice();
+  info.maxForce = 1;
+  const PreflightLine line = lineOf(check(e, info), "peak_force");
+  EXPECT_TRUE(line.remedy.starts_with("a longer reach does not help (a force that rests on it stays), ")) << line.remedy;
+}
+
 }  // namespace
 }  // namespace reachlab::devices
