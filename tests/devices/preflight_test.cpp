@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "sim/trial/protocol.h"
 #include "devices/make_device.h"
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"
@@ -188,6 +189,56 @@ haptics::DeviceInfo plainDevice() {
   return info;
 }
 
+// Of several hands one may bear all of it alone: Newton's law on a minimum-jerk reach of the whole mass, and its weight.
+TEST(ReachDemand, OfSeveralHandsIsThatOfARigidBody) {
+  experiment::Experiment e = experiment::readExperiment("chain-two-hands");
+  e.object.gravity = {0, -2, 0};
+  const experiment::CompiledExperiment both(e);
+  double mass = 0;
+  for (const double one : e.object.masses) mass += one;
+  const ReachDemand demand = computeReachDemand(both, 0.8, {0.02, 0, 0});
+  const trial::ProtocolSettings place = trial::makeProtocolSettings(e, both.constraint());
+  const double unit = mass * norm(place.target - place.start) / 0.64;
+  EXPECT_NEAR(demand.peakForce, 10 / std::sqrt(3.0) * unit + 2 * mass, 1e-9);
+  EXPECT_NEAR(demand.rmsForce, std::sqrt(120.0 / 7 * unit * unit + 4 * mass * mass), 1e-9);
+  EXPECT_NEAR(demand.farthest, std::max(norm(place.start - Vec3{0.02, 0, 0}), norm(place.target - Vec3{0.02, 0, 0})), 1e-15);
+  EXPECT_EQ(demand.duration, 0.8);
+  EXPECT_EQ(demand.law, "its whole mass as one rigid body (one of its hands may bear it alone)");
+}
+
+TEST(ReachDemand, IsThatOfTheDurationThatIsAskedForWhateverTheLimit) {
+  experiment::Experiment e = stiffPoint(0.7, 1.0);
+  const ReachDemand usual = computeReachDemand(experiment::CompiledExperiment(e));
+  EXPECT_EQ(usual.duration, 1);
+  e.forceLimit = 0.1;
+  e.forceLimitEndsTrial = true;
+  const ReachDemand limited = computeReachDemand(experiment::CompiledExperiment(e)),
+                    slow = computeReachDemand(experiment::CompiledExperiment(e), 2.0);
+  EXPECT_EQ(limited.peakForce, usual.peakForce) << "unclamped";
+  EXPECT_NEAR(slow.peakForce, usual.peakForce / 4, 0.01 * usual.peakForce);
+  EXPECT_EQ(slow.duration, 2);
+  EXPECT_NEAR(computeReachDemand(experiment::CompiledExperiment(e), std::nullopt, {0.05, 0, 0}).farthest, 0.15, 2e-3);
+}
+
+TEST(Preflight, AForceIsClampedBeyondTheDevicesOwn) {
+  const experiment::CompiledExperiment e(stiffPoint(0.7, 1.0));
+  const double peak = computeReachDemand(e).peakForce;
+  haptics::DeviceInfo info = plainDevice();
+  info.maxForce = peak;
+  const PreflightLine enough = lineOf(checkBeforeBlock(e, info), "peak_force");
+  EXPECT_EQ(enough.verdict, Verdict::Fine);
+  EXPECT_EQ(enough.unit, "N");
+  EXPECT_EQ(enough.remedy, "");
+  info.maxForce = 0.25 * peak;
+  const PreflightLine less = lineOf(checkBeforeBlock(e, info), "peak_force");
+  EXPECT_EQ(less.verdict, Verdict::Warning);
+  EXPECT_TRUE(less.sentence.ends_with("N: the force will be clamped")) << less.sentence;
+  EXPECT_NE(less.remedy.find("a reach or masses scaled by 0.25, or a device of "), std::string::npos) << less.remedy;
+  EXPECT_NE(less.remedy.find("a longer reach (duration_s 2.0"), std::string::npos)
+      << "a fourth of the force in twice the time: " << less.remedy;
+  EXPECT_NE(less.remedy.find(" instead of 1)"), std::string::npos) << less.remedy;
+}
+
 // A weight stays however slowly it is moved.
 TEST(Preflight, WhereALongerReachDoesNotHelpThatIsSaid) {
   experiment::Experiment e = experiment::readExperiment("chain-two-hands");
@@ -196,6 +247,128 @@ TEST(Preflight, WhereALongerReachDoesNotHelpThatIsSaid) {
   info.maxForce = 1;
   const PreflightLine line = lineOf(check(e, info), "peak_force");
   EXPECT_TRUE(line.remedy.starts_with("a longer reach does not help (a force that rests on it stays), ")) << line.remedy;
+}
+
+// A share s of what is needed: the motors cool to it in pauses of (1/s^2 - 1) of the movements.
+TEST(Preflight, PausesLetTheMotorsCool) {
+  const experiment::CompiledExperiment e(stiffPoint(0.7, 1.0));
+  const double rms = computeReachDemand(e).rmsForce;
+  haptics::DeviceInfo info = plainDevice();
+  info.maxContinuousForce = rms;
+  EXPECT_EQ(lineOf(checkBeforeBlock(e, info), "continuous_force").verdict, Verdict::Fine);
+  EXPECT_EQ(lineOf(checkBeforeBlock(e, info), "continuous_force").limit, rms);
+  info.maxContinuousForce = rms / 2;
+  const PreflightLine half = lineOf(checkBeforeBlock(e, info), "continuous_force");
+  EXPECT_EQ(half.verdict, Verdict::Warning);
+  EXPECT_TRUE(half.remedy.starts_with("pauses 3 times as long as the movements, or a longer reach")) << half.remedy;
+  EXPECT_TRUE(half.sentence.ends_with(": its motors warm up, and the peak will be taken back")) << half.sentence;
+  info.maxContinuousForce = 0;
+  const PreflightLine unknown = lineOf(checkBeforeBlock(e, info), "continuous_force");
+  EXPECT_EQ(unknown.verdict, Verdict::Unknown);
+  EXPECT_FALSE(unknown.limit);
+  EXPECT_TRUE(unknown.sentence.ends_with("what plain stands for ever is not known")) << unknown.sentence;
+}
+
+TEST(Preflight, PassivityAsksForHalfTheStiffnessTimesThePeriodAndTheDamping) {
+  experiment::Experiment e = stiffPoint(0.7, 1.0);
+  e.coupling = {4000, 2};
+  haptics::DeviceInfo info = plainDevice();
+  info.rate = 0;
+  const auto passivity = [&](double viscosity) {
+    info.viscosity = viscosity;
+    return lineOf(check(e, info), "passivity");
+  };
+  EXPECT_NEAR(passivity(4).asked, 4000 * 0.001 / 2 + 2, 1e-12) << "no rate told: the tick's";
+  EXPECT_EQ(passivity(4).verdict, Verdict::Fine);
+  EXPECT_EQ(passivity(4).limit, 4);
+  EXPECT_EQ(passivity(4).unit, "N s/m");
+  EXPECT_EQ(passivity(3.5).verdict, Verdict::Held);
+  EXPECT_EQ(passivity(3).verdict, Verdict::Held) << "1 N s/m is what the lightest hand brings";
+  EXPECT_NE(passivity(3).sentence.find("the hand must bring 1 N s/m, as any hand that holds it does"), std::string::npos);
+  EXPECT_EQ(passivity(2.9).verdict, Verdict::Warning);
+  EXPECT_NE(passivity(2.9).sentence.find("more than a light grasp does"), std::string::npos);
+  EXPECT_EQ(passivity(2.9).remedy, "a coupling of k_h <= 3800 N/m") << "2 (1 + 2.9 - 2)/T";
+  EXPECT_EQ(passivity(0.5).remedy, "less coupling damping than b_h = 2 N s/m");
+  info.rate = 4000;
+  EXPECT_NEAR(passivity(4).asked, 4, 1e-12) << "no faster than the tick";
+  EXPECT_TRUE(passivity(4).sentence.starts_with("k_h = 4000 N/m and b_h = 2 N s/m at 1000 Hz ask for 4 N s/m of viscous friction"))
+      << passivity(4).sentence;
+}
+
+TEST(Preflight, DryFrictionHoldsWhatIsSofterThanItSwallows) {
+  const auto e = experiment::readExperiment("chain-moderate");  // 600 N/m
+  haptics::DeviceInfo info = plainDevice();
+  info.resolution = 1e-4;
+  for (const auto& [friction, verdict] : {std::pair{0.0301, Verdict::Fine}, {0.0299, Verdict::Held}}) {
+    info.coulombFriction = friction;
+    EXPECT_EQ(lineOf(check(e, info), "passivity").verdict, verdict) << friction;
+  }
+}
+
+// The device and 0.3 kg of a hand, its friction and the hand's 3 N s/m.
+TEST(Preflight, StabilityIsThatOfARelaxedHand) {
+  experiment::Experiment e = stiffPoint(0.7, 1.0);
+  e.coupling = {1500, 4};
+  e.velocityEstimator.kind = "difference";
+  haptics::DeviceInfo info = plainDevice();
+  info.rate = 500;
+  LoopSettings loop;
+  loop.damping = 4, loop.mass = 0.4, loop.friction = 8, loop.period = 2e-3;
+  loop.estimator = e.velocityEstimator;
+  const double largest = largestStableStiffness(loop);
+  const PreflightLine line = lineOf(check(e, info), "stability");
+  EXPECT_NEAR(line.limit.value_or(0), largest, 1e-9);
+  EXPECT_EQ(line.asked, 1500);
+  EXPECT_EQ(line.unit, "N/m");
+  e.coupling->stiffness = largest * 1.01;
+  const PreflightLine stiff = lineOf(check(e, info), "stability");
+  EXPECT_EQ(stiff.verdict, Verdict::Warning);
+  EXPECT_TRUE(stiff.remedy.starts_with("a coupling of k_h <= ")) << stiff.remedy;
+  info.apparentMass = 0;
+  EXPECT_EQ(lineOf(check(e, info), "stability").verdict, Verdict::Unknown);
+  EXPECT_FALSE(lineOf(check(e, info), "stability").limit);
+}
+
+TEST(Preflight, AWorkspaceThatTheReachJustFitsIntoIsFine) {
+  const auto e = experiment::readExperiment("chain-slow");
+  haptics::DeviceInfo info = plainDevice();
+  const double farthest = lineOf(check(e, info), "workspace").asked;
+  const auto verdict = [&](double radius) {
+    info.workspaceRadius = radius;
+    return lineOf(check(e, info), "workspace").verdict;
+  };
+  EXPECT_EQ(verdict(farthest), Verdict::Fine);
+  EXPECT_EQ(verdict(farthest * (1 - 0.9e-6)), Verdict::Fine) << "rounding";
+  EXPECT_EQ(verdict(farthest * (1 - 1.1e-6)), Verdict::Warning);
+  EXPECT_EQ(verdict(0), Verdict::Unknown);
+  info.rendersForce = false;
+  EXPECT_EQ(check(e, info).size(), 1u) << "without force that is all";
+  info.rendersForce = true;
+  info.workspaceRadius = 1;
+  info.workspaceCentre = {0.5, 0, 0};
+  EXPECT_NEAR(lineOf(check(e, info), "workspace").asked, 0.6, 2e-3) << "from the workspace's own centre";
+}
+
+TEST(Preflight, ALineIsOneSentence) {
+  PreflightLine line{"peak_force", Verdict::Warning, 2, 1, "N", "it needs more", "a stronger one"};
+  EXPECT_EQ(describe(line), "peak force: it needs more; what helps: a stronger one");
+  line.hand = 2;
+  line.remedy.clear();
+  EXPECT_EQ(describe(line), "hand 2: peak force: it needs more");
+  EXPECT_EQ(nameOf(Verdict::Fine), "fine");
+  EXPECT_EQ(nameOf(Verdict::Held), "held");
+  EXPECT_EQ(nameOf(Verdict::Warning), "warning");
+  EXPECT_EQ(nameOf(Verdict::Unknown), "unknown");
+}
+
+// Springs of parallel masses are felt together; those of a hand of its own where it has them.
+TEST(Preflight, TheStiffnessIsWhatTheHandFeelsOfAllItsSprings) {
+  experiment::Experiment e = experiment::readExperiment("parallel");
+  double stiffness = 0;
+  for (const double k : e.object.stiffness) stiffness += k;
+  ASSERT_FALSE(e.coupling);
+  EXPECT_EQ(lineOf(check(e, plainDevice()), "stability").asked, stiffness);
+  EXPECT_TRUE(warningsBeforeBlock(experiment::CompiledExperiment(e), *makeDevice("simulated", e, 1)).empty());
 }
 
 }  // namespace
