@@ -4,12 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "base/error.h"
+#include "base/fault.h"
 #include "devices/haply/web_socket_link.h"
 #include "devices/live_device.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
 #include "tests/devices/fakes/fake_haply.h"
+#include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -66,6 +70,259 @@ TEST(HaplyMessage, WhatIsNoStateIsNotBelieved) {
             HaplyAnswer::NoDevice);
   ASSERT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"z":0.1}}}]})", "", state), HaplyAnswer::State);
   EXPECT_EQ(state.position, (Vec3{0, 0, 0.1})) << "what is left out is zero";
+}
+
+HaplyState read(const std::string& message, const std::string& id = "", const std::string& grip = "") {
+  HaplyState state;
+  state.buttons = 99;
+  EXPECT_EQ(readHaplyMessage(message, id, state, grip), HaplyAnswer::State) << message;
+  return state;
+}
+
+TEST(HaplyMessage, AStateIsOfTheDeviceThatIsAskedFor) {
+  const std::string two = R"({"inverse3":[7,{"device_id":""},{"device_id":"A","state":{"cursor_position":{"x":1,"y":2,"z":3}}},
+    {"device_id":"B","state":{"cursor_position":{"x":4},"cursor_velocity":{"y":5}}}]})";
+  EXPECT_EQ(read(two).id, "A") << "the first that has a name";
+  EXPECT_EQ(read(two).position, (Vec3{1, 2, 3}));
+  EXPECT_FALSE(read(two).velocity);
+  EXPECT_FALSE(read(two).orientation);
+  EXPECT_EQ(read(two).buttons, 0u);
+  EXPECT_EQ(read(two, "B").id, "B");
+  EXPECT_EQ(read(two, "B").position, (Vec3{4, 0, 0}));
+  EXPECT_EQ(read(two, "B").velocity, (Vec3{0, 5, 0}));
+  EXPECT_EQ(haplyDevices(two), (std::vector<std::string>{"A", "B"}));
+  EXPECT_TRUE(haplyDevices("{}").empty());
+  EXPECT_TRUE(haplyDevices(R"({"inverse3":{}})").empty());
+  HaplyState state;
+  EXPECT_EQ(readHaplyMessage("{}", "", state), HaplyAnswer::NoDevice) << "a service without any";
+  EXPECT_EQ(readHaplyMessage(R"({"session":1})", "", state), HaplyAnswer::OtherVersion);
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"name":"A"}]})", "", state), HaplyAnswer::OtherVersion) << "devices without their names";
+  EXPECT_EQ(readHaplyMessage(R"({"inverse3":[{"device_id":"A"}]})", "", state), HaplyAnswer::OtherVersion);
+  for (const char* key : {"cursor_velocity", "current_cursor_force", "current_cursor_position", "body_orientation", "control_mode",
+                          "control_domain", "angular_position", "angular_velocity", "transform", "mode"})
+    EXPECT_EQ(read(fmt::format(R"({{"inverse3":[{{"device_id":"A","state":{{"{}":1}}}}]}})", key)).position, Vec3{}) << key;
+}
+
+// The grip of that name, wireless or on a cable; without a name the only one.
+TEST(HaplyMessage, AGripsTurnAndButtonsAreOfTheOneThatIsHeld) {
+  const auto with = [](const std::string& grips) {
+    return R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{}}}],)" + grips + "}";
+  };
+  const std::string one = R"({"device_id":"g1","state":{"orientation":{"w":0.6,"x":0.8},"buttons":{"a":false,"b":true,"c":true}}})";
+  const std::string other = R"({"device_id":"g2","state":{"orientation":{"w":0,"y":-0.6,"z":0.8},"buttons":{"a":true,"b":1}}})";
+  const HaplyState only = read(with(R"("wireless_verse_grip":[3,)" + one + "]"));
+  EXPECT_EQ(only.orientation, (std::array<double, 4>{0.6, 0.8, 0, 0}));
+  EXPECT_EQ(only.buttons, 0b110u);
+  const std::string both = with(R"("wireless_verse_grip":[)" + one + R"(],"verse_grip":[)" + other + "]");
+  EXPECT_EQ(read(both).buttons, 0u) << "none of two";
+  EXPECT_FALSE(read(both).orientation);
+  EXPECT_EQ(read(both, "", "g2").orientation, (std::array<double, 4>{0, 0, -0.6, 0.8}));
+  EXPECT_EQ(read(both, "", "g2").buttons, 1u) << "a number is no button that is pressed";
+  EXPECT_EQ(read(both, "", "g3").buttons, 0u);
+  EXPECT_EQ(haplyGrips(both), (std::vector<std::string>{"g1", "g2"}));
+  EXPECT_TRUE(haplyGrips("[]").empty());
+}
+
+TEST(HaplyMessage, ATurnIsOfLengthOneWithinOnePercent) {
+  const auto turnOf = [](const std::string& parts) {
+    return read(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{}}}],"verse_grip":[{"device_id":"g","state":{"orientation":)" +
+                parts + "}}]}")
+        .orientation;
+  };
+  EXPECT_EQ(turnOf("{}"), (std::array<double, 4>{1, 0, 0, 0})) << "what equals its identity is left out";
+  ASSERT_TRUE(turnOf(R"({"w":1.009})"));
+  EXPECT_EQ((*turnOf(R"({"w":1.009})"))[0], 1) << "made one of length 1";
+  EXPECT_FALSE(turnOf(R"({"w":1.011})"));
+  EXPECT_FALSE(turnOf(R"({"w":0.989})"));
+  EXPECT_FALSE(turnOf("3"));
+  for (const char* key : {"w", "x", "y", "z"}) EXPECT_FALSE(turnOf(fmt::format(R"({{"{}":"a"}})", key))) << key;
+  const auto q = turnOf(R"({"w":0.504,"x":-0.504,"y":0.504,"z":0.504})");
+  ASSERT_TRUE(q);
+  EXPECT_NEAR((*q)[0], 0.5, 1e-15);
+  EXPECT_NEAR((*q)[1], -0.5, 1e-15);
+  EXPECT_NEAR((*q)[3], 0.5, 1e-15);
+}
+
+TEST(HaplyMessage, WhatOfItsConfigurationIsFeltIsToldInItsWords) {
+  const std::string message =
+      R"({"inverse3":[{"device_id":"A","config":{"filters":{"force":1},"handedness":"left","gravity_compensation":true}},{"device_id":"B"}]})";
+  EXPECT_EQ(haplySettings(message, "A"), R"(gravity_compensation true, filters {"force":1})");
+  EXPECT_EQ(haplySettings(message, ""), haplySettings(message, "A"));
+  EXPECT_EQ(haplySettings(message, "B"), "");
+  EXPECT_EQ(haplySettings(message, "C"), "");
+  EXPECT_EQ(haplySettings("{}", "A"), "");
+  EXPECT_EQ(haplyGreeting(), R"({"session":{"configure":{"profile":{"name":"reachlab"}}}})");
+}
+
+class HaplyOverALine : public ::testing::Test {
+ protected:
+  static std::string stateAt(double x, const std::string& more = "") {
+    return fmt::format(R"({{"inverse3":[{{"device_id":"A","state":{{"cursor_position":{{"x":{}}}{}}}}}]}})", x, more);
+  }
+  HaplyInverse3 open(const HaplyInverse3::Options& options = {}) {
+    if (line->waiting.empty()) line->waiting = {stateAt(0)};
+    HaplyInverse3 device(options, [this]() -> std::unique_ptr<MessageLink> {
+      if (line->closed) throw ResourceError("no service");
+      return std::make_unique<test::FakeMessageLink>(line);
+    });
+    line->waits.clear();
+    return device;
+  }
+  std::string refusalOf(const HaplyInverse3::Options& options = {}) {
+    try {
+      HaplyInverse3(options, [this] { return std::make_unique<test::FakeMessageLink>(line); });
+      return "opened";
+    } catch (const ResourceError& error) {
+      return error.what();
+    }
+  }
+  std::shared_ptr<test::FakeMessageLine> line = std::make_shared<test::FakeMessageLine>();
+  test::StandingForce wish;
+  haptics::DeviceSample sample;
+};
+
+TEST_F(HaplyOverALine, TellsWhatItIs) {
+  const haptics::DeviceInfo info = open().info();
+  EXPECT_EQ(info.name, "Haply Inverse3 A");
+  EXPECT_EQ(info.version, "Inverse service, websocket");
+  EXPECT_EQ(info.maxForce, 10);
+  EXPECT_EQ(info.maxContinuousForce, 2.5);
+  EXPECT_TRUE(info.rendersForce);
+  EXPECT_EQ(info.workspaceRadius, 0.17);
+  EXPECT_EQ(info.apparentMass, 0.2);
+  EXPECT_EQ(info.coulombFriction, 0.1);
+  EXPECT_EQ(info.resolution, 1e-5);
+  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
+  HaplyInverse3::Options weak;
+  weak.maxForce = 2;
+  EXPECT_EQ(open(weak).info().maxForce, 2);
+  EXPECT_EQ(open(weak).info().maxContinuousForce, 2) << "no more than its peak";
+  EXPECT_EQ(open().period(), 500'000);
+}
+
+TEST_F(HaplyOverALine, IsGreetedOnlyWhenItWaits) {
+  (void)open();
+  EXPECT_TRUE(line->sent.empty()) << "older ones tell their state unasked";
+  EXPECT_EQ(refusalOf(), "the service does not answer within 2000 ms");
+  EXPECT_EQ(line->sent, (std::vector<std::string>{haplyGreeting(), "{}"}));
+  EXPECT_EQ(line->waits, (std::vector<int>{200, 1000, 1000}));
+  line->fault = "it is closed";
+  EXPECT_EQ(refusalOf(), "it is closed");
+}
+
+TEST_F(HaplyOverALine, IsAskedAgainWhenAnAnswerDoesNotComeForFiftyMilliseconds) {
+  HaplyInverse3 device = open();
+  wish.force = {1, 2, 3};
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Nothing);
+  ASSERT_EQ(line->sent.size(), 1u);
+  EXPECT_EQ(line->sent[0], haplyForceCommand("A", {1, -3, 2}));
+  EXPECT_EQ(line->waits, std::vector<int>{10});
+  wish.ns = 50'000'000;
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(line->sent.size(), 1u);
+  wish.ns += 1;
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(line->sent.size(), 2u);
+  wish.ns += 50'000'000;
+  device.exchange(wish, sample);
+  EXPECT_EQ(line->sent.size(), 2u) << "since it was asked last";
+  line->waiting = {stateAt(1), stateAt(2)};
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(sample.position.x, 2) << "the newest";
+  line->waiting = {stateAt(3)};
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(line->sent.size(), 3u) << "answered it is told at once";
+}
+
+TEST_F(HaplyOverALine, WhatHasPiledUpIsDrainedUpToSixtyFour) {
+  HaplyInverse3 device = open();
+  for (int i = 0; i < 70; ++i) line->waiting.push_back(stateAt(i));
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(sample.position.x, 64);
+  EXPECT_EQ(line->waits[1], 0);
+}
+
+TEST_F(HaplyOverALine, TwentyMessagesInARowThatAreNoneAreALoss) {
+  HaplyInverse3 device = open();
+  const auto hear = [&](const std::string& message) {
+    line->waiting = {message};
+    return device.exchange(wish, sample);
+  };
+  for (int i = 0; i < 19; ++i) EXPECT_EQ(hear("?"), Exchange::Nothing);
+  EXPECT_EQ(hear(stateAt(1)), Exchange::Report);
+  for (int i = 0; i < 19; ++i) EXPECT_EQ(hear(R"({"session":1})"), Exchange::Nothing);
+  EXPECT_EQ(device.lossText(), "");
+  EXPECT_EQ(hear("?"), Exchange::Lost);
+  EXPECT_EQ(device.lossText(), "the service's messages cannot be understood any more");
+  line->waiting = {stateAt(0)};
+  ASSERT_TRUE(device.reopen());
+  for (int i = 0; i < 19; ++i) EXPECT_EQ(hear("?"), Exchange::Nothing) << "connected again it begins anew";
+  EXPECT_EQ(hear(R"({"inverse3":[{"device_id":"B","state":{}}]})"), Exchange::Lost) << "the one that it was opened with";
+  EXPECT_EQ(device.lossText(), "the service has no Inverse3 A any more");
+}
+
+TEST_F(HaplyOverALine, ItsOwnVelocityIsTakenWhereItIsAskedFor) {
+  const std::string moving = stateAt(0, R"(,"cursor_velocity":{"x":0.1,"y":0.2,"z":0.3})");
+  for (const bool asked : {false, true}) {
+    HaplyInverse3::Options options;
+    options.deviceVelocity = asked;
+    HaplyInverse3 device = open(options);
+    line->waiting = {moving};
+    ASSERT_EQ(device.exchange(wish, sample), Exchange::Report);
+    EXPECT_EQ(sample.hasVelocity, asked);
+    if (asked) {
+      EXPECT_EQ(sample.velocity, (Vec3{0.1, 0.3, -0.2}));
+    }
+    line->waiting = {stateAt(0)};
+    device.exchange(wish, sample);
+    EXPECT_FALSE(sample.hasVelocity) << "not told";
+  }
+}
+
+TEST_F(HaplyOverALine, GoneItIsLostInItsOwnWordsAndClosedItIsToldZero) {
+  HaplyInverse3 device = open();
+  line->fault = "reset by peer";
+  line->gone = true;
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Lost);
+  EXPECT_EQ(device.lossText(), "reset by peer");
+  EXPECT_TRUE(device.tellZero());
+  EXPECT_EQ(line->sent.back(), haplyForceCommand("A", {}));
+  line->deaf = true;
+  EXPECT_FALSE(device.tellZero());
+  line->closed = true;
+  EXPECT_FALSE(device.reopen());
+  EXPECT_TRUE(device.tellZero()) << "nobody is there to be told";
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Lost);
+  line->closed = line->gone = line->deaf = false;
+  line->waiting = {stateAt(0)};
+  ASSERT_TRUE(device.reopen());
+  line->deaf = true;
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Lost) << "what cannot be told its force";
+  line->deaf = false;
+  line->sent.clear();
+  device.close();
+  EXPECT_EQ(line->sent, std::vector<std::string>{haplyForceCommand("A", {})});
+  EXPECT_EQ(device.exchange(wish, sample), Exchange::Lost);
+}
+
+TEST_F(HaplyOverALine, AGripThatIsNotThereIsRefused) {
+  HaplyInverse3::Options options;
+  options.grip = "9";
+  line->waiting = {stateAt(0)};
+  EXPECT_EQ(refusalOf(options), "the Inverse service has no VerseGrip 9; there is: none");
+}
+
+TEST(Haply, ItsOptionsAreBounded) {
+  const FakeHaply service;
+  const auto experiment = experiment::readExperiment("chain-slow");
+  const std::string port = fmt::format(",port={}", service.port());
+  for (const char* good : {"max-force=0.01", "max-force=10", "velocity=device", "velocity=estimated"})
+    EXPECT_NO_THROW(makeDevice(std::string("haply:049D,") + good + port, experiment, 1)) << good;
+  EXPECT_EQ(makeDevice("haply:049D,max-force=3" + port, experiment, 1)->info().maxForce, 3);
+  EXPECT_TRUE(makeDevice("haply:049D,velocity=device" + port, experiment, 1)->read().hasVelocity);
+  for (const char* bad : {"max-force=0.009", "max-force=10.1", "velocity=best", "port=0", "port=65536", "colour=red"})
+    EXPECT_THROW(makeDevice(std::string("haply:049D,") + bad, experiment, 1), FaultError) << bad;
+  EXPECT_EQ(makeDevice("haply:049D" + port, experiment, 1)->info().maxForce, 10);
 }
 
 TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {

@@ -13,10 +13,13 @@
 #include <mutex>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "devices/make_device.h"
 #include "devices/serial/polhem_line.h"
+#include "devices/serial/serial_port.h"
+#include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -133,6 +136,190 @@ TEST(PolhemLine, ForcesAreWholeMillinewtonsOfSixteenBitsWithTheirDirection) {
     ASSERT_LE(norm(told), 32768);
     ASSERT_GT(dot(told, force), (1 - 1e-3) * norm(told) * norm(force)) << "rounding to a millinewton turns it that little";
   }
+}
+
+TEST(PolhemLine, NothingFartherThanAMetreOrWithMoreThanEightNumbersIsBelieved) {
+  const auto isRead = [](const char* line) { return readPolhemLine(line).has_value(); };
+  EXPECT_TRUE(isRead("1000 0 0 0 0 0 0 0"));
+  EXPECT_FALSE(isRead("1000.1 0 0 0 0 0 0 0"));
+  EXPECT_FALSE(isRead("-800 -800 0 0 0 0 0 0"));
+  EXPECT_TRUE(isRead("0 0 0 0 0 0 0 1000000"));
+  EXPECT_FALSE(isRead("0 0 0 0 0 0 0 1000001"));
+  EXPECT_FALSE(isRead("0 0 0 0 0 0 0 -1000001"));
+  EXPECT_TRUE(isRead("1 2 3 4 5 6 7 8\r"));
+  EXPECT_TRUE(isRead("   1 2 3 4 5 6 7 8 \r "));
+  EXPECT_FALSE(isRead("1 2 3 4 5 6 7 8x"));
+  EXPECT_FALSE(isRead("1 2 3x 4 5 6 7 8"));
+  EXPECT_FALSE(isRead("1 2 3 inf 5 6 7 8"));
+  EXPECT_FALSE(isRead("1 2 3 4 5 6 7"));
+  EXPECT_EQ(readPolhemLine("1 2 3 4 5 6 7 -8")->info, -8);
+}
+
+TEST(PolhemLine, AForceIsALineOfSixtyFourBytesHeldToSixteenBits) {
+  const std::string line = polhemForceLine({-1, 2, 0.0006});
+  EXPECT_EQ(line, "-1000 2000 1 2 0 0 0" + std::string(43, ' ') + "\n");
+  EXPECT_EQ(polhemForceLine({0, 0, 32.767}).substr(0, 10), "0 0 32767 ");
+  EXPECT_EQ(polhemForceLine({0, -60, 80}).substr(0, 14), "0 -19660 26214") << "0.6 and 0.8 of 32767";
+  EXPECT_EQ(polhemForceLine({0, INFINITY, 0}), polhemForceLine({}));
+}
+
+class PolhemOverAWire : public ::testing::Test {
+ protected:
+  PolhemOverAWire() { wish.force = {1, 2, 3}; }
+  static std::string placeAt(int x, int info = 0) { return std::to_string(x) + " 20 30 0 0 0 0 " + std::to_string(info); }
+  Exchange turn() { return arm.exchange(wish, sample); }
+  std::shared_ptr<test::FakeMessageLine> line = std::make_shared<test::FakeMessageLine>();
+  test::FakeMessageLine& wire = *line;
+  test::StandingForce wish;
+  haptics::DeviceSample sample;
+  PolhemSerial arm{"Polhem", [this]() -> std::unique_ptr<MessageLink> {
+                     if (wire.closed) throw ResourceError("no line");
+                     return std::make_unique<test::FakeMessageLink>(line);
+                   }};
+};
+
+TEST_F(PolhemOverAWire, TellsWhatItIs) {
+  const haptics::DeviceInfo info = arm.info();
+  EXPECT_EQ(info.name, "Polhem");
+  EXPECT_EQ(info.version, "Polhem v3, serial line");
+  EXPECT_EQ(info.maxForce, 5);
+  EXPECT_TRUE(info.rendersForce);
+  EXPECT_EQ(info.workspaceRadius, 0.15);
+  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
+  EXPECT_EQ(arm.lossText(), "its serial line is gone or does not answer");
+}
+
+TEST_F(PolhemOverAWire, IsAskedOnceAndAgainAfterTenMilliseconds) {
+  EXPECT_EQ(turn(), Exchange::Nothing);
+  EXPECT_EQ(wire.sent, std::vector<std::string>{polhemForceLine({3, 1, 2})});
+  EXPECT_EQ(wire.waits, std::vector<int>{10});
+  wish.ns = 10'000'000;
+  turn();
+  EXPECT_EQ(wire.sent.size(), 1u);
+  wish.ns += 1;
+  turn();
+  EXPECT_EQ(wire.sent.size(), 2u);
+  wish.ns += 10'000'000;
+  turn();
+  EXPECT_EQ(wire.sent.size(), 2u);
+  wire.waiting = {placeAt(1), placeAt(10, 7)};
+  EXPECT_EQ(turn(), Exchange::Report);
+  EXPECT_LT(norm(sample.position - Vec3{0.02, 0.03, 0.01}), 1e-15) << "the newest";
+  EXPECT_EQ(sample.buttons, 1u);
+  EXPECT_FALSE(sample.hasVelocity);
+  wire.waiting = {placeAt(1)};
+  turn();
+  EXPECT_EQ(sample.buttons, 0u);
+  EXPECT_EQ(wire.sent.size(), 3u) << "answered it is told at once";
+}
+
+TEST_F(PolhemOverAWire, UpToSixtyFourLinesMoreAreTakenAtATime) {
+  for (int i = 0; i < 70; ++i) wire.waiting.push_back(placeAt(i));
+  EXPECT_EQ(turn(), Exchange::Report);
+  EXPECT_NEAR(sample.position.z, 0.064, 1e-15);
+  EXPECT_EQ(wire.waits[1], 0);
+}
+
+TEST_F(PolhemOverAWire, FiftyTurnsWithoutAPlaceAreALoss) {
+  for (int i = 0; i < 49; ++i) EXPECT_EQ(turn(), Exchange::Nothing);
+  wire.waiting = {placeAt(1)};
+  EXPECT_EQ(turn(), Exchange::Report);
+  for (int i = 0; i < 49; ++i) {
+    wire.waiting = {"?"};
+    EXPECT_EQ(turn(), Exchange::Nothing);
+  }
+  EXPECT_EQ(turn(), Exchange::Lost);
+  ASSERT_TRUE(arm.reopen());
+  const std::size_t sent = wire.sent.size();
+  for (int i = 0; i < 49; ++i) EXPECT_EQ(turn(), Exchange::Nothing) << "opened again it begins anew";
+  EXPECT_GT(wire.sent.size(), sent) << "and is told at once";
+}
+
+TEST_F(PolhemOverAWire, GoneOrDeafItIsLostAndToldZeroAsLongAsItIsOpen) {
+  wire.gone = true;
+  EXPECT_EQ(turn(), Exchange::Lost);
+  wire.gone = false;
+  ASSERT_TRUE(arm.reopen());
+  wire.deaf = true;
+  EXPECT_EQ(turn(), Exchange::Lost);
+  EXPECT_FALSE(arm.tellZero());
+  wire.deaf = false;
+  EXPECT_TRUE(arm.tellZero());
+  EXPECT_EQ(wire.sent.back(), polhemForceLine({}));
+  wire.closed = true;
+  EXPECT_FALSE(arm.reopen());
+  EXPECT_EQ(turn(), Exchange::Lost);
+  wire.deaf = true;
+  EXPECT_TRUE(arm.tellZero()) << "nobody is there to be told";
+  wire.closed = wire.deaf = false;
+  ASSERT_TRUE(arm.reopen());
+  wire.sent.clear();
+  arm.close();
+  EXPECT_EQ(wire.sent, std::vector<std::string>{polhemForceLine({})});
+  EXPECT_EQ(turn(), Exchange::Lost);
+}
+
+/// A pseudo-terminal, the line at its one end.
+class SerialLine : public ::testing::Test {
+ protected:
+  SerialLine() {
+    char name[128] = {};
+    if (::openpty(&wire, &slave, name, nullptr, nullptr) != 0) throw std::runtime_error("openpty");
+    line = openSerial(name);
+  }
+  ~SerialLine() override {
+    line.reset();
+    ::close(slave);
+    if (wire >= 0) ::close(wire);
+  }
+  void put(const std::string& text) const { ASSERT_EQ(::write(wire, text.data(), text.size()), static_cast<ssize_t>(text.size())); }
+  std::string next(int milliseconds = 1000) {
+    std::string message;
+    return line->receive(message, milliseconds) == MessageLink::Got::Message ? message : "nothing";
+  }
+  int wire = -1, slave = -1;
+  std::unique_ptr<MessageLink> line;
+};
+
+TEST_F(SerialLine, GivesWholeLinesInTheirOrder) {
+  EXPECT_EQ(next(0), "nothing");
+  put("one\ntwo\nthr");
+  EXPECT_EQ(next(), "one");
+  EXPECT_EQ(next(0), "two");
+  EXPECT_EQ(next(0), "nothing");
+  put("ee\n\n");
+  EXPECT_EQ(next(), "three");
+  EXPECT_EQ(next(), "");
+}
+
+TEST_F(SerialLine, WhatIsLongerThanALineCanBeIsThrownAway) {
+  put(std::string(200, 'a'));
+  EXPECT_EQ(next(), "nothing");
+  put(std::string(56, 'b') + "\n");
+  EXPECT_EQ(next().size(), 256u) << "as long as a line can be";
+  put(std::string(200, 'a'));
+  EXPECT_EQ(next(), "nothing");
+  put(std::string(57, 'b'));
+  EXPECT_EQ(next(), "nothing");
+  EXPECT_EQ(next(0), "nothing");
+  put("after\n");
+  EXPECT_EQ(next(), "after");
+}
+
+TEST_F(SerialLine, SendsAsItIsAndIsGoneWithItsOtherEnd) {
+  EXPECT_TRUE(line->send("a\r\n\x03 b"));
+  char heard[32];
+  ASSERT_EQ(::read(wire, heard, sizeof heard), 6);
+  EXPECT_EQ(std::string(heard, 6), "a\r\n\x03 b") << "raw";
+  // Nobody reads: what fits in is taken, and then no more within 20 ms.
+  const std::string much(1 << 16, 'x');
+  EXPECT_FALSE(line->send(much));
+  EXPECT_EQ(line->fault(), "Connection timed out");
+  ::close(std::exchange(wire, -1));
+  std::string message;
+  EXPECT_EQ(line->receive(message, 1000), MessageLink::Got::Gone);
+  EXPECT_FALSE(line->send("x"));
+  EXPECT_EQ(line->fault(), "Input/output error");
 }
 
 TEST(Polhem, GivesItsPlaceAndGetsItsForce) {
