@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <tuple>
 
 #include "base/fault.h"
 #include "devices/make_device.h"
+#include "devices/simulated/played_hand.h"
+#include "devices/simulated/sampled_plan.h"
 #include "sim/haptics/run_conductor.h"
 
 namespace reachlab::devices {
@@ -190,6 +194,277 @@ TEST(PartnerHand, OfTheStubbornSwingsWithThePeriodOfItsMassOnItsArm) {
     if (i == 2 * half - 1) EXPECT_NEAR(x, 0, 1e-4);
   }
   EXPECT_NEAR(far, 2 * 3 / 200.0, 1e-4);
+}
+
+// The same body with a damper: x = F/k (1 - e^{-dt}(cos wt + d/w sin wt)), d = b/2m, w^2 = k/m - d^2; on every axis alike.
+TEST(PartnerHand, OfTheStubbornIsADampedMassOnItsArm) {
+  const experiment::Experiment experiment = experiment::readExperiment("free-point");
+  const auto hand = makeDevice("partner:stubborn,hand-mass=0.8,arm-stiffness=90,arm-damping=3", experiment, 1);
+  const Vec3 start{-0.1, 0, 0}, force{0.5, -0.25, 0.125};
+  const double d = 3 / 1.6, w = std::sqrt(90 / 0.8 - d * d);
+  for (int run = 0; run < 2; ++run) {
+    hand->cue(haptics::Cue::Place);
+    EXPECT_EQ(hand->read().position, start) << "at rest again";
+    for (int tick = 1; tick <= 1500; ++tick) {
+      hand->write(force);
+      const haptics::DeviceSample sample = hand->read();
+      const double t = 1e-3 * tick, way = (1 - std::exp(-d * t) * (std::cos(w * t) + d / w * std::sin(w * t))) / 90;
+      ASSERT_LT(norm(sample.position - start - way * force), 5e-6) << tick;
+      const double pace = std::exp(-d * t) * (d * d + w * w) / w * std::sin(w * t) / 90;
+      ASSERT_LT(norm(sample.velocity - pace * force), 1e-4) << tick;
+      ASSERT_TRUE(sample.hasVelocity);
+    }
+  }
+  hand->write({NAN, 0, 0});
+  EXPECT_TRUE(isFinite(hand->read().position)) << "no number is no force";
+  const haptics::DeviceInfo info = hand->info();
+  EXPECT_EQ(info.name, "partner");
+  EXPECT_EQ(info.version, "1");
+  EXPECT_TRUE(info.virtualHand);
+  EXPECT_FALSE(info.rendersForce);
+  EXPECT_EQ(info.maxForce, 60);
+  EXPECT_EQ(info.apparentMass, 0.8);
+}
+
+// So stiff that it is where it means to be: where the mass was one reaction time ago.
+TEST(PartnerHand, OfTheFollowerIsWhereItSawTheMass) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  const std::size_t masses = experiment.object.masses.size();
+  ASSERT_GT(masses, 2u);
+  for (const auto& [options, seen, delay] :
+       {std::tuple{"", masses - 1, 150}, {",reaction=0.04", masses - 1, 40}, {",mass=2,reaction=0.04", std::size_t{1}, 40}}) {
+    const auto hand =
+        makeDevice(std::string("partner:follower,hand-mass=0.05,arm-stiffness=20000,arm-damping=200") + options, experiment, 1);
+    hand->cue(haptics::Cue::Place);
+    const Vec3 start = hand->read().position;
+    const auto placeAt = [&](std::size_t mass, int tick) {
+      return start + (1 + static_cast<double>(mass)) * Vec3{0.01 * (1 - std::cos(0.01 * std::max(tick, 0))), 0.003, 0};
+    };
+    for (int tick = 0; tick < 600; ++tick) {
+      std::vector<dynamics::MassState> states(masses);
+      for (std::size_t i = 0; i < masses; ++i) states[i].r = placeAt(i, tick);
+      hand->see(states);
+      const Vec3 place = hand->read().position;
+      if (tick < delay) {
+        ASSERT_LT(norm(place - start), 1e-12) << options << tick;
+      }
+      // Its place trails by b v/k and m a/k: some 10 um here; the first moments after the jump are left out.
+      if (tick > delay + 100) {
+        ASSERT_LT(norm(place - placeAt(seen, tick - delay)), 6e-5) << options << tick;
+      }
+    }
+  }
+}
+
+TEST(PartnerHand, OfTheLeaderMeansTheReachOfASubjectAlone) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  const auto leader = makeDevice("partner:leader,hand-mass=0.05,arm-stiffness=100000,arm-damping=400,noise=0", experiment, 3);
+  const auto alone = makeDevice("simulated:noise=0", experiment, 3);
+  const auto led = motionOf(*leader, 1), meant = motionOf(*alone, 1);
+  for (std::size_t i = 0; i < led.size(); ++i) ASSERT_LT(norm(led[i] - meant[i]), 2e-5) << i;
+  EXPECT_NEAR(meant.back().x, 0.1, 1e-6);
+}
+
+TEST(PartnerHand, ItsOptionsAreBoundedAndItsRoleIsOneOfThree) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
+  const auto refusalOf = [&](const std::string& spec) {
+    try {
+      makeDevice("partner" + spec, experiment, 1);
+      return std::string("made");
+    } catch (const FaultError& error) {
+      return std::string(error.what());
+    }
+  };
+  const int masses = static_cast<int>(experiment.object.masses.size());
+  for (const std::string& good :
+       {std::string(":stubborn"), std::string(":follower,reaction=0.001"), std::string(":follower,reaction=5"),
+        std::string(":stubborn,hand-mass=0.05"), std::string(":stubborn,hand-mass=50"), std::string(":stubborn,arm-stiffness=100000"),
+        std::string(":stubborn,arm-damping=10000"), ":follower,mass=" + std::to_string(masses), std::string(":leader,noise=0")})
+    EXPECT_EQ(refusalOf(good), "made") << good;
+  for (const char* bad :
+       {"", ":boss", ":stubborn,hand-mass=0.049", ":stubborn,hand-mass=51", ":stubborn,arm-stiffness=-1", ":stubborn,arm-stiffness=100001",
+        ":stubborn,arm-damping=-1", ":stubborn,arm-damping=10001", ":follower,reaction=0.0009", ":follower,reaction=5.1",
+        ":follower,mass=-1", ":leader,reaction=9", ":stubborn,noise=0"})
+    EXPECT_NE(refusalOf(bad), "made") << bad;
+  EXPECT_NE(refusalOf(":boss").find("partner:leader, partner:follower or partner:stubborn"), std::string::npos);
+  const std::string many = refusalOf(":follower,mass=" + std::to_string(masses + 1));
+  EXPECT_NE(many.find("is a partner that looks at mass " + std::to_string(masses + 1) + "; allowed: 1 to " + std::to_string(masses)),
+            std::string::npos)
+      << many;
+}
+
+PlayedReach numbered(int trial) {
+  PlayedReach reach;
+  for (int i = 0; i < 4; ++i) {
+    reach.position.push_back({10.0 * trial + i, 0, 0});
+    reach.velocity.push_back({100.0 * trial + i, 0, 0});
+  }
+  return reach;
+}
+
+TEST(PlayedHand, PlaysOneReachATrialFromTheSignalOnAndRestsAtBothEnds) {
+  std::vector<int> planned;
+  PlayedHand hand({}, [&](int trial) {
+    planned.push_back(trial);
+    return numbered(trial);
+  });
+  EXPECT_TRUE(hand.info().virtualHand);
+  EXPECT_EQ(planned, std::vector<int>{0});
+  EXPECT_EQ(hand.read().position.x, 0) << "before the first trial it rests where that begins";
+  EXPECT_EQ(hand.read().velocity.x, 0);
+  EXPECT_TRUE(hand.read().hasVelocity);
+  hand.prepareTrial(0);
+  EXPECT_EQ(planned.size(), 1u) << "the first is there already";
+  hand.cue(haptics::Cue::Place);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(hand.read().position.x, 0) << "until the signal";
+  hand.cue(haptics::Cue::Go);
+  for (const double x : {1.0, 2.0, 3.0, 3.0, 3.0}) {
+    const haptics::DeviceSample sample = hand.read();
+    EXPECT_EQ(sample.position.x, x);
+    EXPECT_EQ(sample.velocity.x, x < 3 ? x : 0) << "at rest at its end";
+  }
+  hand.prepareTrial(2);
+  EXPECT_EQ(hand.read().position.x, 3) << "not before it is placed";
+  hand.cue(haptics::Cue::Place);
+  EXPECT_EQ(hand.read().position.x, 20);
+  EXPECT_EQ(hand.read().velocity.x, 0);
+  hand.cue(haptics::Cue::Go);
+  EXPECT_EQ(hand.read().position.x, 21);
+  EXPECT_EQ(hand.read().velocity.x, 202);
+  hand.prepareTrial(0);
+  EXPECT_EQ(planned, (std::vector<int>{0, 2, 0})) << "and again";
+}
+
+TEST(PlayedHand, WithoutAFirstReachItHasNoPlace) {
+  PlayedHand hand({}, [](int trial) { return trial == 0 ? PlayedReach{} : PlayedReach{{{1, 2, 3}}, {}}; });
+  EXPECT_FALSE(hand.read().valid);
+  hand.prepareTrial(1);
+  hand.cue(haptics::Cue::Place);
+  EXPECT_TRUE(hand.read().valid);
+  hand.cue(haptics::Cue::Go);
+  EXPECT_EQ(hand.read().position, (Vec3{1, 2, 3}));
+  EXPECT_FALSE(hand.read().hasVelocity) << "none is known";
+}
+
+// Polynomials of the fifth degree are met exactly; a kink is left to the plan itself.
+TEST(SampledPlan, IsThePlanBetweenItsSamplesToo) {
+  const auto quintic = [](double t) {
+    return Vec3{1 + t * (2 - t * (3 - t * (1 + t * (0.5 - 0.7 * t)))), std::pow(t, 5), -std::pow(t, 4)};
+  };
+  for (const double duration : {0.0057, 0.006, 0.1234, 1.0}) {
+    const SampledPlan plan({duration, quintic});
+    EXPECT_EQ(plan.duration(), duration);
+    for (int i = 0; i <= 997; ++i) {
+      const double t = duration * i / 997;
+      ASSERT_LT(norm(plan.at(t) - quintic(t)), 1e-14) << duration << " at " << t;
+    }
+  }
+  int asked = 0;
+  const auto counted = [&](double t) {
+    ++asked;
+    return quintic(t);
+  };
+  const auto asksAt = [&](const ReachPlan& made) {
+    const SampledPlan plan(made);
+    asked = 0;
+    (void)plan.at(0.3 * made.duration);
+    return asked;
+  };
+  EXPECT_EQ(asksAt({0.1, counted}), 0) << "from the samples";
+  EXPECT_EQ(asksAt({0.006, counted}), 0) << "six cells are enough";
+  EXPECT_EQ(asksAt({0.005, counted}), 1) << "five are not";
+  const auto kinked = [&](double t) {
+    ++asked;
+    return Vec3{std::abs(t - 0.0505), 0, 0};
+  };
+  EXPECT_EQ(asksAt({0.1, kinked}), 1);
+  EXPECT_EQ(SampledPlan({0.1, kinked}).at(0.0505).x, 0);
+}
+
+TEST(SimulatedHand, ItsNumbersAreReadAndBounded) {
+  const SubjectSpec usual = parseSubject("");
+  EXPECT_EQ(usual.noise, 1);
+  EXPECT_EQ(usual.timeSd, 0.07);
+  EXPECT_EQ(usual.speedSd, 0.07);
+  EXPECT_EQ(usual.reaction, 0.2);
+  EXPECT_FALSE(usual.criterion);
+  EXPECT_FALSE(usual.handMass);
+  const SubjectSpec all = parseSubject("kind=plan,noise=10,time-sd=0.3,speed-sd=1,reaction=5,hand-mass=1000,criterion=min-hand-force");
+  EXPECT_EQ(all.noise, 10);
+  EXPECT_EQ(all.timeSd, 0.3);
+  EXPECT_EQ(all.speedSd, 1);
+  EXPECT_EQ(all.reaction, 5);
+  EXPECT_EQ(all.handMass, 1000);
+  EXPECT_EQ(all.criterion, predict::Criterion::MinHandForce);
+  for (const char* bad :
+       {"noise=10.1", "time-sd=0.31", "speed-sd=1.1", "reaction=5.1", "hand-mass=1001", "noise=-0.1", "kind=robot", "noise"})
+    EXPECT_THROW(parseSubject(bad), FaultError) << bad;
+  try {
+    (void)parseSubject("time-sd=2");
+    FAIL();
+  } catch (const FaultError& error) {
+    EXPECT_STREQ(error.what(), "device: simulated: time-sd=2; allowed: a number from 0 to 0.3");
+  }
+}
+
+TEST(SimulatedHand, OnlyASimulatedSubjectIsOne) {
+  const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
+  EXPECT_THROW(prepareSubjects(experiment, "mouse"), FaultError);
+  EXPECT_THROW(prepareSubjects(experiment, "simulated:kind=robot"), FaultError);
+  std::shared_ptr<void> learnt;
+  EXPECT_EQ(prepareSubjects(experiment, "simulated")(1, 0, learnt)->info().name, "simulated");
+  EXPECT_EQ(prepareSubjects(experiment, "simulated")(1, 0, learnt)->info().version, "1");
+  EXPECT_EQ(learnt, nullptr) << "it learns nothing";
+  (void)prepareSubjects(experiment, "simulated:kind=ofc")(1, 0, learnt);
+  EXPECT_NE(learnt, nullptr);
+}
+
+// Noise alone, over 60 trials: along the way and across, its part of the speed has the asked SD, and the three are of one size.
+TEST(SimulatedHand, ItsSpeedIsNoisyInProportionAlongAndAcross) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  const auto noisy = makeDevice("simulated:time-sd=0,reaction=0.001,speed-sd=0.1", experiment, 4);
+  const auto plain = makeDevice("simulated:noise=0,time-sd=0,reaction=0.001", experiment, 4);
+  const auto meant = motionOf(*plain, 0);
+  Vec3 squares;
+  double count = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto moved = motionOf(*noisy, trial);
+    for (std::size_t i = 101; i < 1200; i += 7) {
+      const double by = norm(meant[i] - meant[i - 1]);
+      const Vec3 off = (moved[i] - moved[i - 1] - (meant[i] - meant[i - 1])) / by;
+      squares += Vec3{off.x * off.x, off.y * off.y, off.z * off.z};
+      ++count;
+    }
+  }
+  // Some six independent values a trial and axis: a standard error of 4 % of the SD.
+  for (const double sum : {squares.x, squares.y, squares.z}) EXPECT_NEAR(std::sqrt(sum / count), 0.1, 0.016);
+}
+
+// 15 % of the reaction time, with noise of 1 or more alike; without noise it is the same in each trial.
+TEST(SimulatedHand, ItsReactionVaries) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  const auto reactions = [&](const std::string& options) {
+    const auto device = makeDevice("simulated:speed-sd=0,time-sd=0,reaction=0.4" + options, experiment, 9);
+    double sum = 0, squares = 0;
+    constexpr int kTrials = 150;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const auto motion = motionOf(*device, trial);
+      std::size_t at = 0;
+      while (motion[at + 1] == motion[0]) ++at;
+      const double t = 1e-3 * static_cast<double>(at);
+      sum += t, squares += t * t;
+    }
+    return std::pair{sum / kTrials, std::sqrt(std::max(squares / kTrials - sum * sum / kTrials / kTrials, 0.0))};
+  };
+  for (const char* noise : {"", ",noise=4"}) {
+    const auto [mean, sd] = reactions(noise);
+    EXPECT_NEAR(mean, 0.4, 0.02) << noise;
+    EXPECT_NEAR(sd, 0.06, 0.014) << noise;
+  }
+  EXPECT_NEAR(reactions(",noise=0.5").second, 0.03, 0.007);
+  const auto [still, none] = reactions(",noise=0");
+  EXPECT_NEAR(still, 0.4, 0.002);
+  EXPECT_NEAR(none, 0, 1e-9);
 }
 
 }  // namespace
