@@ -12,8 +12,11 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <thread>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/os.h"
@@ -331,6 +334,278 @@ TEST(OpenInstruments, RefusesWhatItDoesNotKnow) {
   EXPECT_NE(refusalOf("byte:/dev/null,pulse-ms=5").find("pulse-ms is not known"), std::string::npos) << "a byte has no length";
   EXPECT_NE(refusalOf("byte:/dev/no-such-line").find("/dev/no-such-line: No such file or directory"), std::string::npos);
   EXPECT_NE(refusalOf("byte:/dev/null").find("/dev/null: Inappropriate ioctl for device"), std::string::npos);
+}
+
+/// Calls of a port that takes and gives bytes as the test says.
+struct FakeLine {
+  std::string opened;
+  int flags = 0, openError = 0, closes = 0;
+  std::vector<unsigned char> written, waiting;
+  int interrupts = 0, writeError = 0, readError = 0;
+};
+FakeLine byteLine;
+const PortCalls kByteCalls{
+    [](const char* path, int flags) {
+      byteLine.opened = path;
+      byteLine.flags = flags;
+      if (byteLine.openError == 0) return 0;  // any descriptor, even this one
+      errno = byteLine.openError;
+      return -1;
+    },
+    [](int) {
+      ++byteLine.closes;
+      return 0;
+    },
+    [](int, unsigned long, void*) { return 0; },
+    [](int, const void* bytes, std::size_t count) {
+      if (byteLine.interrupts-- > 0) return errno = EINTR, -1L;
+      if (byteLine.writeError != 0) return errno = byteLine.writeError, -1L;
+      byteLine.written.push_back(*static_cast<const unsigned char*>(bytes));
+      return static_cast<long>(count);
+    },
+    [](int, void* bytes, std::size_t count) {
+      if (byteLine.readError != 0) return errno = byteLine.readError, -1L;
+      const std::size_t got = std::min(count, byteLine.waiting.size());
+      std::copy_n(byteLine.waiting.begin(), got, static_cast<unsigned char*>(bytes));
+      byteLine.waiting.erase(byteLine.waiting.begin(), byteLine.waiting.begin() + static_cast<std::ptrdiff_t>(got));
+      return static_cast<long>(got);
+    },
+};
+
+std::string refusalOf(const std::function<void()>& work) {
+  try {
+    work();
+    return "done";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+class ByteLines : public testing::Test {
+ protected:
+  void SetUp() override { byteLine = {}; }
+  std::unique_ptr<Instrument> open(const TriggerCodes& codes = {}) { return openByteLine("box", "/dev/ttyBox", codes, 115200, kByteCalls); }
+  std::vector<InstrumentNote> notes;
+};
+
+TEST_F(ByteLines, EachCodeIsOneByteAndNoughtIsNone) {
+  {
+    const auto box = open({{7, 0, 255}, 0});
+    EXPECT_EQ(box->name(), "box");
+    EXPECT_EQ(byteLine.opened, "/dev/ttyBox");
+    EXPECT_EQ(byteLine.flags, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    byteLine.interrupts = 2;
+    EXPECT_TRUE(box->send({Mark::Go, 1, 0}));
+    EXPECT_FALSE(box->send({Mark::Onset, 1, 0}));
+    EXPECT_TRUE(box->send({Mark::Success, 1, 0}));
+    EXPECT_EQ(byteLine.written, (std::vector<unsigned char>{7, 255}));
+    byteLine.writeError = EIO;
+    EXPECT_EQ(refusalOf([&] { box->send({Mark::Go, 1, 0}); }), "/dev/ttyBox: Input/output error");
+  }
+  EXPECT_EQ(byteLine.closes, 1);
+}
+
+TEST_F(ByteLines, EveryByteThatComesInIsNotedWithItsTime) {
+  const auto box = open();
+  box->look(5, notes);
+  EXPECT_TRUE(notes.empty());
+  byteLine.waiting = {3, 200};
+  box->look(7, notes);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0].ns, 7);
+  EXPECT_EQ(notes[0].text, "in");
+  EXPECT_EQ(notes[0].value, 3);
+  EXPECT_EQ(notes[1].value, 200);
+  for (const int none : {EAGAIN, EINTR}) {
+    byteLine.readError = none;
+    EXPECT_EQ(refusalOf([&] { box->look(8, notes); }), "done") << "none is no fault";
+  }
+  byteLine.readError = EIO;
+  EXPECT_EQ(refusalOf([&] { box->look(8, notes); }), "/dev/ttyBox: Input/output error");
+  byteLine.readError = 0;
+  byteLine.waiting.assign(100, 1);
+  notes.clear();
+  box->look(9, notes);
+  EXPECT_EQ(notes.size(), 64u) << "the rest at the next look";
+}
+
+TEST_F(ByteLines, OneThatMayNotBeOpenedSaysWhatToDo) {
+  byteLine.openError = EACCES;
+  EXPECT_EQ(refusalOf([&] { open(); }), "/dev/ttyBox: Permission denied; become a member of the group that owns it (ls -l shows it)");
+  byteLine.openError = ENOENT;
+  EXPECT_EQ(refusalOf([&] { open(); }), "/dev/ttyBox: No such file or directory");
+  EXPECT_EQ(byteLine.closes, 0);
+}
+
+TEST_F(ByteLines, OnlySpeedsThatThereAreAreTaken) {
+  for (const int baud : {9600, 19200, 38400, 57600, 115200, 230400, 1000000})
+    EXPECT_EQ(refusalOf([&] { openByteLine("box", "/dev/ttyBox", {}, baud, kByteCalls); }), "done") << baud;
+  EXPECT_EQ(refusalOf([&] { openByteLine("box", "/dev/ttyBox", {}, 300, kByteCalls); }),
+            "instrument: baud=300; allowed: 9600, 19200, 38400, 57600, 115200, 230400, 1000000");
+}
+
+// The speed that the line then has, by a pseudo-terminal.
+TEST_F(ByteLines, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
+  int wire = -1, slave = -1;
+  char name[128] = {};
+  ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
+  for (const auto& [baud, speed] : {std::pair{9600, B9600},
+                                    {19200, B19200},
+                                    {38400, B38400},
+                                    {57600, B57600},
+                                    {115200, B115200},
+                                    {230400, B230400},
+                                    {1000000, B1000000}}) {
+    const auto box = openByteLine("box", name, {}, baud);
+    termios line{};
+    ASSERT_EQ(::tcgetattr(slave, &line), 0);
+    EXPECT_EQ(::cfgetospeed(&line), static_cast<speed_t>(speed)) << baud;
+    EXPECT_EQ(line.c_lflag & (ICANON | ECHO), 0u) << "raw";
+    EXPECT_NE(line.c_cflag & CREAD, 0u);
+    EXPECT_NE(line.c_cflag & CLOCAL, 0u);
+  }
+  ::close(wire);
+  ::close(slave);
+}
+
+TEST_F(Triggers, APulseIsAsLongAsItWasAskedFor) {
+  const auto lines = openParallelPort("parallel", "/dev/parport0", {{3, 5, 9}, 0.25}, kFakeCalls);
+  const std::int64_t before = os::now();
+  EXPECT_TRUE(lines->send({Mark::Onset, 1, 0}));
+  const std::int64_t after = os::now();
+  EXPECT_EQ(port.controls.back(), (std::pair<unsigned long, int>{PPWDATA, 5}));
+  lines->look(before + 249'999'999, notes_);
+  EXPECT_EQ(port.controls.back().second, 5);
+  lines->look(after + 250'000'000, notes_);
+  EXPECT_EQ(port.controls.back().second, 0);
+  const std::size_t controls = port.controls.size();
+  lines->look(after + 500'000'000, notes_);
+  lines->end(notes_);
+  EXPECT_EQ(port.controls.size(), controls) << "down once";
+}
+
+TEST_F(Triggers, TheUsualCodesAndPulse) {
+  const TriggerCodes usual;
+  EXPECT_EQ(usual.of(Mark::Go), 1);
+  EXPECT_EQ(usual.of(Mark::Onset), 2);
+  EXPECT_EQ(usual.of(Mark::Success), 4);
+  EXPECT_EQ(usual.pulse, 0.005);
+  EXPECT_EQ(kMarkCount, 3);
+}
+
+TEST_F(Triggers, ASerialPortsInputsAreABitALine) {
+  const auto lines = openSerialLines("rts", "/dev/ttyS0", {}, kFakeCalls);
+  std::vector<double> told;
+  for (const int inputs : {0, TIOCM_DSR, TIOCM_DSR | TIOCM_CTS, TIOCM_CTS, TIOCM_CAR}) {
+    port.lines = inputs;
+    notes_.clear();
+    lines->look(1, notes_);
+    told.push_back(notes_.empty() ? -1 : notes_[0].value);
+  }
+  EXPECT_EQ(told, (std::vector<double>{-1, 2, 3, 1, 0}));
+}
+
+TEST_F(Triggers, NothingIsNotedBeforeTheFirstLook) {
+  port.status = 0x10;
+  const auto lines = openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls);
+  lines->look(1, notes_);
+  EXPECT_TRUE(notes_.empty()) << "what it was at first is no change";
+  port.status = 0;
+  lines->look(2, notes_);
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_EQ(notes_[0].text, "in");
+  EXPECT_EQ(notes_[0].value, 0);
+}
+
+TEST(OpenInstruments, NumbersAreBoundedAndNamesAreWhatWasAskedFor) {
+  const auto refusal = [](const std::string& spec) { return refusalOf([&] { (void)openInstruments({spec}); }); };
+  const std::string missing = "/dev/no-such-line: No such file or directory";
+  for (const char* good : {"byte:/dev/no-such-line,baud=9600,go=0,onset=255", "rts:/dev/no-such-line,pulse-ms=1",
+                           "rts:/dev/no-such-line,pulse-ms=1000", "parallel:/dev/no-such-line,success=0"})
+    EXPECT_EQ(refusal(good), missing) << good;
+  for (const char* bad : {"byte:/dev/no-such-line,baud=0", "byte:/dev/no-such-line,baud=10000001", "rts:/dev/no-such-line,pulse-ms=0.9",
+                          "rts:/dev/no-such-line,pulse-ms=1001", "parallel:/dev/no-such-line,go=-1", "parallel:/dev/no-such-line,baud=9600",
+                          "lsl:x,go=1", "lsl,go=1"})
+    EXPECT_NE(refusal(bad), missing) << bad;
+  EXPECT_NE(refusal("rts:/dev/no-such-line,pulse-ms=2000").find("pulse-ms=2000; allowed: a number from 1 to 1000"), std::string::npos);
+  EXPECT_EQ(refusal("parallel"), "instrument: parallel: its port is missing; allowed: parallel:/dev/…");
+  EXPECT_EQ(refusal("byte,go=1"), "instrument: byte: its port is missing; allowed: byte:/dev/…");
+  EXPECT_EQ(openInstruments({"lsl"})->names(), "lsl");
+  EXPECT_EQ(openInstruments({"lsl", "lsl"})->names(), "lsl; lsl");
+}
+
+TEST_F(LabStreamingLayer, ItsStreamsSayWhatTheyAre) {
+  std::vector<std::unique_ptr<Instrument>> instruments;
+  instruments.push_back(openLabStreaming("lsl"));
+  const auto link = linkInstruments(std::move(instruments));
+  (void)eventsOf(*link, 1);
+  const record::RunConfiguration configuration = record::madeConfiguration();
+  const std::string source =
+      "sub-" + configuration.subject + "_ses-" + configuration.session + "_run-" + fmt::format("{}", configuration.run) + "_";
+  const auto& streams = test::fakeLsl().streams;
+  EXPECT_EQ(streams[0].source, source + "reachlab-markers");
+  EXPECT_EQ(streams[1].source, source + "reachlab-hand");
+  EXPECT_EQ(streams[0].channels, 1);
+  EXPECT_EQ(streams[1].channels, 6);
+  EXPECT_EQ(streams[1].name, "reachlab-hand");
+  EXPECT_EQ(streams[1].format, 2) << "doubles";
+  EXPECT_EQ(streams[0].labels, std::vector<std::string>{"marker"});
+  const auto& sample = streams[1].numbers.at(60).second;
+  ASSERT_EQ(sample.size(), 6u);
+}
+
+/// Keeps every call that it is made, and fails where it is told to.
+struct Diarist final : Instrument {
+  struct Book {
+    std::vector<std::string> lines;
+    std::string failsAt;
+    int looks = 0, hands = 0;
+  };
+  Diarist(const std::string& name, std::shared_ptr<Book> b) : Instrument(name), book(std::move(b)) {}
+  void add(const std::string& line) {
+    book->lines.push_back(line);
+    if (line == book->failsAt) throw ResourceError("no more");
+  }
+  void begin(const record::RunConfiguration&, std::vector<InstrumentNote>& notes) override {
+    add("begin");
+    notes.push_back({5, "hello", 42});
+  }
+  bool send(const Marker& marker) override {
+    add(std::string(nameOf(marker.mark)) + " " + std::to_string(marker.trial));
+    return marker.mark != Mark::Onset;
+  }
+  void hand(const HandAtTick&) override { ++book->hands; }
+  void look(std::int64_t, std::vector<InstrumentNote>&) override { ++book->looks; }
+  void end(std::vector<InstrumentNote>&) override { add("end"); }
+  std::shared_ptr<Book> book;
+};
+
+TEST_F(Triggers, EveryInstrumentIsToldEverythingAndOneThatFailsNothingMore) {
+  const auto one = std::make_shared<Diarist::Book>(), two = std::make_shared<Diarist::Book>();
+  two->failsAt = "onset 1";
+  std::vector<std::unique_ptr<Instrument>> instruments;
+  instruments.push_back(std::make_unique<Diarist>("one", one));
+  instruments.push_back(std::make_unique<Diarist>("two", two));
+  const auto link = linkInstruments(std::move(instruments));
+  EXPECT_EQ(link->names(), "one; two");
+  EXPECT_EQ(link->massesEvery(), 0u);
+  const auto events = eventsOf(*link, 2);
+  EXPECT_EQ(one->lines, (std::vector<std::string>{"begin", "go 1", "onset 1", "success 1", "go 2", "onset 2", "end"}));
+  EXPECT_EQ(two->lines, (std::vector<std::string>{"begin", "go 1", "onset 1"}));
+  EXPECT_EQ(one->hands, 2 * static_cast<int>(record::MadeRun::kTicksPerTrial));
+  EXPECT_GE(one->looks, 1);
+  std::vector<std::string> texts;
+  for (const record::RecordedEvent& event : events) texts.push_back(event.text);
+  EXPECT_EQ(texts, (std::vector<std::string>{"one hello at +0.000000 s", "two hello at +0.000000 s", "one out go", "two out go",
+                                             "two lost: no more", "one out success", "one out go"}));
+  EXPECT_EQ(events[0].value, 42);
+  EXPECT_EQ(events[0].tick, 0u) << "before the first tick";
+  EXPECT_EQ(events[4].tick, 50u);
+  EXPECT_EQ(events[4].trial, 1);
+  EXPECT_EQ(events[4].value, 0);
+  EXPECT_EQ(link->takeWarnings(), std::vector<std::string>{"instrument two is lost: no more; what follows is recorded without it"});
+  EXPECT_TRUE(link->takeWarnings().empty()) << "taken once";
+  EXPECT_TRUE(link->takeEvents().empty());
 }
 
 }  // namespace
