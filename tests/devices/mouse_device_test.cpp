@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "sim/haptics/tick_engine.h"
@@ -127,6 +129,98 @@ TEST(MouseDevice, HowLateItIsChangesByAPartOfTheTimesPace) {
     before = delay;
   }
   EXPECT_GT(before, atFirst + 0.01);
+}
+
+// Events at the ticks' own rate and at once: the hand is the ramp of 12 ms of playback and twice 8 ms of smoothing ago, at its very speed.
+TEST(MouseDevice, ARampIsFollowedAtItsSpeedByItsDelay) {
+  clockNs = 3'000'000'000;
+  MouseDevice mouse({}, now);
+  EXPECT_NEAR(mouse.delay(), 0.012 + 2 * 0.008, 1e-15);
+  const Vec3 speed{0.3, -0.2, 0.1};
+  for (int tick = 0; tick < 1000; ++tick, clockNs += 1'000'000) {
+    mouse.point(1e-3 * tick * speed, clockNs - 77'000'000'000);  // by a clock of its own
+    const haptics::DeviceSample sample = mouse.read();
+    ASSERT_TRUE(sample.hasVelocity);
+    if (tick < 300) continue;
+    // The smoothing's target is held over the tick that follows it: half of one less.
+    ASSERT_LT(norm(sample.position - (1e-3 * tick - mouse.delay() + 0.5e-3) * speed), 0.05e-3 * norm(speed)) << tick;
+    ASSERT_LT(norm(sample.velocity - speed), 2e-3 * norm(speed)) << tick;  // half a tick of T, squared
+    ASSERT_NEAR(mouse.delay(), 0.028, 1e-4);
+  }
+  EXPECT_EQ(mouse.info().name, "mouse");
+  EXPECT_EQ(mouse.info().version, "2");
+  EXPECT_FALSE(mouse.info().rendersForce);
+}
+
+// A jump, long after anything moved: x = 1 - (1 + t/T) e^{-t/T} from when it is played on, T = 8 ms.
+TEST(MouseDevice, AJumpIsTakenAsACriticallyDampedSystemDoes) {
+  clockNs = 3'000'000'000;
+  MouseDevice mouse({}, now);
+  for (int i = 0; i < 200; ++i, clockNs += 1'000'000) mouse.read();
+  mouse.setTarget({0.1, 0, 0});
+  std::vector<double> moved;
+  for (int i = 0; i < 200; ++i, clockNs += 1'000'000) moved.push_back(mouse.read().position.x / 0.1);
+  const auto begin = static_cast<std::size_t>(std::find_if(moved.begin(), moved.end(), [](double x) { return x > 0; }) - moved.begin());
+  ASSERT_LT(begin, 160u);
+  // Before the event is reached the way to it is made in the last 60 ms: what comes before is a ramp, after it the system alone.
+  std::size_t end = 0;
+  for (std::size_t i = 1; i < moved.size(); ++i)
+    if (moved[i] > 0.999 && end == 0) end = i;
+  EXPECT_GT(end, begin + 20);
+  for (std::size_t i = begin + 1; i < moved.size(); ++i) EXPECT_GE(moved[i], moved[i - 1] - 1e-12) << "it does not swing";
+  EXPECT_NEAR(moved.back(), 1, 1e-6);
+}
+
+// Handed over by 8 ms for a second: the playback is as late as the latest of the heap and the next one's gap, and bounded from above.
+TEST(MouseDevice, ItsPlaybackIsAsLateAsTheWindowAndNoLaterThanItMayBe) {
+  for (const auto& [frame, least, most] : {std::tuple{30, 0.029, 0.034}, {100, 0.099, 0.104}, {400, 0.135, 0.15}}) {
+    clockNs = 3'000'000'000;
+    MouseDevice mouse({}, now);
+    std::vector<std::int64_t> waiting;
+    for (int tick = 0; tick < 12'000; ++tick, clockNs += 1'000'000) {
+      waiting.push_back(clockNs);
+      if (tick % frame == frame - 1) {
+        for (const std::int64_t ns : waiting) mouse.point({1e-12 * static_cast<double>(ns), 0, 0}, ns);
+        waiting.clear();
+      }
+      mouse.read();
+    }
+    const double playback = mouse.delay() - 2 * MouseDevice::kSmoothing;
+    EXPECT_GE(playback, least - 2e-3) << frame;
+    EXPECT_LE(playback, most + 2e-3) << frame;
+  }
+}
+
+// Slow for a while, then prompt: within 5 s all but 1/e of what it was too late is forgotten, within 20 s nearly all.
+TEST(MouseDevice, ASlowWindowIsForgotten) {
+  clockNs = 3'000'000'000;
+  MouseDevice mouse({}, now);
+  const auto run = [&](int ticks, int frame) {
+    std::vector<std::int64_t> waiting;
+    for (int tick = 0; tick < ticks; ++tick, clockNs += 1'000'000) {
+      waiting.push_back(clockNs);
+      if (tick % frame == frame - 1) {
+        for (const std::int64_t ns : waiting) mouse.point({1e-10 * static_cast<double>(ns % 1'000'000'000), 0, 0}, ns);
+        waiting.clear();
+      }
+      mouse.read();
+    }
+    return mouse.delay() - 2 * MouseDevice::kSmoothing - 0.012;
+  };
+  const double slow = run(6000, 60);
+  EXPECT_GT(slow, 0.03);
+  EXPECT_NEAR(run(5000, 1) / slow, std::exp(-1.0), 0.08);
+  EXPECT_LT(run(20'000, 1), 0.03 * slow);
+}
+
+TEST(MouseDevice, OfEventsOutOfOrderTheLaterWordCounts) {
+  clockNs = 3'000'000'000;
+  MouseDevice mouse({}, now);
+  mouse.point({1, 0, 0}, 50'000'000);
+  mouse.point({2, 0, 0}, 50'000'000);
+  mouse.point({3, 0, 0}, 40'000'000);
+  for (int i = 0; i < 400; ++i, clockNs += 1'000'000) mouse.read();
+  EXPECT_NEAR(mouse.read().position.x, 3, 1e-9);
 }
 
 }  // namespace
