@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "base/fault.h"
 #include "devices/make_device.h"
+#include "devices/registry.h"
 #include "devices/virtual/loop_stability.h"
 #include "devices/virtual/stability_map.h"
 #include "sim/haptics/run_conductor.h"
@@ -188,6 +192,311 @@ TEST(StabilityMap, ThePapersStiffnessIsAmongTheStableOnesOnEachPremium) {
     for (const StabilityPoint& p : map) EXPECT_GE(p.largestStable, 600) << name << ", hand " << p.handDamping << ", b_h " << p.damping;
     EXPECT_GE(map.front().largestPassive, 600) << name << ": without coupling damping it is passive even in the lightest of the hands";
   }
+}
+
+// A hand that goes by a law of the tick, on three axes of its own.
+class MovingHand final : public haptics::HapticDevice {
+ public:
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info;
+    info.virtualHand = true;
+    return info;
+  }
+  static Vec3 placeAt(int tick) {
+    const double t = 1e-3 * tick;
+    return {0.02 + 0.1 * t * t, -0.03 * (1 - std::cos(3 * t)), 0.04 * (1 - std::cos(5 * t))};
+  }
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample;
+    sample.position = placeAt(tick++);
+    sample.buttons = 9;
+    sample.valid = tick != 100;
+    return sample;
+  }
+  void write(const Vec3&) noexcept override {}
+  void cue(haptics::Cue) noexcept override { ++cues; }
+  void prepareTrial(int index) override { prepared = index; }
+  int tick = 0, cues = 0, prepared = -1;
+};
+
+// Its own inertia and the damper's target are fed forward: without force and friction it is where the hand means to be.
+TEST(VirtualDevice, WithoutAForceItGoesWhereTheHandMeansTo) {
+  VirtualDevice device(frictionless(), {.hand = {1, 300, 10}, .quantised = false}, std::make_unique<MovingHand>());
+  for (int tick = 0; tick < 1000; ++tick) {
+    const haptics::DeviceSample sample = device.read();
+    // The acceleration, some 1 m/s^2, comes half a tick late to a mass of 1 kg on a spring of 300 N/m.
+    ASSERT_LT(norm(sample.position - MovingHand::placeAt(tick)), 6e-5) << tick;
+    ASSERT_EQ(sample.reports, static_cast<std::uint64_t>(tick + 1));
+    ASSERT_EQ(sample.buttons, 9u);
+    ASSERT_EQ(sample.valid, tick != 99);
+  }
+}
+
+TEST(VirtualDevice, PlacedItIsWhereTheHandIsAndForgetsItsForces) {
+  auto owned = std::make_unique<MovingHand>();
+  MovingHand* const hand = owned.get();
+  VirtualDevice device(frictionless(), {.hand = {1, 300, 10}, .delayTicks = 3, .quantised = false}, std::move(owned));
+  device.prepareTrial(4);
+  EXPECT_EQ(hand->prepared, 4);
+  for (int i = 0; i < 200; ++i) device.write({3, 3, 3}), device.read();
+  device.cue(haptics::Cue::Go);
+  device.write({3, 3, 3});
+  EXPECT_GT(norm(device.read().position - MovingHand::placeAt(200)), 1e-3) << "a go changes nothing";
+  device.cue(haptics::Cue::Place);
+  EXPECT_EQ(hand->cues, 2);
+  hand->tick = 0;
+  for (int tick = 0; tick < 30; ++tick) ASSERT_LT(norm(device.read().position - MovingHand::placeAt(tick)), 2e-5) << tick;
+}
+
+// m x'' = F - b x' between the ticks, on each axis for itself: x = F/b (t - m/b (1 - e^{-bt/m})).
+TEST(VirtualDevice, ViscousFrictionDragsOnEveryAxis) {
+  DeviceModel model = frictionless();
+  model.mass = 0.2, model.viscosity = 1.5;
+  VirtualDevice device(model, {.hand = {0.1, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
+  device.read();
+  const Vec3 force{0.3, -0.2, 0.1};
+  for (int tick = 1; tick <= 500; ++tick) {
+    device.write(force);
+    device.read();
+    const double t = 1e-3 * tick, rate = 1.5 / 0.3;
+    ASSERT_LT(norm(device.truePlace() - (t - (1 - std::exp(-rate * t)) / rate) / 1.5 * force), 4e-5) << tick;
+  }
+}
+
+// c tanh(v/v0) with v0 = 1 mm/s: a force below c creeps at v0 artanh(F/c).
+TEST(VirtualDevice, BelowItsFrictionItCreeps) {
+  DeviceModel model = frictionless();
+  model.friction = 0.4;
+  VirtualDevice device(model, {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
+  Vec3 before;
+  for (int i = 0; i < 400; ++i) {
+    before = device.truePlace();
+    device.write({0.1, -0.2, 0.3});
+    device.read();
+  }
+  const Vec3 speed = (device.truePlace() - before) / 1e-3;
+  EXPECT_NEAR(speed.x, 1e-3 * std::atanh(0.25), 1e-8);
+  EXPECT_NEAR(speed.y, -1e-3 * std::atanh(0.5), 1e-8);
+  EXPECT_NEAR(speed.z, 1e-3 * std::atanh(0.75), 1e-8);
+}
+
+TEST(VirtualDevice, AForceThatIsNoNumberIsNoneAndABoundedOneKeepsItsDirection) {
+  VirtualDevice device(frictionless(), {.hand = {1, 300, 30}, .quantised = false}, std::make_unique<StillHand>());
+  for (int i = 0; i < 4000; ++i) device.write({30, -40, 0}), device.read();
+  EXPECT_LT(norm(device.truePlace() - 8.5 / 300 * Vec3{0.6, -0.8, 0}), 1e-9);
+  for (int i = 0; i < 4000; ++i) device.write({NAN, 1, 1}), device.read();
+  EXPECT_LT(norm(device.truePlace()), 1e-9);
+}
+
+TEST(VirtualDevice, ThePlaceOfEachAxisIsRounded) {
+  DeviceModel model = frictionless();
+  model.resolution = 1e-3;
+  VirtualDevice device(model, {.hand = {1, 300, 10}}, std::make_unique<MovingHand>());
+  for (int tick = 0; tick < 500; ++tick) {
+    const Vec3 told = device.read().position, is = device.truePlace();
+    for (const auto& [a, b] : {std::pair{told.x, is.x}, {told.y, is.y}, {told.z, is.z}}) {
+      ASSERT_NEAR(a, 1e-3 * std::round(b / 1e-3), 1e-15) << tick;
+    }
+  }
+  EXPECT_EQ(device.info().resolution, 1e-3);
+}
+
+TEST(VirtualDevice, TellsItsModel) {
+  const haptics::DeviceInfo info =
+      VirtualDevice(*findDeviceModel("highforce"), {.hand = {}, .quantised = false}, std::make_unique<StillHand>()).info();
+  EXPECT_EQ(info.name, "virtual PHANToM Premium 1.5 High Force");
+  EXPECT_EQ(info.version, "1");
+  EXPECT_EQ(info.maxForce, 37.5);
+  EXPECT_EQ(info.maxContinuousForce, 6.2);
+  EXPECT_TRUE(info.rendersForce);
+  EXPECT_TRUE(info.virtualHand);
+  EXPECT_EQ(info.workspaceRadius, 0.12);
+  EXPECT_EQ(info.resolution, 0) << "not quantised";
+  EXPECT_EQ(info.secondPath, "none is needed: it is simulated");
+}
+
+// Mass, friction and steps in g, N and um; force in N; radius in mm: docs/devices.md.
+TEST(DeviceModels, AreThoseOfTheManual) {
+  struct Row {
+    const char* name;
+    double grams, friction, micrometres, peak, forEver, millimetres;
+  };
+  const std::vector<Row> rows{{"omni", 45, 0.26, 55, 3.3, 0.88, 100},      {"premium15", 75, 0.04, 30, 8.5, 1.4, 120},
+                              {"premium60", 136, 0.04, 30, 8.5, 1.4, 120}, {"highforce", 150, 0.2, 7, 37.5, 6.2, 120},
+                              {"omega3", 220, 0.1, 10, 12, 12, 75},        {"inverse3", 200, 0.1, 10, 10, 2.5, 170}};
+  ASSERT_EQ(deviceModels().size(), rows.size());
+  for (const Row& row : rows) {
+    const DeviceModel* model = findDeviceModel(row.name);
+    ASSERT_NE(model, nullptr) << row.name;
+    EXPECT_NEAR(model->mass, 1e-3 * row.grams, 1e-15) << row.name;
+    EXPECT_EQ(model->friction, row.friction) << row.name;
+    EXPECT_EQ(model->viscosity, 0) << row.name;
+    EXPECT_NEAR(model->resolution, 1e-6 * row.micrometres, 1e-18) << row.name;
+    EXPECT_EQ(model->maxForce, row.peak) << row.name;
+    EXPECT_EQ(model->continuousForce, row.forEver) << row.name;
+    EXPECT_NEAR(model->workspaceRadius, 1e-3 * row.millimetres, 1e-15) << row.name;
+  }
+  EXPECT_EQ(findDeviceModel("falcon"), nullptr);
+}
+
+TEST(VirtualDevice, ItsOptionsAreBoundedAndItIsListedByItsModels) {
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  for (const char* good : {"arm-mass=0", "arm-mass=50", "arm-stiffness=0", "arm-stiffness=100000", "arm-damping=0", "arm-damping=10000",
+                           "delay-ms=0", "delay-ms=31", "quantised=no", "quantised=yes"})
+    EXPECT_NO_THROW(makeDevice(std::string("virtual:omni,") + good, experiment, 1)) << good;
+  for (const char* bad : {"arm-mass=51", "arm-stiffness=-1", "arm-stiffness=100001", "arm-damping=-1", "arm-damping=10001", "delay-ms=-1",
+                          "delay-ms=32", "quantised=maybe"})
+    EXPECT_THROW(makeDevice(std::string("virtual:omni,") + bad, experiment, 1), FaultError) << bad;
+  EXPECT_EQ(makeDevice("virtual:omni,quantised=no", experiment, 1)->info().resolution, 0);
+  EXPECT_EQ(makeDevice("virtual:omni", experiment, 1)->info().resolution, 0.055e-3);
+  const auto refusalOf = [&](const std::string& spec) {
+    try {
+      makeDevice(spec, experiment, 1);
+      return std::string("made");
+    } catch (const FaultError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(
+      refusalOf("virtual"),
+      "device: is virtual, without a model; allowed: virtual:MODEL with MODEL one of omni, premium15, premium60, highforce, omega3, inverse3");
+  EXPECT_NE(refusalOf("virtual:falcon").find("is virtual:falcon, which is no model"), std::string::npos);
+  const DeviceDriver& driver = *findDriver("virtual");
+  const auto rows = driver.find(driver);
+  ASSERT_EQ(rows.size(), deviceModels().size());
+  EXPECT_EQ(rows[3].name, "virtual:highforce");
+  EXPECT_EQ(rows[3].description, "PHANToM Premium 1.5 High Force as a simulated body, held by a simulated hand");
+  EXPECT_EQ(rows[3].maxForce, 37.5);
+  EXPECT_EQ(rows[3].continuousForce, 6.2);
+  EXPECT_TRUE(rows[3].present);
+}
+
+// F/k of the arm at rest: the usual hand is 1 kg on 300 N/m and 10 N s/m.
+TEST(VirtualDevice, TheHandThatHoldsItHasItsUsualImpedance) {
+  EXPECT_EQ(HandImpedance{}.mass, 1);
+  EXPECT_EQ(HandImpedance{}.stiffness, 300);
+  EXPECT_EQ(HandImpedance{}.damping, 10);
+  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  for (const auto& [options, stiffness] : {std::pair{"", 300.0}, {",arm-stiffness=150", 150.0}}) {
+    const auto device = makeDevice(std::string("virtual:highforce,quantised=no,arm-damping=40") + options, experiment, 1);
+    device->cue(haptics::Cue::Place);
+    const Vec3 start = device->read().position;
+    Vec3 place;
+    for (int i = 0; i < 4000; ++i) device->write({6, 0, 0}), place = device->read().position;
+    // The friction of 0.2 N is viscous at rest: 200 N s/m that fade out.
+    EXPECT_NEAR(place.x - start.x, 6 / stiffness, 5e-4) << options;
+  }
+}
+
+// One tick of the loop by hand: its state carried on by the matrix exponential of a free body, v' = -b/m v + F/m, against the eigenvalue's
+// law that the largest of them is how fast the motion grows.
+TEST(LoopStability, TheRadiusIsHowFastTheMotionGrowsOrDies) {
+  for (const bool filtered : {false, true})
+    for (const int delay : {0, 1, 3}) {
+      LoopSettings s;
+      s.stiffness = 900, s.damping = 2, s.mass = 0.35, s.friction = 1.7, s.handStiffness = 40, s.delayTicks = delay;
+      s.period = 1.5e-3;
+      s.estimator.kind = filtered ? "butterworth" : "difference";
+      s.estimator.cutoff = 30;
+      // Between ticks by 400 steps of the midpoint rule; the filter by its own recursion from the bilinear transform.
+      const double wc = std::tan(std::numbers::pi * 30 * s.period), q = std::numbers::sqrt2 * wc, norm0 = 1 + q + wc * wc;
+      const double b0 = wc * wc / norm0, a1 = 2 * (wc * wc - 1) / norm0, a2 = (1 - q + wc * wc) / norm0;
+      double x = 1e-3, v = 0, old = 1e-3, in1 = 0, in2 = 0, out1 = 0, out2 = 0;
+      std::vector<double> waiting(static_cast<std::size_t>(delay), 0);
+      const auto energy = [&] { return std::hypot(x, v / 50); };
+      double early = 0, late = 0;
+      constexpr int kFrom = 2000, kTo = 6000, kWindow = 500;
+      for (int tick = 0; tick < kTo + kWindow; ++tick) {
+        const double difference = (x - old) / s.period;
+        const double estimate = filtered ? b0 * (difference + 2 * in1 + in2) - a1 * out1 - a2 * out2 : difference;
+        in2 = in1, in1 = difference, out2 = out1, out1 = estimate, old = x;
+        waiting.push_back(-s.stiffness * x - s.damping * estimate);
+        const double force = waiting.front();
+        waiting.erase(waiting.begin());
+        const double h = s.period / 100;
+        for (int i = 0; i < 100; ++i) {
+          const auto rate = [&](double at, double pace) { return (force - s.friction * pace - s.handStiffness * at) / s.mass; };
+          const double half = v + h / 2 * rate(x, v), there = x + h / 2 * v;
+          x += h * half, v += h * rate(there, half);
+        }
+        // Kept within what a double can hold: the loop is linear.
+        if (tick >= kFrom && tick < kFrom + kWindow) early = std::max(early, energy());
+        if (tick >= kTo) late = std::max(late, energy());
+      }
+      EXPECT_NEAR(std::log(spectralRadius(s)), std::log(late / early) / (kTo - kFrom), 2e-5) << filtered << delay;
+    }
+}
+
+TEST(LoopStability, ColgatesMarginIsWhatFrictionIsLeft) {
+  LoopSettings s;
+  s.stiffness = 800, s.damping = -0.3, s.friction = 1.2, s.period = 2e-3;
+  EXPECT_NEAR(passivityMargin(s), 1.2 - 0.8 - 0.3, 1e-12);
+  const LoopSettings usual;
+  EXPECT_EQ(usual.stiffness, 600);
+  EXPECT_EQ(usual.damping, 0);
+  EXPECT_EQ(usual.mass, 0.1);
+  EXPECT_EQ(usual.friction, 0.5);
+  EXPECT_EQ(usual.handStiffness, 0);
+  EXPECT_EQ(usual.delayTicks, 0);
+  EXPECT_EQ(usual.period, 1e-3);
+}
+
+TEST(LoopStability, TheLargestStiffnessIsFoundToAThousandthOrIsTheMostThatWasAsked) {
+  const double largest = largestStableStiffness(passiveArm(1));
+  LoopSettings s = passiveArm(1);
+  s.stiffness = largest;
+  EXPECT_TRUE(isStable(s));
+  s.stiffness = largest * 1.0011;
+  EXPECT_FALSE(isStable(s));
+  EXPECT_EQ(largestStableStiffness(passiveArm(1), 200), 200);
+  LoopSettings unstable = passiveArm(0);
+  unstable.friction = 0;
+  EXPECT_LE(largestStableStiffness(unstable), 1e-3) << "none is stable without friction";
+}
+
+TEST(StabilityMap, EachRowIsTheLoopWithItsHandAndDamping) {
+  DeviceModel model = *findDeviceModel("premium15");
+  model.viscosity = 0.4;
+  StabilityMapSettings settings;
+  settings.handMass = 0.2;
+  settings.handDampings = {2, 0.5};
+  settings.mostDamping = 1.2, settings.dampingStep = 0.4;
+  settings.delayTicks = 1;
+  settings.estimator.kind = "difference";
+  const auto map = computeStabilityMap(model, settings);
+  ASSERT_EQ(map.size(), 8u);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    LoopSettings loop;
+    loop.mass = 0.275, loop.friction = 0.4 + (i < 4 ? 2 : 0.5), loop.damping = 0.4 * static_cast<double>(i % 4), loop.delayTicks = 1;
+    loop.estimator.kind = "difference";
+    EXPECT_EQ(map[i].handDamping, i < 4 ? 2 : 0.5) << i;
+    EXPECT_NEAR(map[i].damping, loop.damping, 1e-15) << i;
+    EXPECT_NEAR(map[i].largestStable, largestStableStiffness(loop), 1e-9) << i;
+    EXPECT_NEAR(map[i].largestPassive, std::max(0.0, 2000 * (loop.friction - loop.damping)), 1e-9) << i;
+  }
+  EXPECT_EQ(map[7].largestPassive, 0) << "0.9 less 1.2";
+}
+
+TEST(StabilityMap, SettingsOutOfRangeGiveNothing) {
+  const DeviceModel& model = *findDeviceModel("omni");
+  const auto rows = [&](double most, double step) {
+    StabilityMapSettings settings;
+    settings.handDampings = {1};
+    settings.mostDamping = most, settings.dampingStep = step;
+    return computeStabilityMap(model, settings).size();
+  };
+  EXPECT_EQ(rows(1, 0), 0u);
+  EXPECT_EQ(rows(1, -1), 0u);
+  EXPECT_EQ(rows(-1, 1), 0u);
+  EXPECT_EQ(rows(NAN, 1), 0u);
+  EXPECT_EQ(rows(0, 1), 1u);
+  EXPECT_EQ(rows(0.3, 0.1), 4u) << "the last one too, though 0.3/0.1 is less than 3";
+  const StabilityMapSettings usual;
+  EXPECT_EQ(usual.handMass, 0.3);
+  EXPECT_EQ(usual.handDampings, (std::vector<double>{0.5, 1, 3, 10}));
+  EXPECT_EQ(usual.mostDamping, 20);
+  EXPECT_EQ(usual.dampingStep, 0.25);
+  EXPECT_EQ(usual.delayTicks, 0);
 }
 
 }  // namespace
