@@ -92,8 +92,8 @@ TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& option
   // A closed curve leads to its target either way round.
   if (trial.closed && std::accumulate(signals.handVelocity.begin(), signals.handVelocity.end(), 0.0) < 0) {
     signals.otherWay = true;
-    for (auto* velocity : {&signals.handVelocity, &signals.objectVelocity})
-      for (double& v : *velocity) v = -v;
+    for (auto* along : {&signals.handVelocity, &signals.objectVelocity})
+      for (double& v : *along) v = -v;
   }
   return signals;
 }

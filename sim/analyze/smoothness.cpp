@@ -42,8 +42,7 @@ double computeSparc(std::span<const double> speed, double rate, const SparcOptio
   const auto last = static_cast<std::size_t>(amplitude.rend() - std::find_if(amplitude.rbegin(), amplitude.rend(), above)) - 1;
   const double band = frequency[last];
   double length = 0;
-  for (std::size_t i = 1; i <= last; ++i)
-    length += std::hypot((frequency[i] - frequency[i - 1]) / band, amplitude[i] - amplitude[i - 1]);
+  for (std::size_t i = 1; i <= last; ++i) length += std::hypot((frequency[i] - frequency[i - 1]) / band, amplitude[i] - amplitude[i - 1]);
   return -length;
 }
 

@@ -60,7 +60,9 @@ TEST(PersonTemplate, TellsHowWellTheOtherTrialsDescribeOne) {
     const PersonTemplate own = makeTemplate(windows, std::vector<double>(windows.size(), kDuration));
     EXPECT_LT(own.ceiling, before) << scatter;
     EXPECT_GT(own.ceiling, 0.2) << scatter;
-    if (scatter == 0.001) EXPECT_GT(own.ceiling, 0.999);
+    if (scatter == 0.001) {
+      EXPECT_GT(own.ceiling, 0.999);
+    }
     before = own.ceiling;
   }
 }

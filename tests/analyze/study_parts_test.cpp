@@ -115,7 +115,7 @@ TEST(Differences, NameValuesThatFitIntoASentence) {
 
 TEST(PredictedSignal, IsThePredictionFilteredWithRestAroundIt) {
   const auto plan = predict::predict(chainExperiment(1.35), Criterion::MinHandJerk);
-  const experiment::Task& task = *chainExperiment(1.35).task;
+  const experiment::Task task = *chainExperiment(1.35).task;
   MeasureOptions options;
   options.cutoff = 0;
   const PredictedSignal signal = recordPrediction(*plan, options, task);

@@ -172,7 +172,7 @@ std::string foreignBytes(unsigned char processor) {
 }
 
 TEST(C3dFile, ReadsTheNumbersOfOtherProcessors) {
-  for (const unsigned char processor : {85, 86}) {
+  for (const unsigned char processor : {'\x55', '\x56'}) {
     const C3dFile back = readC3d(foreignBytes(processor), "made.c3d");
     EXPECT_EQ(back.rate, 120) << int{processor};
     EXPECT_EQ(back.places, (std::vector<float>{-2, -0.5, 1, 4, 5.5, 7})) << int{processor};

@@ -38,8 +38,9 @@ TEST(Bounds, OfAnExperimentsTimes) {
   const Folder folder;
   for (const char* duration : {"1e308", "3601", "0", "-1"}) {
     const std::string file = folder.write("e.json", experimentWith(duration));
-    for (const std::string command : {"validate " + file, "run " + file + " --device simulated --fast --data " + (folder / "data").string(),
-                                      "predict " + file + " --criterion min-hand-jerk"})
+    for (const std::string& command :
+         {"validate " + file, "run " + file + " --device simulated --fast --data " + (folder / "data").string(),
+          "predict " + file + " --criterion min-hand-jerk"})
       expectRefusal(reach(command), "task.duration_s: is");
   }
   EXPECT_EQ(reach("validate " + folder.write("e.json", experimentWith("3600"))).exitCode, 0);

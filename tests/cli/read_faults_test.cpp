@@ -74,7 +74,9 @@ TEST_F(ReadFaults, LeaveARunInTheAnalysisWholeOrNotAtAll) {
     seen.insert(known->second);
     EXPECT_EQ(ended.exitCode, known->second == "both" ? 0 : 3)
         << "read " << n << " of " << all << ": " << known->second << ": " << ended.err;
-    if (ended.exitCode != 0) EXPECT_NE(ended.err.find("cannot be"), std::string::npos) << ended.err;
+    if (ended.exitCode != 0) {
+      EXPECT_NE(ended.err.find("cannot be"), std::string::npos) << ended.err;
+    }
   }
   EXPECT_TRUE(seen.contains("first") && seen.contains("second")) << "each of the two was left out once";
 }

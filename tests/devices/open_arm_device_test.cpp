@@ -338,8 +338,6 @@ TEST_F(OpenArmOverAPort, NoFaultOfTheWireGivesACurrentBeyondTheLimit) {
 }
 
 TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
-  Wish wish;
-  haptics::DeviceSample sample;
   line->waiting.push_back(Report(8, 1));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
   EXPECT_NE(arm->lossText().find("too old: it sends reports of 8 bytes, and 14 are needed"), std::string::npos) << arm->lossText();

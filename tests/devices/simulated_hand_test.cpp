@@ -191,7 +191,9 @@ TEST(PartnerHand, OfTheStubbornSwingsWithThePeriodOfItsMassOnItsArm) {
     hand->write({3, 0, 0});
     const double x = hand->read().position.x - start;
     if (i == half - 1) far = x;
-    if (i == 2 * half - 1) EXPECT_NEAR(x, 0, 1e-4);
+    if (i == 2 * half - 1) {
+      EXPECT_NEAR(x, 0, 1e-4);
+    }
   }
   EXPECT_NEAR(far, 2 * 3 / 200.0, 1e-4);
 }

@@ -354,7 +354,9 @@ TEST(TickEngine, JudgesTheSameWhereNobodyLooks) {
           ASSERT_EQ(a.energy, b.energy) << name << i;
           for (int m = 0; m < a.massCount; ++m) ASSERT_EQ(a.masses[m].a, b.masses[m].a) << name << i;
         }
-        if (a.tick % kEvery == 0) ASSERT_TRUE(seldom.sawAllMasses()) << "a row is due";
+        if (a.tick % kEvery == 0) {
+          ASSERT_TRUE(seldom.sawAllMasses()) << "a row is due";
+        }
         if (!never.sawAllMasses()) ++unseen;
       }
       if (all.state().result.outcome == trial::Outcome::Success) ++successes;

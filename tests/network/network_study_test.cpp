@@ -103,7 +103,9 @@ TEST(RandomSetups, AreDrawnFromTheirRanges) {
     EXPECT_GE(coupling.stiffness, 200);
     EXPECT_LE(coupling.stiffness, 600);
     EXPECT_LE(coupling.damping, 5);
-    if (i % 2 == 0) EXPECT_EQ(coupling.damping, 0);
+    if (i % 2 == 0) {
+      EXPECT_EQ(coupling.damping, 0);
+    }
     EXPECT_LE(makeRandomSetup(StudyObject::Parallel, 1, i).experiment.object.damping[0], 2.5);
     mostDamping = std::max(mostDamping, coupling.damping);
     leastStiffness = std::min(leastStiffness, coupling.stiffness), mostStiffness = std::max(mostStiffness, coupling.stiffness);

@@ -80,7 +80,7 @@ void change(haptics::GuardSettings& x) { x.wallCentre.y += 0.5; }
 void change(experiment::StartRest& x) { x.seconds += 0.5; }
 void change(ChannelTable& x) { x.channels.front().description += "x"; }
 void change(std::vector<trial::PlannedTrial>& x) { x.push_back({5, 100, true}); }
-void change(std::vector<HandDevice>& x) { x.push_back({.name = "simulated", .version = "2"}); }
+void change(std::vector<HandDevice>& x) { x.emplace_back().name = "simulated"; }
 
 // Each field in turn is changed, goes through the text, and is the only one that differs.
 TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
@@ -111,11 +111,11 @@ TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
 
 // What a later version means by the same keys is not known.
 TEST(RunConfiguration, OfAnotherVersionIsRefused) {
-  nlohmann::json json = nlohmann::json::parse(toJson(RunConfiguration{}));
+  nlohmann::json written = nlohmann::json::parse(toJson(RunConfiguration{}));
   for (const nlohmann::json& version : {nlohmann::json(2), nlohmann::json(1e300), nlohmann::json("1"), nlohmann::json(nullptr)}) {
-    json["schema_version"] = version;
+    written["schema_version"] = version;
     try {
-      configurationFromJson(json.dump(), "a log");
+      configurationFromJson(written.dump(), "a log");
       ADD_FAILURE() << version << " is read";
     } catch (const FaultError& error) {
       EXPECT_EQ(std::string(error.what()).find("a log: configuration.schema_version: is " + version.dump() + "; allowed: 1"), 0u)

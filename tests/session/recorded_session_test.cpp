@@ -238,7 +238,11 @@ TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
 class HandElsewhere final : public haptics::HapticDevice {
  public:
   haptics::DeviceInfo info() const override { return {}; }
-  haptics::DeviceSample read() noexcept override { return {.position = {0.05, 0, 0}}; }
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample;
+    sample.position = {0.05, 0, 0};
+    return sample;
+  }
   void write(const Vec3&) noexcept override {}
 };
 

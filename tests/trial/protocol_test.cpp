@@ -56,8 +56,8 @@ class Protocol : public ::testing::Test {
     hip.x += 0.05;
     tick();
   }
-  void arrive(double away = 0, double speed = 0) {
-    for (dynamics::MassState& m : masses) m.r = {settings.target.x - away, 0, 0}, m.v = {speed, 0, 0};
+  void arrive(double away = 0, double massSpeed = 0) {
+    for (dynamics::MassState& m : masses) m.r = {settings.target.x - away, 0, 0}, m.v = {massSpeed, 0, 0};
   }
   void expectEnd(Outcome outcome, Reason reason) const {
     EXPECT_EQ(state.phase, Phase::Done);

@@ -12,7 +12,7 @@ namespace reachlab::test {
 struct FakeHid {
   std::string path;  // "/dev/hidraw0"
   std::uint16_t vendor = 0, product = 0;
-  std::wstring serial = {}, maker = {}, title = {};                   // empty: the device has no such string
+  std::wstring serial = {}, maker = {}, title = {};    // empty: the device has no such string
   std::vector<std::uint8_t> descriptor = {};           // report descriptor
   std::vector<std::uint8_t> steady = {};               // a report that there is at every reading; empty: none
   std::deque<std::vector<std::uint8_t>> reports = {};  // before it
