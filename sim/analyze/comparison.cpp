@@ -4,6 +4,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -32,7 +33,9 @@ double varianceOf(std::span<const double> values, double mean) {
   return sum / (static_cast<double>(values.size()) - 1);
 }
 
+// Of the same number every time that number, which a rounded sum would miss by a scatter of its own.
 double meanOf(std::span<const double> values) {
+  if (std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end()) return values.front();
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 

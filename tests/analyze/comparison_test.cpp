@@ -167,6 +167,19 @@ TEST(SerialTTest, OfFewerThanThreeTakesThemForIndependent) {
   EXPECT_EQ(computeSerialCorrelation(std::vector<double>(5, 3.0)), 0) << "without scatter there is none";
 }
 
+// 20 times 0.1249 has a sum whose 20th part is not 0.1249.
+TEST(SerialTTest, TheSameNumberEveryTimeIsAsSureAsItCanBe) {
+  for (const double same : {0.1249, 0.125, -1e-9}) {
+    const std::vector<double> values(20, same);
+    for (const TTest& test : {computeTTest(values), computeSerialTTest(values)}) {
+      EXPECT_EQ(test.mean, same);
+      EXPECT_EQ(test.p, 0) << same;
+      EXPECT_EQ(test.freedom, 19) << same;
+    }
+    EXPECT_EQ(computeSerialCorrelation(values), 0) << same;
+  }
+}
+
 // 1 2 4: differences to the mean of 7/3 are -4/3, -1/3, 5/3; (4 - 5) / 9 is below 0, and of 1 2 3 4 5 it is (2 + 0 + 0 + 2) / 10.
 TEST(SerialTTest, IsWorkedOutByHand) {
   EXPECT_EQ(computeSerialCorrelation(std::vector<double>{1, 2, 4}), 0);
