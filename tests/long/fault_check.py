@@ -44,8 +44,8 @@ void run() {
   way *= kTable[1];
   if (way > 0.0) std::printf("%g ", way);
   std::printf("%d %d ", sum({0, 2, 4, 9, 11}, 3), sizeOf(Pair{}));
-  const int seven = 7;
-  for (int i = 0; i < 3; ++i) std::printf("%d ", seven * i);
+  const int seven = 7, many = 1'000;
+  for (int i = 0; i < 3; ++i) std::printf("%d ", seven * i + many);
   std::printf("%d %d %d ", sizeOf({4, true}), sizeOf({4, false}), less(0.5) + less(2.5));
 }
 """

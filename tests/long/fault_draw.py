@@ -9,13 +9,13 @@ COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==
 SIGNS = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "*": "/", "/": "*", "*=": "/=", "/=": "*="}
 OPERATOR = re.compile(r"(?<= )(<=|>=|==|!=|&&|\|\||\+=|-=|\*=|/=|<|>|\+|-|\*|/)(?= )")
 UNARY = re.compile(r"(?:(?<=[(\[])|(?<=[,=?:] )|(?<=return ))[-!](?=[\w(])")
-CONSTANT = re.compile(r"(?<![\w.'])(\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+|\d+|true|false)(?![\w.'])")
+CONSTANT = re.compile(r"(?<![\w.'])(\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+|\d[\d']*|true|false)(?![\w.'])")
 STATEMENT = re.compile(r"^(?:(?:if|for|while) \(.*\) )?(?:else )?((?:return|break|continue)|[\w:.\->\[\]()*]+ (?:[-+*/|&]?=) .*|(?:\+\+|--)[\w.\->]+|[\w:.\->]+\(.*\));$")
 
 
 def blanked(text):
     """The text with comments, strings and preprocessor lines as spaces: places stay what they were."""
-    pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|^[ \t]*#[^\n]*', re.S | re.M)
+    pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"|(?<![\da-fA-F])\'(?:\\.|[^\'\\\n])*\'|^[ \t]*#[^\n]*', re.S | re.M)
     return pattern.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
 
 
@@ -33,7 +33,7 @@ def faults_of(path, text):
     for m in UNARY.finditer(bare):
         found.append(("sign" if m.group() == "-" else "comparison", m.start(), m.end(), ""))
     for m in CONSTANT.finditer(bare):
-        number = m.group()
+        number = m.group().replace("'", "")
         if number in ("true", "false"):
             new = "false" if number == "true" else "true"
         elif number.isdigit():

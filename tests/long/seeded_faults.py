@@ -421,6 +421,10 @@ class Campaign:
         living = {n for n in self.faults if n not in verdicts and n not in skip}
         come_by = dict.fromkeys(living, 0)
         self.build([])
+        built = (BUILD / "build.ninja").read_text(encoding="utf-8")
+        unbuilt = {n for n in living if self.faults[n][0].endswith(".cpp") and self.faults[n][0] not in built}
+        verdicts |= {n: ("not built", None) for n in unbuilt}
+        living -= unbuilt
         waiting = [p for p in programs(targets()) if self.asked is None or p.split("test_")[-1] in self.asked]
         while living:  # those that are tried alone need to know the tests of every program, too
             if waiting is None or not waiting and self.asked is not None:
@@ -441,7 +445,7 @@ class Campaign:
             with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
                 list(pool.map(tell, sorted(living - self.single)))
             living -= set(verdicts)
-            print(f"after {program or 'scripts'}: {len(verdicts)} noticed, {len(living - self.single)} live", flush=True)
+            print(f"after {program or 'scripts'}: {sum(v[0] == 'noticed' for v in verdicts.values())} noticed, {len(living - self.single)} live", flush=True)
             waiting = [p for p in waiting if p != program] if program else None
         for number in sorted(living - self.single):
             verdicts[number] = ("alive", f"{come_by[number]} tests come by it" if come_by[number] else "no test comes by it")
@@ -534,6 +538,9 @@ def main():
     return 0 if worst >= wishes.least else 1
 
 
+LEFT_OUT = {"wide": "in a header of many files", "not tried": "to be built alone", "not built": "in a file that this build leaves out"}
+
+
 def report(seed, drawn, count, verdicts, campaign):
     """The verdicts in the order of the draw, until there are enough; the share that was noticed."""
     noticed, alive, nothing, left = 0, [], 0, []
@@ -547,8 +554,8 @@ def report(seed, drawn, count, verdicts, campaign):
         if verdict == "noticed":
             noticed += 1
             print(f"{place} noticed by {by}: {words}", flush=True)
-        elif verdict in ("wide", "not tried"):
-            left.append(("in a header of many files" if verdict == "wide" else "built alone") + f": {words}")
+        elif verdict in LEFT_OUT:
+            left.append(f"{LEFT_OUT[verdict]}: {words}")
         elif verdict in ("listed", "same"):
             nothing += 1
             print(f"{place} changes nothing ({'listed' if verdict == 'listed' else 'same object'}) {words}", flush=True)
