@@ -1,6 +1,8 @@
 #include "constraints/period.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "constraints/formula.h"
 #include "constraints/guards.h"
@@ -78,10 +80,10 @@ Period findPeriod(const Constraint& curve) {
   std::vector<double> slopes;
   for (int k = 0; k < 3; ++k)
     if (!all.collect(formula.roots[static_cast<std::size_t>(k)], slopes)) return {};
-  double least = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (const double a : slopes)
-    if (a > 0 && (least == 0 || a < least)) least = a;
-  if (!(least > 0) || !std::isfinite(least)) return {};
+    if (a > 0) least = std::min(least, a);
+  if (!std::isfinite(least)) return {};
   for (int turns = 1; turns <= kMost; ++turns) {
     bool whole = true;
     for (const double a : slopes) {

@@ -127,7 +127,7 @@ RecordedReach readReach(const std::string& file, const ReachColumns& columns) {
       if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
         throw FaultError(
             Fault{place.name, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a finite number", FilePlace{file, number}});
-      return place.unit == 1 ? value : value * place.unit;
+      return value * place.unit;
     };
     const double time = places.time ? valueOf(*places.time) : static_cast<double>(reach.time.size()) / *columns.rate;
     if (!reach.time.empty() && !(time > reach.time.back()))

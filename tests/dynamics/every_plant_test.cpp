@@ -1,6 +1,8 @@
 // Laws that hold for whatever is compiled, on scenes of every form and by every method.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {
@@ -276,6 +278,32 @@ TEST(EveryPlant, Rk4ComesToTheSamePlace) {
     ASSERT_EQ(run(*sure.plant, hand, 0.1), StepStatus::Ok);
     const auto a = observed(*rk4.plant, hand(0.1)), b = observed(*sure.plant, hand(0.1));
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(norm(a[i].r - b[i].r), 1e-8) << c.name << ", mass " << i + 1;
+  }
+}
+
+// The masses of a parallel object feel nothing of each other: each moves as a point alone that its own spring holds.
+TEST(EveryPlant, AMassOfAParallelObjectMovesAsAPointOnItsOwnSpring) {
+  const auto star = [](Experiment e) { return onCurve(std::move(e), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"); };
+  for (const auto& [name, on] : std::vector<std::pair<const char*, std::function<Experiment(Experiment)>>>{
+           {"loop", loop}, {"flat", flat}, {"kinked", kinked}, {"star", star}}) {
+    const auto together = [&] {
+      Experiment e = on(parallel(3));
+      e.object.gravity = {0.3, -0.4, 0.2};
+      return e;
+    }();
+    const Scene scene = compileScene(together);
+    const HandSample hand{{0.02, 0.05, 0.01}, {}, true};
+    scene.plant->place(std::array{0.6}, std::array{3.0});
+    for (int tick = 0; tick < 150; ++tick) ASSERT_EQ(scene.plant->step(heldSegment(hand.position), 1e-3), StepStatus::Ok) << name;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Experiment alone = on(makeExperiment(ObjectKind::Point, {together.object.masses[i]}, {}, {together.object.stiffness[i], 0}));
+      alone.object.gravity = together.object.gravity;
+      const Scene one = compileScene(alone);
+      one.plant->place(std::array{0.6}, std::array{3.0});
+      for (int tick = 0; tick < 150; ++tick) ASSERT_EQ(one.plant->step(heldSegment(hand.position), 1e-3), StepStatus::Ok) << name;
+      EXPECT_NEAR(observed(*scene.plant)[i].q[0], observed(*one.plant)[0].q[0], 1e-7) << name << " mass " << i + 1;
+      EXPECT_NEAR(norm(observed(*scene.plant)[i].v - observed(*one.plant)[0].v), 0, 1e-7) << name << " mass " << i + 1;
+    }
   }
 }
 
