@@ -62,7 +62,7 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
       g.rateV[k][lane] = o.handDamping * p.force[k][1];
     }
     damped_ = damped_ || o.handDamping != 0;
-    free = free && o.model.handDamping[0] == 0 && o.handDamping == 0 && std::sqrt(o.model.handStiffness[0]) * dt > kSlowest;
+    free = free && o.model.handDamping[0] == 0 && std::sqrt(o.model.handStiffness[0]) * dt > kSlowest;
   }
   if (!free) return;
   free_.resize(groups_.size(), FreeGroup{});
