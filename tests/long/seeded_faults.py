@@ -46,6 +46,7 @@ FOLDERS = ["base", "constraints", "sim", "devices", "network", "cli", "gui"]
 SOURCES = FOLDERS + ["tests", "resources", "cmake", "packaging", "docs"]
 COPY = ROOT / "build" / "faults"
 BUILD = COPY / "build" / "dev"
+BUILDERS = "constraints/generate/"  # run while the program is built, when no switch is set
 SCRATCH = pathlib.Path("/dev/shm") if os.access("/dev/shm", os.W_OK) else COPY / "tmp"  # a sync costs nothing in memory, and tests record much
 
 
@@ -229,7 +230,7 @@ class Campaign:
     def __init__(self, faults, gui, asked):
         self.faults = faults  # number: fault
         self.asked = asked    # the test programs that are asked; None: all, and the scripts
-        self.single = set()   # numbers that cannot stand behind a switch
+        self.single = {n for n, fault in faults.items() if fault[0].startswith(BUILDERS)}  # numbers that cannot stand behind a switch
         self.gui = gui
         self.log = COPY / "build" / "judged.jsonl"
         lines = self.log.read_text(encoding="utf-8").splitlines() if self.log.exists() else []
@@ -478,12 +479,14 @@ class Campaign:
             close = [t for t in self.tests if t.is_gtest and (t.suite in near or t.reached & reached)]
             for program in sorted({t.program for t in close}, key=lambda p: -sum(t.program == p and t.suite in near for t in close)):
                 goal = str(pathlib.Path(program).relative_to(BUILD))
-                ninja("-k0", goal, *programs_behind(goal))
+                if ninja("-k0", goal, *programs_behind(goal)).returncode != 0:
+                    by = "the build"
+                    break
                 if by := self.first_failure(0, [t for t in close if t.program == program], near):
                     break
             else:
-                ninja("-k0")
-                by = self.first_failure(0, [t for t in self.tests if t not in close], near)
+                built = ninja("-k0").returncode == 0
+                by = self.first_failure(0, [t for t in self.tests if t not in close], near) if built else "the build"
             if by:
                 verdict = "noticed"
         self.note(number, verdict, by)
