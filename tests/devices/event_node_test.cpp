@@ -14,6 +14,7 @@
 #include "base/os.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
+#include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_input.h"
 #include "tests/until.h"
 
@@ -204,7 +205,7 @@ TEST(InputPort, APathThatIsNotThereIsRefusedInTheSystemsWords) {
 }
 
 /// Nodes that the system is said to have, behind the drivers.
-class InputDevices : public EventNodes {
+class InputDevices : public EventNodes, public DriverAnswers {
  protected:
   InputNode fifo(const std::string& name, InputKind kind, const std::string& title) {
     InputNode node;
@@ -215,17 +216,6 @@ class InputDevices : public EventNodes {
     EXPECT_EQ(::mkfifo(node.path.c_str(), 0600), 0);
     return node;
   }
-  static std::vector<FoundDevice> rows(const std::string& driver) { return findDriver(driver)->find(*findDriver(driver)); }
-  std::unique_ptr<haptics::HapticDevice> make(const std::string& spec) const { return makeDevice(spec, experiment, 1); }
-  std::string refusalOf(const std::string& spec) const {
-    try {
-      make(spec);
-      return "made";
-    } catch (const Error& error) {
-      return error.what();
-    }
-  }
-  experiment::Experiment experiment = experiment::readExperiment("chain-slow");
 };
 
 TEST_F(InputDevices, AreListedByTheNameThatOpensThem) {

@@ -10,6 +10,7 @@
 #include "devices/hot_plug.h"
 #include "devices/make_device.h"
 #include "devices/registry.h"
+#include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/devices/fakes/pid_firmware.h"
 #include "tests/until.h"
@@ -69,24 +70,13 @@ FakeHid plainAxis(std::uint16_t vendor, std::uint16_t product) {
           .steady = {0xFF, 0x7F}};
 }
 
-class HidDevices : public ::testing::Test {
+class HidDevices : public ::testing::Test, public DriverAnswers {
  protected:
   ~HidDevices() override { test::resetFakeHids(); }
-  static std::vector<FoundDevice> rows(const std::string& driver) { return findDriver(driver)->find(*findDriver(driver)); }
-  std::unique_ptr<haptics::HapticDevice> make(const std::string& spec) const { return makeDevice(spec, experiment, 1); }
-  std::string refusalOf(const std::string& spec) const {
-    try {
-      make(spec);
-      return "made";
-    } catch (const Error& error) {
-      return error.what();
-    }
-  }
   static std::vector<Bytes> written(std::size_t i = 0) {
     const std::lock_guard lock(fakeHids().mutex);
     return fakeHids().list[i].written;
   }
-  experiment::Experiment experiment = experiment::readExperiment("chain-slow");
 };
 
 TEST_F(HidDevices, InterfacesComeInTheOrderOfTheirPathsWithTheirStrings) {
