@@ -2,16 +2,16 @@
 #include <clocale>
 #include <string>
 
-#include "cli/commands.h"
-#include "cli/latency_command.h"
-#include "cli/exit_code.h"
-#include "cli/merge_command.h"
-#include "cli/standard_streams.h"
-#include "base/ending.h"
-#include "base/kept_memory.h"
-#include "base/os.h"
-#include "base/processor_level.h"
-#include "base/stop_signals.h"
+#include "base/system/ending.h"
+#include "base/system/kept_memory.h"
+#include "base/system/os.h"
+#include "base/system/processor_level.h"
+#include "base/system/stop_signals.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/latency_command.h"
+#include "cli/commands/merge_command.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/standard_streams.h"
 
 namespace {
 

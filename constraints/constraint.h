@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/math/vec3.h"
 #include "constraints/curve_batch.h"
-#include "base/vec3.h"
 
 namespace reachlab::constraints {
 

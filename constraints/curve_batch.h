@@ -1,5 +1,5 @@
 #pragma once
-#include "base/lanes.h"
+#include "base/math/lanes.h"
 
 namespace reachlab::constraints {
 

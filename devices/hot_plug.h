@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "devices/registry.h"
+#include "devices/driver/registry.h"
 
 /// What is plugged in and out while the program runs, as far as it shows as a node of the system.
 namespace reachlab::devices {

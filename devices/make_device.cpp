@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "base/fault.h"
+#include "base/math/seeded.h"
 #include "base/names.h"
-#include "base/seeded.h"
+#include "devices/driver/options.h"
+#include "devices/driver/registry.h"
 #include "devices/hands/several_hands.h"
-#include "devices/options.h"
-#include "devices/registry.h"
 #include "devices/replay/reach_source.h"
 
 namespace reachlab::devices {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "base/seeded.h"
+#include "base/math/seeded.h"
 
 namespace reachlab::network {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "base/os.h"
+#include "base/system/os.h"
 #include "constraints/constraint.h"
-#include "constraints/sincos.h"
+#include "constraints/formula/sincos.h"
 
 namespace reachlab::cli {
 namespace {

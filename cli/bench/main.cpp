@@ -1,9 +1,9 @@
-#include "base/ending.h"
-#include "base/os.h"
+#include "base/system/ending.h"
+#include "base/system/os.h"
+#include "base/system/stop_signals.h"
 #include "cli/bench/run_bench.h"
-#include "cli/exit_code.h"
-#include "cli/standard_streams.h"
-#include "base/stop_signals.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/standard_streams.h"
 
 /// What `reach bench` starts. A program of its own, because it replaces operator new to count allocations, and the program that records
 /// people runs under the system's.

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/bench/allocation_count.h"
-#include "cli/bench/constraint_bench.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "cli/bench/allocation_count.h"
+#include "cli/bench/constraint_bench.h"
 #include "network/study/network_study.h"
-#include "sim/bench/sampled_hand.h"
-#include "sim/bench/suite.h"
+#include "bench/sampled_hand.h"
+#include "bench/suite.h"
 #include "sim/haptics/tick_timing.h"
 
 namespace reachlab::cli {

@@ -9,12 +9,12 @@
 #include <mutex>
 #include <thread>
 
-#include "base/ending.h"
+#include "analysis/study/points.h"
+#include "analysis/study/run_study.h"
 #include "base/fault.h"
-#include "cli/exit_code.h"
-#include "cli/study_words.h"
-#include "sim/study/points.h"
-#include "sim/study/run_study.h"
+#include "base/system/ending.h"
+#include "cli/output/study_words.h"
+#include "cli/terminal/exit_code.h"
 
 namespace reachlab::cli {
 namespace {

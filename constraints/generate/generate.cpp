@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <fstream>
 
-#include "constraints/cpp_writer.h"
-#include "constraints/definition.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
+#include "constraints/catalogue/definition.h"
+#include "constraints/formula/cpp_writer.h"
 
 namespace {
 
@@ -33,7 +33,7 @@ std::string generate(const std::vector<std::string>& files) {
                          curve ? fmt::format("{0}, {0}Batch, nullptr", function) : "nullptr, nullptr, " + function);
   }
   return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
-         "#include \"base/elementary.h\"\n#include \"constraints/generated_catalogue.h\"\n#include \"constraints/sincos.h\"\n\nnamespace reachlab::constraints "
+         "#include \"base/math/elementary.h\"\n#include \"constraints/catalogue/generated_catalogue.h\"\n#include \"constraints/formula/sincos.h\"\n\nnamespace reachlab::constraints "
          "{\nnamespace {\n\n" +
          functions + "constexpr GeneratedEntry kEntries[] = {\n" + table +
          "};\n\n}  // namespace\n\nstd::span<const GeneratedEntry> generatedEntries() { return kEntries; }\n\n}  // namespace "

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Minimax coefficients of constraints/sincos.h: Remez exchange in 60 digits, relative weight, then rounded one by one to doubles
+"""Minimax coefficients of constraints/formula/sincos.h: Remez exchange in 60 digits, relative weight, then rounded one by one to doubles
 (each later coefficient refitted to what the rounding of the earlier ones left).
 
 sin y = y + y^3 P(y^2),  cos y = 1 - y^2/2 + y^4 Q(y^2),  |y| <= pi/4 (a little more for the rounding of the quadrant)."""

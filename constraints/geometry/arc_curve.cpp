@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/gauss_legendre.h"
-#include "base/legendre_series.h"
-#include "constraints/places.h"
+#include "base/math/gauss_legendre.h"
+#include "base/math/legendre_series.h"
+#include "constraints/regularity/places.h"
 
 namespace reachlab::constraints {
 namespace {

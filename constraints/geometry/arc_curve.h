@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/math/legendre_series.h"
 #include "constraints/constraint.h"
-#include "base/legendre_series.h"
 
 namespace reachlab::constraints {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/gauss_legendre.h"
+#include "base/math/gauss_legendre.h"
 
 namespace reachlab::constraints {
 namespace {

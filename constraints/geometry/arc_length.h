@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "base/legendre_series.h"
+#include "base/math/legendre_series.h"
 #include "constraints/constraint.h"
 
 namespace reachlab::constraints {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "constraints/constraint.h"
-#include "constraints/formula.h"
+#include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "constraints/expression.h"
+#include "constraints/formula/expression.h"
 
 namespace reachlab::constraints {
 

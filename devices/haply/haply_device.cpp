@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "devices/drivers.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/haply/web_socket_link.h"
-#include "devices/options.h"
 #include "devices/virtual/device_model.h"
 
 namespace reachlab::devices {

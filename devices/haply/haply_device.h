@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "devices/driver/message_link.h"
 #include "devices/haply/haply_message.h"
-#include "devices/message_link.h"
 #include "devices/io/polled_device.h"
 
 namespace reachlab::devices {

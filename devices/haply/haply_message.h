@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 /// Messages of Haply's Inverse service (docs.haply.co, websocket protocol of the services 3.1 to 3.5). Pure functions; any thread.
 namespace reachlab::devices {

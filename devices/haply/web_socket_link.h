@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "devices/message_link.h"
+#include "devices/driver/message_link.h"
 
 namespace reachlab::devices {
 

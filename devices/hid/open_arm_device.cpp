@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "devices/drivers.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/hid/report_descriptor.h"
-#include "devices/options.h"
 
 namespace reachlab::devices {
 namespace {

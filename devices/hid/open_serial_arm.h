@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 /// The open WoodenHaptics and Polhem arms: three motors, capstan drives, a serial linkage whose second and third joint are both measured
 /// against the base. Frame of the arm: x towards the user, y right, z up [m].

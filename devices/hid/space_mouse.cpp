@@ -4,12 +4,12 @@
 #include <array>
 
 #include "base/error.h"
-#include "base/os.h"
-#include "devices/drivers.h"
+#include "base/system/os.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/hid/hid_port.h"
 #include "devices/hid/space_mouse_report.h"
 #include "devices/io/rate_hand.h"
-#include "devices/options.h"
 #include "sim/trial/protocol.h"
 
 /// 3Dconnexion SpaceMouse: six axes of push without force, every 8 ms (wired). Verified against published reports, not on a device.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 /// Reports of 3Dconnexion's SpaceMouse family: report ID, then little-endian int16, logical range -350 … 350.
 ///   ID 1, 7 bytes: x, y, z · ID 2, 7 bytes: rx, ry, rz · ID 1, 13 bytes: all six (newer ones) · ID 3: buttons, 2 to 4 bytes

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 
 namespace reachlab::devices {
 namespace {

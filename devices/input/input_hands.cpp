@@ -7,9 +7,9 @@
 #include <chrono>
 
 #include "base/error.h"
-#include "base/os.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "base/system/os.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 
 namespace reachlab::devices {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "base/vec3.h"
-#include "sim/record/run_configuration.h"
+#include "base/math/vec3.h"
+#include "sim/record/configuration/run_configuration.h"
 
 namespace reachlab::devices {
 

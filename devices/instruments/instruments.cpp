@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "base/ticks.h"
-#include "sim/record/tick_ring.h"
+#include "sim/record/log/tick_ring.h"
 
 namespace reachlab::devices {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/instruments/instrument.h"
-#include "sim/record/instrument_link.h"
+#include "sim/record/log/instrument_link.h"
 
 namespace reachlab::devices {
 

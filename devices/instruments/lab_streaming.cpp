@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "base/ticks.h"
 #include "devices/vendor/shared_library.h"
-#include "sim/record/run_tables.h"
+#include "sim/record/export/run_tables.h"
 
 namespace reachlab::devices {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "devices/driver/options.h"
 #include "devices/instruments/instruments.h"
 #include "devices/instruments/lab_streaming.h"
 #include "devices/instruments/trigger_lines.h"
-#include "devices/options.h"
 
 namespace reachlab::devices {
 namespace {

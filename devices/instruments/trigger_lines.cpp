@@ -15,7 +15,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/os.h"
+#include "base/system/os.h"
 
 namespace reachlab::devices {
 namespace {

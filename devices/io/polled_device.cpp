@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 
 namespace reachlab::devices {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "base/triple_buffer.h"
+#include "base/system/triple_buffer.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/leavable_thread.h"
 

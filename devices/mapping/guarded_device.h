@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "devices/driver/options.h"
 #include "devices/mapping/mapping.h"
-#include "devices/options.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
 
 namespace reachlab::devices {
 namespace {

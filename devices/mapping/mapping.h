@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab::devices {
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/ticks.h"
-#include "devices/drivers.h"
+#include "devices/driver/drivers.h"
 
 namespace reachlab::devices {
 namespace {

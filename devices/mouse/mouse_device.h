@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "base/os.h"
-#include "base/spsc_queue.h"
+#include "base/system/os.h"
+#include "base/system/spsc_queue.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {

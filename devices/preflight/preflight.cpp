@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/ticks.h"
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"
 #include "sim/experiment/checked_experiment.h"
-#include "base/ticks.h"
 
 namespace reachlab::devices {
 namespace {

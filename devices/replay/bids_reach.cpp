@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
 #include "base/table_text.h"
 #include "devices/replay/recorded_reach.h"
 

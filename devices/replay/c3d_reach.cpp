@@ -9,7 +9,7 @@
 #include "base/c3d_file.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
 #include "devices/replay/recorded_reach.h"
 
 namespace reachlab::devices {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/fault.h"
-#include "devices/options.h"
+#include "devices/driver/options.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {

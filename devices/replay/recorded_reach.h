@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab::devices {
 

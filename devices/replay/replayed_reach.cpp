@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/cubic_spline.h"
 #include "base/fault.h"
-#include "base/minimum_jerk.h"
+#include "base/math/cubic_spline.h"
+#include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
-#include "devices/drivers.h"
+#include "devices/driver/drivers.h"
 #include "devices/replay/reach_source.h"
 #include "sim/trial/protocol.h"
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/ticks.h"
 #include "devices/replay/reach_source.h"
 #include "devices/replay/replayed_reach.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/haptics/velocity_estimator.h"
-#include "base/ticks.h"
 
 namespace reachlab::devices {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/serial/polhem_line.h"
 #include "devices/serial/serial_port.h"
 

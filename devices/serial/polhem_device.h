@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "devices/driver/message_link.h"
 #include "devices/io/polled_device.h"
-#include "devices/message_link.h"
 
 namespace reachlab::devices {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 /// The serial protocol of Polhem v3: lines of 64 bytes, padded with spaces, the last byte a line feed. Pure functions; any thread.
 namespace reachlab::devices {

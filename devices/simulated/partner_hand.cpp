@@ -8,8 +8,8 @@
 
 #include "base/fault.h"
 #include "base/ticks.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/simulated/simulated_hand.h"
 
 namespace reachlab::devices {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/fault.h"
-#include "base/minimum_jerk.h"
+#include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
 #include "constraints/geometry/curve_way.h"
 #include "sim/trial/protocol.h"

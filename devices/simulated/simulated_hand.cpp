@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/elementary.h"
 #include "base/fault.h"
-#include "base/fused.h"
-#include "base/seeded.h"
+#include "base/math/elementary.h"
+#include "base/math/fused.h"
+#include "base/math/seeded.h"
 #include "base/ticks.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/simulated/played_hand.h"
 #include "devices/simulated/sampled_plan.h"
 #include "devices/subject/subject_kinds.h"

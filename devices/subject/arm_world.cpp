@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "base/elementary.h"
+#include "base/math/elementary.h"
 
 namespace reachlab::devices {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/matrix.h"
+#include "base/math/matrix.h"
 #include "sim/predict/line/line_object.h"
 
 namespace reachlab::devices {

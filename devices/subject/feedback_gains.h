@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/subject/arm_world.h"
-#include "sim/predict/criterion.h"
+#include "sim/predict/prediction/criterion.h"
 
 namespace reachlab::devices {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "base/elementary.h"
+#include "base/math/elementary.h"
 #include "base/ticks.h"
 #include "sim/predict/predict.h"
 

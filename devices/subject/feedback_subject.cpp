@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "base/elementary.h"
 #include "base/fault.h"
-#include "devices/options.h"
+#include "base/math/elementary.h"
+#include "devices/driver/options.h"
 #include "devices/subject/feedback_hand.h"
 #include "devices/subject/subject_kinds.h"
 #include "devices/subject/subject_parameters.h"

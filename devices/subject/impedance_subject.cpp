@@ -6,16 +6,16 @@
 #include <cmath>
 #include <utility>
 
-#include "base/elementary.h"
 #include "base/fault.h"
+#include "base/math/elementary.h"
 #include "base/ticks.h"
-#include "devices/options.h"
+#include "devices/driver/options.h"
 #include "devices/simulated/sampled_plan.h"
 #include "devices/subject/subject_draws.h"
 #include "devices/subject/subject_kinds.h"
 #include "devices/subject/subject_parameters.h"
 #include "sim/dynamics/compiled_scene.h"
-#include "sim/dynamics/hand_path.h"
+#include "sim/dynamics/hand/hand_path.h"
 #include "sim/haptics/blind_hand.h"
 #include "sim/trial/protocol.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "base/elementary.h"
-#include "base/seeded.h"
+#include "base/math/elementary.h"
+#include "base/math/seeded.h"
 
 namespace reachlab::devices {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "base/os.h"
+#include "base/system/os.h"
 #include "devices/vendor/phantom_device.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/haptic_loop.h"

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "base/fault.h"
-#include "devices/drivers.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
+#include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
-#include "devices/options.h"
-#include "devices/orientation.h"
 #include "devices/vendor/force_dimension_api.h"
 
 /// omega, delta, sigma, lambda and the Falcon by the vendor's library. Its calls may wait, so an I/O thread makes them, at most 2 kHz.

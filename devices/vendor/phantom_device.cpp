@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 
 namespace reachlab::devices {
 

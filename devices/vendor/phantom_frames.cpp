@@ -6,8 +6,8 @@
 #include <thread>
 #include <utility>
 
-#include "base/os.h"
-#include "devices/orientation.h"
+#include "base/system/os.h"
+#include "devices/driver/orientation.h"
 
 namespace reachlab::devices {
 

@@ -2,7 +2,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "base/triple_buffer.h"
+#include "base/system/triple_buffer.h"
 #include "devices/vendor/open_haptics_api.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/lateness.h"

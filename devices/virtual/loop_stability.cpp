@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/butterworth.h"
-#include "base/matrix.h"
+#include "base/math/butterworth.h"
+#include "base/math/matrix.h"
 // Not before it.
 #include <unsupported/Eigen/MatrixFunctions>
 

@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
+#include "base/ticks.h"
 #include "devices/virtual/device_model.h"
 #include "devices/virtual/virtual_device.h"
 #include "sim/experiment/experiment.h"
-#include "base/ticks.h"
 
 namespace reachlab::devices {
 

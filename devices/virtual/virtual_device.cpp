@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "base/elementary.h"
 #include "base/fault.h"
+#include "base/math/elementary.h"
 #include "base/ticks.h"
-#include "devices/drivers.h"
-#include "devices/options.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
 #include "devices/simulated/simulated_hand.h"
 
 namespace reachlab::devices {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "gui/app/session_controller.h"
+#include "gui/session/session_controller.h"
 #include "gui/widgets/fault_words.h"
 
 namespace reachlab::gui::app {

@@ -14,8 +14,8 @@
 
 #include "gui/app/frame_recorder.h"
 #include "gui/app/main_window.h"
-#include "gui/scene/part_names.h"
 #include "gui/scene/scene_view.h"
+#include "gui/scene_plan/part_names.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/experiment/scene_look.h"

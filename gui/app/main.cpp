@@ -10,12 +10,12 @@
 
 #include <unistd.h>
 
-#include "base/ending.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/os.h"
-#include "base/processor_level.h"
-#include "base/stop_signals.h"
+#include "base/system/ending.h"
+#include "base/system/os.h"
+#include "base/system/processor_level.h"
+#include "base/system/stop_signals.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
 #include "gui/scene/picture_sheet.h"

@@ -19,15 +19,11 @@
 #include <cmath>
 #include <utility>
 
-#include "base/ending.h"
 #include "base/error.h"
+#include "base/system/ending.h"
 #include "gui/app/key_focus.h"
-#include "gui/app/message_bar.h"
-#include "gui/app/plan_pages.h"
 #include "gui/app/questions.h"
 #include "gui/app/screens.h"
-#include "gui/app/session_overlay.h"
-#include "gui/app/trial_marking.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/device_dock.h"
@@ -42,6 +38,10 @@
 #include "gui/plot/criterion_style.h"
 #include "gui/plot/signal_point.h"
 #include "gui/scene/scene_view.h"
+#include "gui/session/plan_pages.h"
+#include "gui/session/session_overlay.h"
+#include "gui/session/trial_marking.h"
+#include "gui/widgets/message_bar.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/dynamics/compiled_scene.h"
 
@@ -305,7 +305,7 @@ void MainWindow::trialEnded() {
 // What `reach analyze` would fit if the run ended here: the same rows, the same code.
 void MainWindow::fitRun() {
   succeeded_.push_back(session_.run()->numberOf(*session_.lastTrial()));
-  if (succeeded_.size() < analyze::kFewestTrials || session_.run()->configuration().practice) return;
+  if (succeeded_.size() < analysis::kFewestTrials || session_.run()->configuration().practice) return;
   runFits_.begin({{session_.run()->logPath(), succeeded_}});
 }
 

@@ -8,7 +8,7 @@
 
 #include "gui/model/model_reader.h"
 #include "gui/scene/scene_overlay.h"
-#include "gui/scene/scene_plan.h"
+#include "gui/scene_plan/scene_plan.h"
 #include "network/line/station_line.h"
 #include "sim/experiment/compiled_experiment.h"
 

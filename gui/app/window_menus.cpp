@@ -9,11 +9,11 @@
 
 #include "gui/app/look_menu.h"
 #include "gui/app/main_window.h"
-#include "gui/plot/velocity_plot.h"
-#include "gui/app/session_controller.h"
 #include "gui/app/subject_menu.h"
+#include "gui/plot/velocity_plot.h"
 #include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_view.h"
+#include "gui/session/session_controller.h"
 
 namespace reachlab::gui::app {
 namespace {

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <optional>
 
-#include "constraints/definition.h"
 #include "base/error.h"
-#include "gui/docks/constraint_chooser.h"
+#include "constraints/catalogue/definition.h"
+#include "gui/choosers/constraint_chooser.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/shape_sliders.h"
 

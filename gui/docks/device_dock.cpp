@@ -9,7 +9,7 @@
 #include <QVBoxLayout>
 
 #include "devices/hands/several_hands.h"
-#include "gui/docks/device_dialog.h"
+#include "gui/choosers/device_dialog.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/wait_cursor.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
-#include "devices/registry.h"
 #include "gui/docks/dock.h"
 
 class QLabel;

@@ -15,13 +15,13 @@
 #include <QVBoxLayout>
 
 #include "base/error.h"
+#include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
-#include "devices/registry.h"
+#include "gui/scene/trial_texts.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
-#include "gui/scene/trial_texts.h"
 #include "gui/widgets/unit_spin_box.h"
-#include "sim/record/run_configuration.h"
+#include "sim/record/configuration/run_configuration.h"
 
 namespace reachlab::gui::docks {
 

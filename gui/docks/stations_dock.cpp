@@ -5,7 +5,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
-#include "gui/scene/hand_colours.h"
+#include "gui/scene_plan/hand_colours.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
 

@@ -3,7 +3,7 @@
 #include <QFormLayout>
 #include <QLabel>
 
-#include "constraints/formula.h"
+#include "constraints/formula/formula.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/wording.h"
 #include "gui/plot/criterion_style.h"
-#include "sim/analyze/wording.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -18,16 +18,16 @@ enum Column { kName, kPaper, kFitted, kColumns };
 
 }  // namespace
 
-std::optional<double> fittedEpsilon(const analyze::StudyResult& study, std::size_t condition, predict::Criterion criterion) {
+std::optional<double> fittedEpsilon(const analysis::StudyResult& study, std::size_t condition, predict::Criterion criterion) {
   const auto& candidates = study.results[condition].candidates.candidates;
-  const auto place = std::find_if(candidates.begin(), candidates.end(), [&](const analyze::Candidate& c) {
+  const auto place = std::find_if(candidates.begin(), candidates.end(), [&](const analysis::Candidate& c) {
     return std::find(c.criteria.begin(), c.criteria.end(), criterion) != c.criteria.end();
   });
   if (place == candidates.end()) return std::nullopt;
   const auto k = static_cast<std::size_t>(place - candidates.begin());
   double sum = 0;
   int people = 0;
-  for (const analyze::PersonResult& person : study.people) {
+  for (const analysis::PersonResult& person : study.people) {
     if (person.condition != condition || !person.fitted) continue;
     sum += person.fit.candidates[k].epsilonOfAll;
     ++people;
@@ -81,15 +81,15 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   clear(tr("Choose trials in the table."));
 }
 
-void EpsilonPanel::show(const analyze::StudyResult& study, std::size_t condition) {
+void EpsilonPanel::show(const analysis::StudyResult& study, std::size_t condition) {
   const QSignalBlocker quiet(table_);
-  const analyze::ConditionResult& r = study.results[condition];
+  const analysis::ConditionResult& r = study.results[condition];
   int best[kColumns] = {-1, -1, -1};
   double least[kColumns] = {0, 1e300, 1e300};
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     const auto criterion = static_cast<predict::Criterion>(i);
     std::optional<double> paper;
-    for (const analyze::EpsilonPlace& place : r.handEpsilon)
+    for (const analysis::EpsilonPlace& place : r.handEpsilon)
       if (r.signals[place.criterion].criterion == criterion) paper = place.epsilon;
     const auto put = [&](int column, const std::optional<double>& value) {
       table_->item(i, column)->setText(value && std::isfinite(*value) ? QString::number(*value, 'f', 4) : QStringLiteral("–"));
@@ -109,7 +109,7 @@ void EpsilonPanel::show(const analyze::StudyResult& study, std::size_t condition
   for (const auto& [why, count] : r.exclusions) out << tr("%1 × %2").arg(count).arg(QString::fromStdString(why));
   if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(QStringLiteral(", ")));
   const bool anyFitted = best[kFitted] >= 0;
-  if (!anyFitted) words += tr(". ε is fitted from %1 counted trials of a person on").arg(analyze::kFewestTrials);
+  if (!anyFitted) words += tr(". ε is fitted from %1 counted trials of a person on").arg(analysis::kFewestTrials);
   if (r.onlyFailures) words += tr(". None succeeded: the failed ones are described");
   told_->setText(words + QLatin1Char('.'));
 }

@@ -3,8 +3,8 @@
 #include <QMetaObject>
 #include <exception>
 
-#include "base/ending.h"
-#include "sim/analyze/write_analysis.h"
+#include "analysis/report/write_analysis.h"
+#include "base/system/ending.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -65,14 +65,14 @@ void Inspector::start(Work work) {
 
 void Inspector::cancel() { thread_.request_stop(); }
 
-void Inspector::begin(std::vector<analyze::ChosenTrials> chosen) {
+void Inspector::begin(std::vector<analysis::ChosenTrials> chosen) {
   start([this, chosen = std::move(chosen)](int turn, const std::stop_token& stop) {
-    std::shared_ptr<Inspection> found = measure(analyze::readChosen(chosen, [&] { return !stop.stop_requested(); }));
+    std::shared_ptr<Inspection> found = measure(analysis::readChosen(chosen, [&] { return !stop.stop_requested(); }));
     goOnUnless(stop);
     tell(turn, [this, found = std::shared_ptr<const Inspection>(std::make_shared<Inspection>(*found))] { Q_EMIT read(found); });
     if (found->input.trials.empty()) return;
     const int count = static_cast<int>(found->input.trials.size());
-    found->study = std::make_shared<analyze::StudyResult>(analyze::analyzeStudy(found->input, {}, [&](std::size_t done, std::size_t) {
+    found->study = std::make_shared<analysis::StudyResult>(analysis::analyzeStudy(found->input, {}, [&](std::size_t done, std::size_t) {
       goOnUnless(stop);
       tell(turn, [this, done, count] { Q_EMIT progressed(tr("fitting"), static_cast<int>(done), count); });
     }));
@@ -87,30 +87,30 @@ void Inspector::report(const QString& path) {
       goOnUnless(stop);
       tell(turn, [this, what, done, of] { Q_EMIT progressed(what, static_cast<int>(done), static_cast<int>(of)); });
     };
-    analyze::StudyBuilder builder({});
-    const analyze::DatasetIndex dataset =
-        analyze::readDataset(path,
-                             {[&](analyze::TrialData&& trial, std::size_t condition) {
+    analysis::StudyBuilder builder({});
+    const analysis::DatasetIndex dataset =
+        analysis::readDataset(path,
+                             {[&](analysis::TrialData&& trial, std::size_t condition) {
                                 goOnUnless(stop);
                                 builder.add(std::move(trial), condition);
                               },
                               [&](std::size_t count) { builder.takeBack(count); }},
                              "", [&](std::size_t done, std::size_t of, const std::string&) { told(tr("reading run"), done, of); });
-    const analyze::StudyResult study =
+    const analysis::StudyResult study =
         builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { told(tr("fitting trial"), done, of); });
     std::string folder = path;
     while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
     const std::string out = reportFolderOf(folder);
-    const analyze::AnalysisFiles files =
-        analyze::writeAnalysis(study, dataset, {folder, REACHLAB_VERSION, "reach analyze " + folder + " --out " + out}, out);
+    const analysis::AnalysisFiles files =
+        analysis::writeAnalysis(study, dataset, {folder, REACHLAB_VERSION, "reach analyze " + folder + " --out " + out}, out);
     tell(turn, [this, file = QString::fromStdString(files.report)] { Q_EMIT reported(file); });
   });
 }
 
-std::shared_ptr<Inspection> measure(analyze::StudyInput input) {
+std::shared_ptr<Inspection> measure(analysis::StudyInput input) {
   auto inspection = std::make_shared<Inspection>();
   inspection->input = std::move(input);
-  for (const analyze::TrialData& trial : inspection->input.trials) inspection->signals.push_back(analyze::computeSignals(trial, {}));
+  for (const analysis::TrialData& trial : inspection->input.trials) inspection->signals.push_back(analysis::computeSignals(trial, {}));
   return inspection;
 }
 

@@ -6,16 +6,16 @@
 #include <thread>
 #include <vector>
 
-#include "sim/analyze/chosen_trials.h"
-#include "sim/analyze/dataset.h"
+#include "analysis/chosen_trials.h"
+#include "analysis/dataset.h"
 
 namespace reachlab::gui::inspector {
 
 /// Chosen trials as the analysis sees them: read, measured and, a little later, judged.
 struct Inspection {
-  analyze::StudyInput input;
-  std::vector<analyze::TrialSignals> signals;         // one a trial
-  std::shared_ptr<const analyze::StudyResult> study;  // null until judged
+  analysis::StudyInput input;
+  std::vector<analysis::TrialSignals> signals;         // one a trial
+  std::shared_ptr<const analysis::StudyResult> study;  // null until judged
 };
 
 /// Reads and judges beside the window: the newest request wins, and what it replaces is given up. All signals come on the window's thread.
@@ -26,7 +26,7 @@ class Inspector : public QObject {
   ~Inspector() override;
 
   /// `read` follows, then `judged`. The numbers are `reach analyze`'s for a dataset of just these trials.
-  void begin(std::vector<analyze::ChosenTrials> chosen);
+  void begin(std::vector<analysis::ChosenTrials> chosen);
   /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its own folder; `reported` follows.
   void report(const QString& path);
   /// Gives up what is being done; `idle` follows.
@@ -56,6 +56,6 @@ class Inspector : public QObject {
 std::string reportFolderOf(const std::string& path);
 
 /// Onset, end and velocities of trials, by the rules of the analysis.
-std::shared_ptr<Inspection> measure(analyze::StudyInput input);
+std::shared_ptr<Inspection> measure(analysis::StudyInput input);
 
 }  // namespace reachlab::gui::inspector

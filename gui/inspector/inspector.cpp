@@ -178,7 +178,7 @@ void InspectorPage::inspect() {
     rows.resize(kMostInspected);
   }
   // Rows of one log together, as they are read; those of experiments without a task are left out by the reading.
-  std::vector<analyze::ChosenTrials> chosen;
+  std::vector<analysis::ChosenTrials> chosen;
   for (const int row : rows) {
     if (chosen.empty() || chosen.back().log != table_->run(row).path) chosen.push_back({table_->run(row).path, {}});
     chosen.back().trials.push_back(table_->trial(row).trial);
@@ -206,7 +206,7 @@ std::optional<std::size_t> InspectorPage::lineOf(int row) const {
 
 void InspectorPage::showRead() {
   inspectedRows_.clear();
-  for (const analyze::TrialData& trial : inspection_->input.trials) {
+  for (const analysis::TrialData& trial : inspection_->input.trials) {
     int row = -1;
     for (std::size_t r = 0; r < table_->recordings().runs.size() && row < 0; ++r) {
       const record::IndexedRun& run = table_->recordings().runs[r];
@@ -223,16 +223,16 @@ void InspectorPage::showRead() {
 }
 
 void InspectorPage::showJudged() {
-  const analyze::StudyResult& study = *inspection_->study;
+  const analysis::StudyResult& study = *inspection_->study;
   std::map<std::pair<std::size_t, std::string>, std::size_t> place;  // of a person's next fitted trial
-  for (const analyze::StudyTrial& trial : study.trials) {
+  for (const analysis::StudyTrial& trial : study.trials) {
     TrialErrors errors;
-    const analyze::ConditionResult& r = study.results[trial.condition];
+    const analysis::ConditionResult& r = study.results[trial.condition];
     for (std::size_t k = 0; k < r.signals.size() && k < trial.paperError.size(); ++k)
       if (std::isfinite(trial.paperError[k])) errors.paper[static_cast<std::size_t>(r.signals[k].criterion)] = trial.paperError[k];
     if (trial.used() && trial.window.size > 0 && !r.onlyFailures) {
       const std::size_t i = place[{trial.condition, trial.key.subject}]++;
-      for (const analyze::PersonResult& person : study.people) {
+      for (const analysis::PersonResult& person : study.people) {
         if (person.condition != trial.condition || person.subject != trial.key.subject || !person.fitted) continue;
         for (std::size_t k = 0; k < person.fit.candidates.size(); ++k)
           for (const predict::Criterion c : r.candidates.candidates[k].criteria)
@@ -240,7 +240,7 @@ void InspectorPage::showJudged() {
       }
     }
     for (std::size_t i = 0; i < inspection_->input.trials.size(); ++i) {
-      const analyze::TrialKey& key = inspection_->input.trials[i].key;
+      const analysis::TrialKey& key = inspection_->input.trials[i].key;
       if (key.trial == trial.key.trial && key.run == trial.key.run && key.subject == trial.key.subject &&
           key.session == trial.key.session && inspectedRows_[i] >= 0)
         table_->setErrors(inspectedRows_[i], errors);
@@ -266,7 +266,7 @@ void InspectorPage::draw() {
   std::vector<ProfilePlot::Prediction> predictions;
   MeanLine mean;
   if (inspection_->study && !inspection_->study->conditions.empty()) {
-    const analyze::StudyResult& study = *inspection_->study;
+    const analysis::StudyResult& study = *inspection_->study;
     const std::size_t c = condition();
     if (inspection_->input.trials.size() > 1) mean = meanOf(study, c, signal);
     const std::vector<predict::Criterion> chosen = epsilons_->chosen();

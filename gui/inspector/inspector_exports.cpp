@@ -4,12 +4,12 @@
 #include <QFileInfo>
 #include <QPushButton>
 
-#include "base/ending.h"
 #include "base/fault.h"
+#include "base/system/ending.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/study_lines.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::gui::inspector {
 

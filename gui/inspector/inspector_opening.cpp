@@ -7,7 +7,7 @@
 #include <QTableView>
 #include <QTimer>
 
-#include "base/ending.h"
+#include "base/system/ending.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/replay_view.h"

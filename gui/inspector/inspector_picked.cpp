@@ -3,8 +3,8 @@
 #include <QFileInfo>
 #include <cmath>
 
-#include "base/ending.h"
 #include "base/fault.h"
+#include "base/system/ending.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
@@ -59,7 +59,7 @@ void InspectorPage::showPicked() {
         ghosts.push_back(trackOf(i));
     replay_->show(experimentOf(log), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line), std::move(ghosts));
     const record::IndexedRun& run = table_->run(picked_);
-    const analyze::Movement& move = inspection_->signals[*line].movement;
+    const analysis::Movement& move = inspection_->signals[*line].movement;
     const double first = inspection_->input.trials[*line].first;
     const bool asMoved = axis_->currentIndex() == 0;
     plot_->setMarks(move.found && asMoved ? std::optional(0.0) : std::nullopt,
@@ -79,7 +79,7 @@ void InspectorPage::marksDragged(double onset, double end, bool done) {
   const auto line = lineOf(picked_);
   if (!line || !done) return;
   const double zero = zeroOf(*inspection_, *line);
-  const analyze::Movement& move = inspection_->signals[*line].movement;
+  const analysis::Movement& move = inspection_->signals[*line].movement;
   if (!(onset < end)) return showPicked();  // an onset behind the end is none
   try {
     record::TrialMark mark = table_->mark(picked_);

@@ -1,8 +1,8 @@
 #pragma once
 #include <memory>
 
-#include "gui/scene/scene_plan.h"
-#include "sim/record/run_log.h"
+#include "gui/scene_plan/scene_plan.h"
+#include "sim/record/log/run_log.h"
 
 namespace reachlab::gui::inspector {
 

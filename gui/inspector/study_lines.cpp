@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/tables.h"
 #include "base/table_text.h"
 #include "gui/plot/criterion_style.h"
-#include "sim/analyze/tables.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -21,7 +21,7 @@ std::vector<double> evenly(double end, std::size_t points) {
 double meanDuration(const Inspection& inspection) {
   double sum = 0;
   int count = 0;
-  for (const analyze::TrialSignals& s : inspection.signals)
+  for (const analysis::TrialSignals& s : inspection.signals)
     if (s.movement.found) sum += s.movement.duration(), ++count;
   return count > 0 ? sum / count : 1;
 }
@@ -29,12 +29,12 @@ double meanDuration(const Inspection& inspection) {
 constexpr double kShownBeforeOnset = 0.5;  // [s]
 
 /// The whole record about the onset, or its movement laid over the mean duration.
-ProfilePlot::Line lineOf(const analyze::TrialData& trial, const analyze::TrialSignals& signals, Signal which, double scaledTo) {
+ProfilePlot::Line lineOf(const analysis::TrialData& trial, const analysis::TrialSignals& signals, Signal which, double scaledTo) {
   const std::vector<double>& velocity = which == Signal::Hand ? signals.handVelocity : signals.objectVelocity;
-  const analyze::Movement& move = signals.movement;
+  const analysis::Movement& move = signals.movement;
   if (scaledTo > 0 && move.found)
-    return {toVector(evenly(scaledTo, analyze::kProfilePoints)),
-            toVector(analyze::scaleVelocity(velocity, trial.rate, move.onset, move.offset, scaledTo))};
+    return {toVector(evenly(scaledTo, analysis::kProfilePoints)),
+            toVector(analysis::scaleVelocity(velocity, trial.rate, move.onset, move.offset, scaledTo))};
   ProfilePlot::Line line;
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     line.x.push_back(static_cast<double>(i) / trial.rate - (move.found ? move.onset : 0));
@@ -54,35 +54,35 @@ std::vector<ProfilePlot::Line> linesOf(const Inspection& inspection, Signal sign
 }
 
 double zeroOf(const Inspection& inspection, std::size_t trial) {
-  const analyze::Movement& move = inspection.signals[trial].movement;
+  const analysis::Movement& move = inspection.signals[trial].movement;
   return inspection.input.trials[trial].first + (move.found ? move.onset : 0);
 }
 
-MeanLine meanOf(const analyze::StudyResult& study, std::size_t condition, Signal signal) {
-  const analyze::ConditionResult& r = study.results[condition];
-  const analyze::MeanProfile& profile = signal == Signal::Hand ? r.hand : r.object;
+MeanLine meanOf(const analysis::StudyResult& study, std::size_t condition, Signal signal) {
+  const analysis::ConditionResult& r = study.results[condition];
+  const analysis::MeanProfile& profile = signal == Signal::Hand ? r.hand : r.object;
   if (r.used == 0) return {};
-  return {toVector(evenly(r.duration.mean, analyze::kProfilePoints)), toVector(profile.mean), toVector(profile.sd)};
+  return {toVector(evenly(r.duration.mean, analysis::kProfilePoints)), toVector(profile.mean), toVector(profile.sd)};
 }
 
-std::vector<ProfilePlot::Prediction> predictionsOf(const analyze::StudyResult& study, std::size_t condition, Signal signal,
+std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::StudyResult& study, std::size_t condition, Signal signal,
                                                    const std::vector<predict::Criterion>& criteria, bool fitted) {
   std::vector<ProfilePlot::Prediction> out;
-  const analyze::ConditionResult& r = study.results[condition];
+  const analysis::ConditionResult& r = study.results[condition];
   for (const predict::Criterion criterion : criteria) {
     for (std::size_t k = 0; !fitted && k < r.signals.size(); ++k) {
       if (r.signals[k].criterion != criterion) continue;
-      const analyze::PredictedCurve curve = analyze::curveOf(r, k);
+      const analysis::PredictedCurve curve = analysis::curveOf(r, k);
       out.push_back({plot::titleOf(criterion), plot::colourOf(criterion), false, toVector(curve.time),
                      toVector(signal == Signal::Hand ? curve.hand : curve.object)});
     }
     if (!fitted || signal != Signal::Hand) continue;
-    for (const analyze::PersonResult& person : study.people) {
+    for (const analysis::PersonResult& person : study.people) {
       if (person.condition != condition || !person.fitted) continue;
       for (std::size_t k = 0; k < person.fit.candidates.size(); ++k) {
         const auto& named = r.candidates.candidates[k].criteria;
         if (std::find(named.begin(), named.end(), criterion) == named.end()) continue;
-        const analyze::Profile& grid = person.fit.own.mean;
+        const analysis::Profile& grid = person.fit.own.mean;
         ProfilePlot::Prediction line{plot::titleOf(criterion) + ProfilePlot::tr(", fitted"), plot::colourOf(criterion), true, {}, {}};
         for (std::size_t i = 0; i < person.fit.candidates[k].mean.size(); ++i) {
           line.x.push_back(person.duration * (grid.first + grid.step * static_cast<double>(i)));
@@ -157,7 +157,7 @@ std::string linesCsv(const Inspection& inspection) {
   const std::vector<ProfilePlot::Line> hand = linesOf(inspection, Signal::Hand, TimeAxis::AsMoved),
                                        object = linesOf(inspection, Signal::Object, TimeAxis::AsMoved);
   for (std::size_t i = 0; i < hand.size(); ++i) {
-    const analyze::TrialKey& key = inspection.input.trials[i].key;
+    const analysis::TrialKey& key = inspection.input.trials[i].key;
     for (int k = 0; k < hand[i].x.size(); ++k) {
       table.cell(key.subject).cell(key.session).cell(key.condition).whole(key.run).whole(key.trial);
       table.number(hand[i].x[k]).number(hand[i].y[k]).number(k < object[i].y.size() ? object[i].y[k] : std::nan("")).endRow();

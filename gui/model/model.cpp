@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "base/fault.h"
-#include "base/helper_program.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
+#include "base/system/helper_program.h"
 #include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 /// Scenes from files, as plain data: known to no graphics library, and checked so that none can fall over them.
 namespace reachlab::gui::model {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <exception>
 
-#include "base/ending.h"
+#include "base/system/ending.h"
 
 namespace reachlab::gui::model {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab::gui::model {
 

@@ -25,7 +25,7 @@
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::gui::plan {
 namespace {

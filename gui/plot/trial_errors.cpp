@@ -2,10 +2,10 @@
 
 #include <numeric>
 
+#include "analysis/measures/measures.h"
+#include "analysis/measures/paper_error.h"
 #include "base/error.h"
 #include "base/ticks.h"
-#include "sim/analyze/measures.h"
-#include "sim/analyze/paper_error.h"
 
 namespace reachlab::gui::plot {
 
@@ -29,7 +29,7 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
                                                      const TrialSpan& span) {
   std::vector<std::optional<double>> errors(forecasts.size());
   if (trace.size() < 8) return errors;
-  analyze::TrialData trial;
+  analysis::TrialData trial;
   const std::uint64_t every = std::lcm(span.every, TraceSink::kEvery);
   trial.rate = kTicksPerSecond / static_cast<double>(every);
   trial.start = path.start();
@@ -49,13 +49,13 @@ std::vector<std::optional<double>> computeHandErrors(std::span<const TracePoint>
     else if (const Vec3 direction = path.directionAt(p.firstQ); !(direction == Vec3{})) trial.along.push_back(direction);
   }
   if (trial.hand.size() < 8) return errors;
-  const analyze::MeasureOptions options;
-  const analyze::TrialSignals signals = analyze::computeSignals(trial, options);
+  const analysis::MeasureOptions options;
+  const analysis::TrialSignals signals = analysis::computeSignals(trial, options);
   if (!signals.movement.found) return errors;
-  const analyze::TrialProfile profile = analyze::makeTrialProfile(trial, signals);
+  const analysis::TrialProfile profile = analysis::makeTrialProfile(trial, signals);
   for (std::size_t i = 0; i < forecasts.size(); ++i) {
     if (!forecasts[i].prediction) continue;
-    const double error = analyze::computePaperError(profile, analyze::recordPrediction(*forecasts[i].prediction, options, task)).hand;
+    const double error = analysis::computePaperError(profile, analysis::recordPrediction(*forecasts[i].prediction, options, task)).hand;
     if (std::isfinite(error)) errors[i] = error;
   }
   return errors;

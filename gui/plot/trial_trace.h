@@ -2,10 +2,10 @@
 #include <atomic>
 #include <cstdint>
 
+#include "base/math/vec3.h"
+#include "base/system/spsc_queue.h"
 #include "base/ticks.h"
-#include "base/vec3.h"
 #include "sim/haptics/run_sink.h"
-#include "base/spsc_queue.h"
 
 namespace reachlab::gui::plot {
 

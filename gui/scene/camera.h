@@ -2,8 +2,8 @@
 #include <array>
 #include <span>
 
-#include "base/vec3.h"
-#include "gui/scene/constraint_mesh.h"
+#include "base/math/vec3.h"
+#include "gui/scene_plan/constraint_mesh.h"
 
 /// The viewer's eye as a plain value, and what the pointer does to it. Pixels: y down, origin at the top left.
 namespace reachlab::gui::scene {

@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "gui/scene/scene_plan.h"
+#include "gui/scene_plan/scene_plan.h"
 
 class vtkRenderer;
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "gui/scene/scene_plan.h"
+#include "gui/scene_plan/scene_plan.h"
 
 class vtkRenderer;
 

@@ -5,8 +5,8 @@
 #include <QImage>
 #include <QPainter>
 
-#include "constraints/definition.h"
 #include "base/error.h"
+#include "constraints/catalogue/definition.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "gui/scene_plan/constraint_mesh.h"
 #include "gui/widgets/colours.h"
-#include "gui/scene/constraint_mesh.h"
 
 template <class T>
 class vtkSmartPointer;

@@ -26,11 +26,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/widgets/colours.h"
 #include "gui/scene/ghost_actors.h"
 #include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/software_canvas.h"
+#include "gui/widgets/colours.h"
 
 namespace reachlab::gui::scene {
 namespace {

@@ -5,7 +5,7 @@
 #include "gui/scene/camera.h"
 #include "gui/scene/object_actors.h"
 #include "gui/scene/scene_overlay.h"
-#include "gui/scene/scene_plan.h"
+#include "gui/scene_plan/scene_plan.h"
 
 namespace reachlab::gui::scene {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <QImage>
 
-#include "gui/scene/scene_plan.h"
+#include "gui/scene_plan/scene_plan.h"
 
 namespace reachlab::gui::scene {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/definition.h"
+#include "constraints/catalogue/definition.h"
 
 class QFormLayout;
 class QHBoxLayout;

@@ -16,7 +16,7 @@
 
 #include "Reachlab.h"
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "network/endpoint/peer_clock.h"
 #include "network/line/line_memory.h"
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "base/spsc_queue.h"
+#include "base/system/spsc_queue.h"
 #include "network/coupled_copy.h"
 #include "sim/trial/outcome.h"
 #include "sim/trial/planned_trial.h"

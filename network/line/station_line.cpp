@@ -18,8 +18,8 @@
 #include <utility>
 
 #include "base/fault.h"
-#include "base/os.h"
-#include "base/seeded.h"
+#include "base/math/seeded.h"
+#include "base/system/os.h"
 #include "base/ticks.h"
 #include "sim/dynamics/compiled_scene.h"
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "base/triple_buffer.h"
+#include "base/system/triple_buffer.h"
 #include "network/line/line_memory.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_sink.h"
 #include "sim/haptics/tick_engine.h"
-#include "sim/record/recorder.h"
+#include "sim/record/log/recorder.h"
 #include "sim/record/replay.h"
 
 namespace reachlab::network {

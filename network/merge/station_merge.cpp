@@ -13,7 +13,7 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "network/line/station_line.h"
-#include "sim/record/recorder.h"
+#include "sim/record/log/recorder.h"
 
 namespace reachlab::network {
 namespace fs = std::filesystem;

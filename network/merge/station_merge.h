@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 
 /// Several stations' logs of one run, made into one: the conductor's ticks, object and outcomes, every hand from its own station's log at the
 /// same moment.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/os.h"
+#include "base/system/os.h"
 
 namespace reachlab::network {
 namespace {

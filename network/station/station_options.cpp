@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/fault.h"
-#include "base/helper_program.h"
+#include "base/system/helper_program.h"
 
 namespace reachlab::network {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "base/fault.h"
-#include "base/os.h"
-#include "base/seeded.h"
+#include "base/math/seeded.h"
+#include "base/system/os.h"
 
 namespace reachlab::network {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/figure/figure.h"
 #include "base/table_text.h"
-#include "sim/figure/figure.h"
 
 namespace reachlab::network {
 namespace {

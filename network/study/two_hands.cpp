@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "base/minimum_jerk.h"
+#include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
 #include "network/study/copies_over_lines.h"
 #include "network/study/growth.h"

@@ -1,11 +1,11 @@
-#include "sim/dynamics/body_system.h"
+#include "sim/dynamics/systems/body_system.h"
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "sim/dynamics/abm.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/make_plant.h"
+#include "sim/dynamics/methods/abm.h"
 
 namespace reachlab::dynamics {
 namespace {

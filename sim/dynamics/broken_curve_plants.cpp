@@ -1,6 +1,6 @@
-#include "sim/dynamics/broken_curve_system.h"
-#include "sim/dynamics/cusp_adaptive.h"
 #include "sim/dynamics/make_plant.h"
+#include "sim/dynamics/methods/cusp_adaptive.h"
+#include "sim/dynamics/systems/broken_curve_system.h"
 
 namespace reachlab::dynamics {
 namespace {

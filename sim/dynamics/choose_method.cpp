@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sim/dynamics/stability.h"
+#include "sim/dynamics/object/stability.h"
 
 namespace reachlab::dynamics {
 namespace {

@@ -2,10 +2,10 @@
 #include <memory>
 #include <string>
 
-#include "constraints/places.h"
-#include "constraints/surface_branches.h"
-#include "sim/dynamics/linear_plant.h"
-#include "sim/dynamics/quadric.h"
+#include "constraints/regularity/places.h"
+#include "constraints/regularity/surface_branches.h"
+#include "sim/dynamics/exact/linear_plant.h"
+#include "sim/dynamics/systems/quadric.h"
 
 namespace reachlab::dynamics {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/object/plant.h"
 #include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::dynamics {

@@ -1,9 +1,9 @@
 #include <type_traits>
 
-#include "sim/dynamics/curve_system.h"
-#include "sim/dynamics/cusp_adaptive.h"
 #include "sim/dynamics/make_plant.h"
-#include "sim/dynamics/batch_system.h"
+#include "sim/dynamics/methods/cusp_adaptive.h"
+#include "sim/dynamics/systems/batch_system.h"
+#include "sim/dynamics/systems/curve_system.h"
 
 namespace reachlab::dynamics {
 namespace {

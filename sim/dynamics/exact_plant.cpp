@@ -1,6 +1,6 @@
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/dense_core.h"
-#include "sim/dynamics/oscillator_core.h"
+#include "sim/dynamics/exact/dense_core.h"
+#include "sim/dynamics/exact/oscillator_core.h"
 
 namespace reachlab::dynamics {
 namespace {

@@ -1,5 +1,5 @@
-#include "sim/dynamics/free_system.h"
 #include "sim/dynamics/make_plant.h"
+#include "sim/dynamics/systems/free_system.h"
 
 namespace reachlab::dynamics {
 

@@ -1,5 +1,5 @@
-#include "sim/dynamics/line_system.h"
 #include "sim/dynamics/make_plant.h"
+#include "sim/dynamics/systems/line_system.h"
 
 namespace reachlab::dynamics {
 

@@ -1,11 +1,11 @@
 #pragma once
 #include <memory>
 
-#include "sim/dynamics/abm.h"
-#include "sim/dynamics/adaptive.h"
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/rk4.h"
-#include "sim/dynamics/stiff.h"
+#include "sim/dynamics/methods/abm.h"
+#include "sim/dynamics/methods/adaptive.h"
+#include "sim/dynamics/methods/rk4.h"
+#include "sim/dynamics/methods/stiff.h"
 #include "sim/dynamics/system_plant.h"
 
 namespace reachlab::dynamics {

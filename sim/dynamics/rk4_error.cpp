@@ -1,10 +1,10 @@
-#include "base/minimum_jerk.h"
+#include "base/math/minimum_jerk.h"
 #include "sim/dynamics/rk4_error.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/dynamics/hand_function.h"
+#include "sim/dynamics/hand/hand_function.h"
 
 namespace reachlab::dynamics {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/object/plant.h"
 
 namespace reachlab::dynamics {
 

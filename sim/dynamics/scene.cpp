@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/analysis.h"
 #include "base/error.h"
-#include "constraints/narrow_band.h"
-#include "constraints/period.h"
-#include "constraints/places.h"
-#include "constraints/rounding.h"
+#include "constraints/regularity/analysis.h"
+#include "constraints/regularity/narrow_band.h"
+#include "constraints/regularity/period.h"
+#include "constraints/regularity/places.h"
+#include "constraints/regularity/rounding.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/compiled_scene.h"
-#include "sim/dynamics/curve_places.h"
 #include "sim/dynamics/rk4_error.h"
 #include "sim/dynamics/shared_plant.h"
+#include "sim/dynamics/systems/curve_places.h"
 
 namespace reachlab::dynamics {
 

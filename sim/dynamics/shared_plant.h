@@ -1,20 +1,12 @@
 #pragma once
 #include <memory>
 #include <span>
-#include <vector>
 
-#include "sim/dynamics/object_model.h"
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/object/hand_springs.h"
+#include "sim/dynamics/object/object_model.h"
+#include "sim/dynamics/object/plant.h"
 
 namespace reachlab::dynamics {
-
-/// How one hand holds the object: a spring and a damper to each mass (0: not held), or to a place on a body.
-struct HandSprings {
-  std::vector<double> stiffness, damping;  // [N/m], [N s/m], one a mass
-  Vec3 fpOffset;                           // [m] body frame
-};
-/// The experiment's hands; one by the coupling, or a parallel object's springs, where it names none.
-std::vector<HandSprings> handSpringsOf(const experiment::Experiment& experiment);
 
 /// An object that several hands hold, each by springs of its own (Eq. 8), on a line or smooth curve (coordinates phi of each mass) or free
 /// (x, y, z of each mass; a body: x, y, z, and its orientation). Classic RK4, one step a tick. What a Plant says of the hand it says of hand

@@ -1,6 +1,6 @@
 #include "sim/dynamics/make_plant.h"
-#include "sim/dynamics/quadric_system.h"
-#include "sim/dynamics/surface_system.h"
+#include "sim/dynamics/systems/quadric_system.h"
+#include "sim/dynamics/systems/surface_system.h"
 
 namespace reachlab::dynamics {
 

@@ -2,10 +2,10 @@
 #include <array>
 #include <string>
 
-#include "sim/dynamics/adaptive.h"
-#include "sim/dynamics/plant_base.h"
-#include "sim/dynamics/surface_rates.h"
-#include "sim/dynamics/system.h"
+#include "sim/dynamics/methods/adaptive.h"
+#include "sim/dynamics/object/plant_base.h"
+#include "sim/dynamics/systems/surface_rates.h"
+#include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
 

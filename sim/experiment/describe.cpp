@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "constraints/definition.h"
+#include "constraints/catalogue/definition.h"
 
 namespace reachlab::experiment {
 namespace {

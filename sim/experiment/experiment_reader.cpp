@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "base/fault.h"
-#include "base/json_reader.h"
-#include "constraints/definition.h"
+#include "base/json/json_reader.h"
+#include "constraints/catalogue/definition.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/scene_look.h"

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "constraints/definition.h"
 #include "base/error.h"
+#include "constraints/catalogue/definition.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/fault.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/resources.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fault.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::experiment {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab {
 class FaultList;

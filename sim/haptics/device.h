@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/vec3.h"
-#include "sim/dynamics/plant.h"
+#include "base/math/vec3.h"
+#include "sim/dynamics/object/plant.h"
 #include "sim/haptics/hand_guard.h"
 
 namespace reachlab::haptics {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab::haptics {
 

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "base/os.h"
+#include "base/system/os.h"
 #include "sim/haptics/watchdog.h"
 
 namespace reachlab::haptics {

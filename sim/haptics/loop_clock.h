@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "base/os.h"
+#include "base/system/os.h"
 
 namespace reachlab::haptics {
 

@@ -1,6 +1,6 @@
 #include "sim/haptics/loop_core.h"
 
-#include "base/os.h"
+#include "base/system/os.h"
 
 namespace reachlab::haptics {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/spsc_queue.h"
+#include "base/system/spsc_queue.h"
+#include "base/system/triple_buffer.h"
 #include "base/ticks.h"
-#include "base/triple_buffer.h"
 #include "sim/haptics/device_watch.h"
 #include "sim/haptics/lateness.h"
 #include "sim/haptics/loop_clock.h"

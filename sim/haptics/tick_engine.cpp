@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/fault.h"
-#include "base/minimum_jerk.h"
+#include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
 #include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/shared_plant.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/dynamics/end_masses.h"
-#include "sim/dynamics/hand_path.h"
+#include "sim/dynamics/hand/hand_path.h"
+#include "sim/dynamics/object/end_masses.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/force_safety.h"

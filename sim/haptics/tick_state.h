@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/object/plant.h"
 #include "sim/haptics/device.h"
 #include "sim/trial/command.h"
 #include "sim/trial/outcome.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/os.h"
+#include "base/system/os.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "base/butterworth.h"
+#include "base/math/butterworth.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/device.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/predict/prediction.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

@@ -6,15 +6,15 @@
 
 #include "base/fault.h"
 #include "sim/predict/arm/arm_prediction.h"
-#include "sim/predict/condition.h"
-#include "sim/predict/line/crackle_prediction.h"
 #include "sim/predict/curve/curve_object_prediction.h"
 #include "sim/predict/curve/curve_prediction.h"
+#include "sim/predict/curve/surface_prediction.h"
+#include "sim/predict/line/crackle_prediction.h"
 #include "sim/predict/line/line_object.h"
+#include "sim/predict/line/minimum_energy_prediction.h"
 #include "sim/predict/line/symmetric_prediction.h"
 #include "sim/predict/peaks.h"
-#include "sim/predict/line/minimum_energy_prediction.h"
-#include "sim/predict/curve/surface_prediction.h"
+#include "sim/predict/prediction/condition.h"
 
 namespace reachlab::predict {
 namespace {

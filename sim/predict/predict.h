@@ -3,7 +3,7 @@
 #include <span>
 
 #include "sim/experiment/compiled_experiment.h"
-#include "sim/predict/prediction.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

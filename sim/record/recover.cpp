@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "sim/record/records.h"
+#include "sim/record/log/records.h"
 
 namespace reachlab::record {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/fault.h"
 #include "sim/haptics/tick_engine.h"
-#include "sim/record/trial_tracker.h"
+#include "sim/record/log/trial_tracker.h"
 
 namespace reachlab::record {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/haptics/tick_engine.h"
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 
 namespace reachlab::record {
 

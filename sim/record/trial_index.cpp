@@ -8,8 +8,8 @@
 #include <map>
 
 #include "base/error.h"
-#include "sim/record/append_file.h"
-#include "sim/record/records.h"
+#include "sim/record/log/append_file.h"
+#include "sim/record/log/records.h"
 
 namespace reachlab::record {
 namespace {

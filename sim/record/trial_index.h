@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 
 namespace reachlab::record {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/json_reader.h"
-#include "sim/record/append_file.h"
+#include "base/json/json_reader.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::record {
 namespace {

@@ -17,8 +17,8 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/record/append_file.h"
-#include "sim/record/run_log.h"
+#include "sim/record/log/append_file.h"
+#include "sim/record/log/run_log.h"
 
 namespace reachlab::session {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/ending.h"
+#include "base/system/ending.h"
 #include "sim/session/backup.h"
 
 namespace reachlab::session {

@@ -2,8 +2,8 @@
 #include <charconv>
 #include <numeric>
 
+#include "base/math/seeded.h"
 #include "sim/session/plan.h"
-#include "base/seeded.h"
 
 namespace reachlab::session {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::session {

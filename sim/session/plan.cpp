@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fault.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 

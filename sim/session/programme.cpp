@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
 
 namespace reachlab::session {
 

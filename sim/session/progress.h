@@ -2,7 +2,7 @@
 #include <set>
 #include <vector>
 
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 
 namespace reachlab::session {

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "base/fault.h"
-#include "base/os.h"
-#include "base/processor_level.h"
-#include "base/utc.h"
-#include "sim/record/append_file.h"
-#include "sim/record/exporters.h"
+#include "base/system/os.h"
+#include "base/system/processor_level.h"
+#include "base/system/utc.h"
+#include "sim/record/export/exporters.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::session {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/fault.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/haptics/timing_check.h"
-#include "sim/record/instrument_link.h"
-#include "sim/record/recorder.h"
+#include "sim/record/log/instrument_link.h"
+#include "sim/record/log/recorder.h"
 #include "sim/session/session.h"
 
 namespace reachlab::session {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/fault.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"

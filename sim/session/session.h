@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/haptics/timing_check.h"
-#include "sim/record/run_configuration.h"
-#include "sim/record/run_log.h"
+#include "sim/record/configuration/run_configuration.h"
+#include "sim/record/log/run_log.h"
 #include "sim/session/programme.h"
 #include "sim/session/session_folder.h"
 

@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "base/fault.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::session {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/seeded.h"
+#include "base/math/seeded.h"
 #include "base/ticks.h"
 
 namespace reachlab::session {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/record/run_configuration.h"
+#include "sim/record/configuration/run_configuration.h"
 #include "sim/session/plan.h"
 
 namespace reachlab::session {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sim/dynamics/plant.h"
+#include "sim/dynamics/object/plant.h"
 #include "sim/trial/command.h"
 #include "sim/trial/outcome.h"
 #include "sim/trial/planned_trial.h"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/fault.h"
+#include "base/json/json_reader.h"
 #include "constraints/constraint.h"
-#include "base/json_reader.h"
 #include "constraints/geometry/arc_length.h"
 #include "sim/trial/protocol.h"
 

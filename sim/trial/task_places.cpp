@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/places.h"
-#include "constraints/surface_branches.h"
+#include "constraints/regularity/places.h"
+#include "constraints/regularity/surface_branches.h"
 
 namespace reachlab::trial {
 namespace {

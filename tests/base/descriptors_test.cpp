@@ -4,7 +4,7 @@
 
 #include <cerrno>
 
-#include "base/os.h"
+#include "base/system/os.h"
 
 namespace reachlab::os {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/elementary.h"
+#include "base/math/elementary.h"
 
 #include <gtest/gtest.h>
 

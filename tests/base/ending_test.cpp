@@ -1,4 +1,4 @@
-#include "base/ending.h"
+#include "base/system/ending.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 #include <tuple>
 
 #include "base/fault.h"
-#include "base/helper_program.h"
-#include "base/os.h"
-#include "base/processor_level.h"
-#include "base/stop_signals.h"
+#include "base/system/helper_program.h"
+#include "base/system/os.h"
+#include "base/system/processor_level.h"
+#include "base/system/stop_signals.h"
 
 /// What a program says last, and the number it ends with. Each ending is one of a child.
 namespace reachlab {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <thread>
 
-#include "base/spsc_queue.h"
-#include "base/triple_buffer.h"
+#include "base/system/spsc_queue.h"
+#include "base/system/triple_buffer.h"
 
 namespace reachlab {
 namespace {

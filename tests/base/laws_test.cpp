@@ -5,9 +5,9 @@
 #include <complex>
 #include <numbers>
 
-#include "base/butterworth.h"
-#include "base/cubic_spline.h"
-#include "base/minimum_jerk.h"
+#include "base/math/butterworth.h"
+#include "base/math/cubic_spline.h"
+#include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
 
 /// Laws that stand once and are used in many places.

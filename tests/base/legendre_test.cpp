@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/gauss_legendre.h"
-#include "base/legendre_series.h"
+#include "base/math/gauss_legendre.h"
+#include "base/math/legendre_series.h"
 
 namespace reachlab {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/os.h"
+#include "base/system/os.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

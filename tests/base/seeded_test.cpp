@@ -1,4 +1,4 @@
-#include "base/seeded.h"
+#include "base/math/seeded.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "base/utc.h"
+#include "base/system/utc.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <type_traits>
 
-#include "base/fused.h"
-#include "base/lanes.h"
-#include "base/vec3.h"
+#include "base/math/fused.h"
+#include "base/math/lanes.h"
+#include "base/math/vec3.h"
 
 namespace reachlab {
 namespace {

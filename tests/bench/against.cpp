@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "sim/bench/contender.h"
+#include "bench/contender.h"
 
 /// Times the method that `auto` takes on the scenes named (none: all), REPEATS times each: a line `scene ns` with the least price of a
 /// millisecond. tests/bench/against.py builds this file against two versions, so it uses what both have.

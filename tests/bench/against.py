@@ -14,8 +14,8 @@ import tempfile
 from pathlib import Path
 
 ROUNDS, REPEATS = 9, 60
-LIBRARIES = ["sim/bench/libreachlab_bench.a", "sim/dynamics/libreachlab_dynamics.a", "sim/experiment/libreachlab_experiment.a",
-             "constraints/libreachlab_constraints.a", "sim/figure/libreachlab_figure.a", "base/libreachlab_base.a"]
+LIBRARIES = ["bench/libreachlab_bench.a", "sim/dynamics/libreachlab_dynamics.a", "sim/experiment/libreachlab_experiment.a",
+             "constraints/libreachlab_constraints.a", "analysis/figure/libreachlab_figure.a", "base/libreachlab_base.a"]
 
 
 def build(folder, program):

@@ -11,16 +11,16 @@
 #include <random>
 #include <vector>
 
-#include "base/elementary.h"
-#include "base/os.h"
-#include "constraints/sincos.h"
-#include "sim/bench/measure.h"
-#include "sim/bench/quad.h"
+#include "base/math/elementary.h"
+#include "base/system/os.h"
+#include "constraints/formula/sincos.h"
+#include "bench/measure.h"
+#include "bench/quad.h"
 
-// elementary_bench: sine and cosine together, one angle at a time and eight: the C library, constraints/sincos.h, and the forms of SLEEF
+// elementary_bench: sine and cosine together, one angle at a time and eight: the C library, constraints/formula/sincos.h, and the forms of SLEEF
 // that give the same bits at every width (cinz without fused operations, finz with). Nanoseconds of processor time an angle, median of
 // rounds; the largest error against 34 digits, absolute and in units of the last place; what an angle costs that waits for the one before.
-// Then the other functions of formulas: the C library's, and those of base/elementary.h, with their errors against 50 digits.
+// Then the other functions of formulas: the C library's, and those of base/math/elementary.h, with their errors against 50 digits.
 namespace {
 
 using reachlab::bench::Quad;
@@ -187,7 +187,7 @@ int main() {
   reportLatency("sincos.h", kOwn);
   reportLatency("SLEEF finz", kFinz);
   reportLatency("SLEEF cinz", kCinz);
-  std::printf("functions of formulas      C library       base/elementary.h\n");
+  std::printf("functions of formulas      C library       base/math/elementary.h\n");
 #define REPORT(name, lo, hi)                                                                                        \
   reportFunction(                                                                                                   \
       #name, lo, hi, [](double x) { return std::name(x); }, [](double x) { return reachlab::elementary::name(x); }, \

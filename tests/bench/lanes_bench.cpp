@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/lanes.h"
-#include "base/os.h"
-#include "constraints/sincos.h"
-#include "sim/bench/measure.h"
+#include "base/math/lanes.h"
+#include "base/system/os.h"
+#include "constraints/formula/sincos.h"
+#include "bench/measure.h"
 
 // lanes_bench: what a library for vectors of lanes costs beside the compiler's own vectors, on the loops that a tick spends its time in.
 // Three forms of each: the compiler's vectors (what Reachlab is written in), std::experimental::simd, Highway (compiled for this processor).
@@ -66,7 +66,7 @@ V all(double x) {
   else return V{} + x;
 }
 
-// The history of Adams-Bashforth-Moulton for eight states (sim/dynamics/abm.h, Row::keep).
+// The history of Adams-Bashforth-Moulton for eight states (sim/dynamics/methods/abm.h, Row::keep).
 struct History {
   double sums[7][8], weighted[8], ahead[8], f[8];
 };
@@ -140,7 +140,7 @@ void step(Step& s) {
   std::memcpy(s.y, s.next, sizeof s.y);
 }
 
-// One exact step of a chain of five: ten columns of twelve rows (sim/dynamics/dense_core.h).
+// One exact step of a chain of five: ten columns of twelve rows (sim/dynamics/exact/dense_core.h).
 struct Dense {
   double columns[10][12], state[12], next[12];
 };
@@ -158,7 +158,7 @@ void stepDense(Dense& d) {
   std::memcpy(d.state, d.next, sizeof d.state);
 }
 
-// The springs between eight masses in lanes: each needs its neighbours' numbers (sim/dynamics/batch_springs.h).
+// The springs between eight masses in lanes: each needs its neighbours' numbers (sim/dynamics/systems/batch_springs.h).
 struct Springs {
   double x[8], v[8], stiffness[8], inverseMass[8];
 };
@@ -190,7 +190,7 @@ void pushSprings(Springs& s) {
   store<V>(x + all<V>(1e-3) * faster, s.x);
 }
 
-// Sine and cosine of eight angles (constraints/sincos.h). The compiler's form is the plain loop that it puts in lanes itself.
+// Sine and cosine of eight angles (constraints/formula/sincos.h). The compiler's form is the plain loop that it puts in lanes itself.
 struct Waves {
   double x[8], sine[8], cosine[8];
 };

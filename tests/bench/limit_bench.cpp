@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/ticks.h"
-#include "sim/bench/peers.h"
-#include "sim/bench/suite.h"
+#include "bench/peers.h"
+#include "bench/suite.h"
 #include "tests/bench/limit_forms.h"
 
 // limit_bench [SCENE…]: in one run, the form written by hand for a scene alone, odeint's rk4 at 1 ms (the yardstick), and the plant that

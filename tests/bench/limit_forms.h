@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "base/ticks.h"
-#include "sim/bench/contender.h"
+#include "bench/contender.h"
 
 namespace reachlab::bench {
 

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/ticks.h"
-#include "sim/bench/linear_reference.h"
+#include "bench/linear_reference.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
 

@@ -2,7 +2,7 @@
 
 #include "base/fault.h"
 #include "base/ticks.h"
-#include "sim/bench/visit_system.h"
+#include "bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "base/ticks.h"
-#include "sim/bench/visit_system.h"
+#include "bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
 
 namespace reachlab::bench {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/bench/measure.h"
+#include "bench/measure.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
 

@@ -1,14 +1,14 @@
-#include "sim/bench/measure.h"
+#include "bench/measure.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "base/error.h"
-#include "base/os.h"
-#include "sim/bench/extrapolation.h"
-#include "sim/bench/linear_reference.h"
-#include "sim/bench/suite.h"
+#include "base/system/os.h"
+#include "bench/extrapolation.h"
+#include "bench/linear_reference.h"
+#include "bench/suite.h"
 
 namespace reachlab::bench {
 namespace {

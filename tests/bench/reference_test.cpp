@@ -1,9 +1,9 @@
-#include "sim/bench/reference.h"
+#include "bench/reference.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/bench/linear_reference.h"
-#include "sim/bench/peer_system.h"
+#include "bench/linear_reference.h"
+#include "bench/peer_system.h"
 
 namespace reachlab::bench {
 namespace {

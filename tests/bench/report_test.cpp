@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "sim/bench/sampled_hand.h"
-#include "sim/bench/suite.h"
+#include "bench/sampled_hand.h"
+#include "bench/suite.h"
 
 namespace reachlab::bench {
 namespace {

@@ -1,6 +1,6 @@
 #include "base/ticks.h"
-#include "sim/bench/sampled_hand.h"
-#include "sim/bench/suite.h"
+#include "bench/sampled_hand.h"
+#include "bench/suite.h"
 #include "sim/haptics/tick_timing.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include <random>
 
 #include "base/error.h"
-#include "sim/bench/peer_system.h"
-#include "sim/dynamics/forces.h"
+#include "bench/peer_system.h"
+#include "sim/dynamics/object/forces.h"
 
 namespace reachlab::bench {
 namespace {

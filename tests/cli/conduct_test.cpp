@@ -3,7 +3,7 @@
 
 #include <regex>
 
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "sim/session/session_folder.h"
-#include "tests/record/made_run.h"
 #include "test_paths.h"
+#include "tests/record/made_run.h"
 
 namespace reachlab::cli {
 namespace {

@@ -1,5 +1,5 @@
 #include "base/fault.h"
-#include "cli/exit_code.h"
+#include "cli/terminal/exit_code.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <variant>
 
-#include "cli/option_words.h"
+#include "cli/terminal/option_words.h"
 #include "tests/cli/program.h"
 
 using namespace reachlab;

@@ -1,4 +1,4 @@
-#include "cli/hand_laws.h"
+#include "cli/commands/hand_laws.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <pty.h>
 #include <unistd.h>
 
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 #include "tests/cli/program.h"
 
 using namespace reachlab;

@@ -20,8 +20,8 @@
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
 #include "sim/session/session_folder.h"
-#include "tests/record/made_run.h"
 #include "test_paths.h"
+#include "tests/record/made_run.h"
 
 namespace reachlab::cli {
 namespace {

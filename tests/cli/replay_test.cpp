@@ -8,10 +8,10 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/log.h"
+#include "sim/record/log/log.h"
 #include "sim/session/session_folder.h"
-#include "tests/record/made_run.h"
 #include "test_paths.h"
+#include "tests/record/made_run.h"
 
 namespace reachlab::cli {
 namespace {

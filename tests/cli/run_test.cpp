@@ -5,8 +5,8 @@
 #include <future>
 #include <set>
 
-#include "tests/cli/program.h"
 #include "test_paths.h"
+#include "tests/cli/program.h"
 
 using namespace reachlab::test;
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "network/line/station_line.h"
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
 #include "tests/record/made_run.h"

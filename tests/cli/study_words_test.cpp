@@ -1,4 +1,4 @@
-#include "cli/study_words.h"
+#include "cli/output/study_words.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "cli/success_table.h"
+#include "cli/output/success_table.h"
 
 namespace reachlab::cli {
 namespace {

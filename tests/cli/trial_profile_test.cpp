@@ -1,4 +1,4 @@
-#include "cli/trial_profile.h"
+#include "cli/output/trial_profile.h"
 
 #include <gtest/gtest.h>
 

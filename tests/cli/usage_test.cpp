@@ -2,8 +2,8 @@
 
 #include <cstdlib>
 
-#include "tests/cli/program.h"
 #include "test_paths.h"
+#include "tests/cli/program.h"
 
 using namespace reachlab::test;
 using Json = nlohmann::json;

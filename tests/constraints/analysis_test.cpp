@@ -1,4 +1,4 @@
-#include "constraints/analysis.h"
+#include "constraints/regularity/analysis.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <random>
 #include <tuple>
 
-#include "constraints/definition.h"
-#include "constraints/geometry/arc_length.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "constraints/catalogue/definition.h"
+#include "constraints/geometry/arc_length.h"
 
 namespace reachlab::constraints {
 namespace {

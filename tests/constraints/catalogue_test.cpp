@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "constraints/analysis.h"
-#include "constraints/definition.h"
 #include "base/fault.h"
+#include "constraints/catalogue/definition.h"
+#include "constraints/regularity/analysis.h"
 
 namespace reachlab::constraints {
 namespace {

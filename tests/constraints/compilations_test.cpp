@@ -1,7 +1,7 @@
 // How often a formula is compiled, counted by the linker's wrap (count_compilations.h).
 #include <gtest/gtest.h>
 
-#include "constraints/definition.h"
+#include "constraints/catalogue/definition.h"
 #include "tests/constraints/count_compilations.h"
 
 namespace reachlab::constraints {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-#include "constraints/formula.h"
+#include "constraints/formula/formula.h"
 
 #define REACHLAB_COMPILE_FORMULA                                                    \
   "_ZN8reachlab11constraints14compileFormulaERKNS0_11FormulaTextERKNSt7__cxx1112ba" \

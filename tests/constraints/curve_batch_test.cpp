@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
+#include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
-#include "constraints/definition.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -1,4 +1,4 @@
-#include "constraints/definition.h"
+#include "constraints/catalogue/definition.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "base/fault.h"
-#include "constraints/analysis.h"
+#include "constraints/regularity/analysis.h"
 
 /// What a definition may hold, and the words that refuse it.
 namespace reachlab::constraints {

@@ -1,4 +1,4 @@
-#include "constraints/expression.h"
+#include "constraints/formula/expression.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include <random>
 
 #include "base/error.h"
-#include "base/vec3.h"
-#include "constraints/cpp_writer.h"
-#include "constraints/formula.h"
-#include "constraints/guards.h"
-#include "constraints/interval.h"
-#include "constraints/parser.h"
-#include "constraints/program.h"
+#include "base/math/vec3.h"
+#include "constraints/formula/cpp_writer.h"
+#include "constraints/formula/formula.h"
+#include "constraints/formula/guards.h"
+#include "constraints/formula/interval.h"
+#include "constraints/formula/parser.h"
+#include "constraints/formula/program.h"
 
 /// What becomes of a formula on its way to code (a graph that is simplified, derivatives, bounds, programs, C++), held against the same
 /// formula reckoned as it is written.

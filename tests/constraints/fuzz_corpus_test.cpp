@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/fuzz/formula_case.h"
 #include "test_paths.h"
+#include "tests/fuzz/formula_case.h"
 
 namespace reachlab::constraints {
 namespace {

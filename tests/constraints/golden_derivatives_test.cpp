@@ -10,9 +10,9 @@
 #include <set>
 #include <sstream>
 
-#include "constraints/analysis.h"
-#include "constraints/definition.h"
-#include "constraints/program.h"
+#include "constraints/catalogue/definition.h"
+#include "constraints/formula/program.h"
+#include "constraints/regularity/analysis.h"
 #include "test_paths.h"
 
 namespace reachlab::constraints {

@@ -1,4 +1,4 @@
-#include "constraints/interval.h"
+#include "constraints/formula/interval.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <random>
 #include <tuple>
 
-#include "constraints/formula.h"
-#include "constraints/parser.h"
+#include "constraints/formula/formula.h"
+#include "constraints/formula/parser.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "constraints/curve_batch.h"
-#include "constraints/hidden_bend.h"
-#include "constraints/narrow_band.h"
-#include "constraints/places.h"
+#include "constraints/regularity/hidden_bend.h"
+#include "constraints/regularity/narrow_band.h"
+#include "constraints/regularity/places.h"
 
 /// What is so narrow on a curve or a surface that a movement could step over it.
 namespace reachlab::constraints {

@@ -1,11 +1,11 @@
-#include "constraints/parser.h"
+#include "constraints/formula/parser.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "constraints/formula.h"
+#include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {
 namespace {

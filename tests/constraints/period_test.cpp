@@ -1,4 +1,4 @@
-#include "constraints/period.h"
+#include "constraints/regularity/period.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "constraints/places.h"
+#include "constraints/regularity/places.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "base/fault.h"
-#include "constraints/definition.h"
-#include "constraints/surface_branches.h"
+#include "constraints/catalogue/definition.h"
+#include "constraints/regularity/surface_branches.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -1,8 +1,8 @@
-#include "constraints/polynomial.h"
+#include "constraints/formula/polynomial.h"
 
 #include <gtest/gtest.h>
 
-#include "constraints/parser.h"
+#include "constraints/formula/parser.h"
 
 namespace reachlab::constraints {
 namespace {

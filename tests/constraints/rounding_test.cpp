@@ -1,10 +1,10 @@
-#include "constraints/rounding.h"
+#include "constraints/regularity/rounding.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "constraints/analysis.h"
+#include "constraints/regularity/analysis.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -1,4 +1,4 @@
-#include "constraints/sincos.h"
+#include "constraints/formula/sincos.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "base/elementary.h"
+#include "base/math/elementary.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "constraints/definition.h"
 #include "base/error.h"
+#include "constraints/catalogue/definition.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "constraints/constraint.h"
 #include "base/fault.h"
+#include "constraints/constraint.h"
 
 namespace reachlab::constraints {
 namespace {

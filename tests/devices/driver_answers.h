@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "devices/driver/registry.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 
 namespace reachlab::devices {
 

@@ -11,9 +11,9 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/os.h"
+#include "base/system/os.h"
+#include "devices/driver/registry.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_input.h"
 #include "tests/until.h"

@@ -1,8 +1,8 @@
 #pragma once
 #include <cmath>
 
+#include "devices/driver/registry.h"
 #include "devices/io/polled_device.h"
-#include "devices/registry.h"
 
 /// A driver, whole: a handle on a spring that a vendor's calls read and drive, here played by two functions.
 namespace reachlab::devices::example {
@@ -54,7 +54,7 @@ inline DeviceDriver springHandleDriver() {
         if (vendorUnplugged) return {absentDevice(self, "no Spring Handle is connected")};
         return {presentDevice(self, self.name, SpringHandle().info())};
       },
-      // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (devices/options.h) takes it apart. What is
+      // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (devices/driver/options.h) takes it apart. What is
       // wrong there throws FaultError (base/fault.h), what cannot be had ResourceError (base/error.h).
       .make = [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
         return std::make_unique<PolledDevice>(std::make_shared<SpringHandle>());  // refused if no report comes within 2 s

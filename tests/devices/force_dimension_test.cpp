@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/os.h"
+#include "base/system/os.h"
+#include "devices/driver/registry.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "devices/vendor/force_dimension.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/until.h"

@@ -8,10 +8,10 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "devices/driver/registry.h"
 #include "devices/haply/web_socket_link.h"
 #include "devices/live_device.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "tests/devices/fakes/fake_haply.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"

@@ -5,11 +5,11 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "devices/driver/registry.h"
 #include "devices/hid/hid_port.h"
 #include "devices/hid/open_serial_arm.h"
 #include "devices/hot_plug.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/devices/fakes/pid_firmware.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {

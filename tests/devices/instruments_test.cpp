@@ -19,12 +19,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "devices/instruments/lab_streaming.h"
 #include "devices/instruments/trigger_lines.h"
 #include "tests/devices/fakes/fake_lsl.h"
-#include "tests/until.h"
 #include "tests/record/made_run.h"
+#include "tests/until.h"
 
 namespace reachlab::devices {
 namespace {

@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "base/error.h"
+#include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
 #include "devices/io/rate_hand.h"
-#include "devices/orientation.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {

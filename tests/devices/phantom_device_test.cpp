@@ -14,8 +14,8 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/os.h"
-#include "devices/registry.h"
+#include "base/system/os.h"
+#include "devices/driver/registry.h"
 #include "devices/vendor/clock_timing.h"
 #include "devices/vendor/shared_library.h"
 #include "tests/devices/fakes/fake_hd.h"

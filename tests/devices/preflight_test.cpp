@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sim/trial/protocol.h"
 #include "devices/make_device.h"
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"
+#include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 namespace {

@@ -1,4 +1,4 @@
-#include "devices/registry.h"
+#include "devices/driver/registry.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "devices/driver/options.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
-#include "devices/options.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
 

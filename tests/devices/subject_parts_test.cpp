@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "base/fault.h"
-#include "base/matrix.h"
-#include "base/seeded.h"
+#include "base/math/matrix.h"
+#include "base/math/seeded.h"
 #include "devices/subject/feedback_hand.h"
 #include "devices/subject/impedance_subject.h"
 #include "devices/subject/subject_parameters.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "devices/driver/registry.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "devices/virtual/loop_stability.h"
 #include "devices/virtual/stability_map.h"
 #include "sim/haptics/run_conductor.h"

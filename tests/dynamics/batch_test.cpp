@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "base/minimum_jerk.h"
-#include "sim/dynamics/curve_system.h"
-#include "sim/dynamics/batch_system.h"
+#include "base/math/minimum_jerk.h"
+#include "sim/dynamics/systems/batch_system.h"
+#include "sim/dynamics/systems/curve_system.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -1,8 +1,8 @@
-#include "sim/dynamics/chain_modes.h"
+#include "sim/dynamics/exact/chain_modes.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/dynamics/oscillator_core.h"
+#include "sim/dynamics/exact/oscillator_core.h"
 
 namespace reachlab::dynamics {
 namespace {

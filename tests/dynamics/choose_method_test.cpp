@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/dynamics/stability.h"
+#include "sim/dynamics/object/stability.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

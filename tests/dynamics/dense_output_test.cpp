@@ -1,4 +1,4 @@
-#include "sim/dynamics/dense_output.h"
+#include "sim/dynamics/methods/dense_output.h"
 
 #include <gtest/gtest.h>
 

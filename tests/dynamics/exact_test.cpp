@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/dynamics/hand_path.h"
+#include "sim/dynamics/hand/hand_path.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
-#include "constraints/analysis.h"
-#include "constraints/definition.h"
+#include "constraints/catalogue/definition.h"
+#include "constraints/regularity/analysis.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

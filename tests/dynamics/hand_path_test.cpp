@@ -1,4 +1,4 @@
-#include "sim/dynamics/hand_path.h"
+#include "sim/dynamics/hand/hand_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "sim/dynamics/hand_segment.h"
+#include "sim/dynamics/hand/hand_segment.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/dynamics/hand_function.h"
+#include "sim/dynamics/hand/hand_function.h"
 
 namespace reachlab::dynamics {
 namespace {

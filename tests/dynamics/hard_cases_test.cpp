@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "base/minimum_jerk.h"
 #include "base/error.h"
-#include "sim/dynamics/hand_path.h"
+#include "base/math/minimum_jerk.h"
+#include "sim/dynamics/hand/hand_path.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

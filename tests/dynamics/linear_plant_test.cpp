@@ -1,9 +1,9 @@
-#include "sim/dynamics/linear_plant.h"
+#include "sim/dynamics/exact/linear_plant.h"
 
 #include <gtest/gtest.h>
 
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/hand_path.h"
+#include "sim/dynamics/hand/hand_path.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/minimum_jerk.h"
-#include "sim/dynamics/hand_function.h"
-#include "sim/dynamics/plant.h"
+#include "base/math/minimum_jerk.h"
+#include "sim/dynamics/hand/hand_function.h"
+#include "sim/dynamics/object/plant.h"
 
 namespace reachlab::dynamics {
 

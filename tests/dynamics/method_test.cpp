@@ -3,10 +3,10 @@
 
 #include <limits>
 
-#include "sim/dynamics/abm.h"
-#include "sim/dynamics/hand_function.h"
-#include "sim/dynamics/rk4.h"
-#include "sim/dynamics/stiff.h"
+#include "sim/dynamics/hand/hand_function.h"
+#include "sim/dynamics/methods/abm.h"
+#include "sim/dynamics/methods/rk4.h"
+#include "sim/dynamics/methods/stiff.h"
 
 namespace reachlab::dynamics {
 namespace {

@@ -1,10 +1,10 @@
-#include "sim/dynamics/object_model.h"
+#include "sim/dynamics/object/object_model.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "sim/dynamics/forces.h"
+#include "sim/dynamics/object/forces.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -1,9 +1,9 @@
-#include "sim/dynamics/polar_chart.h"
+#include "sim/dynamics/systems/polar_chart.h"
 
 #include <gtest/gtest.h>
 
-#include "constraints/analysis.h"
-#include "sim/dynamics/surface_rates.h"
+#include "constraints/regularity/analysis.h"
+#include "sim/dynamics/systems/surface_rates.h"
 
 namespace reachlab::dynamics {
 namespace {

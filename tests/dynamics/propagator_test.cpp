@@ -1,4 +1,4 @@
-#include "sim/dynamics/propagator.h"
+#include "sim/dynamics/exact/propagator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "sim/dynamics/quadric_system.h"
+#include "sim/dynamics/systems/quadric_system.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "sim/dynamics/hand_path.h"
+#include "sim/dynamics/hand/hand_path.h"
 #include "sim/dynamics/make_plant.h"
 
 namespace reachlab::dynamics {

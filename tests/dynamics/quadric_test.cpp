@@ -1,4 +1,4 @@
-#include "sim/dynamics/quadric.h"
+#include "sim/dynamics/systems/quadric.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "base/error.h"
-#include "constraints/places.h"
-#include "constraints/surface_branches.h"
+#include "constraints/regularity/places.h"
+#include "constraints/regularity/surface_branches.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

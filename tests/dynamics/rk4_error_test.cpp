@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/minimum_jerk.h"
-#include "constraints/definition.h"
+#include "base/math/minimum_jerk.h"
+#include "constraints/catalogue/definition.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "sim/dynamics/object/stability.h"
 #include "sim/dynamics/shared_plant.h"
-#include "sim/dynamics/stability.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

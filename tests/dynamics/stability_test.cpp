@@ -1,4 +1,4 @@
-#include "sim/dynamics/stability.h"
+#include "sim/dynamics/object/stability.h"
 
 #include <gtest/gtest.h>
 

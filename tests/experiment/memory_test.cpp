@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "base/ending.h"
-#include "constraints/definition.h"
+#include "base/system/ending.h"
+#include "constraints/catalogue/definition.h"
 #include "sim/experiment/compiled_experiment.h"
 
 namespace {

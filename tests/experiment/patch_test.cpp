@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::experiment {

@@ -8,7 +8,7 @@
 #include <valijson/validator.hpp>
 
 #include "base/fault.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 

@@ -1,4 +1,4 @@
-#include "sim/figure/figure.h"
+#include "analysis/figure/figure.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <regex>
 #include <sstream>
 
+#include "analysis/figure/ticks.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/figure/ticks.h"
 
 namespace reachlab::figure {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/figure/figure.h"
+#include "analysis/figure/figure.h"
 
 /// A figure as it is seen: what is drawn in a colour of its own is found again by it, to a fifth of a point.
 namespace reachlab::figure {

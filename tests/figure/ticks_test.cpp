@@ -1,4 +1,4 @@
-#include "sim/figure/ticks.h"
+#include "analysis/figure/ticks.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "constraints/constraint.h"
-#include "constraints/cpp_writer.h"
 #include "base/fault.h"
-#include "constraints/formula.h"
+#include "constraints/constraint.h"
+#include "constraints/formula/cpp_writer.h"
+#include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {
 

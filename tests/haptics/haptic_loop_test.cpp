@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "sim/haptics/run_conductor.h"
-#include "tests/haptics/scripted_device.h"
 #include "tests/haptics/armed_at_once.h"
+#include "tests/haptics/scripted_device.h"
 #include "tests/haptics/set_device.h"
 
 namespace reachlab::haptics {

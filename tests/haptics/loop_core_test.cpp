@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "base/os.h"
+#include "base/system/os.h"
 #include "tests/haptics/armed_at_once.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/haptics/set_device.h"

@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "sim/haptics/haptic_loop.h"
 #include "sim/haptics/loop_core.h"
 #include "sim/haptics/run_conductor.h"
-#include "tests/until.h"
 #include "tests/haptics/armed_at_once.h"
+#include "tests/until.h"
 
 /// The loop on devices that fail it. Waits are for events, never for a time to be short enough.
 namespace reachlab::haptics {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/fault.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {

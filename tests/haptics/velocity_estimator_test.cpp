@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/butterworth.h"
+#include "base/math/butterworth.h"
 
 namespace reachlab::haptics {
 namespace {

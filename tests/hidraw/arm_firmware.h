@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/os.h"
+#include "base/system/os.h"
 #include "devices/hid/arm_report.h"
 #include "devices/hid/open_serial_arm.h"
 

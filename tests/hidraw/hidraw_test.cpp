@@ -10,9 +10,9 @@
 #include <thread>
 #include <utility>
 
+#include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "tests/cli/patient.h"
 #include "tests/cli/program.h"
 #include "tests/hidraw/arm_firmware.h"

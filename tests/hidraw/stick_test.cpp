@@ -9,8 +9,8 @@
 #include <mutex>
 #include <thread>
 
+#include "devices/driver/registry.h"
 #include "devices/make_device.h"
-#include "devices/registry.h"
 #include "tests/devices/fakes/pid_firmware.h"
 #include "tests/hidraw/arm_firmware.h"
 #include "tests/hidraw/block.h"

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-BELOW = ["base", "constraints", "sim", "devices", "network"]
+BELOW = ["base", "constraints", "sim", "analysis", "devices", "network", "bench"]
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 THROWN = re.compile(r"\bthrow\s+(?:\w+::)*(\w*(?:Error|error|exception|_argument|_range))\b")

@@ -23,7 +23,7 @@ PAGE, FIGURE = ROOT / "docs/architecture.md", ROOT / "docs/images/walks.svg"
 sys.path.insert(0, str(Path(__file__).parent))
 import layers  # noqa: E402
 
-TOPS = "base|constraints|sim|devices|gui|cli"
+TOPS = "base|constraints|sim|analysis|devices|network|bench|gui|cli"
 MAX_RETURNS = 2
 RUN = "run chain-moderate --device simulated --trials 1 --seed 1 --fast --data {tmp}/"
 TYPED = """{ "schema_version": 1, "constraint": { "curve": ["0", "a*cos(phi)", "b*sin(phi)"], "shape": { "a": 0.1, "b": 0.06 } },
@@ -41,7 +41,7 @@ WALKS = {
     "trial → log → BIDS → table": (
         [("cli/reach", RUN + "new", ["reachlab::record::Recorder::onTick(@1500", "reachlab::record::writeBids(@1"]),
          ("cli/reach", "analyze {tmp}/recorded --out {tmp}/analysis",
-          ["reachlab::analyze::readDataset(@1", "reachlab::analyze::writeTables(@1"])],
+          ["reachlab::analysis::readDataset(@1", "reachlab::analysis::writeTables(@1"])],
         ["base", "constraints", "sim/experiment", "sim/predict", "sim/trial", "cli"], 45),
     "experiment file → running object": (
         [("cli/reach", RUN + "new", ["reachlab::experiment::openExperiment(@1", "reachlab::dynamics::compileScene(@1", "reachlab::haptics::TickEngine::TickEngine(@1"])],
@@ -91,7 +91,7 @@ def record(build, walk):
 
 def room_of(file):
     parts = Path(file).parts
-    return "/".join(parts[:2]) if parts[0] in ("sim", "gui") else parts[0]
+    return "/".join(parts[:2]) if parts[0] in ("sim", "analysis", "gui") and len(parts) > 2 else parts[0]
 
 
 def files_of(trace, asked):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What is said below `gui/` and `cli/` speaks of keys and values: exits 1 with a line for every string there that names an option of the
-command line or a widget of the window. Each front end has the words of its own door (cli/option_words.h, gui/**/fault_words.h).
+command line or a widget of the window. Each front end has the words of its own door (cli/terminal/option_words.h, gui/**/fault_words.h).
 
   tests/house/words.py              checks
   tests/house/words.py --self-test  checks that it would find what it looks for
@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-BELOW = ["base", "constraints", "sim", "devices", "network"]
+BELOW = ["base", "constraints", "sim", "analysis", "devices", "network", "bench"]
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 # No "button": devices have them.
 WIDGET = re.compile(r"\b(dock|dialog|menu|spin ?box|check ?box|slider|tab page|tool ?bar|widget)s?\b", re.I)

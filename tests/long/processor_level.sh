@@ -11,7 +11,7 @@ cd "$work"
 cat > newer.cpp <<'CPP'
 #include <cstdio>
 #include <immintrin.h>
-#include "base/processor_level.h"
+#include "base/system/processor_level.h"
 volatile long long out[4];
 struct Early {
   Early() {

@@ -42,7 +42,7 @@ import fault_check
 import fault_sites
 from fault_draw import ROOT, blanked, describe, draw, faults_of
 
-FOLDERS = ["base", "constraints", "sim", "devices", "network", "cli", "gui"]
+FOLDERS = ["base", "constraints", "sim", "analysis", "devices", "network", "bench", "cli", "gui"]
 SOURCES = FOLDERS + ["tests", "resources", "cmake", "packaging", "docs"]
 COPY = ROOT / "build" / "faults"
 BUILD = COPY / "build" / "dev"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 #include "tests/record/made_run.h"
 
 // Who only looks on, with the test in the endpoint's place.

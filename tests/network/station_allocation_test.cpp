@@ -3,7 +3,7 @@
 #include "cli/bench/allocation_count.h"
 #include "network/line/station_line.h"
 #include "sim/haptics/haptic_loop.h"
-#include "sim/record/recorder.h"
+#include "sim/record/log/recorder.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/record/made_run.h"
 

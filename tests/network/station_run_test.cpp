@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "base/fault.h"
-#include "base/os.h"
+#include "base/system/os.h"
 #include "sim/session/session.h"
 #include "tests/record/made_run.h"
 

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "base/minimum_jerk.h"
-#include "base/seeded.h"
+#include "base/math/minimum_jerk.h"
+#include "base/math/seeded.h"
 #include "base/ticks.h"
 #include "network/line/station_line.h"
 #include "network/merge/station_merge.h"
-#include "sim/record/recorder.h"
+#include "sim/record/log/recorder.h"
 #include "tests/record/made_run.h"
 
 // Two whole stations, engine, sink, rings and log, on clocks of the test: the line between them is a function, so what is judged never

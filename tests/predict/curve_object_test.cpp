@@ -5,9 +5,9 @@
 #include <iostream>
 
 #include "base/error.h"
-#include "sim/dynamics/hand_function.h"
-#include "sim/dynamics/plant.h"
 #include "constraints/geometry/arc_curve.h"
+#include "sim/dynamics/hand/hand_function.h"
+#include "sim/dynamics/object/plant.h"
 #include "sim/predict/curve/curve_object.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <random>
 
-#include "base/matrix.h"
-#include "sim/dynamics/hand_function.h"
-#include "sim/dynamics/plant.h"
+#include "base/math/gauss_legendre.h"
+#include "base/math/matrix.h"
+#include "sim/dynamics/hand/hand_function.h"
+#include "sim/dynamics/object/plant.h"
 #include "sim/predict/line/flat_output.h"
-#include "base/gauss_legendre.h"
-#include "sim/predict/transcription/rest_to_rest_basis.h"
 #include "sim/predict/predict.h"
+#include "sim/predict/transcription/rest_to_rest_basis.h"
 #include "tests/predict/objects.h"
 
 namespace reachlab::predict {

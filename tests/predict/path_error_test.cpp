@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "constraints/definition.h"
+#include "constraints/catalogue/definition.h"
 #include "sim/predict/predict.h"
 #include "test_paths.h"
 #include "tests/predict/objects.h"

@@ -5,10 +5,10 @@
 #include <functional>
 #include <random>
 
-#include "constraints/definition.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/gauss_legendre.h"
+#include "base/math/gauss_legendre.h"
+#include "constraints/catalogue/definition.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/gauss_legendre.h"
+#include "base/math/gauss_legendre.h"
 #include "sim/predict/curve/curve_motion.h"
 #include "sim/predict/curve/curve_object.h"
 #include "sim/predict/curve/curve_prediction.h"

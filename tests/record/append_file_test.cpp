@@ -1,4 +1,4 @@
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/record/foreign_file.h"
+#include "sim/record/log/foreign_file.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -1,4 +1,4 @@
-#include "sim/record/channels.h"
+#include "sim/record/configuration/channels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/record/checked_json.h"
+#include "sim/record/configuration/checked_json.h"
 
 #include <gtest/gtest.h>
 

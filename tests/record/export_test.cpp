@@ -8,14 +8,14 @@
 #include <set>
 #include <sstream>
 
-#include "sim/experiment/describe.h"
-#include "sim/record/append_file.h"
-#include "sim/record/bids.h"
-#include "sim/record/column_dictionary.h"
-#include "sim/record/hdf5_file.h"
-#include "sim/record/matlab_file.h"
 #include "base/table_text.h"
-#include "sim/record/tidy_csv.h"
+#include "sim/experiment/describe.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/export/column_dictionary.h"
+#include "sim/record/export/hdf5_file.h"
+#include "sim/record/export/matlab_file.h"
+#include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/append_file.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fault.h"
-#include "sim/record/run_fields.h"
+#include "sim/record/configuration/run_fields.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/run_log.h"
 #include "sim/record/replay.h"
-#include "sim/record/run_log.h"
-#include "sim/record/tidy_csv.h"
-#include "tests/record/made_run.h"
 #include "test_paths.h"
+#include "tests/record/made_run.h"
 
 namespace reachlab::record {
 namespace {

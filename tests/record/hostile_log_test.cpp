@@ -8,12 +8,12 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/os.h"
-#include "sim/record/records.h"
+#include "base/system/os.h"
+#include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/records.h"
+#include "sim/record/log/run_writer.h"
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
-#include "sim/record/run_writer.h"
-#include "sim/record/tidy_csv.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -1,5 +1,5 @@
 // The log's frame byte by byte as docs/recording.md has it, and how it is read.
-#include "sim/record/log.h"
+#include "sim/record/log/log.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

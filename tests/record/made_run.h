@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "sim/record/log.h"
-#include "sim/record/recorder.h"
-#include "sim/record/run_log.h"
+#include "sim/record/log/log.h"
+#include "sim/record/log/recorder.h"
+#include "sim/record/log/run_log.h"
 #include "test_paths.h"
 
 namespace reachlab::record {

@@ -1,4 +1,4 @@
-#include "sim/record/recorder.h"
+#include "sim/record/log/recorder.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/record/records.h"
+#include "sim/record/log/records.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -1,5 +1,5 @@
 // The records' payloads byte by byte as docs/recording.md has them, and what no writer of ours made.
-#include "sim/record/records.h"
+#include "sim/record/log/records.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 
 namespace reachlab::record {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "sim/record/records.h"
+#include "sim/record/log/records.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

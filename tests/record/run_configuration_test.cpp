@@ -1,5 +1,5 @@
 // Which configurations of a log are believed: every bound, everything that may miss, every default.
-#include "sim/record/run_configuration.h"
+#include "sim/record/configuration/run_configuration.h"
 
 #include <gtest/gtest.h>
 

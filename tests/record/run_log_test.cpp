@@ -1,4 +1,4 @@
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 #include "sim/record/recover.h"
 #include "tests/record/made_run.h"
 

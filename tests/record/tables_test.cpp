@@ -11,16 +11,16 @@
 #include <vector>
 
 #include "base/table_text.h"
-#include "sim/record/append_file.h"
-#include "sim/record/bids.h"
-#include "sim/record/c3d_export.h"
-#include "sim/record/column_dictionary.h"
-#include "sim/record/derivative.h"
-#include "sim/record/exporters.h"
-#include "sim/record/matlab_file.h"
-#include "sim/record/run_tables.h"
-#include "sim/record/tidy_csv.h"
-#include "sim/record/trial_row.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/export/c3d_export.h"
+#include "sim/record/export/column_dictionary.h"
+#include "sim/record/export/derivative.h"
+#include "sim/record/export/exporters.h"
+#include "sim/record/export/matlab_file.h"
+#include "sim/record/export/run_tables.h"
+#include "sim/record/export/tidy_csv.h"
+#include "sim/record/export/trial_row.h"
+#include "sim/record/log/append_file.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -1,4 +1,4 @@
-#include "sim/record/tick_ring.h"
+#include "sim/record/log/tick_ring.h"
 
 #include <gtest/gtest.h>
 

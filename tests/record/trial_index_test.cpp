@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/record/append_file.h"
-#include "sim/record/records.h"
+#include "sim/record/log/append_file.h"
+#include "sim/record/log/records.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

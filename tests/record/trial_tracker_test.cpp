@@ -1,4 +1,4 @@
-#include "sim/record/trial_tracker.h"
+#include "sim/record/log/trial_tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/trial_measures.h"
+#include "sim/record/log/trial_measures.h"
 
 namespace reachlab::record {
 namespace {

@@ -15,8 +15,8 @@
 #include <thread>
 
 #include "base/error.h"
-#include "sim/record/append_file.h"
-#include "sim/record/bids.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/log/append_file.h"
 #include "sim/session/backup_worker.h"
 #include "tests/record/made_run.h"
 

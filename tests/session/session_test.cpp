@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/fault.h"
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
 

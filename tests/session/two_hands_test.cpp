@@ -5,9 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/hands.h"
 #include "base/fault.h"
-#include "sim/analyze/hands.h"
-#include "sim/record/bids.h"
+#include "sim/record/export/bids.h"
 #include "sim/record/replay.h"
 #include "sim/session/recorded_session.h"
 #include "tests/haptics/scripted_device.h"
@@ -192,14 +192,14 @@ TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
   record(std::make_unique<Pair>(0.1, 300));
   const std::string out = folder_ / "results";
   std::filesystem::create_directories(out);
-  const std::vector<std::string> files = analyze::writeHandsTable(analyze::openDataset(request_.place.data), out);
+  const std::vector<std::string> files = analysis::writeHandsTable(analysis::openDataset(request_.place.data), out);
   ASSERT_EQ(files, std::vector<std::string>{out + "/hands.csv"});
   const std::string table = record::readWholeFile(files[0]);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * static_cast<std::ptrdiff_t>(results_.size())) << table;
 }
 
 TEST(Together, WhatCancelsIsInternal) {
-  analyze::HandSignals left, right;
+  analysis::HandSignals left, right;
   for (int i = 0; i < 100; ++i) {
     const double v = std::exp(-0.01 * (i - 50) * (i - 50) / 4);
     const double late = std::exp(-0.01 * (i - 57) * (i - 57) / 4);
@@ -209,7 +209,7 @@ TEST(Together, WhatCancelsIsInternal) {
     // The left one takes out again what it has put in: its net work is none, what it has put in is 3 J to the other's 1.
     left.work.push_back(i < 50 ? 0.06122448979591837 * i : 3 - 0.06 * (i - 49)), right.work.push_back(1.0 / 99 * i);
   }
-  const analyze::TogetherMeasures opposed = analyze::measureTogether({left, right}, 100);
+  const analysis::TogetherMeasures opposed = analysis::measureTogether({left, right}, 100);
   EXPECT_NEAR(opposed.internalForce, 3, 1e-12) << "the smaller of two opposed forces";
   EXPECT_NEAR(opposed.peakInternalForce, 3, 1e-12);
   EXPECT_NEAR(opposed.hands[0].meanForce, 5, 1e-12);
@@ -220,7 +220,7 @@ TEST(Together, WhatCancelsIsInternal) {
   EXPECT_NEAR(opposed.hands[1].lag, 0.07, 1e-3);
   EXPECT_NEAR(opposed.hands[0].lag, 0, 1e-12);
   for (Vec3& force : right.force) force.x = 3;
-  EXPECT_NEAR(analyze::measureTogether({left, right}, 100).internalForce, 0, 1e-12) << "what pulls alike";
+  EXPECT_NEAR(analysis::measureTogether({left, right}, 100).internalForce, 0, 1e-12) << "what pulls alike";
 }
 
 }  // namespace

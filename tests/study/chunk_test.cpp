@@ -1,13 +1,13 @@
-#include "sim/study/chunk.h"
+#include "analysis/study/chunk.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <fstream>
 
+#include "analysis/study/gzip.h"
 #include "base/error.h"
-#include "sim/record/append_file.h"
-#include "sim/study/gzip.h"
+#include "sim/record/log/append_file.h"
 #include "tests/study/made_study.h"
 
 namespace reachlab::study {

@@ -1,4 +1,4 @@
-#include "sim/study/columns.h"
+#include "analysis/study/columns.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "sim/study/run_study.h"
-#include "sim/study/trial_row.h"
+#include "analysis/study/run_study.h"
+#include "analysis/study/trial_row.h"
 
 namespace reachlab::study {
 namespace {
@@ -89,7 +89,7 @@ TEST(StudyColumns, PutEachMeasureUnderItsName) {
   trial.recorded.result.reason = trial::Reason::Velocity;
   trial.recorded.result.mass = 3, trial.recorded.result.by = 0.5, trial.recorded.clampedTicks = 17;
   trial.recorded.peakHandSpeed = 0.6, trial.recorded.handPathLength = 0.7, trial.recorded.peakForce = 0.8, trial.recorded.meanForce = 0.9;
-  analyze::TrialMeasures& m = trial.measures;
+  analysis::TrialMeasures& m = trial.measures;
   const std::pair<const char*, double*> measures[] = {{"onset_s", &m.onset},
                                                       {"offset_s", &m.offset},
                                                       {"duration_s", &m.duration},

@@ -1,9 +1,9 @@
-#include "sim/study/design.h"
+#include "analysis/study/design.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/study/chunk.h"
-#include "sim/study/points.h"
+#include "analysis/study/chunk.h"
+#include "analysis/study/points.h"
 
 namespace reachlab::study {
 namespace {

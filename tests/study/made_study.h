@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/study/points.h"
-#include "sim/study/study_folder.h"
+#include "analysis/study/points.h"
+#include "analysis/study/study_folder.h"
 
 /// Folders of studies whose chunks are written by hand.
 namespace reachlab::study {

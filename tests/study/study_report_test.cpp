@@ -1,4 +1,4 @@
-#include "sim/study/report.h"
+#include "analysis/study/report.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/fault.h"
-#include "sim/record/append_file.h"
+#include "sim/record/log/append_file.h"
 #include "tests/study/made_study.h"
 
 namespace reachlab::study {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/gauss_legendre.h"
+#include "base/math/gauss_legendre.h"
 #include "sim/predict/transcription/rest_to_rest_basis.h"
 
 namespace reachlab::predict {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "base/matrix.h"
+#include "base/math/matrix.h"
 #include "sim/predict/curve/curve_object.h"
 #include "sim/predict/numerics/piecewise_series.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "base/matrix.h"
+#include "base/math/matrix.h"
 #include "constraints/geometry/arc_curve.h"
 #include "sim/predict/line/line_object.h"
 

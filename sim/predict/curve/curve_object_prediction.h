@@ -3,7 +3,7 @@
 
 #include "constraints/geometry/arc_curve.h"
 #include "sim/predict/line/line_object.h"
-#include "sim/predict/prediction.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "constraints/geometry/arc_curve.h"
-#include "sim/predict/prediction.h"
+#include "sim/predict/prediction/prediction.h"
 #include "sim/predict/transcription/transcribed_cost.h"
 
 namespace reachlab::predict {

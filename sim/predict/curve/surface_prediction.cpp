@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "constraints/geometry/surface_expansion.h"
-#include "constraints/hidden_bend.h"
-#include "constraints/surface_branches.h"
+#include "constraints/regularity/hidden_bend.h"
+#include "constraints/regularity/surface_branches.h"
 #include "sim/predict/numerics/hyper_dual.h"
 #include "sim/predict/transcription/transcription.h"
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "constraints/constraint.h"
-#include "sim/predict/prediction.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

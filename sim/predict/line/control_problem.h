@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "sim/predict/numerics/double_double.h"
 #include "sim/predict/line/line_object.h"
-#include "sim/predict/prediction.h"
+#include "sim/predict/numerics/double_double.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/gauss_legendre.h"
-#include "constraints/sincos.h"
+#include "base/math/gauss_legendre.h"
+#include "constraints/formula/sincos.h"
 
 namespace reachlab::predict {
 namespace {

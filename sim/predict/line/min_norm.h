@@ -1,5 +1,5 @@
 #pragma once
-#include "base/matrix.h"
+#include "base/math/matrix.h"
 
 namespace reachlab::predict {
 

@@ -11,10 +11,10 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "base/matrix.h"
-#include "sim/predict/condition.h"
+#include "base/math/matrix.h"
 #include "sim/predict/line/sparse_rows.h"
 #include "sim/predict/numerics/lane_matrix.h"
+#include "sim/predict/prediction/condition.h"
 
 namespace reachlab::predict {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "constraints/sincos.h"
+#include "constraints/formula/sincos.h"
 #include "sim/predict/line/min_norm.h"
 #include "sim/predict/line/modes.h"
 

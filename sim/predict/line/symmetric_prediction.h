@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "sim/predict/line/line_object.h"
-#include "sim/predict/prediction.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

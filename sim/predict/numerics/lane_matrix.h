@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "base/matrix.h"
+#include "base/math/matrix.h"
 #include "sim/predict/numerics/wide_lanes.h"
 
 namespace reachlab::predict {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "base/lanes.h"
-#include "sim/predict/prediction.h"
+#include "base/math/lanes.h"
+#include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {
 

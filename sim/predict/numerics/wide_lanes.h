@@ -1,7 +1,7 @@
 #pragma once
 #include <type_traits>
 
-#include "base/lanes.h"
+#include "base/math/lanes.h"
 #include "sim/predict/numerics/double_double.h"
 
 namespace reachlab::predict {

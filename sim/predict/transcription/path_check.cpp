@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/gauss_legendre.h"
+#include "base/math/gauss_legendre.h"
 
 namespace reachlab::predict {
 namespace {

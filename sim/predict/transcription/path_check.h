@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab::predict {
 

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/legendre_series.h"
+#include "base/math/legendre_series.h"
 
 namespace reachlab::predict {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "base/gauss_legendre.h"
-#include "base/matrix.h"
+#include "base/math/gauss_legendre.h"
+#include "base/math/matrix.h"
 #include "sim/predict/numerics/work_limit.h"
 #include "sim/predict/transcription/rest_to_rest_basis.h"
 

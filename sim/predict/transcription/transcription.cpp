@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/matrix.h"
+#include "base/math/matrix.h"
 
 namespace reachlab::predict {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/predict/prediction/prediction.h"
 #include "sim/predict/transcription/path_check.h"
-#include "sim/predict/prediction.h"
 #include "sim/predict/transcription/transcribed_cost.h"
 
 namespace reachlab::predict {

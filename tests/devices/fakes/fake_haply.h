@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/math/vec3.h"
 
 namespace reachlab::test {
 

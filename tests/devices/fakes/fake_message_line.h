@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "devices/driver/message_link.h"
 #include "devices/io/polled_device.h"
-#include "devices/message_link.h"
 
 namespace reachlab::test {
 

@@ -2,9 +2,9 @@
 
 #include <QTest>
 
-#include "base/os.h"
-#include "gui/app/session_controller.h"
-#include "sim/record/run_log.h"
+#include "base/system/os.h"
+#include "gui/session/session_controller.h"
+#include "sim/record/log/run_log.h"
 #include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::app {

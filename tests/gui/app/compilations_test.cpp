@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "gui/app/main_window.h"
-#include "gui/app/session_controller.h"
-#include "gui/docks/constraint_chooser.h"
+#include "gui/choosers/constraint_chooser.h"
+#include "gui/session/session_controller.h"
 #include "tests/constraints/count_compilations.h"
 
 namespace reachlab::gui::app {

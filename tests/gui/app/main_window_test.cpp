@@ -23,14 +23,14 @@
 
 #include "devices/mapping/mapping.h"
 #include "gui/docks/prediction_dock.h"
+#include "gui/docks/session_dock.h"
+#include "gui/plot/velocity_plot.h"
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_view.h"
-#include "gui/app/session_controller.h"
-#include "gui/docks/session_dock.h"
 #include "gui/scene/trial_texts.h"
-#include "gui/plot/velocity_plot.h"
-#include "sim/record/run_log.h"
+#include "gui/session/session_controller.h"
+#include "sim/record/log/run_log.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
 

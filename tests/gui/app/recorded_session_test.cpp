@@ -14,15 +14,15 @@
 #include <set>
 #include <sstream>
 
+#include "analysis/dataset.h"
+#include "analysis/tables.h"
 #include "base/error.h"
-#include "base/json_tree.h"
+#include "base/json/json_tree.h"
 #include "gui/app/main_window.h"
-#include "gui/app/session_controller.h"
-#include "gui/app/session_overlay.h"
 #include "gui/docks/session_dock.h"
-#include "sim/analyze/dataset.h"
-#include "sim/analyze/tables.h"
-#include "sim/record/run_log.h"
+#include "gui/session/session_controller.h"
+#include "gui/session/session_overlay.h"
+#include "sim/record/log/run_log.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
@@ -318,11 +318,11 @@ TEST_F(RecordingWindow, TheFittedEpsilonOfTheRunIsThatOfTheAnalysis) {
   for (int i = 0; i < 16; ++i) doTrial();
   const auto* table = window_->findChild<QTableWidget*>(QStringLiteral("criteria"));
   ASSERT_NE(table, nullptr);
-  const auto analysed = analyze::analyzeStudy(analyze::openDataset(session().run()->logPath()).input, {});
-  const auto rows = analyze::fitRows(analysed);
+  const auto analysed = analysis::analyzeStudy(analysis::openDataset(session().run()->logPath()).input, {});
+  const auto rows = analysis::fitRows(analysed);
   ASSERT_FALSE(rows.empty()) << "the simulated hand succeeds ten times of sixteen with this seed";
   const auto shows = [&] {
-    for (const analyze::FitRow& row : rows)
+    for (const analysis::FitRow& row : rows)
       for (int i = 0; i < predict::kCriterionCount; ++i)
         if (predict::nameOf(static_cast<predict::Criterion>(i)) == row.criterion &&
             table->item(i, 4)->text() != QString::number(row.epsilon, 'f', 4))

@@ -10,9 +10,9 @@
 #include <QThread>
 #include <fstream>
 
-#include "base/stop_signals.h"
+#include "base/system/stop_signals.h"
 #include "gui/app/main_window.h"
-#include "sim/record/run_log.h"
+#include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "test_paths.h"
 

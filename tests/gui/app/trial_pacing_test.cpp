@@ -1,4 +1,4 @@
-#include "gui/app/trial_pacing.h"
+#include "gui/session/trial_pacing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gui/docks/constraint_chooser.h"
+#include "gui/choosers/constraint_chooser.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "gui/docks/constraint_dock.h"
-#include "gui/docks/formula_editor.h"
 #include "base/error.h"
+#include "gui/choosers/formula_editor.h"
+#include "gui/docks/constraint_dock.h"
 #include "gui/scene/scene_view.h"
 #include "sim/dynamics/compiled_scene.h"
 

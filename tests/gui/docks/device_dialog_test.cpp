@@ -1,4 +1,4 @@
-#include "gui/docks/device_dialog.h"
+#include "gui/choosers/device_dialog.h"
 
 #include <gtest/gtest.h>
 

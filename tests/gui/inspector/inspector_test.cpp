@@ -19,16 +19,16 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "analysis/tables.h"
 #include "base/ticks.h"
 #include "gui/app/main_window.h"
 #include "gui/app/window_layout.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
 #include "gui/scene/scene_view.h"
-#include "sim/analyze/tables.h"
 #include "sim/experiment/scene_look.h"
-#include "sim/record/append_file.h"
-#include "tests/analyze/recorded.h"
+#include "sim/record/log/append_file.h"
+#include "tests/analysis/recorded.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -36,11 +36,11 @@ namespace {
 class Inspecting : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new analyze::TemporaryFolder;
+    folder_ = new analysis::TemporaryFolder;
     cache_ = qgetenv("XDG_CACHE_HOME");
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(folder_->path() + "/cache"));
-    analyze::recordRun(data(), {.experiment = "chain-moderate", .trials = 24});
-    analyze::recordRun(data(), {.experiment = "torus", .device = "simulated:noise=0", .subject = "02", .trials = 2});
+    analysis::recordRun(data(), {.experiment = "chain-moderate", .trials = 24});
+    analysis::recordRun(data(), {.experiment = "torus", .device = "simulated:noise=0", .subject = "02", .trials = 2});
   }
   static void TearDownTestSuite() {
     if (cache_.isNull()) qunsetenv("XDG_CACHE_HOME");
@@ -82,29 +82,29 @@ class Inspecting : public ::testing::Test {
   }
   mutable InspectorPage page_;
   QString said_;
-  static inline analyze::TemporaryFolder* folder_ = nullptr;
+  static inline analysis::TemporaryFolder* folder_ = nullptr;
   static inline QByteArray cache_;
 };
 
 TEST_F(Inspecting, TheNumbersAreThoseOfTheAnalysis) {
   choose(0, 23);
-  const analyze::StudyResult study = analyze::analyzeStudy(analyze::openDataset(log()).input, {});
+  const analysis::StudyResult study = analysis::analyzeStudy(analysis::openDataset(log()).input, {});
   const auto* table = find<QTableWidget>("inspectedCriteria");
-  const auto rows = analyze::fitRows(study);
+  const auto rows = analysis::fitRows(study);
   ASSERT_FALSE(rows.empty());
   int compared = 0;
-  for (const analyze::FitRow& row : rows)
+  for (const analysis::FitRow& row : rows)
     for (int i = 0; i < predict::kCriterionCount; ++i)
       if (predict::nameOf(static_cast<predict::Criterion>(i)) == row.criterion) {
         EXPECT_EQ(table->item(i, 2)->text(), QString::number(row.epsilon, 'f', 4)) << row.criterion;
         ++compared;
       }
   EXPECT_GT(compared, 3);
-  const analyze::ConditionResult& r = study.results[0];
-  for (const analyze::EpsilonPlace& place : r.handEpsilon)
+  const analysis::ConditionResult& r = study.results[0];
+  for (const analysis::EpsilonPlace& place : r.handEpsilon)
     EXPECT_EQ(table->item(static_cast<int>(r.signals[place.criterion].criterion), 1)->text(), QString::number(place.epsilon, 'f', 4));
   // And of each trial in the table.
-  for (const analyze::StudyTrial& trial : study.trials) {
+  for (const analysis::StudyTrial& trial : study.trials) {
     const int row = page_.table().rowOf(log(), trial.key.trial);
     const QString shown = page_.table().index(row, TrialTable::kPaper).data().toString();
     EXPECT_EQ(shown, trial.used() ? QString::number(trial.paperError[0], 'f', 4) : QString());
@@ -116,14 +116,14 @@ TEST_F(Inspecting, LineRowAndReplayGoTogether) {
   ASSERT_EQ(page_.plot().lineCount(), 5);
   // The line of trial 3, clicked where it stands alone.
   const auto& signals = page_.inspection()->signals;
-  const analyze::Movement& move = signals[2].movement;
+  const analysis::Movement& move = signals[2].movement;
   double best = 0;
   QPoint at;
   for (double t = 0.1; t < move.duration(); t += 0.01) {
     double apart = 1e9;
-    const double own = analyze::valueAt(signals[2].handVelocity, 100, move.onset + t);
+    const double own = analysis::valueAt(signals[2].handVelocity, 100, move.onset + t);
     for (std::size_t i = 0; i < 5; ++i)
-      if (i != 2) apart = std::min(apart, std::abs(own - analyze::valueAt(signals[i].handVelocity, 100, signals[i].movement.onset + t)));
+      if (i != 2) apart = std::min(apart, std::abs(own - analysis::valueAt(signals[i].handVelocity, 100, signals[i].movement.onset + t)));
     if (apart > best) best = apart, at = page_.plot().pixelOf(t, own);
   }
   QWidget* canvas = page_.plot().childAt(at);
@@ -183,7 +183,7 @@ TEST_F(Inspecting, TimeIsPlayedSteppedAndLooped) {
 TEST_F(Inspecting, MarksAreMovedByTheMouseAndStandBesideTheRecording) {
   choose(1, 1);
   const std::string before = record::readWholeFile(log());
-  const analyze::Movement move = page_.inspection()->signals[0].movement;
+  const analysis::Movement move = page_.inspection()->signals[0].movement;
   const double first = page_.inspection()->input.trials[0].first;
   QPoint from, to;
   ASSERT_TRUE(QTest::qWaitFor(
@@ -265,7 +265,7 @@ TEST_F(Inspecting, FiguresAndTablesAreWritten) {
   EXPECT_TRUE(record::readWholeFile((base + QStringLiteral(".pdf")).toStdString()).starts_with("%PDF"));
   const std::string csv = record::readWholeFile((base + QStringLiteral(".csv")).toStdString());
   std::size_t samples = 0;
-  for (const analyze::TrialSignals& s : page_.inspection()->signals) samples += s.handVelocity.size();
+  for (const analysis::TrialSignals& s : page_.inspection()->signals) samples += s.handVelocity.size();
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), samples + 1);
   page_.exportTable(base + QStringLiteral("-table.csv"));
   const std::string table = record::readWholeFile((base + QStringLiteral("-table.csv")).toStdString());
@@ -314,8 +314,8 @@ TEST(Replay, ShowsTheSceneFileOfItsExperiment) {
 }
 
 TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
-  const analyze::TemporaryFolder folder;
-  analyze::recordRun(folder.path() + "/data", {.experiment = "chain-moderate", .trials = 2});
+  const analysis::TemporaryFolder folder;
+  analysis::recordRun(folder.path() + "/data", {.experiment = "chain-moderate", .trials = 2});
   session::SessionRequest request;
   request.what = "chain-moderate";
   request.device = "mouse";

@@ -16,11 +16,11 @@
 #include <fstream>
 
 #include "gui/app/main_window.h"
-#include "gui/app/session_overlay.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
+#include "gui/session/session_overlay.h"
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
 

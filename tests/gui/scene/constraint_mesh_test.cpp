@@ -1,4 +1,4 @@
-#include "gui/scene/constraint_mesh.h"
+#include "gui/scene_plan/constraint_mesh.h"
 
 #include <gtest/gtest.h>
 

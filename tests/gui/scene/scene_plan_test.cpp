@@ -1,4 +1,4 @@
-#include "gui/scene/scene_plan.h"
+#include "gui/scene_plan/scene_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <QFontMetricsF>
 #include <cmath>
 
-#include "gui/widgets/number_list_edit.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/trial_texts.h"
+#include "gui/widgets/number_list_edit.h"
 
 namespace reachlab::gui::scene {
 namespace {

@@ -1,0 +1,224 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/dataset.h"
+#include "base/fault.h"
+#include "base/table_text.h"
+#include "base/ticks.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/log/append_file.h"
+
+namespace reachlab::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+double numberOf(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : kNotMeasured;
+}
+
+std::size_t columnOf(const TsvTable& table, const std::string& name, const fs::path& file) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+  if (found == table.columns.end()) throw FaultError(Fault{{}, "no column " + name, {}, FilePlace{file.string()}});
+  return static_cast<std::size_t>(found - table.columns.begin());
+}
+
+/// "sub-01_ses-02_…": the label behind `key`.
+std::string labelIn(const std::string& name, const std::string& key) {
+  const std::size_t at = name.find(key + "-");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + key.size() + 1;
+  return name.substr(begin, name.find_first_of("_.", begin) - begin);
+}
+
+constexpr double kMaxRunDuration = 1e6;  // [s]
+
+std::uint64_t tickOf(double seconds) {
+  if (!std::isfinite(seconds)) return 0;
+  if (!(seconds >= 0 && seconds <= kMaxRunDuration))
+    throw FaultError(Fault{"time", fmt::format("is {} s", seconds), fmt::format("0 to {:.0f} s", kMaxRunDuration)});
+  return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
+}
+
+// A whole number of a cell; 0 where there is none.
+int countOf(const std::string& text) {
+  const double number = numberOf(text);
+  constexpr double kMost = 1e9;
+  return std::isfinite(number) && number >= 0 && number <= kMost ? static_cast<int>(number) : 0;
+}
+
+record::ChannelTable readChannels(const fs::path& path) {
+  const TsvTable text = parseTsv(record::readWholeFile(path.string()));
+  const std::size_t name = columnOf(text, "name", path);
+  record::ChannelTable table;
+  for (const auto& row : text.rows) {
+    record::Channel channel;
+    channel.name = row.at(name);
+    if (channel.name.starts_with("mass") && channel.name.ends_with("_pos_x")) ++table.massCount;
+    if (channel.name.starts_with("mass1_q") && !channel.name.ends_with("_rate")) ++table.parameterCount;
+    table.channels.push_back(channel);
+  }
+  return table;
+}
+
+record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
+  const std::string text = record::readWholeFile(path.string());
+  record::SampleRows rows;
+  rows.columns = columns;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at < end) {
+    const std::size_t before = rows.values.size();
+    for (bool more = true; more && at < end;) {
+      double value = kNotMeasured;
+      at = std::from_chars(at, end, value).ptr;
+      while (at < end && *at != '\t' && *at != '\n') ++at;  // "n/a"
+      more = at < end && *at == '\t';
+      if (at < end) ++at;
+      rows.values.push_back(value);
+    }
+    if (rows.values.size() - before != columns)
+      throw FaultError(Fault{{},
+                             fmt::format("has {} columns", rows.values.size() - before),
+                             fmt::format("{}, as channels.tsv", columns),
+                             FilePlace{path.string(), static_cast<int>(rows.ticks.size() + 1)}});
+    rows.ticks.push_back(tickOf(rows.values[before]));  // the first channel is the run's own clock
+  }
+  return rows;
+}
+
+trial::Outcome outcomeFrom(const std::string& text) {
+  for (const trial::Outcome o : {trial::Outcome::Success, trial::Outcome::Failure, trial::Outcome::Aborted, trial::Outcome::Interrupted})
+    if (nameOf(o) == text) return o;
+  return trial::Outcome::None;
+}
+
+trial::Reason reasonFrom(const std::string& text) {
+  for (int i = 0; i < 64; ++i)  // names of reasons that there are none of are empty
+    if (!text.empty() && nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
+  return text == "false_start" ? trial::Reason::Early : trial::Reason::None;  // its name before 2026-11-22
+}
+
+/// When the trial was armed is no column of events.tsv: it is the first of the rows before its end in which the phase says so.
+std::uint64_t armedTickOf(const record::SampleRows& rows, const record::ChannelTable& table, int trial) {
+  const std::size_t trialColumn = table.indexOf("trial"), phase = table.indexOf("phase");
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows.at(row, trialColumn) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3) return rows.ticks[row];
+  return 0;
+}
+
+RunSource readRun(const fs::path& motion) {
+  const std::string name = motion.filename().string();
+  const auto sibling = [&](const std::string& ending) {
+    return motion.parent_path() / (name.substr(0, name.size() - std::string("motion.tsv").size()) + ending);
+  };
+  RunSource run;
+  record::RunConfiguration& c = run.configuration;
+  c.subject = labelIn(name, "sub");
+  c.session = labelIn(name, "ses");
+  c.task = labelIn(name, "task");
+  c.run = countOf(labelIn(name, "run"));
+  c.table = readChannels(sibling("channels.tsv"));
+  c.device = "n/a";
+  const auto about = nlohmann::json::parse(record::readWholeFile(sibling("motion.json").string()), nullptr, false);
+  if (about.is_object() && about.contains("TaskDescription") && about["TaskDescription"].is_string())
+    c.experimentName = record::experimentNameIn(about.value("TaskDescription", ""));
+
+  auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table.size()));
+  for (std::size_t row = 1; row < rows->size(); ++row)
+    if (rows->ticks[row] <= rows->ticks[row - 1])
+      throw FaultError(Fault{"time", "does not increase", "increasing times", FilePlace{motion.string(), static_cast<int>(row + 1)}});
+  double frequency = about.is_object() && about.contains("SamplingFrequency") && about["SamplingFrequency"].is_number()
+                         ? about["SamplingFrequency"].get<double>()
+                         : 0.0;
+  if (!(frequency > 0) && rows->size() > 1) frequency = kTicksPerSecond / static_cast<double>(rows->ticks[1] - rows->ticks[0]);
+  if (!(frequency > 0)) frequency = 100;
+  c.sampleEveryTicks = static_cast<std::uint32_t>(std::clamp<double>(std::round(kTicksPerSecond / frequency), 1, 1e6));
+  c.samplingHz = kTicksPerSecond / c.sampleEveryTicks;
+
+  const fs::path eventsFile = sibling("events.tsv");
+  const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
+  const auto has = [&](const char* key) { return std::find(events.columns.begin(), events.columns.end(), key) != events.columns.end(); };
+  const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
+  // Asked for before the first row too: what is no table of events at all would else be a run of no trials.
+  for (const char* key : {"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by",
+                          "movement_time", "go", "peak_force"})
+    column(key);
+  // Events count from the first row, as BIDS asks; those written before arming was a column count from the run's own clock.
+  run.armedFromRows = !has("armed");
+  const double begin = run.armedFromRows || rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());
+  for (const auto& row : events.rows) {
+    const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
+    const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };
+    record::RecordedTrial trial;
+    trial.trial = countOf(row.at(column("trial")));
+    trial.planned.catchTrial = row.at(column("trial_type")) == "catch";
+    trial.result.outcome = outcomeFrom(row.at(column("outcome")));
+    trial.result.reason = reasonFrom(row.at(column("reason")));
+    trial.result.mass = countOf(row.at(column("mass")));
+    trial.result.by = number("by");
+    const double movement = number("movement_time");
+    trial.result.movementTime = std::isfinite(movement) ? movement : 0;
+    trial.result.onsetTick = std::isfinite(movement) ? tick("onset") : 0;
+    trial.result.endTick = tickOf(number("onset") + number("duration") + begin);
+    trial.goTick = tick("go");
+    trial.armedTick = run.armedFromRows ? armedTickOf(*rows, c.table, trial.trial) : tick("armed");
+    trial.startTick = trial.armedTick;
+    trial.lastTick = trial.result.endTick;
+    trial.peakForce = number("peak_force");
+    trial.meanForce = has("mean_force") ? number("mean_force") : kNotMeasured;
+    if (has("day")) c.day = countOf(row.at(column("day")));
+    c.block = countOf(row.at(column("block")));
+    c.practice = row.at(column("phase")) == "practice";
+    c.condition = row.at(column("condition"));
+    run.trials.push_back(trial);
+  }
+  run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) {
+    record::SampleRows part;
+    part.columns = rows->columns;
+    const auto from = std::lower_bound(rows->ticks.begin(), rows->ticks.end(), first);
+    const auto to = std::upper_bound(from, rows->ticks.end(), last);
+    part.ticks.assign(from, to);
+    const auto row = [&](auto at) {
+      return rows->values.begin() + (at - rows->ticks.begin()) * static_cast<std::ptrdiff_t>(rows->columns);
+    };
+    part.values.assign(row(from), row(to));
+    return part;
+  };
+  return run;
+}
+
+}  // namespace
+
+std::vector<std::string> findBidsRuns(const std::string& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw FaultError(Fault{{}, "no such folder", {}, FilePlace{folder}});
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
+    if (const std::string name = entry.path().filename().string();
+        name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
+      files.push_back(entry.path().string());
+  if (files.empty())
+    throw FaultError(
+        Fault{{}, "neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)", {}, FilePlace{folder}});
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+RunSource readBidsRun(const std::string& motionFile) {
+  try {
+    return readRun(motionFile);
+  } catch (const FaultError& error) {
+    throw FaultError(inFile(motionFile, error.faults));
+  }
+}
+
+}  // namespace reachlab::analysis

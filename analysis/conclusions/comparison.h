@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "analysis/measures/statistics.h"
+
+/// Tests and intervals over people, or over one person's trials. Distributions are Boost.Math's. Pure functions; any thread.
+namespace reachlab::analysis {
+
+/// Student's t of a mean against 0.
+struct TTest {
+  double mean = 0, error = 0;  // standard error
+  double t = 0, freedom = 0;
+  double p = 1;  // two-sided; 1 where there is no scatter to judge by
+};
+
+/// One number a person: paired differences, contrasts, slopes. Two or more, else p = 1.
+TTest computeTTest(std::span<const double> values);
+
+/// Autocorrelation at lag 1 of values in their order, 0 where it is negative or there are fewer than three.
+double computeSerialCorrelation(std::span<const double> values);
+/// One person's trials in their order: the number of trials counts as n (1 - rho) / (1 + rho), rho their serial correlation.
+TTest computeSerialTTest(std::span<const double> values);
+/// The mean of several conditions' means, each judged as above; degrees of freedom by Welch and Satterthwaite.
+TTest combineTTests(std::span<const TTest> conditions);
+
+/// The mean over people of numbers that are estimates themselves, `variance` each (shares of few trials): by t as above, but never narrower, and
+/// p never smaller, than those variances alone make it (normal distribution). Else two people whose shares agree by chance were certain.
+struct PeopleMean {
+  TTest test;
+  Interval interval;  // infinite for fewer than two people
+};
+PeopleMean computePeopleMean(std::span<const double> values, std::span<const double> variance, double level = 0.95);
+
+/// mean -+ t * standard error at `level`; infinite for fewer than two values.
+Interval computeMeanInterval(std::span<const double> values, double level = 0.95);
+
+/// Two-sided p of the mean under exchange of signs: every one of the 2^n up to n = 20. Nothing is assumed but symmetry.
+double computeSignFlipP(std::span<const double> values);
+
+/// Holm 1979: p multiplied so that the chance of any false rejection among them all stays below the level. Same order as given.
+std::vector<double> adjustByHolm(std::span<const double> p);
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,168 @@
+#include "analysis/conclusions/conclusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/conclusions/model_selection.h"
+
+namespace reachlab::analysis {
+namespace {
+
+double meanOf(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
+
+/// Y of each candidate for one person: mean over conditions of the mean over trials.
+std::vector<double> scoresOf(const PersonScores& person, std::size_t candidates) {
+  std::vector<double> out(candidates, 0.0);
+  for (const ConditionScores& condition : person.conditions)
+    for (std::size_t c = 0; c < candidates; ++c) out[c] += meanOf(condition.score[c]) / static_cast<double>(person.conditions.size());
+  return out;
+}
+
+TTest compareInPerson(const PersonScores& person, std::size_t a, std::size_t b) {
+  std::vector<TTest> tests;
+  for (const ConditionScores& condition : person.conditions) {
+    std::vector<double> difference(condition.score[a]);
+    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= condition.score[b][i];
+    tests.push_back(computeSerialTTest(difference));
+  }
+  return combineTTests(tests);
+}
+
+std::size_t leastOf(const std::vector<double>& scores) {
+  return static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
+}
+
+/// The best candidate against every other; `compare(a, b)` tests the score of a less that of b.
+template <typename Compare>
+void compareAll(Conclusion& out, std::size_t reference, Compare&& compare) {
+  const std::size_t candidates = out.score.size(), best = leastOf(out.score);
+  out.best = best;
+  out.referenceFirst = best == reference;
+  out.p = 0;
+  out.against.assign(candidates, {});
+  for (std::size_t c = 0; c < candidates; ++c) {
+    if (c == best) continue;
+    out.against[c] = compare(c, best);
+    if (!out.rival || out.against[c].p > out.p) out.p = out.against[c].p, out.rival = c;
+  }
+  out.referenceP = out.referenceFirst ? 1 : out.against[reference].p;
+  std::vector<double> p, difference;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < candidates; ++a)
+    for (std::size_t b = a + 1; b < candidates; ++b) {
+      const TTest test = compare(a, b);
+      pairs.emplace_back(a, b), p.push_back(test.p), difference.push_back(std::abs(test.mean));
+    }
+  const std::vector<double> adjusted = adjustByHolm(p);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!(adjusted[i] < out.level && difference[i] >= kLeastDifference)) out.notToldApart.push_back(pairs[i]);
+}
+
+bool isToldFromAll(const Conclusion& c) {
+  for (std::size_t k = 0; k < c.against.size(); ++k)
+    if (k != *c.best && !c.told(k)) return false;
+  return true;
+}
+bool referenceStands(const Conclusion& c, std::size_t reference) { return c.referenceFirst || !c.told(reference); }
+bool describesPoorly(const Conclusion& c) { return c.r2 < c.ceiling - kPoor; }
+
+}  // namespace
+
+std::size_t PersonScores::trials() const {
+  std::size_t n = 0;
+  for (const ConditionScores& c : conditions) n += c.score.empty() ? 0 : c.score.front().size();
+  return n;
+}
+
+std::string_view nameOf(Obstacle reason) {
+  switch (reason) {
+    case Obstacle::None: return "";
+    case Obstacle::TooFewTrials: return "too_few_trials";
+    case Obstacle::TooFewSubjects: return "too_few_subjects";
+    case Obstacle::Reference: return "reference";
+    case Obstacle::NotToldApart: return "not_told_apart";
+    case Obstacle::SubjectsDiffer: return "subjects_differ";
+    case Obstacle::Poor: return "poor";
+    case Obstacle::NothingToCompare: return "nothing_to_compare";
+  }
+  return "";
+}
+
+Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference) {
+  Conclusion out;
+  out.subjects = 1;
+  out.trials = person.trials();
+  if (person.conditions.empty()) return out;
+  out.score = scoresOf(person, candidates);
+  compareAll(out, reference, [&](std::size_t a, std::size_t b) { return compareInPerson(person, a, b); });
+  for (const ConditionScores& c : person.conditions) {
+    out.r2 += c.r2[*out.best] / static_cast<double>(person.conditions.size());
+    out.ceiling += c.ceiling / static_cast<double>(person.conditions.size());
+  }
+  if (candidates < 3) out.reason = Obstacle::NothingToCompare;
+  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
+  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
+  else if (describesPoorly(out)) out.reason = Obstacle::Poor;
+  else out.reason = Obstacle::None, out.follows = out.best;
+  out.each = {out.follows};
+  return out;
+}
+
+Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t candidates, std::size_t reference) {
+  std::vector<PersonScores> people;
+  for (const PersonScores& person : everyone)
+    if (!person.conditions.empty()) people.push_back(person);
+  if (people.size() < 2) {
+    Conclusion out = concludePerson(people.empty() ? PersonScores{} : people.front(), candidates, reference);
+    out.subjects = people.size();
+    return out;
+  }
+  Conclusion out;
+  out.overSubjects = true;
+  out.level = kSubjectsLevel;
+  out.subjects = people.size();
+  std::vector<std::vector<double>> table, evidence;
+  out.score.assign(candidates, 0.0);
+  for (const PersonScores& person : people) {
+    table.push_back(scoresOf(person, candidates));
+    for (std::size_t c = 0; c < candidates; ++c) out.score[c] += table.back()[c] / static_cast<double>(people.size());
+    std::vector<double> log(candidates, 0.0);
+    for (const ConditionScores& condition : person.conditions)
+      for (std::size_t c = 0; c < candidates; ++c)
+        for (const double y : condition.score[c]) log[c] -= condition.effectiveSamples / 2 * y;
+    evidence.push_back(std::move(log));
+    out.trials += person.trials();
+    out.each.push_back(concludePerson(person, candidates, reference).follows);
+  }
+  const auto differences = [&](std::size_t a, std::size_t b) {
+    std::vector<double> d;
+    for (const auto& row : table) d.push_back(row[a] - row[b]);
+    return d;
+  };
+  compareAll(out, reference, [&](std::size_t a, std::size_t b) { return computeTTest(differences(a, b)); });
+  out.posterior = selectModel(evidence).protectedExceedance;
+  if (people.size() >= kFewestForSignFlip && out.rival) out.signFlipP = computeSignFlipP(differences(*out.rival, *out.best));
+  for (const PersonScores& person : people)
+    for (const ConditionScores& c : person.conditions) {
+      const double share = 1.0 / static_cast<double>(people.size()) / static_cast<double>(person.conditions.size());
+      out.r2 += share * c.r2[*out.best];
+      out.ceiling += share * c.ceiling;
+    }
+  bool differ = false;  // people who are decided for another than the best, or for different ones
+  for (const auto& each : out.each)
+    for (const auto& other : out.each) differ = differ || (each && other && *each != *other);
+  for (const auto& each : out.each) differ = differ || (each && *each != *out.best);
+  const bool frequent = out.posterior[*out.best] >= kMinExceedance;
+  if (candidates < 3) out.reason = Obstacle::NothingToCompare;
+  else if (people.size() < kFewestSubjects) out.reason = Obstacle::TooFewSubjects;
+  else if (differ) out.reason = Obstacle::SubjectsDiffer;
+  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
+  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
+  else if (!frequent) out.reason = Obstacle::SubjectsDiffer;
+  else if (describesPoorly(out)) out.reason = Obstacle::Poor;
+  else out.reason = Obstacle::None, out.follows = out.best;
+  return out;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,69 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/conclusions/comparison.h"
+
+/// Which candidate a person's, or people's, movements follow, and when nothing may be said. Pure functions; any thread.
+namespace reachlab::analysis {
+
+/// One person in one condition: the held-out scores y = ln S [candidate][trial], in the order the trials were made.
+struct ConditionScores {
+  std::size_t condition = 0;
+  std::vector<std::vector<double>> score;
+  double effectiveSamples = 10;  // of a trial
+  std::vector<double> r2;        // one a candidate
+  double ceiling = 1;            // R^2 of the person's own mean
+};
+struct PersonScores {
+  std::string subject;
+  std::vector<ConditionScores> conditions;  // all with the same candidates
+  std::size_t trials() const;
+};
+
+enum class Obstacle { None, TooFewTrials, TooFewSubjects, Reference, NotToldApart, SubjectsDiffer, Poor, NothingToCompare };
+/// "", "too_few_trials", "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "poor", "nothing_to_compare".
+std::string_view nameOf(Obstacle reason);
+
+/// Of ln S: a candidate whose squared errors are less than 10 % above the closest one's is not told from it, whatever p says. Trials of one
+/// hand tell such neighbours apart significantly, and now and then the wrong way round (docs/analysis.md, "Does it find the truth?").
+inline constexpr double kLeastDifference = 0.1;
+inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85, kPoor = 0.1;
+inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;
+
+struct Conclusion {
+  bool overSubjects = false;           // unit "subjects", else one person's "trials"
+  std::optional<std::size_t> follows;  // candidate that was decided for
+  std::optional<std::size_t> best;     // least score; may be the reference
+  Obstacle reason = Obstacle::TooFewTrials;
+  double level = kTrialsLevel;
+  double p = 1;  // of the nearest rival: the largest of all comparisons with the best
+  std::optional<std::size_t> rival;
+  double referenceP = 1;  // best against the reference
+  bool referenceFirst = false;
+  std::size_t subjects = 0, trials = 0;
+  std::vector<double> posterior;    // protected exceedance probability of each candidate; empty for one person
+  std::optional<double> signFlipP;  // of the nearest rival, from six people on
+  std::vector<double> score;        // Y of each candidate: mean over conditions of the mean over trials, over people
+  std::vector<TTest> against;       // of each candidate: score - best's score
+  // pairs with p above the level after Holm's correction, or too small a difference
+  std::vector<std::pair<std::size_t, std::size_t>> notToldApart;
+  double r2 = 0, ceiling = 0;                    // of the best candidate; of people's own means
+  std::vector<std::optional<std::size_t>> each;  // what each person was decided for; parallel to the people given
+  bool decided() const { return follows.has_value(); }
+  /// The closest candidate is told from `candidate`: p below the level, and a score that is lower by kLeastDifference or more.
+  bool told(std::size_t candidate) const { return against[candidate].p < level && against[candidate].mean >= kLeastDifference; }
+};
+
+/// `reference` is the index of the candidate that ignores the object; `candidates` counts it. One person, however many conditions:
+/// decided if it is told from every other candidate and the reference at p < 0.01 (an intersection-union test). Says nothing of other people.
+Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference);
+
+/// People: with one, concludePerson. From two on one number a person, decided for from five on if told from every other at p < 0.05 (paired t
+/// over people), and the protected exceedance probability of the same candidate is 0.85 or more, and no person is decided for another.
+/// People without conditions are left out.
+Conclusion concludePeople(const std::vector<PersonScores>& people, std::size_t candidates, std::size_t reference);
+
+}  // namespace reachlab::analysis

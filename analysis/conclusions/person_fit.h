@@ -1,0 +1,54 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "analysis/conclusions/candidates.h"
+#include "analysis/conclusions/person_template.h"
+
+namespace reachlab::analysis {
+
+/// How a person's plan follows the time that a trial takes: planned anew for it, or one plan that is run faster or slower.
+enum class TimeLaw { Anew, OnePlan };
+std::string_view nameOf(TimeLaw law);  // "anew", "one-plan"
+
+/// The shape that a candidate is given for all of a person's trials in a condition.
+struct ShapeChoice {
+  TimeLaw law = TimeLaw::Anew;
+  double plan = 0;         // [s] P, for OnePlan
+  std::size_t family = 0;  // index into Candidate::families
+};
+
+/// One candidate against one person's trials in one condition.
+struct CandidateFit {
+  std::vector<double> score;            // ln S of each trial, its shape chosen by the other four folds
+  std::vector<ShapeChoice> foldChoice;  // by all trials but those of fold 0 … 4
+  ShapeChoice choice;                   // by all trials; the fits below are with it
+  std::vector<MovementFit> trials;
+  std::vector<double> epsilon;  // [m/s] of each trial: sqrt(sum r^2 / N), unweighted
+  double meanScore = 0;
+  double epsilonOfAll = 0;   // [m/s] the same over all samples: fitted epsilon
+  double r2 = 0;             // 1 - sum S / sum w^2 v^2
+  double duration = 0;       // [s] mean of the fitted ones
+  std::vector<double> mean;  // [m/s] mean of the fitted movements, laid over one another as the trials are in PersonTemplate::mean
+};
+
+/// Fewer trials than this are described, but nothing is concluded from them.
+inline constexpr std::size_t kFewestTrials = 10;
+inline constexpr int kFolds = 5;
+
+/// One person's trials in one condition, judged by every candidate of the set; `candidates` parallel to CandidateSet::candidates.
+struct PersonFit {
+  PersonTemplate own;
+  std::vector<CandidateFit> candidates;
+};
+
+/// `windows` in the order that the trials were made (a trial's fold is its place modulo 5), `durations` [s] by the onset rule; weights are
+/// written into the windows. At least kFewestTrials. `keepApart`: see makeTemplate.
+PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart = false);
+
+/// Fitted epsilon of one trial: sqrt(sum r^2 / N) over the window.   [m/s]
+double computeFittedEpsilon(const FitWindow& window, const Profile& profile, const MovementFit& fit);
+
+}  // namespace reachlab::analysis

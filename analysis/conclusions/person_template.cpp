@@ -1,0 +1,206 @@
+#include "analysis/conclusions/person_template.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/measures/movement.h"
+#include "analysis/trials/trial_data.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr double kStep = 1.0 / 200, kFirst = -0.6, kLast = 1.6;  // of s
+constexpr double kSmoothing = 0.06;                              // of s: width over which the variance is averaged
+constexpr double kMinScatter = 0.1;                              // of the largest
+constexpr int kRounds = 3;
+
+std::size_t gridSize() { return static_cast<std::size_t>(std::lround((kLast - kFirst) / kStep)) + 1; }
+
+/// The window on the template's grid; NaN where it has no samples.
+void layOver(const FitWindow& window, const MovementFit& place, std::vector<double>& out) {
+  out.assign(gridSize(), kNotMeasured);
+  const double end = window.begin + static_cast<double>(window.velocity.size() - 1) / window.rate;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double t = place.onset + place.duration * (kFirst + kStep * static_cast<double>(i));
+    if (t >= window.begin && t <= end) out[i] = smoothValueAt(window.velocity, window.rate, t - window.begin);
+  }
+}
+
+struct Mean {
+  std::vector<double> sum;         // of velocity / amplitude
+  std::vector<std::size_t> count;  // of trials with samples there
+};
+
+Profile profileOf(const Mean& mean) {
+  Profile out;
+  out.first = kFirst;
+  out.step = kStep;
+  out.value.resize(gridSize());
+  for (std::size_t i = 0; i < out.value.size(); ++i)
+    out.value[i] = mean.count[i] > 0 ? mean.sum[i] / static_cast<double>(mean.count[i]) : 0.0;
+  return out;
+}
+
+double meanOf(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Keeps what s means: amplitudes of mean 1, durations of the trials' own mean, centres that do not wander.
+void normalise(std::vector<MovementFit>& places, double meanDuration) {
+  double amplitude = 0, logDuration = 0;
+  for (const MovementFit& p : places) amplitude += p.amplitude, logDuration += std::log(p.duration);
+  const double n = static_cast<double>(places.size());
+  const double stretch = meanDuration / std::exp(logDuration / n);
+  for (MovementFit& p : places) {
+    p.amplitude /= amplitude / n;
+    const double centre = p.onset + p.duration / 2;
+    p.duration *= stretch;
+    p.onset = centre - p.duration / 2;
+  }
+}
+
+std::vector<double> smoothed(const std::vector<double>& values) {
+  const auto half = static_cast<std::ptrdiff_t>(std::lround(kSmoothing / kStep / 2));
+  const auto n = static_cast<std::ptrdiff_t>(values.size());
+  std::vector<double> out(values.size());
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    double sum = 0;
+    const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - half), to = std::min(n - 1, i + half);
+    for (std::ptrdiff_t k = from; k <= to; ++k) sum += values[static_cast<std::size_t>(k)];
+    out[static_cast<std::size_t>(i)] = sum / static_cast<double>(to - from + 1);
+  }
+  return out;
+}
+
+/// sigma(s) from the sum of n trials' squared differences to the mean: the variance over trials, smoothed; where fewer than half of the
+/// trials have samples, the nearest phase where they have.
+std::vector<double> scatterOf(std::vector<double> variance, std::size_t n, const Mean& mean) {
+  std::ptrdiff_t first = -1, last = -1;
+  for (std::size_t i = 0; i < variance.size(); ++i) {
+    if (2 * mean.count[i] < n || mean.count[i] < 2) {
+      variance[i] = 0;
+      continue;
+    }
+    if (first < 0) first = static_cast<std::ptrdiff_t>(i);
+    last = static_cast<std::ptrdiff_t>(i);
+    variance[i] /= static_cast<double>(mean.count[i] - 1);
+  }
+  if (first < 0) return std::vector<double>(gridSize(), 1.0);
+  const std::vector<double> covered(variance.begin() + first, variance.begin() + last + 1);
+  const std::vector<double> smooth = smoothed(covered);
+  std::vector<double> sigma(gridSize());
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(sigma.size()); ++i)
+    sigma[static_cast<std::size_t>(i)] = std::sqrt(smooth[static_cast<std::size_t>(std::clamp(i, first, last) - first)]);
+  return sigma;
+}
+
+void weigh(FitWindow& window, const MovementFit& place, const std::vector<double>& sigma) {
+  const double largest = *std::max_element(sigma.begin(), sigma.end());
+  const double last = static_cast<double>(sigma.size() - 1);
+  for (std::size_t k = 0; k < window.weight.size(); ++k) {
+    const double s = (window.begin + static_cast<double>(k) / window.rate - place.onset) / place.duration;
+    const double x = std::clamp((s - kFirst) / kStep, 0.0, last);
+    const auto i = std::min(static_cast<std::size_t>(x), sigma.size() - 2);
+    const double here = sigma[i] + (x - static_cast<double>(i)) * (sigma[i + 1] - sigma[i]);
+    const double least = std::max(here, kMinScatter * largest);
+    window.weight[k] = least > 0 ? 1 / (least * least) : 1;  // no scatter at all: every sample counts alike
+  }
+}
+
+/// Samples / sum of squared autocorrelations, pooled over the trials, of the weighted residuals.
+double effectiveSamplesOf(std::span<const FitWindow> windows, const Profile& mean, const std::vector<MovementFit>& places) {
+  std::vector<std::vector<double>> residuals;
+  std::size_t longest = 0, samples = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    std::vector<double> r = residualsOf(windows[i], mean, places[i]);
+    for (std::size_t k = 0; k < r.size(); ++k) r[k] *= std::sqrt(windows[i].weight[k]);
+    longest = std::max(longest, r.size());
+    samples += r.size();
+    residuals.push_back(std::move(r));
+  }
+  double zero = 0, sum = 1;
+  for (const auto& r : residuals)
+    for (const double x : r) zero += x * x;
+  if (!(zero > 0)) return static_cast<double>(samples) / static_cast<double>(windows.size());
+  for (std::size_t lag = 1; lag < longest; ++lag) {
+    double c = 0;
+    for (const auto& r : residuals)
+      for (std::size_t k = 0; k + lag < r.size(); ++k) c += r[k] * r[k + lag];
+    sum += 2 * (c / zero) * (c / zero);
+  }
+  return static_cast<double>(samples) / static_cast<double>(windows.size()) / sum;
+}
+
+}  // namespace
+
+PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart) {
+  PersonTemplate out;
+  const std::size_t n = windows.size();
+  const double meanDuration = meanOf(durations);
+  out.place.resize(n);
+  double widths = 0;
+  for (const FitWindow& w : windows) widths += momentsOf(w).width;
+  const double widthOfOne = widths / static_cast<double>(n) / meanDuration;  // of v^2, in parts of the duration
+  for (std::size_t i = 0; i < n; ++i) {
+    std::fill(windows[i].weight.begin(), windows[i].weight.end(), 1.0);
+    const ProfileMoments m = momentsOf(windows[i]);
+    MovementFit& place = out.place[i];
+    place.duration = m.width / widthOfOne;
+    place.onset = m.centre - place.duration / 2;
+    place.amplitude = 1;
+  }
+  std::vector<double> laid;  // one trial at a time: there may be many thousands
+  Mean mean;
+  const auto average = [&] {
+    mean.sum.assign(gridSize(), 0.0);
+    mean.count.assign(gridSize(), 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      layOver(windows[i], out.place[i], laid);
+      for (std::size_t k = 0; k < laid.size(); ++k)
+        if (std::isfinite(laid[k])) mean.sum[k] += laid[k] / out.place[i].amplitude, ++mean.count[k];
+    }
+    out.mean = profileOf(mean);
+  };
+  average();
+  for (int round = 0; round < kRounds; ++round) {
+    const ProfilePieces pieces(out.mean);
+    for (std::size_t i = 0; i < n; ++i) {
+      const MovementFit fit = fitMovement(windows[i], pieces, out.place[i]);
+      if (fit.found && fit.amplitude > 0 && fit.duration > 0.3 * out.place[i].duration && fit.duration < 3 * out.place[i].duration)
+        out.place[i] = fit;
+    }
+    normalise(out.place, meanDuration);
+    average();
+  }
+  std::vector<double> squares(gridSize(), 0.0);
+  std::vector<float> apart;
+  for (std::size_t i = 0; i < n; ++i) {
+    apart.assign(gridSize(), 0.0F);
+    layOver(windows[i], out.place[i], laid);
+    for (std::size_t k = 0; k < apart.size(); ++k)
+      if (std::isfinite(laid[k])) apart[k] = static_cast<float>(laid[k] - out.place[i].amplitude * out.mean.value[k]);
+    for (std::size_t k = 0; k < apart.size(); ++k) squares[k] += static_cast<double>(apart[k]) * static_cast<double>(apart[k]);
+    if (keepApart) out.apart.push_back(apart);
+  }
+  out.scatter = scatterOf(std::move(squares), n, mean);
+  for (std::size_t i = 0; i < n; ++i) weigh(windows[i], out.place[i], out.scatter);
+
+  double left = 0, whole = 0;
+  for (std::size_t i = 0; i < n; ++i) {  // the mean without the trial itself
+    Mean others = mean;
+    layOver(windows[i], out.place[i], laid);
+    for (std::size_t k = 0; k < laid.size(); ++k)
+      if (std::isfinite(laid[k])) others.sum[k] -= laid[k] / out.place[i].amplitude, --others.count[k];
+    const MovementFit fit = fitMovement(windows[i], profileOf(others), out.place[i]);
+    const double rest = restCost(windows[i]);
+    left += fit.cost;
+    whole += rest;
+    out.ceilingScore += std::log(std::max(fit.cost, 1e-9 * rest)) / static_cast<double>(n);
+  }
+  out.ceiling = whole > 0 ? 1 - left / whole : 0;
+  out.effectiveSamples = effectiveSamplesOf(windows, out.mean, out.place);
+  return out;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,254 @@
+#include "analysis/dataset.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "analysis/tables.h"
+#include "analysis/trials/equal_runs.h"
+#include "analysis/trials/experiment_difference.h"
+#include "analysis/trials/run_trials.h"
+#include "base/error.h"
+#include "base/fault.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/log/append_file.h"
+
+namespace reachlab::analysis {
+namespace {
+
+// "chain-moderate (duration 1.5 s)": what sets an experiment apart from the first of its name.
+std::string nameApart(const std::string& name, const std::vector<std::string>& different) {
+  constexpr std::size_t kMost = 2;
+  const std::vector<std::string> named(different.begin(),
+                                       different.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, different.size())));
+  return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
+}
+
+std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const experiment::CompiledExperiment& compiled) {
+  const experiment::Experiment& experiment = compiled.experiment();
+  auto& conditions = dataset.conditions;
+  const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return c.name == name; });
+  if (first == conditions.end()) {
+    conditions.push_back({name, compiled});
+    return conditions.size() - 1;
+  }
+  const std::vector<std::string> different = differences(first->experiment(), experiment);
+  if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
+  // One name over unlike experiments would mix what cannot be compared.
+  const std::string base = nameApart(name, different);
+  std::string own = base;
+  for (int number = 2;; ++number) {  // two may share the differences that are named; −9.81 and 9.81 would share a figure's file
+    const auto known =
+        std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return fileNameOf(c.name) == fileNameOf(own); });
+    if (known == conditions.end()) break;
+    if (differences(known->experiment(), experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
+    own = fmt::format("{} {}", base, number);
+  }
+  dataset.notes.push_back(
+      fmt::format("{} was recorded with more than one experiment; they are kept apart. {} differs from the first in: {}", name, own,
+                  fmt::join(different, ", ")));
+  conditions.push_back({own, compiled});
+  return conditions.size() - 1;
+}
+
+RunProvenance provenanceOf(const record::RunConfiguration& c, std::size_t trials) {
+  RunProvenance p;
+  p.subject = c.subject;
+  p.session = c.session;
+  p.condition = c.condition.empty() ? c.experimentName : c.condition;
+  p.experiment = c.experimentName;
+  p.device = c.device;
+  p.method = c.method;
+  p.software = c.softwareVersion;
+  p.startedUtc = c.startedUtc;
+  p.clock = c.clock;
+  p.run = c.run;
+  p.block = c.block;
+  p.day = c.day;
+  p.practice = c.practice;
+  p.seed = c.seed;
+  p.samplingHz = c.samplingHz;
+  p.trials = trials;
+  return p;
+}
+
+void noteMixedDevices(DatasetIndex& dataset) {
+  std::map<std::string, std::set<std::string>> devices;
+  for (const RunProvenance& run : dataset.runs) devices[run.condition].insert(run.device.substr(0, run.device.find(':')));
+  for (const auto& [condition, used] : devices) {
+    if (used.size() < 2) continue;
+    std::string names;
+    for (const std::string& name : used) names += (names.empty() ? "" : ", ") + name;
+    dataset.notes.push_back(fmt::format(
+        "{}: trials of different devices are analysed together ({}); give a subject's or a session's folder alone to keep them apart",
+        condition, names));
+  }
+}
+
+}  // namespace
+
+void addRun(const RunSource& run, const experiment::CompiledExperiment& compiled, DatasetIndex& index, const TrialSink& sink) {
+  const experiment::Experiment& experiment = compiled.experiment();
+  const record::RunConfiguration& c = run.configuration;
+  index.runs.push_back(provenanceOf(c, run.trials.size()));
+  if (!experiment.task) {
+    index.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
+    return;
+  }
+  const std::size_t condition = conditionIndex(index, index.runs.back().condition, compiled);
+  const RunTrials trials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target});
+  for (const record::RecordedTrial& recorded : run.trials) {
+    TrialData trial = trials.read(recorded, run.rowsOf);
+    trial.key = {c.subject, c.session, index.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
+    trial.practice = c.practice;
+    if (const record::TrialMark* mark = run.marks.find(recorded.trial)) {
+      trial.excluded = mark->excluded;
+      trial.markedOnset = mark->onset.value_or(kNotMeasured);
+      trial.markedOffset = mark->offset.value_or(kNotMeasured);
+    }
+    sink.add(std::move(trial), condition);
+  }
+}
+
+namespace {
+
+/// A run that fails half-way is taken back: its trials, and what the index says because of it.
+class WholeRun {
+ public:
+  WholeRun(DatasetIndex& index, const TrialSink& sink)
+      : index_(index), sink_(sink), conditions_(index.conditions.size()), runs_(index.runs.size()), notes_(index.notes.size()) {}
+
+  void add(const RunSource& run, const experiment::CompiledExperiment& experiment) {
+    addRun(run, experiment, index_,
+           {[this](TrialData&& trial, std::size_t condition) {
+              ++trials_;
+              handing_ = true;
+              sink_.add(std::move(trial), condition);
+              handing_ = false;
+            },
+            {}});
+  }
+  /// It was not the reading that failed.
+  bool refused() const { return handing_; }
+  void takeBack() {
+    if (trials_ > 0) sink_.takeBack(std::exchange(trials_, 0));
+    index_.conditions.erase(index_.conditions.begin() + static_cast<std::ptrdiff_t>(conditions_), index_.conditions.end());
+    index_.runs.resize(runs_);
+    index_.notes.resize(notes_);
+  }
+
+ private:
+  DatasetIndex& index_;
+  const TrialSink& sink_;
+  std::size_t conditions_, runs_, notes_, trials_ = 0;
+  bool handing_ = false;
+};
+
+}  // namespace
+
+DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile,
+                         const DatasetProgress& progress) {
+  DatasetIndex dataset;
+  std::vector<std::string> logs;
+  try {
+    logs = record::findLogs(folder);
+  } catch (const FaultError&) {
+    // No logs: the exported files may still be there.
+  }
+  std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
+  EqualRuns equalRuns;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (progress) progress(i, logs.size(), logs[i]);
+    WholeRun whole(dataset, sink);
+    const auto leaveOut = [&](const Error& error) {
+      whole.takeBack();
+      equalRuns.forget(logs[i]);
+      dataset.notes.push_back(fmt::format("{}: left out: {}", logs[i], error.what()));
+    };
+    try {
+      const record::RunLog log = record::RunLog::open(logs[i]);
+      const record::RunConfiguration& c = log.configuration();
+      auto known = parsed.find({c.experimentText, c.definitionText});
+      if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
+      if (const std::string twin = equalRuns.twinOf(logs[i], c, log.trials()); !twin.empty()) {
+        dataset.notes.push_back(fmt::format(
+            "{}: left out: it is {} recorded again (same experiment, seed and movements); two equal runs count once", logs[i], twin));
+        continue;
+      }
+      if (const int repeats = countRepeats(log.trials()); repeats > 0)
+        dataset.notes.push_back(
+            fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
+                        logs[i], repeats, log.trials().size()));
+      const record::RunMarks marks = record::readMarks(logs[i]);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks},
+                known->second);
+      dataset.runs.back().file = logs[i];
+      dataset.runs.back().healthy = log.healthy();
+      if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
+    } catch (const ResourceError& error) {
+      if (whole.refused()) throw;
+      leaveOut(error);
+      dataset.unreadable.emplace_back(error.what());
+    } catch (const Error& error) {
+      leaveOut(error);
+    }
+  }
+  if (logs.empty()) {
+    bool foreign = false, old = false;  // an experiment that may not be the recorded one; events written before arming was
+    const std::vector<std::string> runs = findBidsRuns(folder);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (progress) progress(i, runs.size(), runs[i]);
+      const RunSource run = readBidsRun(runs[i]);
+      const std::string own = folder + "/" + record::experimentPath(run.configuration);
+      std::error_code error;
+      const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
+      if (!hasOwn) foreign = true;
+      if (run.armedFromRows) old = true;
+      addRun(run,
+             hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
+                    : experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
+             dataset, sink);
+      dataset.runs.back().file = runs[i];
+    }
+    dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
+                            (foreign ? "as they are shipped or given now" : "in code/experiments/"));
+    if (old)
+      dataset.notes.push_back(
+          "events.tsv of an older version does not say when trials were armed: the first row of the armed phase is taken, up to one sample "
+          "later, so that onset_s and offset_s are that much too small");
+  }
+  if (dataset.runs.empty()) {
+    std::vector<Fault> why{{{}, "nothing to analyse", {}, FilePlace{folder}}};
+    for (const std::string& note : dataset.notes) why.push_back({.what = note});
+    if (!dataset.unreadable.empty()) throw ResourceError(toText(why));
+    throw FaultError(std::move(why));
+  }
+  noteMixedDevices(dataset);
+  return dataset;
+}
+
+Dataset openDataset(const std::string& folder, const std::string& experimentFile, const DatasetProgress& progress) {
+  Dataset dataset;
+  StudyInput input;
+  static_cast<DatasetIndex&>(dataset) = readDataset(folder,
+                                                    {[&](TrialData&& trial, std::size_t condition) {
+                                                       input.trials.push_back(std::move(trial));
+                                                       input.conditionOf.push_back(condition);
+                                                     },
+                                                     [&](std::size_t count) {
+                                                       input.trials.resize(input.trials.size() - count);
+                                                       input.conditionOf.resize(input.trials.size());
+                                                     }},
+                                                    experimentFile, progress);
+  input.conditions = dataset.conditions;
+  dataset.input = std::move(input);
+  return dataset;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,48 @@
+#include "analysis/epsilon_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace reachlab::analysis {
+
+EpsilonTable makeEpsilonTable(std::span<const StudyTrial> trials, std::size_t criteria, bool object) {
+  EpsilonTable table;
+  std::vector<double> squares(criteria, 0.0);
+  std::map<std::string, std::pair<std::vector<double>, double>> people;
+  double count = 0;
+  for (const StudyTrial& trial : trials) {
+    if (!trial.used() || trial.paperError.empty()) continue;
+    auto& [own, n] = people[trial.key.subject];
+    own.resize(criteria);
+    for (std::size_t c = 0; c < criteria; ++c) {
+      const double e = trial.paperError[c + (object ? criteria : 0)];
+      squares[c] += e * e;
+      own[c] += e * e;
+    }
+    n += 1;
+    count += 1;
+  }
+  if (count == 0) return table;
+  std::vector<std::vector<double>> epsilon(criteria);  // [criterion][person]
+  for (const auto& [subject, own] : people)
+    for (std::size_t c = 0; c < criteria; ++c) epsilon[c].push_back(std::sqrt(own.first[c] / own.second));
+  for (std::size_t c = 0; c < criteria; ++c) table.push_back({c, std::sqrt(squares[c] / count), {}, 0, {}, false});
+  std::stable_sort(table.begin(), table.end(), [](const EpsilonPlace& a, const EpsilonPlace& b) { return a.epsilon < b.epsilon; });
+  for (EpsilonPlace& place : table) {
+    if (people.size() < 2) {
+      place.difference = place.epsilon - table.front().epsilon;
+      continue;
+    }
+    std::vector<double> differences(epsilon[place.criterion]);
+    for (std::size_t s = 0; s < differences.size(); ++s) differences[s] -= epsilon[table.front().criterion][s];
+    place.interval = computeMeanInterval(epsilon[place.criterion]);
+    place.difference = computeTTest(differences).mean;
+    if (&place == &table.front()) continue;
+    place.differenceInterval = computeMeanInterval(differences, 1 - 0.05 / std::max(1.0, static_cast<double>(criteria) - 1));
+    place.apart = place.differenceInterval->low > 0 || place.differenceInterval->high < 0;
+  }
+  return table;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,195 @@
+#include "analysis/hands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/table_text.h"
+#include "base/ticks.h"
+#include "sim/record/export/column_dictionary.h"
+#include "sim/record/log/append_file.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLongestLag = 0.5;  // [s]
+
+std::vector<double> speedsOf(const HandSignals& hand) {
+  std::vector<double> speeds;
+  for (const Vec3& v : hand.velocity) speeds.push_back(norm(v));
+  return speeds;
+}
+
+// Of a(t) and b(t + lag), over what both have; NaN where one does not vary.
+double correlation(const std::vector<double>& a, const std::vector<double>& b, int lag) {
+  const int n = static_cast<int>(a.size()), first = std::max(0, -lag), last = std::min(n, n - lag), count = last - first;
+  if (count < 3) return kUnknown;
+  double meanA = 0, meanB = 0;
+  for (int i = first; i < last; ++i) meanA += a[static_cast<std::size_t>(i)], meanB += b[static_cast<std::size_t>(i + lag)];
+  meanA /= count, meanB /= count;
+  double aa = 0, bb = 0, ab = 0;
+  for (int i = first; i < last; ++i) {
+    const double x = a[static_cast<std::size_t>(i)] - meanA, y = b[static_cast<std::size_t>(i + lag)] - meanB;
+    aa += x * x, bb += y * y, ab += x * y;
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : kUnknown;
+}
+
+struct Lag {
+  double seconds = kUnknown, correlation = kUnknown;
+};
+// The best shift, between samples by the parabola through its neighbours.
+Lag lagBehind(const std::vector<double>& first, const std::vector<double>& hand, double rate) {
+  const int most = std::min(static_cast<int>(kLongestLag * rate), static_cast<int>(first.size()) / 2);
+  Lag best;
+  int at = 0;
+  for (int lag = -most; lag <= most; ++lag)
+    if (const double c = correlation(first, hand, lag); c > best.correlation || (std::isnan(best.correlation) && !std::isnan(c)))
+      best.correlation = c, at = lag;
+  if (std::isnan(best.correlation)) return best;
+  best.seconds = at / rate;
+  if (std::abs(at) == most) return best;
+  const double before = correlation(first, hand, at - 1), after = correlation(first, hand, at + 1);
+  const double bend = before - 2 * best.correlation + after;
+  if (bend < 0) best.seconds += 0.5 * (before - after) / bend / rate;
+  return best;
+}
+
+std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const record::SampleRows& rows, std::size_t first, std::size_t last) {
+  std::vector<HandSignals> hands(static_cast<std::size_t>(table.hands));
+  for (int hand = 1; hand <= table.hands; ++hand) {
+    const std::string name = hand == 1 ? "hand" : fmt::format("hand{}", hand);
+    const std::size_t place = table.indexOf(name + "_pos_x"), velocity = table.indexOf(name + "_vel_x"),
+                      force = table.indexOf(hand == 1 ? "coupling_force_x" : name + "_coupling_force_x"),
+                      work = table.indexOf(name + "_work");
+    HandSignals& signals = hands[static_cast<std::size_t>(hand - 1)];
+    const auto vector = [&](std::size_t row, std::size_t column) {
+      return Vec3{rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
+    };
+    for (std::size_t row = first; row < last; ++row) {
+      signals.place.push_back(vector(row, place));
+      signals.velocity.push_back(vector(row, velocity));
+      signals.force.push_back(vector(row, force));
+      signals.work.push_back(rows.at(row, work));
+    }
+  }
+  return hands;
+}
+
+void addRun(const record::RunLog& run, TableText& table) {
+  const record::RunConfiguration& c = run.configuration();
+  for (const record::RecordedTrial& trial : run.trials()) {
+    if (trial.result.onsetTick == 0 || !trial.complete) continue;
+    const record::SampleRows rows = run.rows(trial);
+    const auto begin = std::lower_bound(rows.ticks.begin(), rows.ticks.end(), trial.result.onsetTick);
+    const auto end = std::upper_bound(rows.ticks.begin(), rows.ticks.end(), trial.result.endTick);
+    // At the tick that ends the trial no force acts any more.
+    const auto first = static_cast<std::size_t>(begin - rows.ticks.begin());
+    auto last = static_cast<std::size_t>(end - rows.ticks.begin());
+    if (last > first && rows.ticks[last - 1] == trial.result.endTick) --last;
+    if (last < first + 3) continue;
+    const TogetherMeasures together = measureTogether(signalsOf(c.table, rows, first, last), c.samplingHz);
+    for (std::size_t hand = 0; hand < together.hands.size(); ++hand) {
+      const HandMeasures& m = together.hands[hand];
+      table.cell(c.subject).cell(c.session).whole(c.run).whole(trial.trial).cell(c.condition).cell(trial::nameOf(trial.result.outcome));
+      table.whole(static_cast<long long>(hand + 1)).cell(hand == 0 ? c.deviceName : c.otherHands[hand - 1].name);
+      for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag, m.lagCorrelation,
+                                 together.internalForce, together.peakInternalForce})
+        table.number(value);
+      table.endRow();
+    }
+  }
+}
+
+const std::vector<std::string> kColumns{"subject",
+                                        "session",
+                                        "run",
+                                        "trial",
+                                        "condition",
+                                        "outcome",
+                                        "hand",
+                                        "device",
+                                        "peak_speed_m_per_s",
+                                        "path_m",
+                                        "peak_force_n",
+                                        "mean_force_n",
+                                        "work_j",
+                                        "positive_work_j",
+                                        "share_of_positive_work",
+                                        "lag_s",
+                                        "lag_correlation",
+                                        "internal_force_rms_n",
+                                        "internal_force_peak_n"};
+
+}  // namespace
+
+TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double rate) {
+  TogetherMeasures together;
+  double allWork = 0;
+  std::vector<double> firstSpeeds;
+  for (const HandSignals& hand : hands) {
+    HandMeasures m;
+    const std::vector<double> speeds = speedsOf(hand);
+    if (firstSpeeds.empty()) firstSpeeds = speeds;
+    for (std::size_t i = 0; i < hand.place.size(); ++i) {
+      m.peakSpeed = std::max(m.peakSpeed, speeds[i]);
+      if (i > 0) m.path += norm(hand.place[i] - hand.place[i - 1]);
+      m.peakForce = std::max(m.peakForce, norm(hand.force[i]));
+      m.meanForce += norm(hand.force[i]) / static_cast<double>(hand.place.size());
+    }
+    m.work = hand.work.empty() ? 0 : hand.work.back();
+    for (std::size_t i = 1; i < hand.work.size(); ++i) m.positiveWork += std::max(0.0, hand.work[i] - hand.work[i - 1]);
+    allWork += m.positiveWork;
+    const Lag lag = lagBehind(firstSpeeds, speeds, rate);
+    m.lag = lag.seconds;
+    m.lagCorrelation = lag.correlation;
+    together.hands.push_back(m);
+  }
+  for (HandMeasures& m : together.hands) m.share = allWork > 0 ? m.positiveWork / allWork : kUnknown;
+  const std::size_t count = hands.empty() ? 0 : hands.front().force.size();
+  double squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3 sum;
+    double sizes = 0;
+    for (const HandSignals& hand : hands) sum += hand.force[i], sizes += norm(hand.force[i]);
+    const double cancelled = std::max(0.0, 0.5 * (sizes - norm(sum)));
+    squares += cancelled * cancelled;
+    together.peakInternalForce = std::max(together.peakInternalForce, cancelled);
+  }
+  together.internalForce = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+  return together;
+}
+
+std::string handsTable(const std::vector<record::RunLog>& runs) {
+  TableText table(',', "");
+  table.row(kColumns);
+  bool any = false;
+  for (const record::RunLog& run : runs) {
+    if (run.configuration().table.hands < 2) continue;
+    any = true;
+    addRun(run, table);
+  }
+  return any ? table.text() : std::string();
+}
+
+std::vector<std::string> writeHandsTable(const DatasetIndex& dataset, const std::string& out) {
+  const bool several = std::any_of(dataset.conditions.begin(), dataset.conditions.end(),
+                                   [](const StudyCondition& condition) { return condition.experiment().hands.size() > 1; });
+  if (!several) return {};
+  std::vector<record::RunLog> runs;
+  for (const RunProvenance& run : dataset.runs) {
+    if (!run.file.ends_with("_log.reach")) continue;  // read from the tables of a dataset without logs
+    record::RunLog log = record::RunLog::open(run.file);
+    if (log.configuration().table.hands > 1) runs.push_back(std::move(log));
+  }
+  const std::string text = handsTable(runs);
+  if (text.empty()) return {};
+  const std::string path = out + "/hands.csv";
+  record::writeFileAtomically(path, text);
+  return {path};
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,146 @@
+#include "analysis/measures/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "analysis/measures/filter.h"
+#include "analysis/measures/smoothness.h"
+
+namespace reachlab::analysis {
+namespace {
+
+double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+std::vector<Vec3> filteredVelocity(const std::vector<Vec3>& position, double rate, double cutoff) {
+  std::vector<Vec3> velocity(position.size());
+  std::vector<double> x(position.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = component(position[i], axis);
+    // The velocity is filtered, not the position: a trial ends while the hand still moves, and the filter continues a signal beyond its
+    // end by turning it about the end point, which keeps the slope of a velocity but would flatten that of a position.
+    const std::vector<double> v = lowPass(differentiate(x, rate), rate, cutoff);
+    for (std::size_t i = 0; i < x.size(); ++i) (axis == 0 ? velocity[i].x : axis == 1 ? velocity[i].y : velocity[i].z) = v[i];
+  }
+  return velocity;
+}
+
+double alongPath(const TrialData& trial, const Vec3& velocity, std::size_t sample) {
+  if (trial.along.empty()) return norm(velocity);
+  return dot(velocity, trial.along[std::min(sample, trial.along.size() - 1)]);
+}
+
+std::size_t sampleAt(const TrialData& trial, double time, std::size_t size) {
+  return static_cast<std::size_t>(std::clamp(std::round(time * trial.rate), 0.0, static_cast<double>(size - 1)));
+}
+
+double meanOf(const std::vector<double>& values, std::size_t first, std::size_t last) {
+  double sum = 0;
+  for (std::size_t i = first; i <= last; ++i) sum += values[i];
+  return sum / static_cast<double>(last - first + 1);
+}
+
+double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3& along) {
+  double farthest = 0;
+  for (const Vec3& p : positions) farthest = std::max(farthest, dot(p - aim, along));
+  return farthest;
+}
+
+/// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it. A
+/// trial that ended because the hand never left the start has none, though a share of the peak speed of its trembling is soon found.
+Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, TrialSignals& signals) {
+  if (trial.result.reason == trial::Reason::NoOnset || trial.result.reason == trial::Reason::NoStart) return {};
+  const double taskEnd = trial.taskEnd - trial.first, taskOnset = trial.taskOnset - trial.first;  // since sample 0
+  if (!std::isfinite(taskEnd)) return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
+  // Rows are 10 ms apart, the trial ends between two of them; where the next was never taken it is continued in a straight line.
+  const auto last = static_cast<std::size_t>(std::max(0.0, std::ceil(taskEnd * trial.rate - 1e-9)));
+  for (auto* signal : {&signals.speed, &signals.handVelocity, &signals.objectVelocity})
+    if (signal->size() == last && last >= 2) signal->push_back(2 * signal->back() - (*signal)[last - 2]);
+  if (!signals.speed.empty()) signals.speed.back() = std::max(0.0, signals.speed.back());
+  if (options.rule == OnsetRule::Task) return movementWithin(signals.speed, trial.rate, taskOnset, taskEnd);
+  const std::span<const double> inside(signals.speed.data(), std::min(signals.speed.size(), last + 1));
+  Movement movement = findMovement(inside, trial.rate, options);
+  movement.offset = std::min(movement.offset, taskEnd);
+  return movement;
+}
+
+/// Ends of the movement that were moved by hand hold in place of the rule's.
+void useMarks(const TrialData& trial, TrialSignals& signals) {
+  const Movement& found = signals.movement;
+  const auto either = [&](double marked, double own) { return std::isfinite(marked) ? marked - trial.first : own; };
+  if (!found.found || !(std::isfinite(trial.markedOnset) || std::isfinite(trial.markedOffset))) return;
+  const double longest = static_cast<double>(signals.speed.size() - 1) / trial.rate;
+  const double onset = std::clamp(either(trial.markedOnset, found.onset), 0.0, longest);
+  const double offset = std::clamp(either(trial.markedOffset, found.offset), 0.0, longest);
+  if (onset < offset) signals.movement = movementWithin(signals.speed, trial.rate, onset, offset);
+}
+
+}  // namespace
+
+TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options) {
+  TrialSignals signals;
+  const std::vector<Vec3> velocity = filteredVelocity(trial.hand, trial.rate, options.cutoff);
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    signals.speed.push_back(norm(velocity[i]));
+    signals.handVelocity.push_back(alongPath(trial, velocity[i], i));
+  }
+  for (std::size_t i = 0; i < trial.objectVelocity.size(); ++i)
+    signals.objectVelocity.push_back(alongPath(trial, trial.objectVelocity[i], i));
+  signals.movement = findWithinTrial(trial, options.onset, signals);
+  useMarks(trial, signals);
+  // A closed curve leads to its target either way round.
+  if (trial.closed && std::accumulate(signals.handVelocity.begin(), signals.handVelocity.end(), 0.0) < 0) {
+    signals.otherWay = true;
+    for (auto* along : {&signals.handVelocity, &signals.objectVelocity})
+      for (double& v : *along) v = -v;
+  }
+  return signals;
+}
+
+TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signals) {
+  TrialMeasures m;
+  m.movementTime = trial.taskEnd - trial.taskOnset;
+  m.peakForce = trial.peakForce;
+  m.meanForce = trial.meanForce;
+  const Movement& move = signals.movement;
+  if (!move.found) return m;
+  m.onset = trial.first + move.onset;
+  m.offset = trial.first + move.offset;
+  m.duration = move.duration();
+  m.beforeGo = m.onset < trial.goTime;
+  if (!m.beforeGo) m.reactionTime = m.onset - trial.goTime;
+  m.peakSpeed = move.peak;
+  m.timeToPeak = move.peakTime - move.onset;
+  m.timeToPeakPercent = 100 * m.timeToPeak / m.duration;
+  m.symmetryRatio = m.timeToPeak / (move.offset - move.peakTime);
+
+  const std::size_t first = sampleAt(trial, move.onset, signals.speed.size());
+  const std::size_t last = sampleAt(trial, move.offset, signals.speed.size());
+  const std::span<const double> speed(signals.speed.data() + first, last - first + 1);
+  m.speedPeaks = static_cast<double>(countPeaks(speed));
+  m.sparc = computeSparc(speed, trial.rate);
+  m.ldlj = computeLogDimensionlessJerk(speed, trial.rate);
+  // The integral of the filtered speed: tremor and noise of single samples would lengthen a sum of distances.
+  m.pathLength = 0;
+  for (std::size_t i = first; i < last; ++i) m.pathLength += 0.5 * (signals.speed[i] + signals.speed[i + 1]) / trial.rate;
+
+  const Vec3 asked = trial.target - trial.start;
+  m.handEndpointError = norm(trial.hand[std::min(last, trial.hand.size() - 1)] - trial.hand.front() - asked);
+  if (!trial.object.empty()) {
+    const std::size_t end =
+        std::isfinite(trial.taskEnd) ? sampleAt(trial, trial.taskEnd - trial.first, trial.object.size()) : trial.object.size() - 1;
+    m.objectEndpointError = norm(trial.object[end] - trial.target);
+  }
+  if (trial.along.size() == 1) {
+    m.handOvershoot = overshoot(trial.hand, trial.hand.front() + asked, trial.along.front());
+    m.objectOvershoot = overshoot(trial.object, trial.target, trial.along.front());
+  }
+  if (!std::isfinite(m.peakForce) && !trial.force.empty()) {
+    m.peakForce = *std::max_element(trial.force.begin(), trial.force.end());
+    m.meanForce = meanOf(trial.force, first, std::min(last, trial.force.size() - 1));
+  }
+  return m;
+}
+
+}  // namespace reachlab::analysis

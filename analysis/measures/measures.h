@@ -1,0 +1,45 @@
+#pragma once
+#include "analysis/measures/movement.h"
+#include "analysis/trials/trial_data.h"
+
+namespace reachlab::analysis {
+
+struct MeasureOptions {
+  OnsetOptions onset;
+  double cutoff = 10;  // [Hz] of the zero-lag Butterworth on the hand's velocity; 0: none
+};
+
+/// Everything that docs/analysis.md defines for one trial; NaN where it does not exist (no movement, no go signal …).
+struct TrialMeasures {
+  bool beforeGo = false;                                                // the hand left before the go signal
+  double reactionTime = kNotMeasured;                                   // [s] go signal to onset; none where the hand left before it
+  double onset = kNotMeasured, offset = kNotMeasured;                   // [s] since arming
+  double duration = kNotMeasured;                                       // [s] onset to offset
+  double movementTime = kNotMeasured;                                   // [s] the task's own: t_e
+  double peakSpeed = kNotMeasured;                                      // [m/s] of the hand
+  double timeToPeak = kNotMeasured;                                     // [s] from onset
+  double timeToPeakPercent = kNotMeasured;                              // [%] of the duration
+  double symmetryRatio = kNotMeasured;                                  // time to peak / time from peak to offset
+  double pathLength = kNotMeasured;                                     // [m] of the hand, onset to offset
+  double speedPeaks = kNotMeasured;                                     // local maxima of the hand's speed
+  double handEndpointError = kNotMeasured;                              // [m] hand's displacement at offset against the asked one
+  double objectEndpointError = kNotMeasured;                            // [m] last mass to target at the trial's end
+  double handOvershoot = kNotMeasured, objectOvershoot = kNotMeasured;  // [m] farthest beyond the target, straight tasks only, >= 0
+  double sparc = kNotMeasured, ldlj = kNotMeasured;
+  double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] coupling force
+};
+
+/// A trial's filtered signals; what profiles and errors are made of.
+struct TrialSignals {
+  Movement movement;                   // of the hand, in seconds since sample 0; ends with the trial at the latest
+  std::vector<double> speed;           // [m/s] of the hand, >= 0
+  std::vector<double> handVelocity;    // [m/s] along the path, signed where the path has a direction
+  std::vector<double> objectVelocity;  // [m/s] the same of the last mass
+  /// On a closed curve the hand went round the other way: both velocities above are along the way it went.
+  bool otherWay = false;
+};
+
+TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options);
+TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signals);
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,38 @@
+#pragma once
+#include <span>
+#include <vector>
+
+namespace reachlab::analysis {
+
+/// What the zero-lag Butterworth of a recording does to a movement that is known as a function of time:
+/// |H(f)|^2 = 1 / (1 + (tan(pi f / rate) / tan(pi cutoff / rate))^4) for f < rate / 2, nothing above.
+/// Immutable; any thread.
+class RecordingFilter {
+ public:
+  /// `cutoff` [Hz], 0: no filter; `rate` [Hz] of the recording. 0 <= cutoff < rate / 2, FaultError otherwise.
+  RecordingFilter(double cutoff, double rate);
+
+  bool active() const { return cutoff_ > 0; }
+  double cutoff() const { return cutoff_; }
+  double rate() const { return rate_; }
+  /// |H(f)|^2, f in Hz.
+  double gain(double frequency) const;
+  /// Beyond that lag [s] the kernel is below 1e-6 of its peak; 0 without a filter.
+  double reach() const { return reach_; }
+  /// Impulse response at a lag of `seconds` [1/s].
+  double kernel(double seconds) const;
+
+  /// `signal` is known on [0, duration] at equally spaced instants, its ends being inner limits (it may jump there), and is 0 elsewhere.
+  /// The filtered signal at the same instants and `margin` steps of the same size on either side of them.
+  std::vector<double> apply(std::span<const double> signal, double duration, std::size_t margin) const;
+
+ private:
+  double cutoff_ = 0, rate_ = 0, reach_ = 0, step_ = 0;
+  std::vector<double> table_;  // kernel at 0, step_, 2 step_ … and a few beyond reach_
+};
+
+/// Weights of a sum over equally spaced samples that integrates exactly to eighth order (Gregory's end corrections of the trapezoidal
+/// rule), in units of the spacing; the trapezoidal rule for fewer than 16 samples.
+std::vector<double> gregoryWeights(std::size_t samples);
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+/// The few statistics that the tables need, each by its textbook formula. Pure functions; any thread.
+namespace reachlab::analysis {
+
+/// Mean and sample standard deviation (n - 1) of the finite values; NaN where there are none (SD: fewer than two).
+struct MeanSd {
+  double mean = 0, sd = 0;
+  std::size_t count = 0;
+};
+MeanSd computeMeanSd(std::span<const double> values);
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// Clopper and Pearson's exact interval of a binomial share (1934): covers at least `level` whatever the share. [0, 1] for no trials.
+Interval computeBinomialInterval(std::size_t successes, std::size_t trials, double level = 0.95);
+
+/// Quantile of sorted values, linear between them (Hyndman and Fan's type 7). NaN for none.
+double quantileOfSorted(std::span<const double> sorted, double share);
+
+}  // namespace reachlab::analysis

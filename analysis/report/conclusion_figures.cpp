@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/figures.h"
+#include "analysis/report/wording.h"
+
+namespace reachlab::analysis {
+namespace {
+
+namespace palette = figure::palette;
+using figure::LegendPlace;
+using figure::Marker;
+using figure::Panel;
+using figure::Series;
+
+using Names = std::vector<std::vector<predict::Criterion>>;
+
+/// One person's score of every candidate.
+struct PersonRow {
+  std::string subject;
+  std::vector<double> score;
+  double ceiling = 0;
+};
+
+Panel scorePanel(const StudyResult& study, const std::string& title, const Names& names, const std::vector<PersonRow>& rows,
+                 const std::optional<std::size_t>& follows, bool legend) {
+  Panel panel;
+  panel.title = shortened(title);
+  panel.y.label = "Score against the reference (ln S)";
+  panel.x.label = "Criterion";
+  const std::size_t shown = names.size() - 1;  // the reference is the line at 0
+  addCandidates(panel.x, std::span(names).first(shown));
+  double ceiling = 0;
+  for (const PersonRow& row : rows) {
+    Series s = subjectSeries(study, row.subject);
+    if (!legend) s.label.clear();
+    for (std::size_t k = 0; k < shown; ++k) s.x.push_back(static_cast<double>(k + 1)), s.y.push_back(row.score[k] - row.score.back());
+    s.width = 0.8;
+    panel.series.push_back(std::move(s));
+    ceiling += (row.ceiling - row.score.back()) / static_cast<double>(rows.size());
+  }
+  panel.rules.push_back({0, false, "reference", palette::kBlack, figure::Dash::Dashed});
+  panel.rules.push_back({ceiling, false, "own mean", palette::kGrey, figure::Dash::Dotted});
+  if (follows) panel.rules.push_back({static_cast<double>(*follows + 1), true, "decided", palette::kBlue, figure::Dash::Dotted});
+  panel.legend = legend && rows.size() > 1 ? LegendPlace::Below : LegendPlace::None;
+  return panel;
+}
+
+}  // namespace
+
+NamedFigure scoreFigure(const StudyResult& study) {
+  NamedFigure out;
+  out.name = "scores";
+  out.caption =
+      "How far each criterion is from the movements: a subject's score (mean of ln S, lower is nearer) less that of a minimum jerk that "
+      "ignores the object. A line joins one subject. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
+      "reaches, "
+      "below which nothing can be expected.";
+  Names all = study.common;
+  std::vector<PersonRow> overall;
+  bool legend = true;
+  for (std::size_t c = 0; c < study.results.size(); ++c) {
+    const Names names = candidatesOf(study.results[c]);
+    std::vector<PersonRow> rows;
+    for (const PersonResult& person : study.people) {
+      if (person.condition != c || !person.fitted) continue;
+      PersonRow row{person.subject, {}, person.fit.own.ceilingScore};
+      for (const CandidateFit& fit : person.fit.candidates) row.score.push_back(fit.meanScore);
+      rows.push_back(std::move(row));
+    }
+    if (rows.empty()) continue;
+    out.figure.panels.push_back(scorePanel(study, study.conditions[c].name, names, rows, study.results[c].conclusion.follows, legend));
+    legend = false;
+  }
+  out.figure.columns = out.figure.panels.size() > 1 ? 2 : 1;
+  out.figure.panelWidth = out.figure.columns == 1 ? 100 : 62;
+  out.figure.panelHeight = out.figure.columns == 1 ? 60 : 45;
+  return out;
+}
+
+NamedFigure posteriorFigure(const StudyResult& study) {
+  NamedFigure out;
+  out.name = "posterior";
+  out.caption = fmt::format(
+      "Probability that each candidate is the most frequent among people (protected exceedance). Broken line: the {:.2f} that a conclusion "
+      "asks for, beside p.",
+      kMinExceedance);
+  const auto add = [&](const std::string& title, const Conclusion& conclusion, const Names& names) {
+    if (conclusion.posterior.empty()) return;
+    Panel panel;
+    panel.title = shortened(title);
+    panel.y.label = "Probability";
+    panel.y.from = 0.0;
+    panel.y.to = 1.0;
+    addCandidates(panel.x, names);
+    panel.legend = LegendPlace::None;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const double x = static_cast<double>(k + 1);
+      panel.bands.push_back({"",
+                             {x - 0.35, x + 0.35},
+                             {0, 0},
+                             {conclusion.posterior[k], conclusion.posterior[k]},
+                             palette::faded(lookOf(names[k]).color, 0.8)});
+    }
+    panel.rules.push_back({kMinExceedance, false, "", palette::kGrey, figure::Dash::Dashed});
+    out.figure.panels.push_back(std::move(panel));
+  };
+  for (std::size_t c = 0; c < study.results.size(); ++c)
+    add(study.conditions[c].name, study.results[c].conclusion, candidatesOf(study.results[c]));
+  if (study.results.size() > 1) add("All conditions", study.overall, study.common);
+  out.figure.columns = static_cast<int>(std::clamp<std::size_t>(out.figure.panels.size(), 1, 2));
+  out.figure.panelWidth = 62;
+  out.figure.panelHeight = 32;
+  return out;
+}
+
+NamedFigure recoveryFigure(const Recovery& recovery) {
+  NamedFigure out;
+  out.name = "recovery";
+  out.caption = fmt::format(
+      "What this design can tell: {} studies were simulated for each truth, with these subjects' numbers of trials, durations and scatter, "
+      "and "
+      "judged by the same rule. Rows: the truth; columns: what was named.",
+      recovery.studies);
+  Panel panel;
+  const std::size_t n = recovery.candidates.size();
+  panel.x.label = "Named";
+  panel.y.label = "Truth";
+  panel.x.from = 0.5;
+  panel.x.to = static_cast<double>(n) + 1.5;
+  panel.y.from = 0.5;
+  panel.y.to = static_cast<double>(n) + 0.5;
+  panel.legend = LegendPlace::None;
+  for (std::size_t t = 0; t < n; ++t) {
+    const double y = static_cast<double>(n - t);
+    panel.y.ticks.emplace_back(y, shortNameOf(recovery.candidates[t]));
+    for (std::size_t k = 0; k <= n; ++k) {
+      const double x = static_cast<double>(k + 1), share = static_cast<double>(recovery.counts[t][k]) / std::max(1, recovery.studies);
+      if (t == 0) panel.x.ticks.emplace_back(x, k < n ? shortNameOf(recovery.candidates[k]) : "undecided");
+      const figure::Color color = k == n ? palette::kGrey : k == t ? palette::kBlue : palette::kVermilion;
+      panel.bands.push_back(
+          {"", {x - 0.47, x + 0.47}, {y - 0.46, y - 0.46}, {y + 0.46, y + 0.46}, palette::faded(color, 0.08 + 0.72 * share)});
+      panel.words.push_back({x, y, fmt::format("{}", recovery.counts[t][k]), share > 0.6 ? figure::Color{1, 1, 1} : palette::kBlack});
+    }
+  }
+  out.figure.panels.push_back(std::move(panel));
+  out.figure.panelWidth = 105;
+  out.figure.panelHeight = 62;
+  return out;
+}
+
+}  // namespace reachlab::analysis

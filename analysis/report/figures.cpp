@@ -1,0 +1,73 @@
+#include "analysis/report/figures.h"
+
+#include <algorithm>
+
+#include "analysis/tables.h"
+
+namespace reachlab::analysis {
+
+namespace palette = figure::palette;
+using figure::Dash;
+using predict::Criterion;
+
+CriterionLook lookOf(const std::vector<Criterion>& criteria) {
+  if (criteria.empty()) return {palette::kGrey, Dash::Dotted};
+  switch (criteria.front()) {
+    case Criterion::MinHandJerk: return {palette::kBlue, Dash::Solid};
+    case Criterion::MinTorqueChange: return {palette::kSky, Dash::DashDot};
+    case Criterion::MinCrackle: return {palette::kVermilion, Dash::Dashed};
+    case Criterion::MinHandForce: return {palette::kPurple, Dash::Dotted};
+    case Criterion::MinHandForceChange: return {palette::kGreen, Dash::DashDot};
+    case Criterion::MinComAcceleration: return {palette::kOrange, Dash::Dashed};
+    case Criterion::MinHandCrackle: return {palette::kOrange, Dash::DashDot};
+    default: return {palette::kBlack, Dash::Solid};  // one that has no look of its own yet
+  }
+}
+
+std::string shortNameOf(const std::vector<Criterion>& criteria) {
+  if (criteria.empty()) return "ref.";
+  std::string text;
+  for (const Criterion c : criteria) {
+    const std::string name = numberedName(c);
+    text += (text.empty() ? "(" : ", ") + name.substr(1, name.find(')') - 1);
+  }
+  return text + ")";
+}
+
+int subjectIndex(const StudyResult& study, const std::string& subject) {
+  return static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), subject) - study.subjects.begin());
+}
+
+figure::Series subjectSeries(const StudyResult& study, const std::string& subject) {
+  const int i = subjectIndex(study, subject);
+  figure::Series series;
+  series.label = "subject " + subject;
+  series.color = palette::series(i);
+  series.marker = figure::markerOf(i);
+  return series;
+}
+
+void addCandidates(figure::Axis& axis, std::span<const std::vector<Criterion>> candidates) {
+  axis.from = 0.4;
+  axis.to = static_cast<double>(candidates.size()) + 0.6;
+  for (std::size_t k = 0; k < candidates.size(); ++k) axis.ticks.emplace_back(static_cast<double>(k + 1), shortNameOf(candidates[k]));
+}
+
+std::string shortened(const std::string& text, std::size_t most) { return text.size() <= most ? text : text.substr(0, most - 1) + "…"; }
+
+std::vector<NamedFigure> makeFigures(const StudyResult& study, const std::optional<Recovery>& recovery) {
+  std::vector<NamedFigure> out;
+  for (NamedFigure figure : {scoreFigure(study), posteriorFigure(study)})
+    if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
+  if (recovery && !recovery->counts.empty()) out.push_back(recoveryFigure(*recovery));
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    if (study.results[c].used == 0 && study.results[c].signals.empty()) continue;
+    out.push_back(paperFigure(study, c));
+    for (NamedFigure figure : {lastFiveFigure(study, c), peopleFigure(study, c)})
+      if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
+  }
+  if (NamedFigure figure = learningFigure(study); !figure.figure.panels.empty()) out.push_back(std::move(figure));
+  return out;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "analysis/report/figures.h"
+
+namespace reachlab::analysis {
+
+namespace {
+
+constexpr std::size_t kFewPeople = 2;  // with more, bars of each would cover one another
+
+/// The share of a typical person in each group of trials, where two or more made the same ones.
+figure::Series typicalCourse(const StudyResult& study, std::size_t condition) {
+  std::map<std::pair<int, int>, std::vector<SuccessCell>> groups;
+  for (const LearningPoint& p : study.learning)
+    if (p.condition == condition) groups[{p.firstTrial, p.lastTrial}].push_back({p.subject, 0, condition, p.successes, p.trials, {}});
+  figure::Series s;
+  s.label = "a typical subject";
+  s.width = figure::kThick;
+  s.marker = figure::Marker::Circle;
+  for (const auto& [trials, cells] : groups) {
+    const auto typical = typicalShare(cells, condition);
+    if (!typical) continue;
+    s.x.push_back(0.5 * (trials.first + trials.second));
+    s.y.push_back(100 * typical->mean);
+    s.errorLow.push_back(100 * typical->interval.low);
+    s.errorHigh.push_back(100 * typical->interval.high);
+  }
+  return s;
+}
+
+}  // namespace
+
+NamedFigure learningFigure(const StudyResult& study) {
+  NamedFigure out;
+  out.name = "learning";
+  const bool few = study.subjects.size() <= kFewPeople;
+  out.caption =
+      fmt::format("Success in groups of {} trials, in the order they were made{} A gap parts sessions.", study.options.learningBin,
+                  few ? ", with exact 95 % intervals of each subject's share (Clopper and Pearson)."
+                      : ": thin, each subject (its exact intervals are in learning.csv); thick, a typical subject (mean of the "
+                        "subjects' logits) with its 95 % interval over subjects.");
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    figure::Panel panel;
+    panel.title = shortened(study.conditions[c].name);
+    panel.x.label = "Trial";
+    panel.y.label = "Success (%)";
+    panel.y.from = 0.0;
+    panel.y.to = 100.0;
+    panel.x.from = 0.0;
+    std::map<std::string, figure::Series> bySubject;
+    std::map<std::string, std::string> session;
+    for (const LearningPoint& p : study.learning) {
+      if (p.condition != c) continue;
+      figure::Series& s = bySubject.try_emplace(p.subject, subjectSeries(study, p.subject)).first->second;
+      const bool newSession = !s.x.empty() && session[p.subject] != p.session;
+      session[p.subject] = p.session;
+      if (!few) s.width = figure::kThin, s.marker = figure::Marker::None;
+      const auto add = [&](double x, double y, double low, double high) {
+        s.x.push_back(x), s.y.push_back(y);
+        if (few) s.errorLow.push_back(low), s.errorHigh.push_back(high);
+      };
+      if (newSession) add(kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured);
+      // Subjects stand a little beside one another, so that their bars do not cover each other.
+      const double beside =
+          0.12 * study.options.learningBin * (subjectIndex(study, p.subject) - 0.5 * static_cast<double>(study.subjects.size() - 1));
+      add(0.5 * (p.firstTrial + p.lastTrial) + (few ? beside : 0), 100.0 * static_cast<double>(p.successes) / static_cast<double>(p.trials),
+          100 * p.interval.low, 100 * p.interval.high);
+    }
+    for (auto& [subject, series] : bySubject) panel.series.push_back(std::move(series));
+    if (!few && !panel.series.empty()) panel.series.push_back(typicalCourse(study, c));
+    panel.legend = c == 0 ? figure::LegendPlace::Below : figure::LegendPlace::None;
+    if (!panel.series.empty()) out.figure.panels.push_back(std::move(panel));
+  }
+  out.figure.columns = static_cast<int>(std::min<std::size_t>(3, std::max<std::size_t>(1, out.figure.panels.size())));
+  out.figure.panelWidth = out.figure.columns == 1 ? 90 : 52;
+  out.figure.panelHeight = 40;
+  return out;
+}
+
+}  // namespace reachlab::analysis

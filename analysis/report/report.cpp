@@ -1,0 +1,383 @@
+#include "analysis/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <set>
+
+#include "analysis/report/wording.h"
+#include "analysis/tables.h"
+#include "sim/experiment/describe.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr const char* kStyle = R"(
+:root { color-scheme: light; }
+body { font: 15px/1.5 "DejaVu Sans", "Segoe UI", Helvetica, Arial, sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1.2rem; }
+h1 { font-size: 1.55rem; margin-bottom: .2rem; } h2 { font-size: 1.15rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; padding-bottom: .2rem; }
+h3 { font-size: 1rem; margin-bottom: .3rem; } p { margin: .5rem 0; } .quiet { color: #666; font-size: .85rem; }
+table { border-collapse: collapse; margin: .8rem 0; font-size: .87rem; } th, td { padding: .2rem .7rem; text-align: right; } td { white-space: nowrap; }
+thead tr:first-child th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 1px solid #444; vertical-align: bottom; } tbody tr:nth-child(even) { background: #f5f6f8; }
+tbody tr.first td { font-weight: bold; } td.text, th.text { text-align: left; } td.text { white-space: normal; overflow-wrap: anywhere; }
+figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: .87rem; color: #444; }
+.answer { font-size: 1.12rem; line-height: 1.45; } .finding { background: #eef4fa; border-left: 4px solid #0072b2; padding: .6rem .9rem; } .warning { background: #fdf3e7; border-left: 4px solid #d55e00; padding: .6rem .9rem; }
+@page { size: A4; margin: 16mm 14mm; }
+@media print { body { max-width: none; margin: 0; padding: 0; font-size: 9.5pt; } th, td { padding: .15rem .4rem; } figure, table, p { break-inside: avoid; } h2, h3 { break-after: avoid; } .finding, .warning, tbody tr:nth-child(even) { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+)";
+
+struct Html {
+  std::string text;
+  void add(const std::string& raw) { text += raw + "\n"; }
+  void paragraph(const std::string& words, const std::string& kind = "") {
+    add(kind.empty() ? "<p>" + escaped(words) + "</p>" : "<p class=\"" + kind + "\">" + escaped(words) + "</p>");
+  }
+  void heading(int level, const std::string& words) { add(fmt::format("<h{}>{}</h{}>", level, escaped(words), level)); }
+};
+
+/// Inline: without the XML declaration, with a name for who cannot see it, ids apart from other figures'.
+std::string inlineSvg(const NamedFigure& figure, std::size_t number) {
+  std::string svg = figure::renderSvg(figure.figure, fmt::format("f{}-", number));
+  svg.erase(0, svg.find("<svg"));
+  svg.insert(4, " role=\"img\" aria-label=\"" + escaped(figure.caption) + "\"");
+  return svg;
+}
+
+void addFigure(Html& html, const std::vector<NamedFigure>& figures, const std::string& name) {
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    if (figures[i].name != name) continue;
+    html.add("<figure>" + inlineSvg(figures[i], i + 1));
+    html.add("<figcaption>" + escaped(figures[i].caption) + " <span class=\"quiet\">" + escaped(name) +
+             ".svg, .pdf</span></figcaption></figure>");
+  }
+}
+
+std::string plural(std::size_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+std::string real(const std::string& number) {  // a minus is no hyphen
+  std::string text = number;
+  for (std::size_t at; (at = text.find('-')) != std::string::npos;) text.replace(at, 1, "−");
+  return text;
+}
+
+std::string signedPercent(double points) {
+  const std::string text = fmt::format("{:+.0f}", points);
+  return text == "+0" || text == "-0" ? "0" : real(text);
+}
+
+std::string percentInterval(double mean, const Interval& i) {
+  std::string text = real(fmt::format("{:.0f}", mean));
+  // On a line of its own, so that nine columns fit a page.
+  if (std::isfinite(i.low) && std::isfinite(i.high)) text += real(fmt::format("<br>[{:.0f}, {:.0f}]", i.low, i.high));
+  return text;
+}
+
+/// Table 2: conditions in order, their days side by side, and the last day less the first, per person and over people.
+void addSuccessTable(Html& html, const StudyResult& study) {
+  if (study.success.empty()) return;
+  std::set<int> days;
+  for (const SuccessCell& cell : study.success) days.insert(cell.day);
+  const bool progress = days.size() == 2;
+  html.heading(2, "Success (%), as in Table 2");
+  html.add("<table><thead><tr><th rowspan=\"2\">Subject</th>");
+  for (const StudyCondition& condition : study.conditions)
+    html.add(
+        fmt::format("<th colspan=\"{}\" style=\"text-align:center\">{}</th>", days.size() + (progress ? 1 : 0), escaped(condition.name)));
+  html.add("</tr><tr>");
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    for (const int day : days) html.add(fmt::format("<th>D{}</th>", day));
+    if (progress) html.add(fmt::format("<th>D{} − D{}</th>", *days.rbegin(), *days.begin()));
+  }
+  html.add("</tr></thead><tbody>");
+  const auto cellOf = [&](const std::string& subject, std::size_t c, int day) {
+    return std::find_if(study.success.begin(), study.success.end(),
+                        [&](const SuccessCell& s) { return s.subject == subject && s.condition == c && s.day == day; });
+  };
+  for (const std::string& subject : study.subjects) {
+    html.add("<tr><td>" + escaped(subject) + "</td>");
+    for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+      for (const int day : days) {
+        const auto cell = cellOf(subject, c, day);
+        if (cell == study.success.end()) {
+          html.add("<td>–</td>");
+          continue;
+        }
+        html.add(fmt::format("<td title=\"{} of {}; 95 % interval {:.0f} to {:.0f} %\">{:.0f} <span class=\"quiet\">/{}</span></td>",
+                             cell->successes, cell->trials, 100 * cell->interval.low, 100 * cell->interval.high, 100 * cell->share(),
+                             cell->trials));
+      }
+      if (!progress) continue;
+      const auto first = cellOf(subject, c, *days.begin()), last = cellOf(subject, c, *days.rbegin());
+      html.add(first == study.success.end() || last == study.success.end()
+                   ? "<td>–</td>"
+                   : fmt::format("<td>{}</td>", signedPercent(100 * (last->share() - first->share()))));
+    }
+    html.add("</tr>");
+  }
+  if (study.subjects.size() > 1) {
+    html.add("<tr class=\"first\"><td>typical</td>");
+    for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+      for (const int day : days) {
+        const auto typical = typicalShare(study.success, c, day);
+        html.add(!typical ? "<td>–</td>"
+                          : "<td>" + percentInterval(100 * typical->mean, {100 * typical->interval.low, 100 * typical->interval.high}) +
+                                "</td>");
+      }
+      if (!progress) continue;
+      const auto effect =
+          std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& e) { return e.ofDay && e.condition == c; });
+      html.add(effect == study.effects.end() ? "<td>–</td>"
+                                             : "<td>" + percentInterval(effect->points.mean, effect->pointsInterval) + "</td>");
+    }
+    html.add("</tr>");
+  }
+  html.add("</tbody></table>");
+  html.paragraph(
+      "Percent of the trials that ended as success or failure (their number behind the stroke); aborted and interrupted trials are no "
+      "attempts. The last row is a typical subject's share (mean of the subjects' logits) and the subjects' mean difference, in brackets "
+      "95 % "
+      "intervals over subjects; each subject's own exact interval is in success_table.csv.",
+      "quiet");
+}
+
+void addProgress(Html& html, const StudyResult& study, const std::vector<NamedFigure>& figures) {
+  html.heading(2, "Learning");
+  addFigure(html, figures, "learning");
+  html.add("<ul>");
+  for (const Effect& effect : study.effects) html.add("<li>" + escaped(describeEffect(study, effect)) + "</li>");
+  for (const LearningSlope& slope : study.slopes) html.add("<li>Slope of success: " + escaped(describeSlope(study, slope)) + "</li>");
+  html.add("</ul>");
+  html.paragraph(
+      "Differences are paired over subjects; p by the logits, corrected for all days, or all pairs of conditions, by Holm's method.",
+      "quiet");
+}
+
+/// Every candidate of one conclusion.
+void addScores(Html& html, const Conclusion& c, const std::vector<std::vector<predict::Criterion>>& names) {
+  if (!c.best) return;
+  html.add("<table><thead><tr><th>Candidate</th><th>score above the closest (ln S)</th><th>p</th>");
+  if (!c.posterior.empty()) html.add("<th>most frequent with probability</th>");
+  html.add("<th class=\"text\">told from the closest</th></tr></thead><tbody>");
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < names.size(); ++k) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return c.score[a] < c.score[b]; });
+  for (const std::size_t k : order) {
+    const bool best = k == *c.best;
+    html.add(fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td>", best ? " class=\"first\"" : "", escaped(describeCandidate(names[k])),
+                         best ? "0" : fmt::format("{:.3f}", c.against[k].mean),
+                         best ? "" : escaped(c.against[k].p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", c.against[k].p))));
+    if (!c.posterior.empty()) html.add(fmt::format("<td>{:.3f}</td>", c.posterior[k]));
+    html.add(fmt::format("<td class=\"text\">{}</td></tr>", best ? "" : c.told(k) ? "yes" : "no"));
+  }
+  html.add("</tbody></table>");
+}
+
+/// A condition's fits, averaged over its subjects, and the paper's epsilon beside them.
+void addFits(Html& html, const StudyResult& study, std::size_t condition) {
+  const ConditionResult& r = study.results[condition];
+  if (r.handEpsilon.empty()) return;
+  html.add(
+      "<table><thead><tr><th>Criterion</th><th>paper’s ε (m/s)</th><th>95 % over subjects</th><th>object’s ε (m/s)</th><th>fitted ε "
+      "(m/s)</th><th>fitted T (s)</th><th>R²</th></tr></thead><tbody>");
+  const auto& candidates = r.candidates.candidates;
+  const auto row = [&](const std::string& name, const EpsilonPlace* hand, const EpsilonPlace* object, std::optional<std::size_t> k) {
+    double epsilon = 0, duration = 0, r2 = 0, people = 0;
+    for (const PersonResult& person : study.people) {
+      if (person.condition != condition || !person.fitted || !k) continue;
+      const CandidateFit& fit = person.fit.candidates[*k];
+      epsilon += fit.epsilonOfAll, duration += fit.duration, r2 += fit.r2, people += 1;
+    }
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", escaped(name),
+                         hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
+                         hand && hand->interval ? real(fmt::format("{:.4f} … {:.4f}", hand->interval->low, hand->interval->high)) : "–",
+                         object ? fmt::format("{:.4f}", object->epsilon) : "–"));
+    html.add(people > 0
+                 ? fmt::format("<td>{:.4f}</td><td>{:.3f}</td><td>{:.4f}</td></tr>", epsilon / people, duration / people, r2 / people)
+                 : "<td>–</td><td>–</td><td>–</td></tr>");
+  };
+  for (const EpsilonPlace& place : r.handEpsilon) {
+    const predict::Criterion criterion = r.signals[place.criterion].criterion;
+    const auto object =
+        std::find_if(r.objectEpsilon.begin(), r.objectEpsilon.end(), [&](const EpsilonPlace& p) { return p.criterion == place.criterion; });
+    std::optional<std::size_t> k;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (std::find(candidates[i].criteria.begin(), candidates[i].criteria.end(), criterion) != candidates[i].criteria.end()) k = i;
+    row(numberedName(criterion), &place, object == r.objectEpsilon.end() ? nullptr : &*object, k);
+  }
+  if (!candidates.empty()) row("reference", nullptr, nullptr, candidates.size() - 1);
+  html.add("</tbody></table>");
+  html.paragraph(
+      "In the order of the paper's ε, which describes but decides nothing. Fitted values are means over subjects with enough trials; every "
+      "subject's are in fits.csv.",
+      "quiet");
+}
+
+void addRecovery(Html& html, const Recovery& recovery, const std::vector<NamedFigure>& figures) {
+  if (recovery.counts.empty()) return;
+  html.heading(3, "What this design can tell");
+  addFigure(html, figures, "recovery");
+  std::size_t right = 0, wrong = 0, all = 0;
+  for (std::size_t t = 0; t + 1 < recovery.counts.size(); ++t)
+    for (std::size_t k = 0; k < recovery.counts[t].size(); ++k) {
+      all += recovery.counts[t][k];
+      if (k == t) right += recovery.counts[t][k];
+      else if (k + 1 < recovery.counts[t].size()) wrong += recovery.counts[t][k];
+    }
+  html.paragraph(
+      fmt::format("Of {} studies that were simulated with a criterion for truth, {} named it, {} named another, {} stayed undecided.", all,
+                  right, wrong, all - right - wrong));
+}
+
+void addMeasures(Html& html, const StudyResult& study, std::size_t condition) {
+  struct Line {
+    const char* name;
+    double TrialMeasures::*value;
+    double scale;
+    const char* format;
+  };
+  static constexpr Line kLines[] = {
+      {"reaction time (s)", &TrialMeasures::reactionTime, 1, "{:.3f} ± {:.3f}"},
+      {"duration, onset to offset (s)", &TrialMeasures::duration, 1, "{:.3f} ± {:.3f}"},
+      {"movement time of the task (s)", &TrialMeasures::movementTime, 1, "{:.3f} ± {:.3f}"},
+      {"peak speed (m/s)", &TrialMeasures::peakSpeed, 1, "{:.3f} ± {:.3f}"},
+      {"time to peak (%)", &TrialMeasures::timeToPeakPercent, 1, "{:.1f} ± {:.1f}"},
+      {"symmetry ratio", &TrialMeasures::symmetryRatio, 1, "{:.2f} ± {:.2f}"},
+      {"path length (mm)", &TrialMeasures::pathLength, 1e3, "{:.1f} ± {:.1f}"},
+      {"speed peaks", &TrialMeasures::speedPeaks, 1, "{:.2f} ± {:.2f}"},
+      {"end-point error, hand (mm)", &TrialMeasures::handEndpointError, 1e3, "{:.1f} ± {:.1f}"},
+      {"end-point error, object (mm)", &TrialMeasures::objectEndpointError, 1e3, "{:.1f} ± {:.1f}"},
+      {"overshoot, hand (mm)", &TrialMeasures::handOvershoot, 1e3, "{:.1f} ± {:.1f}"},
+      {"overshoot, object (mm)", &TrialMeasures::objectOvershoot, 1e3, "{:.1f} ± {:.1f}"},
+      {"SPARC", &TrialMeasures::sparc, 1, "{:.3f} ± {:.3f}"},
+      {"log dimensionless jerk", &TrialMeasures::ldlj, 1, "{:.2f} ± {:.2f}"},
+      {"peak force (N)", &TrialMeasures::peakForce, 1, "{:.2f} ± {:.2f}"},
+      {"mean force (N)", &TrialMeasures::meanForce, 1, "{:.2f} ± {:.2f}"},
+  };
+  const auto summary = [&](const Line& line, bool success) -> std::string {
+    std::vector<double> values;
+    for (const StudyTrial& t : study.trials)
+      if (t.condition == condition && t.counted && (t.result.outcome == trial::Outcome::Success) == success)
+        values.push_back(line.scale * t.measures.*line.value);
+    const MeanSd s = computeMeanSd(values);
+    if (s.count == 0) return "–";
+    std::string text = std::isfinite(s.sd) ? fmt::format(fmt::runtime(line.format), s.mean, s.sd) : fmt::format("{:.4g}", s.mean);
+    for (std::size_t at; (at = text.find('-')) != std::string::npos;) text.replace(at, 1, "−");
+    return text;
+  };
+  html.add("<table><thead><tr><th>Measure (mean ± SD over trials)</th><th>successes</th><th>failures</th></tr></thead><tbody>");
+  for (const Line& line : kLines)
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", line.name, summary(line, true), summary(line, false)));
+  html.add("</tbody></table>");
+}
+
+void addCondition(Html& html, const StudyResult& study, std::size_t c, const std::vector<NamedFigure>& figures) {
+  const ConditionResult& r = study.results[c];
+  const std::string file = fileNameOf(study.conditions[c].name);
+  html.heading(2, study.conditions[c].name);
+  html.paragraph("Moved: " + experiment::describe(study.conditions[c].experiment()) + ".");
+  html.paragraph(describeCounts(r));
+  if (r.onlyFailures)
+    html.paragraph(
+        "No trial succeeded. Profiles and errors below are of the failed trials, for description only; the paper's error is of successful "
+        "ones, and nothing is concluded.",
+        "warning");
+  if (study.conditions.size() > 1) {
+    html.paragraph(describeConclusion(r.conclusion, candidatesOf(r)), "finding");
+    if (r.conclusion.best) {
+      html.paragraph(describeEvidence(r.conclusion, candidatesOf(r)));
+      addScores(html, r.conclusion, candidatesOf(r));
+    }
+  }
+  addFigure(html, figures, "people_" + file);
+  addFigure(html, figures, "velocity_" + file);
+  addFigure(html, figures, "last_five_" + file);
+  addFits(html, study, c);
+  if (!r.refusals.empty()) {
+    html.add("<p class=\"quiet\">Not predicted here:</p><ul class=\"quiet\">");
+    for (const std::string& refusal : r.refusals) html.add("<li>" + escaped(refusal) + "</li>");
+    html.add("</ul>");
+  }
+  std::set<std::string> warnings;
+  for (const PredictedSignal& p : r.signals)
+    for (const std::string& w : p.warnings) warnings.insert(numberedName(p.criterion) + ": " + w);
+  for (const std::string& w : warnings) html.paragraph(w, "warning");
+  addMeasures(html, study, c);
+}
+
+void addProvenance(Html& html, const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes) {
+  html.heading(2, "Recordings");
+  html.add(
+      "<table><thead><tr><th>Subject</th><th>session</th><th>run</th><th class=\"text\">condition</th><th>trials</th><th "
+      "class=\"text\">device</th>"
+      "<th class=\"text\">method</th><th>seed</th><th>samples (Hz)</th><th class=\"text\">started (UTC)</th><th "
+      "class=\"text\">software</th></tr></thead><tbody>");
+  for (const RunProvenance& r : runs)
+    html.add(fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td>"
+        "<td>{}</td><td>{:g}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
+        escaped(r.subject), escaped(r.session), r.run, escaped(r.condition), r.practice ? " (practice)" : "", r.trials, escaped(r.device),
+        escaped(r.method), r.seed, r.samplingHz, escaped(r.startedUtc), escaped(r.software)));
+  html.add("</tbody></table>");
+  for (const std::string& note : notes) html.paragraph(note, "warning");
+}
+
+}  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+std::string makeReport(const ReportHeader& header, const StudyResult& study, const std::vector<NamedFigure>& figures,
+                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,
+                       const std::optional<Recovery>& recovery) {
+  Html html;
+  html.add(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">");
+  html.add("<title>Reaching: " + escaped(header.dataset) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>");
+  html.heading(1, "Reaching movements: " + header.dataset);
+  std::size_t trials = 0;
+  for (const RunProvenance& run : runs) trials += run.trials;
+  html.paragraph(fmt::format("{}, {}, {} recorded, {}. Reachlab {}.", plural(study.subjects.size(), "subject"), plural(runs.size(), "run"),
+                             plural(trials, "trial"), plural(study.conditions.size(), "condition"), header.version),
+                 "quiet");
+  const std::string sentence = describeConclusion(study.overall, study.common);
+  html.paragraph((study.conditions.size() > 1 ? "All conditions together: " : "") + sentence, "answer finding");
+  addFigure(html, figures, "scores");
+  if (study.overall.best) {
+    html.paragraph(describeEvidence(study.overall, study.common));
+    if (const std::string over = describeTogether(study); !over.empty()) html.paragraph(over);
+    html.paragraph(describeChoices(study, study.together, study.common[*study.overall.best]));
+    addScores(html, study.overall, study.common);
+    addFigure(html, figures, "posterior");
+  } else if (std::none_of(study.results.begin(), study.results.end(),
+                          [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; })) {
+    html.paragraph("No trial succeeded. What the failed ones were like is described below, condition by condition.", "warning");
+  }
+  if (recovery) addRecovery(html, *recovery, figures);
+  addSuccessTable(html, study);
+  if (!study.success.empty()) addProgress(html, study, figures);
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) addCondition(html, study, c, figures);
+  html.heading(2, "Methods");
+  html.paragraph(describeMethods(study));
+  html.paragraph(describeLimits(study));
+  html.paragraph(
+      "Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
+  html.paragraph("Command: " + header.command, "quiet");
+  addProvenance(html, runs, notes);
+  html.add("</body>\n</html>");
+  return html.text;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,295 @@
+#include "analysis/report/wording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/tables.h"
+
+namespace reachlab::analysis {
+namespace {
+
+using Names = std::vector<std::vector<predict::Criterion>>;
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text;
+}
+
+std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+
+/// "[5, 37]"; empty where there is none.
+std::string intervalText(const Interval& i) {
+  return std::isfinite(i.low) && std::isfinite(i.high) ? fmt::format("[{}, {}]", shortNumber(i.low), shortNumber(i.high)) : "";
+}
+
+/// "3 follow (1) min-hand-jerk, 2 follow (5) min-hand-force-change, 1 undecided".
+std::string eachOf(const Conclusion& c, const Names& names) {
+  std::map<std::size_t, std::size_t> followers;
+  std::size_t undecided = 0;
+  for (const auto& each : c.each)
+    if (each) ++followers[*each];
+    else ++undecided;
+  std::vector<std::string> parts;
+  for (const auto& [candidate, n] : followers) parts.push_back(fmt::format("{} for {}", n, describeCandidate(names[candidate])));
+  if (undecided > 0) parts.push_back(fmt::format("{} undecided", undecided));
+  return joined(parts);
+}
+
+// A difference that is significant and yet too small, in words.
+const std::string kTooNear = fmt::format("their squared errors differ by less than {:.0f} %", 100 * kLeastDifference);
+
+std::string whoMoved(const Conclusion& c) {
+  return c.overSubjects ? fmt::format("The movements of these {} ({})", plural(c.subjects, "subject"), plural(c.trials, "trial"))
+                        : fmt::format("This person's movements in these {}", plural(c.trials, "trial"));
+}
+
+}  // namespace
+
+std::string shortNumber(double value) {
+  if (!std::isfinite(value)) return "–";
+  std::string text = fmt::format("{:.3g}", value);
+  if (text.front() == '-') text = "−" + text.substr(1);
+  return text;
+}
+
+std::string pText(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+
+std::string describeCandidate(const std::vector<predict::Criterion>& criteria) {
+  if (criteria.empty()) return "a minimum jerk that ignores the object";
+  std::vector<std::string> names;
+  for (const predict::Criterion c : criteria) names.push_back(numberedName(c));
+  return joined(names) + (names.size() > 1 ? ", which predict the same" : "");
+}
+
+Names candidatesOf(const ConditionResult& result) {
+  Names names;
+  for (const Candidate& c : result.candidates.candidates) names.push_back(c.criteria);
+  return names;
+}
+
+std::string describeConclusion(const Conclusion& c, const Names& names) {
+  const std::string best = c.best && *c.best < names.size() ? describeCandidate(names[*c.best]) : "";
+  if (c.decided())
+    return fmt::format(
+        "{} follow {} most closely among the candidates: it is nearer than every other, and than a minimum jerk that ignores the object{}.",
+        whoMoved(c), best, c.overSubjects ? "" : "; nothing follows about other people from one subject");
+  const auto nothing = [&](const std::string& why) { return "Nothing can be concluded: " + why + "."; };
+  switch (c.reason) {
+    case Obstacle::TooFewTrials: return nothing(fmt::format("no subject has {} successful trials in any condition", kFewestTrials));
+    case Obstacle::TooFewSubjects:
+      return fmt::format("Nothing can be concluded about people in general: {} are too few, {} are needed. Each judged alone: {}.",
+                         plural(c.subjects, "subject"), kFewestSubjects, eachOf(c, names));
+    case Obstacle::Reference:
+      return nothing(
+          c.referenceFirst
+              ? "a minimum jerk that ignores the object describes the movements better than every candidate"
+              : fmt::format("a minimum jerk that ignores the object describes the movements as well as the closest candidate, {} ({})",
+                            best, c.referenceP < c.level ? kTooNear : pText(c.referenceP)));
+    case Obstacle::NotToldApart: {
+      std::vector<std::string> rivals;
+      for (std::size_t k = 0; k < c.against.size(); ++k)
+        if (k != *c.best && !c.told(k)) rivals.push_back(describeCandidate(names[k]));
+      return nothing(fmt::format("{} is the closest candidate, but cannot be told from {} ({})", best, joined(rivals),
+                                 c.p < c.level ? kTooNear : pText(c.p)));
+    }
+    case Obstacle::SubjectsDiffer:
+      return nothing(fmt::format("people differ. Closest over all is {}; each judged alone: {}", best, eachOf(c, names)));
+    case Obstacle::Poor:
+      return nothing(
+          fmt::format("{} is the closest of these, but describes the movements badly (R² {:.3f}; people's own means reach {:.3f})", best,
+                      c.r2, c.ceiling));
+    case Obstacle::NothingToCompare:
+      return nothing("fewer than two candidates were asked for or can be predicted here, so there is nothing to compare");
+    case Obstacle::None: break;
+  }
+  return {};
+}
+
+std::string describeEvidence(const Conclusion& c, const Names& names) {
+  if (!c.best || !c.rival) return {};
+  std::string text =
+      fmt::format("Closest: {} ({}, {}). Nearest rival: {}, {} ({}).", describeCandidate(names[*c.best]), plural(c.subjects, "subject"),
+                  plural(c.trials, "trial"), describeCandidate(names[*c.rival]), pText(c.p),
+                  c.overSubjects ? "paired t over subjects" : "t over this person's trials, their serial correlation allowed for");
+  if (c.signFlipP) text += fmt::format(" The same by exchange of signs: {}.", pText(*c.signFlipP));
+  if (!c.posterior.empty())
+    text += fmt::format(" Probability that it is the most frequent among people: {:.2f} (protected exceedance; {:.2f} is asked for).",
+                        c.posterior[*c.best], kMinExceedance);
+  text += fmt::format(" R² {:.3f}; the mean of a person's other trials reaches {:.3f}.", c.r2, c.ceiling);
+  return text;
+}
+
+std::string describeTogether(const StudyResult& study) {
+  if (study.conditions.size() < 2 || study.together.empty()) return {};
+  std::vector<std::string> in, out;
+  for (std::size_t c = 0; c < study.conditions.size(); ++c)
+    (std::find(study.together.begin(), study.together.end(), c) != study.together.end() ? in : out).push_back(study.conditions[c].name);
+  std::string text = "Over " + joined(in) + ".";
+  if (!out.empty()) text += fmt::format(" Left out: {}, where not every subject has {} successful trials.", joined(out), kFewestTrials);
+  return text;
+}
+
+std::string describeChoices(const StudyResult& study, const std::vector<std::size_t>& conditions,
+                            const std::vector<predict::Criterion>& criteria) {
+  std::map<std::string, std::size_t> masses, laws;
+  std::vector<double> tried;
+  bool given = false;
+  for (const PersonResult& person : study.people) {
+    if (!person.fitted || std::find(conditions.begin(), conditions.end(), person.condition) == conditions.end()) continue;
+    const CandidateSet& set = study.results[person.condition].candidates;
+    tried = set.masses;
+    given = set.massGiven;
+    for (std::size_t k = 0; k < set.candidates.size(); ++k) {
+      if (set.candidates[k].criteria != criteria) continue;
+      const ShapeChoice& choice = person.fit.candidates[k].choice;
+      ++laws[choice.law == TimeLaw::Anew ? "planned anew for each duration" : "one plan run faster or slower"];
+      if (!set.candidates[k].masses.empty()) ++masses[shortNumber(set.candidates[k].masses[choice.family]) + " kg"];
+    }
+  }
+  const auto listed = [](const std::map<std::string, std::size_t>& counts) {
+    std::vector<std::string> parts;
+    for (const auto& [what, n] : counts) parts.push_back(fmt::format("{} ({})", what, n));
+    return joined(parts);
+  };
+  std::vector<std::string> kilograms;
+  for (const double m : tried) kilograms.push_back(shortNumber(m));
+  std::string text;
+  if (!tried.empty())
+    text = given ? fmt::format("The hand's mass was given, {} kg.", joined(kilograms))
+                 : fmt::format("Hand masses tried for (4) to (6): {} kg.", joined(kilograms));
+  if (!laws.empty()) text += " Chosen for the closest: " + listed(laws) + ".";
+  if (!masses.empty()) text += " Its hand mass: " + listed(masses) + ".";
+  return text;
+}
+
+std::string describeMethods(const StudyResult& study) {
+  const StudyOptions& o = study.options;
+  const OnsetOptions& onset = o.measure.onset;
+  std::string rule;
+  switch (onset.rule) {
+    case OnsetRule::Percent:
+      rule = fmt::format("where the hand's speed crosses {} % of the trial's own peak, searched back from the movement's first hump",
+                         shortNumber(onset.percent));
+      break;
+    case OnsetRule::Absolute:
+      rule = fmt::format("where the hand's speed crosses {} m/s, searched back from the movement's first hump", shortNumber(onset.speed));
+      break;
+    case OnsetRule::Task: rule = "by the task's own window (from t = 0 to the end of the trial)"; break;
+  }
+  const std::string filter =
+      o.measure.cutoff > 0
+          ? fmt::format(
+                "The hand's position was differentiated and its velocity low-passed forwards and backwards (Butterworth, second order, "
+                "{} Hz in each pass, so no delay); the simulated masses were not filtered.",
+                shortNumber(o.measure.cutoff))
+          : std::string("The hand's position was differentiated without a filter.");
+  std::vector<std::string> kilograms;
+  for (const double m : o.handMasses) kilograms.push_back(shortNumber(m));
+  const std::string mass =
+      o.handMass
+          ? fmt::format("The mass of the hand was given, {} kg.", shortNumber(*o.handMass))
+          : fmt::format("Where the experiment gives no mass of the hand, {} kg were tried for criteria (4) to (6).", joined(kilograms));
+  return fmt::format(
+      "{} Onset and offset are {}; a movement ends with its trial at the latest, that is when every mass was inside the tolerances. "
+      "Each criterion of Table 1, and a minimum jerk of the hand that ignores the object, was fitted to every successful trial by least "
+      "squares "
+      "over onset, duration and amplitude, in one window that is the same for all (from 0.3 s before the hand first exceeds 5 % of its "
+      "peak to "
+      "50 ms before the record ends), with predictions filtered as the recording is. Samples were weighted by the inverse of the person's "
+      "own "
+      "scatter at that phase of the movement (at least a tenth of the largest). A plan was either made anew for each trial's duration or "
+      "one "
+      "plan run faster or slower (within 7 % of the median duration). {}{} Time law and mass were chosen on four fifths of a person's "
+      "trials, and "
+      "each trial scored, ln S with S the weighted sum of squares, with the choice of the four fifths that it is not in. A person's score "
+      "is the "
+      "mean over trials, over conditions the mean of their means. One person is decided for a criterion if p < {} against every other and "
+      "the "
+      "reference (two-sided t over trials, the number of trials reduced by their serial correlation) and their scores are {} or more above "
+      "its own: squared errors that differ by less are not told apart, however many trials there are. People are decided for one from {} "
+      "on if p "
+      "< {} against every other and the reference (paired t over subjects), the same least difference, the protected exceedance probability of random-effects model "
+      "selection is at least {}, and no subject is decided for another. Fewer than {} successful trials of a subject and condition are "
+      "described only. The paper's ε is its root mean squared difference of velocity against the prediction for {}, each trial time-scaled "
+      "to "
+      "the prediction with the distance kept, over 101 samples of every trial; fitted ε is that of the fits, unweighted. Intervals are 95 "
+      "%: t over "
+      "subjects for means, differences and slopes (those of differences of ε Bonferroni-corrected; those of success never narrower than "
+      "the "
+      "binomial scatter of the subjects' own trials makes them), Clopper and Pearson's for one subject's share of successes. The share of "
+      "a "
+      "typical subject is the mean of the subjects' empirical logits, back as a share. Effects of day and pace are paired over subjects, "
+      "their odds ratios from the subjects' empirical logits, p "
+      "corrected by "
+      "Holm's method.",
+      filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
+      kLeastDifference, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
+      o.predictFor == PredictionDuration::Task ? "the task's duration" : "the duration that was moved");
+}
+
+std::string describeLimits(const StudyResult&) {
+  return "Limits: closest among the candidates is not proved; a criterion that was not compared may be nearer. Only hand velocity along "
+         "the "
+         "path decides, and only of successful trials: tolerances that let few trials through choose which movements are seen. Criteria "
+         "(4) and "
+         "(6) are one prediction unless the hand is damped, and with a hand mass other pairs come within 1 % of the peak of each other, "
+         "which "
+         "thirty trials do not tell apart. Measures of a peak (time to peak, symmetry) mean little where the speed has two. Replayed "
+         "reaches "
+         "are scaled so that their farthest point is the target, so their overshoot is near zero by construction.";
+}
+
+std::string describeCounts(const ConditionResult& r) {
+  const std::size_t attempts = r.counts.success + r.counts.failure;
+  std::string text = fmt::format("{} of {} succeeded", r.counts.success, plural(attempts, "trial"));
+  if (attempts > 0) text += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.counts.success) / static_cast<double>(attempts));
+  if (r.success)
+    text += fmt::format("; a typical one of the {} {:.0f} % {}", plural(r.success->people, "subject"), 100 * r.success->mean,
+                        intervalText({100 * r.success->interval.low, 100 * r.success->interval.high}));
+  std::vector<std::string> rest;
+  if (r.counts.aborted > 0) rest.push_back(fmt::format("{} aborted", r.counts.aborted));
+  if (const std::size_t n = r.counts.interrupted - r.counts.invalidTiming; n > 0) rest.push_back(fmt::format("{} interrupted", n));
+  if (r.counts.invalidTiming > 0)
+    rest.push_back(fmt::format("{} with invalid timing (more ticks missed than allowed), left out", r.counts.invalidTiming));
+  if (r.counts.practice > 0) rest.push_back(plural(r.counts.practice, "practice trial"));
+  if (r.counts.catchTrials > 0) rest.push_back(plural(r.counts.catchTrials, "catch trial"));
+  if (!rest.empty()) text += "; besides " + joined(rest);
+  std::vector<std::string> why;
+  for (const auto& [reason, n] : r.reasons) why.push_back(fmt::format("{} × {}", n, reason));
+  if (!why.empty()) text += ". Reasons: " + joined(why);
+  text += fmt::format(". {} in profiles and errors.", plural(r.used, r.onlyFailures ? "failed trial" : "trial"));
+  if (r.used > 0)
+    text += fmt::format(" Movement time {:.2f} s (least {:.2f}, largest {:.2f}).", r.movementTime.mean, r.movementRange.low,
+                        r.movementRange.high);
+  if (r.counts.beforeGo > 0)
+    text +=
+        fmt::format(" In {} the hand left before the go signal: no reaction time is given for them.", plural(r.counts.beforeGo, "trial"));
+  if (r.counts.otherWay > 0)
+    text += fmt::format(" {} went round the closed curve the other way; velocity is counted along the way that the hand went.",
+                        plural(r.counts.otherWay, "trial"));
+  return text;
+}
+
+std::string describeEffect(const StudyResult& study, const Effect& e) {
+  const std::string what = e.ofDay ? fmt::format("{}, D{} − D{}", study.conditions[e.condition].name, e.to, e.from)
+                                   : fmt::format("{} − {}", study.conditions[static_cast<std::size_t>(e.to)].name,
+                                                 study.conditions[static_cast<std::size_t>(e.from)].name);
+  std::string text = fmt::format("{}: {}{} percentage points", what, e.points.mean >= 0 ? "+" : "", shortNumber(e.points.mean));
+  if (e.people < 2) return text + " (one subject: no interval).";
+  return text + fmt::format(" {}, odds ratio {} {}, {} ({}).", intervalText(e.pointsInterval), shortNumber(std::exp(e.logit.mean)),
+                            intervalText({std::exp(e.logitInterval.low), std::exp(e.logitInterval.high)}), pText(e.p),
+                            plural(e.people, "subject"));
+}
+
+std::string describeSlope(const StudyResult& study, const LearningSlope& s) {
+  std::string text = fmt::format("{}: {}{} percentage points in 100 trials", study.conditions[s.condition].name,
+                                 s.perHundred >= 0 ? "+" : "", shortNumber(s.perHundred));
+  if (s.people < 2) return text + " (one subject: no interval).";
+  return text + fmt::format(" {}, {} ({}).", intervalText(s.interval), pText(s.p), plural(s.people, "subject"));
+}
+
+}  // namespace reachlab::analysis

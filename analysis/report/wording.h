@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "analysis/study.h"
+
+namespace reachlab::analysis {
+
+/// Sentences of the report, as they also go to the terminal. Plain text, no mark-up.
+
+/// A candidate as it is named: "(1) min-hand-jerk", "(4) min-hand-force and (6) min-com-acceleration, which predict the same", or "a
+/// minimum jerk that ignores the object".
+std::string describeCandidate(const std::vector<predict::Criterion>& criteria);
+/// The candidates of a condition, as the conclusion indexes them.
+std::vector<std::vector<predict::Criterion>> candidatesOf(const ConditionResult& result);
+
+/// The one plain sentence: which criterion, and how sure; or that nothing may be concluded, and why.
+std::string describeConclusion(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
+/// What always stands beside it: trials, nearest rival, exceedance, R^2 and its ceiling.
+std::string describeEvidence(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
+/// Which conditions the overall conclusion is over, and which are left out; empty with one condition.
+std::string describeTogether(const StudyResult& study);
+/// Hand masses and time laws that were tried, and how often each was chosen for the candidate that is closest.
+std::string describeChoices(const StudyResult& study, const std::vector<std::size_t>& conditions,
+                            const std::vector<predict::Criterion>& criteria);
+
+/// The methods paragraph, ready to be pasted: every option that changes numbers.
+std::string describeMethods(const StudyResult& study);
+/// What none of this can show.
+std::string describeLimits(const StudyResult& study);
+/// What went into a condition and what did not: "18 of 20 trials succeeded …".
+std::string describeCounts(const ConditionResult& result);
+/// An effect on success: "D2 − D1, chain-slow: +21 points [5, 37] …".
+std::string describeEffect(const StudyResult& study, const Effect& effect);
+std::string describeSlope(const StudyResult& study, const LearningSlope& slope);
+
+/// A number with three significant digits and a real minus sign.
+std::string shortNumber(double value);
+/// p in words: "p = 0.012", "p < 0.0001".
+std::string pText(double p);
+
+}  // namespace reachlab::analysis

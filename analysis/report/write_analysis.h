@@ -1,0 +1,21 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/dataset.h"
+#include "analysis/report/report.h"
+
+namespace reachlab::analysis {
+
+struct AnalysisFiles {
+  std::string report;
+  std::vector<std::string> tables, figures;
+};
+
+/// Writes tables (CSV, each with the dictionary of its columns beside it as JSON), figures (SVG and PDF, in figures/) and report.html into
+/// `folder`; each file replaced in one step. The same study gives the same bytes. Throws ResourceError.
+AnalysisFiles writeAnalysis(const StudyResult& study, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
+                            const std::optional<Recovery>& recovery = {});
+
+}  // namespace reachlab::analysis

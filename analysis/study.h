@@ -1,0 +1,171 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/conclusions/conclusion.h"
+#include "analysis/conclusions/person_fit.h"
+#include "analysis/conclusions/progress_model.h"
+#include "analysis/measures/measures.h"
+#include "analysis/measures/paper_error.h"
+#include "analysis/trials/signal_store.h"
+#include "sim/experiment/compiled_experiment.h"
+
+/// From recorded trials to everything that tables, figures and report show. Pure: the same trials and options give the same numbers.
+namespace reachlab::analysis {
+
+/// What T the paper's epsilon predicts for. Task: the task's. Moved: for each criterion the T whose movement lasts as long as the trials did.
+/// The fits choose their own durations and do not ask.
+enum class PredictionDuration { Task, Moved };
+
+struct StudyOptions {
+  MeasureOptions measure;
+  bool includePractice = false;
+  std::vector<predict::Criterion> criteria;      // empty: all that are defined for the object
+  std::optional<double> handMass;                // [kg] of the predictions; nullopt: the experiment's
+  std::vector<double> handMasses{0, 0.5, 1, 2};  // [kg] that the fits of (4) to (6) try where no mass is given
+  double handDamping = 0;                        // [N s/m]
+  PredictionDuration predictFor = PredictionDuration::Task;
+  int learningBin = 10;      // trials a point of the learning curve
+  bool keepScatter = false;  // of people's movements, for recovery
+};
+
+/// What a condition asks, and the experiment it was recorded with.
+struct StudyCondition {
+  std::string name;
+  experiment::CompiledExperiment compiled;
+  const experiment::Experiment& experiment() const { return compiled.experiment(); }
+};
+
+/// A recorded study: trials in any order, each of a condition (index). Filled by openDataset or by a test.
+struct StudyInput {
+  std::vector<StudyCondition> conditions;
+  std::vector<TrialData> trials;
+  std::vector<std::size_t> conditionOf;  // one a trial
+};
+
+/// One trial after measurement; its signals are in the study's store.
+struct StudyTrial {
+  TrialKey key;
+  std::size_t condition = 0;
+  trial::TrialResult result;
+  bool practice = false, catchTrial = false;
+  bool otherWay = false;  // it went round a closed curve the other way
+  std::string exclusion;  // why it is not in the profiles and errors; empty: it is
+  bool counted = false;   // success or failure of a proper trial: it counts for success rates
+  TrialMeasures measures;
+  double endLevel = 0;                     // the hand's speed at its end, as a part of its peak
+  SignalStore::Row profile;                // 101 points of the hand's velocity, then of the object's; none without a movement
+  SignalStore::Row window;                 // what the fits are made to
+  double windowBegin = 0, windowRate = 0;  // [s], [Hz]
+  std::vector<double> paperError;          // [m/s] of the hand, then of the object, one a criterion; empty if not used
+  bool used() const { return exclusion.empty(); }
+};
+
+/// Mean and SD over the used trials at each of the 101 points, time-scaled to the condition's mean duration. [m/s]
+struct MeanProfile {
+  std::vector<double> mean, sd;
+};
+
+struct OutcomeCounts {
+  std::size_t success = 0, failure = 0, aborted = 0, interrupted = 0, practice = 0, catchTrials = 0;
+  std::size_t invalidTiming = 0;  // of the interrupted ones
+  std::size_t beforeGo = 0;       // the hand left before the go signal
+  std::size_t otherWay = 0;       // round a closed curve the other way
+};
+
+/// A criterion's paper's epsilon in one condition, over all samples of the used trials; the interval is over people.
+struct EpsilonPlace {
+  std::size_t criterion = 0;                   // index into ConditionResult::signals
+  double epsilon = 0;                          // [m/s]
+  std::optional<Interval> interval;            // of the mean of people's epsilons
+  double difference = 0;                       // mean over people of epsilon - that of the first
+  std::optional<Interval> differenceInterval;  // Bonferroni-corrected for the number of criteria compared with the first
+  bool apart = false;                          // that interval excludes 0
+};
+using EpsilonTable = std::vector<EpsilonPlace>;  // least first
+
+/// One person's trials of a condition, fitted.
+struct PersonResult {
+  std::string subject;
+  std::size_t condition = 0;
+  std::size_t firstTrial = 0, trials = 0;  // range of the used trials in StudyResult::trials
+  double duration = 0;                     // [s] mean by the onset rule
+  bool fitted = false;                     // kFewestTrials or more
+  PersonFit fit;
+  std::vector<double> rest;            // [m/s m/s] sum w^2 v^2 of each trial
+  std::optional<std::size_t> follows;  // this person's own conclusion in this condition
+};
+
+struct ConditionResult {
+  OutcomeCounts counts;
+  std::map<std::string, std::size_t> reasons;  // of failures and aborts, by machine-readable name
+  std::map<std::string, std::size_t> exclusions;
+  std::size_t used = 0;
+  bool onlyFailures = false;      // no trial succeeded: what is used are the failed ones, for description
+  MeanSd duration, movementTime;  // [s] over the used trials: by the onset rule, by the task
+  Interval movementRange;         // [s] least and largest movement time of the used trials
+  MeanProfile hand, object;
+  double endLevel = 0;                                            // mean of the used trials
+  std::vector<PredictedSignal> signals;                           // one a prediction of the paper's epsilon
+  std::vector<std::unique_ptr<predict::Prediction>> predictions;  // parallel
+  std::vector<std::string> refusals;                              // criteria that cannot be predicted here, and why
+  EpsilonTable handEpsilon, objectEpsilon;
+  CandidateSet candidates;              // of the fits
+  Conclusion conclusion;                // indexes `candidates`
+  std::optional<MeanInterval> success;  // share of a typical person
+};
+
+/// RMS error of one series: one subject, session, run.
+struct SeriesResult {
+  TrialKey key;  // trial 0
+  std::size_t condition = 0, trials = 0;
+  std::vector<double> handError, objectError;  // [m/s] one a criterion
+};
+
+struct StudyResult {
+  StudyOptions options;
+  std::vector<StudyCondition> conditions;
+  std::vector<ConditionResult> results;  // one a condition
+  std::vector<StudyTrial> trials;        // sorted by condition, subject, session, run, trial
+  std::vector<SeriesResult> series;
+  std::vector<PersonResult> people;                     // by condition, then subject
+  std::vector<std::vector<predict::Criterion>> common;  // candidates of the overall conclusion; an empty one is the reference
+  std::vector<std::size_t> together;  // conditions of the overall conclusion: those in which every judged subject has enough trials
+  Conclusion overall;                 // over all conditions, indexes `common`
+  std::vector<std::string> subjects;
+  std::vector<SuccessCell> success;
+  std::vector<LearningPoint> learning;
+  std::vector<Effect> effects;        // of day and pace, over people
+  std::vector<LearningSlope> slopes;  // of success against trial number, over people
+  std::shared_ptr<const SignalStore> signals;
+
+  TrialProfile profileOf(const StudyTrial& trial) const;  // as measured; empty without a movement
+};
+
+using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
+
+/// Takes the trials one by one and forgets their signals, then judges. Throws FaultError for options out of range.
+class StudyBuilder {
+ public:
+  explicit StudyBuilder(const StudyOptions& options);
+  void add(TrialData&& trial, std::size_t condition);
+  /// Forgets the last so many trials.
+  void takeBack(std::size_t count);
+  StudyResult finish(std::vector<StudyCondition> conditions, const StudyProgress& fitting = {});
+
+ private:
+  StudyResult study_;
+  std::shared_ptr<SignalStore> signals_;
+};
+
+StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const StudyProgress& progress = {});
+
+/// The conclusion of one condition, or of several together, from people's fits; also what recovery judges by.
+Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& candidates);
+PersonScores scoresOf(const PersonResult& person);
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,48 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/haptics/tick_engine.h"
+#include "sim/record/configuration/channels.h"
+#include "sim/record/log/trial_tracker.h"
+
+namespace reachlab::study {
+
+/// One virtual subject in one block, then the next on the same scene: physics and judgement, tick for tick as a recorded run on the virtual
+/// clock has them, and nothing else. Without samples a trial allocates only what its hand prepares for it. One thread.
+class BlockRun {
+ public:
+  static constexpr std::uint64_t kSampleEvery = 10;  // [ticks] as recordings have it unless they are asked for more
+
+  /// `withSamples`: the rows that a recording would hold are kept of the latest trial. Throws as compileScene does. Keeps the reference.
+  BlockRun(const experiment::CompiledExperiment& experiment, bool withSamples);
+
+  /// Begins a block: what a new BlockRun with this hand would be. Throws FaultError for a hand that is not virtual or that a watch would
+  /// look after.
+  void begin(std::unique_ptr<haptics::HapticDevice> hand);
+  /// Runs one trial to its end. Valid until the next call.
+  const record::RecordedTrial& runTrial(const trial::PlannedTrial& planned);
+  const record::ChannelTable& table() const { return table_; }
+  /// Of the latest trial, between two ticks.
+  record::SampleRows rowsBetween(std::uint64_t first, std::uint64_t last) const;
+
+ private:
+  void tick(trial::Command command, const trial::PlannedTrial& planned);
+  void keepRow(const haptics::TickState& state);
+
+  const experiment::CompiledExperiment* experiment_;
+  dynamics::Scene scene_;  // until the first block begins; then the engine has it
+  std::unique_ptr<haptics::HapticDevice> hand_;
+  std::optional<haptics::TickEngine> engine_;
+  record::TrialTracker tracker_;
+  record::RecordedTick seen_;
+  std::vector<record::RecordedEvent> events_;
+  std::int32_t trial_ = 0;
+  bool withSamples_;
+  record::ChannelTable table_;
+  record::SampleRows rows_;
+};
+
+}  // namespace reachlab::study

@@ -1,0 +1,184 @@
+#include "analysis/study/chunk_worker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/study/gzip.h"
+#include "base/table_text.h"
+#include "sim/session/trial_order.h"
+#include "sim/trial/task_check.h"
+
+namespace reachlab::study {
+namespace {
+
+constexpr std::size_t kMostKits = 16;  // a plan's conditions, some points apart
+
+// A fault of a point's experiment, with the point's number.
+template <class Work>
+void atPoint(const Point& point, Work&& work) {
+  const auto where = [&] {
+    const std::string what = describe(point);
+    return fmt::format("point {}{}", point.index, what.empty() ? "" : " (" + what + ")");
+  };
+  try {
+    work();
+  } catch (const FaultError& error) {
+    std::vector<Fault> faults = error.faults;
+    for (Fault& fault : faults) {
+      if (fault.key.starts_with("point ")) continue;
+      fault.key = where() + (fault.key.empty() ? "" : ": " + fault.key);
+      fault.place.reset();
+    }
+    throw FaultError(std::move(faults));
+  } catch (const RefusedError& error) {
+    throw RefusedError(where() + ": " + error.what());
+  }
+}
+
+// Text and numbers of the table, from its rows.
+std::string csvOf(const std::vector<Column>& columns, const std::vector<double>& rows, std::size_t count) {
+  TableText table(',', "");
+  for (std::size_t row = 0; row < count; ++row) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const double value = rows[row * columns.size() + k];
+      const std::vector<std::string>& words = columns[k].words;
+      if (words.empty()) table.number(value);
+      else table.cell(std::isfinite(value) ? words.at(static_cast<std::size_t>(value)) : "");
+    }
+    table.endRow();
+  }
+  return table.takeText();
+}
+
+experiment::CompiledExperiment openPoint(const PointExperiment& point) {
+  experiment::CompiledExperiment experiment = experiment::openExperimentText(point.text, point.name);
+  trial::checkTask(experiment, point.name);
+  if (!experiment.experiment().hands.empty())
+    throw FaultError(Fault{"hands", "are several, and a virtual subject has one", "an experiment for one hand"});
+  return experiment;
+}
+
+std::size_t placeOf(const std::vector<std::string>& words, const std::string& word) {
+  return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+}  // namespace
+
+ChunkWorker::ChunkWorker(const Design& design, PrepareSubjects prepare)
+    : design_(design), prepare_(std::move(prepare)), needs_(needsOf(design)), columns_(columnsOf(design)),
+      identity_(identityColumns(design)) {}
+
+ChunkWorker::Kit& ChunkWorker::kitFor(const std::string& device, const PointExperiment& experiment) {
+  for (Kit& kit : kits_)
+    if (kit.device == device && kit.text == experiment.text) return kit;
+  Kit kit;
+  kit.device = device;
+  kit.text = experiment.text;
+  for (const Kit& other : kits_)
+    if (other.text == kit.text) kit.experiment = other.experiment;
+  if (!kit.experiment) kit.experiment = openPoint(experiment);
+  kit.hands = prepare_(device, *kit.experiment);
+  kit.measurer = std::make_unique<Measurer>(design_, *kit.experiment);
+  kits_.push_front(std::move(kit));
+  kits_.front().run = std::make_unique<BlockRun>(*kits_.front().experiment, needs_.samples);
+  if (kits_.size() > kMostKits) kits_.pop_back();
+  return kits_.front();
+}
+
+void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial>& trials, std::vector<double>& identity) {
+  const bool ofPlan = !design_.planText.empty();
+  std::shared_ptr<void> learnt;
+  std::vector<double> who(identity_, std::nan(""));
+  who[0] = static_cast<double>(point_->index);
+  who[1] = static_cast<double>(subject);
+  const std::size_t firstAxis = identity_ - design_.axes.size(), trialColumn = firstAxis - 2;
+  for (std::size_t k = 0; k < design_.axes.size(); ++k) {
+    const Column& column = columns_[firstAxis + k];
+    const Axis& axis = design_.axes[k];
+    who[firstAxis + k] = column.words.empty() ? std::strtod(point_->ofAxes[k].value.c_str(), nullptr)
+                                              : static_cast<double>(placeOf(axis.values, point_->ofAxes[k].value));
+  }
+  for (const int day : task_.days) {
+    const std::uint64_t seed = seedOf(design_, point_->index, subject, day);
+    int number = 0;
+    for (const int index : session::blockOrder(task_.plan, labelOfSubject(subject), day)) {
+      const session::PlanBlock& block = task_.plan.blocks[static_cast<std::size_t>(index)];
+      const std::uint64_t own = session::blockSeed(seed, ++number);
+      Kit& kit = kitFor(task_.device, task_.experiments[static_cast<std::size_t>(index)]);
+      BlockRun& run = *kit.run;
+      run.begin(kit.hands(own, day, learnt));
+      if (ofPlan) {
+        who[2] = who[3] = day;
+        who[4] = number;
+        const std::size_t condition = placeOf(columns_[5].words, conditionOf(block));
+        if (condition == columns_[5].words.size())
+          throw FaultError(Fault{"plan.blocks", "have a condition that the plan has not", "the plan's own conditions"});
+        who[5] = static_cast<double>(condition);
+        who[6] = block.practice ? 1 : 0;
+      }
+      who[trialColumn + 1] = static_cast<double>(seed);
+      const std::size_t first = trials.size();
+      for (const trial::PlannedTrial& planned : session::planTrials(block, own)) {
+        const record::RecordedTrial& recorded = run.runTrial(planned);
+        trials.push_back(kit.measurer->measure(run, recorded, block.practice));
+        who[trialColumn] = recorded.trial;
+        identity.insert(identity.end(), who.begin(), who.end());
+      }
+      kit.measurer->fitBlock(trials, first);
+    }
+  }
+}
+
+std::optional<ChunkRows> ChunkWorker::compute(const PairRange& pairs, const std::function<bool(std::int64_t trials)>& goOn) {
+  std::vector<double> rows;
+  ChunkRows out;
+  out.columns = columns_.size();
+  std::vector<MeasuredTrial> trials;
+  std::vector<double> identity;
+  for (std::int64_t pair = pairs.first; pair < pairs.end; ++pair) {
+    const std::int64_t index = pair / design_.subjects, subject = pair % design_.subjects + 1;
+    if (!point_ || point_->index != index) {
+      const Point point = pointAt(design_, index);
+      task_ = taskOf(design_, point);
+      point_ = point;
+    }
+    trials.clear();
+    identity.clear();
+    atPoint(*point_, [&] { computeSubject(subject, trials, identity); });
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const auto begin = identity.begin() + static_cast<std::ptrdiff_t>(i * identity_);
+      rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(identity_));
+      rows.resize(rows.size() + out.columns - identity_);
+      putMeasures(design_, trials[i], {rows.data() + rows.size() - out.columns, out.columns});
+      if (!design_.profiles) continue;
+      trials[i].profile.resize(kProfileNumbers, std::nanf(""));
+      out.profiles.insert(out.profiles.end(), trials[i].profile.begin(), trials[i].profile.end());
+    }
+    if (!goOn(static_cast<std::int64_t>(trials.size()))) return std::nullopt;
+  }
+  const std::size_t count = rows.size() / out.columns;
+  out.rows = static_cast<std::int64_t>(count);
+  out.csvGz = gzipMember(csvOf(columns_, rows, count));
+  out.values.resize(rows.size());
+  for (std::size_t row = 0; row < count; ++row)
+    for (std::size_t k = 0; k < out.columns; ++k) out.values[k * count + row] = rows[row * out.columns + k];
+  return out;
+}
+
+void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects& prepare,
+                std::set<std::pair<std::string, std::string>>& seen) {
+  const Point point = pointAt(design, index);
+  const PointTask task = taskOf(design, point);
+  for (const PointExperiment& one : task.experiments) {
+    if (!seen.emplace(task.device, one.text).second) continue;
+    atPoint(point, [&] {
+      const experiment::CompiledExperiment experiment = openPoint(one);
+      std::shared_ptr<void> learnt;
+      BlockRun(experiment, false).begin(prepare(task.device, experiment)(1, 0, learnt));
+    });
+  }
+}
+
+}  // namespace reachlab::study

@@ -1,0 +1,80 @@
+#include "analysis/study/run_study.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "analysis/study/chunk_worker.h"
+#include "base/system/os.h"
+
+namespace reachlab::study {
+
+void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const NextChunk& next,
+                   const std::function<void(std::int64_t trials)>& done) {
+  std::mutex mutex;
+  std::exception_ptr fault;
+  std::atomic<bool> ended{false};
+  const auto work = [&] {
+    try {
+      ChunkWorker worker(folder.design, prepare);
+      while (!ended) {
+        const std::optional<std::int64_t> chunk = next();
+        if (!chunk) return;
+        const auto rows = worker.compute(folder.chunks.at(*chunk), [&](std::int64_t trials) {
+          const std::lock_guard lock(mutex);
+          done(trials);
+          return !ended;
+        });
+        if (rows) writeChunk(folder.path, *chunk, folder.fingerprint, *rows);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!fault) fault = std::current_exception();
+      ended = true;
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (unsigned t = 1; t < std::max(1u, jobs); ++t) pool.emplace_back(work);
+    work();
+  }
+  if (fault) std::rethrow_exception(fault);
+}
+
+void computeShard(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const Shard& shard, const TellProgress& tell) {
+  const ChunksToDo todo = chunksToDo(folder, shard);
+  const std::int64_t ofSubject = mostTrialsOfSubject(folder.design);
+  StudyProgress progress;
+  std::int64_t left = 0;
+  for (const std::int64_t chunk : todo.missing) left += (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
+  for (std::int64_t chunk = 0; chunk < folder.chunks.count(); ++chunk)
+    if (shard.has(chunk)) progress.trials += (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
+  progress.trialsDone = progress.trials - left;
+  std::atomic<std::size_t> at{0};
+  const std::int64_t began = os::now();
+  const auto next = [&]() -> std::optional<std::int64_t> {
+    const std::size_t i = at++;
+    return i < todo.missing.size() ? std::optional(todo.missing[i]) : std::nullopt;
+  };
+  computeChunks(folder, prepare, jobs, next, [&](std::int64_t trials) {
+    progress.trialsDone += trials;
+    progress.trialsNow += trials;
+    progress.seconds = static_cast<double>(os::now() - began) * 1e-9;
+    if (tell) tell(progress);
+  });
+}
+
+void checkPoints(const Design& design, const PrepareSubjects& prepare) {
+  constexpr std::int64_t kMostPoints = 200;
+  const std::int64_t points = pointCount(design), looked = std::min(points, kMostPoints);
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::int64_t i = 0; i < looked; ++i) {
+    const std::int64_t index = looked < 2 ? 0 : i * (points - 1) / (looked - 1);
+    checkPoint(design, index, prepare, seen);
+  }
+}
+
+}  // namespace reachlab::study

@@ -1,0 +1,53 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/study.h"
+
+namespace reachlab::analysis {
+
+/// Takes a piece of the file of that name; the pieces of one file come in order.
+using TableWriter = std::function<void(const std::string& name, std::string_view piece)>;
+
+/// The study as tidy CSV files (docs/analysis.md has their columns). Every number of a figure or of the report is in one. Numbers read back
+/// equal; an empty cell is what could not be measured.
+void writeTables(const StudyResult& study, const TableWriter& write);
+
+/// What each column of one of these files is, in words, with its unit; empty for a file that is none of them. `header` is its first line.
+std::string tableDictionary(const std::string& name, const std::string& header);
+
+/// One row of fits.csv, and of `fits` in JSON.
+struct FitRow {
+  std::string subject, condition, criterion;
+  std::vector<std::string> equivalent;
+  double epsilon = 0;  // [m/s]
+  double r2 = 0, score = 0, ceiling = 0;
+  double duration = 0;         // [s]
+  std::optional<double> plan;  // [s]
+  std::string timeLaw;
+  std::optional<double> handMass;  // [kg]
+  std::size_t trials = 0;
+  bool decided = false;
+};
+std::vector<FitRow> fitRows(const StudyResult& study);
+
+/// A prediction as it is, neither cut nor stretched: velocities at equal steps from its beginning to T, time counted from where the onset
+/// rule would find it, as for trials.
+struct PredictedCurve {
+  std::vector<double> time, hand, object;  // [s], [m/s]
+};
+PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion);
+
+/// "(1) min-hand-jerk", with the paper's number; "(3h)" is the literal hand-crackle variant.
+std::string numberedName(predict::Criterion criterion);
+/// A candidate in one word: its first criterion, or "reference".
+std::string nameOfCandidate(const std::vector<predict::Criterion>& criteria);
+/// The name with underscores, for columns.
+std::string columnOf(predict::Criterion criterion);
+/// A condition's name as part of a file name: letters, digits and dashes.
+std::string fileNameOf(const std::string& condition);
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+
+#include "analysis/trials/trial_data.h"
+#include "constraints/geometry/task_path.h"
+#include "sim/record/configuration/channels.h"
+#include "sim/record/log/run_log.h"
+
+namespace reachlab::analysis {
+
+/// Turns the rows of one run into trials as the analysis takes them. A value; any thread.
+class RunTrials {
+ public:
+  /// `every`: ticks between two rows.
+  RunTrials(const record::ChannelTable& table, std::uint64_t every, constraints::TaskPath path);
+
+  /// Gives the rows between two ticks, both included.
+  using RowsBetween = std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)>;
+  /// The trial from its arming to its end, without key and practice. What the hand does after the trial, or where it is put for the next
+  /// one, is no part of the movement.
+  TrialData read(const record::RecordedTrial& recorded, const RowsBetween& rowsOf) const;
+
+ private:
+  struct Columns {  // where they stand in the table
+    std::size_t hand = 0, force = 0, object = 0, velocity = 0;
+    std::size_t parameter = 0;  // of mass 1, on curves
+  };
+  void appendEvenly(TrialData& trial, const record::SampleRows& rows) const;
+
+  Columns columns_;
+  std::uint64_t every_;
+  constraints::TaskPath path_;
+};
+
+}  // namespace reachlab::analysis

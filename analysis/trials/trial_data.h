@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/math/vec3.h"
+#include "sim/trial/outcome.h"
+
+namespace reachlab::analysis {
+
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// Who did it, when, and in which series.
+struct TrialKey {
+  std::string subject, session, condition;
+  int day = 0;  // from the plan, else the session's place among the subject's sessions, from 1
+  int run = 0, block = 0, trial = 0;
+};
+
+/// One recorded trial as plain arrays, evenly sampled from arming to its end; sample i is at first + i / rate after arming. Nothing is
+/// filtered.
+struct TrialData {
+  TrialKey key;
+  bool practice = false, catchTrial = false;
+  trial::TrialResult result;
+  double rate = 100;                                          // [Hz]
+  double first = 0;                                           // [s] of sample 0 since arming, below 1 / rate
+  double goTime = kNotMeasured;                               // [s] go signal, since arming like all times here
+  double taskOnset = kNotMeasured, taskEnd = kNotMeasured;    // [s] the task's own window: t = 0 and t_e (or where it was broken off)
+  std::vector<Vec3> hand;                                     // [m] HIP as the coupling saw it
+  std::vector<Vec3> object;                                   // [m] last mass
+  std::vector<Vec3> objectVelocity;                           // [m/s] of the simulation
+  std::vector<double> force;                                  // [N] coupling force on the object
+  double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] over every tick, where the log has them
+  /// Direction of the path: one for a straight task, one a sample on a curve, none where only speed makes sense (a surface).
+  std::vector<Vec3> along;
+  bool closed = false;  // the path is a closed curve
+  // What a person marked beside the recording (record/trial_marks.h).
+  std::string excluded;                                            // why the trial is not to count; empty: it counts
+  double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's
+  Vec3 start, target;                                              // [m] of the object
+};
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,79 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/fault.h"
+#include "base/json/json_tree.h"
+#include "base/names.h"
+#include "base/number_range.h"
+
+namespace reachlab {
+
+/// Faults of one file, told in its order; each `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+class FaultList {
+ public:
+  explicit FaultList(std::string file) : file_(std::move(file)) {}
+  void add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed = {});
+  /// A fault of the value that was read from `root`, at the place of its key there, or that it is missing there. Left out where the file
+  /// itself is at fault about that key, what it has inside or what it is inside of: the value then has a default.
+  void addOfValue(const JsonNode& root, Fault fault);
+  /// True when there is a fault about that key, what it has inside or what it is inside of.
+  bool isAbout(const std::string& key) const;
+  /// More than a person reads: further faults are only counted.
+  bool isFull() const { return faults_.size() >= kMaxFaults; }
+  /// `FILE:LINE:COLUMN` of a node.
+  std::string place(const JsonNode& where) const;
+  const std::vector<Fault>& faults() const { return faults_; }
+  bool empty() const { return faults_.empty(); }
+  /// Throws FaultError with all faults, in the file's order, when there are any.
+  void throwIfAny() const;
+
+ private:
+  static constexpr std::size_t kMaxFaults = 100, kNone = static_cast<std::size_t>(-1);
+  std::string file_;
+  std::vector<Fault> faults_;
+  std::size_t more_ = 0;
+  std::size_t ofFile_ = kNone;  // so many faults are of the file itself, before any of its value
+};
+
+/// Faults of a value at the places of their keys in the text that it was read from; unchanged where there is no text.
+std::vector<Fault> atTheirPlaces(std::vector<Fault> faults, const std::string& text, const std::string& file);
+
+/// Reads one JSON object key by key and remembers which keys were asked for: `finish` reports the others as unknown, with the nearest
+/// known name. Faults are collected; a faulty value reads as its default, a faulty number as none (NaN), so that the value's own check says
+/// what is allowed there.
+class ObjectReader {
+ public:
+  ObjectReader(FaultList& faults, const JsonNode& node, std::string path);
+
+  const JsonNode* optional(const std::string& key);
+  const JsonNode* required(const std::string& key, const std::string& allowed);
+
+  void number(const std::string& key, const NumberRange& range, double& value);
+  bool requiredNumber(const std::string& key, const NumberRange& range, double& value);
+  void integer(const std::string& key, int lo, int hi, int& value);
+  void boolean(const std::string& key, bool& value);
+  void text(const std::string& key, std::string& value);
+  bool choice(const std::string& key, const std::vector<std::string>& names, std::string& value, bool isRequired);
+  /// Numbers; `length` < 0: any number of them.
+  bool numbers(const JsonNode& node, const std::string& key, int length, const NumberRange& range, std::vector<double>& values);
+  bool strings(const JsonNode& node, const std::string& key, int length, std::vector<std::string>& values);
+  void finish();
+
+  std::string keyPath(const std::string& key) const;
+  FaultList& faults() { return faults_; }
+  const JsonNode& node() const { return node_; }
+
+ private:
+  bool readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value);
+
+  FaultList& faults_;
+  const JsonNode& node_;
+  std::string path_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace reachlab

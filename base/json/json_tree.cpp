@@ -1,0 +1,229 @@
+#include "base/json/json_tree.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <tuple>
+#include <unordered_set>
+
+#include "base/fault.h"
+
+namespace reachlab {
+namespace {
+
+constexpr std::size_t kMaxDepth = 64;
+
+// The parser reads the text through this iterator, so that the events below know how far it has come.
+struct CountingIterator {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  const char* at = nullptr;
+  const char** furthest = nullptr;
+  reference operator*() const { return *at; }
+  CountingIterator& operator++() {
+    ++at;
+    if (furthest != nullptr && at > *furthest) *furthest = at;
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    CountingIterator old = *this;
+    ++*this;
+    return old;
+  }
+  bool operator==(const CountingIterator& o) const { return at == o.at; }
+  bool operator!=(const CountingIterator& o) const { return at != o.at; }
+};
+
+class TreeBuilder : public nlohmann::json::json_sax_t {
+ public:
+  TreeBuilder(const std::string& text, std::string file, const char** furthest)
+      : text_(text), file_(std::move(file)), furthest_(furthest) {}
+
+  JsonNode root;
+
+  bool null() override { return put({}, tokenStart()); }
+  bool boolean(bool value) override {
+    JsonNode node;
+    node.kind = JsonNode::Kind::Boolean;
+    node.boolean = value;
+    return put(std::move(node), tokenStart());
+  }
+  bool number_integer(number_integer_t value) override { return putNumber(static_cast<double>(value), true); }
+  bool number_unsigned(number_unsigned_t value) override { return putNumber(static_cast<double>(value), true); }
+  bool number_float(number_float_t value, const string_t&) override { return putNumber(value, false); }
+  bool string(string_t& value) override {
+    JsonNode node;
+    node.kind = JsonNode::Kind::String;
+    node.string = value;
+    return put(std::move(node), stringStart());
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(JsonNode::Kind::Object); }
+  bool start_array(std::size_t) override { return open(JsonNode::Kind::Array); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& value) override {
+    const std::size_t start = stringStart();
+    if (!keys_.back().insert(value).second) throw FaultError(Fault{value, "stands here twice", "each key once", place(start)});
+    key_ = value;
+    std::tie(keyLine_, keyColumn_) = lineAndColumn(start);
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
+    const std::size_t end = offset();
+    std::string what = e.what();
+    if (e.id == 406) throw FaultError(Fault{{}, "this number is beyond the range of a double", "finite numbers", place(tokenStart())});
+    if (const auto at = what.find("column "); at != std::string::npos)
+      if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
+    throw FaultError(Fault{{}, what, {}, place(end > 0 ? end - 1 : 0)});
+  }
+
+ private:
+  std::size_t offset() const { return static_cast<std::size_t>(*furthest_ - text_.data()); }
+
+  FilePlace place(std::size_t at) {
+    const auto [line, column] = lineAndColumn(at);
+    return {file_, line, column};
+  }
+  // Counted on from the place asked for last: values come in the order of the file, so that all of them together cost one pass.
+  std::pair<int, int> lineAndColumn(std::size_t at) {
+    if (at < counted_.at) counted_ = {};
+    for (; counted_.at < at && counted_.at < text_.size(); ++counted_.at) {
+      if (text_[counted_.at] == '\n') {
+        ++counted_.line, counted_.column = 1;
+      } else if ((static_cast<unsigned char>(text_[counted_.at]) & 0xC0) != 0x80) {
+        ++counted_.column;
+      }
+    }
+    return {counted_.line, counted_.column};
+  }
+  // Start of the word or number that has just been read; the parser is at most one character past its end.
+  std::size_t tokenStart() const {
+    const auto isTokenCharacter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.'; };
+    std::size_t at = std::min(offset(), text_.size());
+    while (!isTokenCharacter(text_[at - 1])) --at;
+    while (at > 0 && isTokenCharacter(text_[at - 1])) --at;
+    return at;
+  }
+  // Start of the string whose closing quote has just been read.
+  std::size_t stringStart() const {
+    std::size_t at = offset() - 1;
+    const auto isEscaped = [&](std::size_t quote) {
+      std::size_t backslashes = 0;
+      while (quote > backslashes && text_[quote - 1 - backslashes] == '\\') ++backslashes;
+      return backslashes % 2 == 1;
+    };
+    while (text_[at - 1] != '"' || isEscaped(at - 1)) --at;
+    return at - 1;
+  }
+  bool putNumber(double value, bool integer) {
+    JsonNode node;
+    node.kind = JsonNode::Kind::Number;
+    node.number = value;
+    node.integer = integer;
+    return put(std::move(node), tokenStart());
+  }
+  JsonNode* attach(JsonNode node, std::size_t start) {
+    std::tie(node.line, node.column) = lineAndColumn(start);
+    if (open_.empty()) {
+      root = std::move(node);
+      return &root;
+    }
+    JsonNode& parent = *open_.back();
+    if (parent.kind == JsonNode::Kind::Array) return &parent.items.emplace_back(std::move(node));
+    node.keyLine = keyLine_, node.keyColumn = keyColumn_;
+    return &parent.members.emplace_back(key_, std::move(node)).second;
+  }
+  bool put(JsonNode node, std::size_t start) {
+    attach(std::move(node), start);
+    return true;
+  }
+  bool open(JsonNode::Kind kind) {
+    const std::size_t start = offset() - 1;
+    if (open_.size() >= kMaxDepth) throw FaultError(Fault{{}, "nested too deeply", fmt::format("{} levels", kMaxDepth), place(start)});
+    JsonNode node;
+    node.kind = kind;
+    // A child's address is stable: its parent gets no further child before it is closed.
+    open_.push_back(attach(std::move(node), start));
+    keys_.emplace_back();
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    keys_.pop_back();
+    return true;
+  }
+
+  const std::string& text_;
+  std::string file_;
+  const char** furthest_;
+  std::vector<JsonNode*> open_;
+  std::vector<std::unordered_set<std::string>> keys_;  // of each open object
+  std::string key_;
+  int keyLine_ = 0, keyColumn_ = 0;
+  struct {
+    std::size_t at = 0;
+    int line = 1, column = 1;
+  } counted_;
+};
+
+}  // namespace
+
+JsonNode::JsonNode() = default;
+
+const JsonNode* JsonNode::find(const std::string& key) const {
+  for (const auto& [name, node] : members)
+    if (name == key) return &node;
+  return nullptr;
+}
+
+const char* nameOf(JsonNode::Kind kind) {
+  switch (kind) {
+    case JsonNode::Kind::Null: return "null";
+    case JsonNode::Kind::Boolean: return "a truth value";
+    case JsonNode::Kind::Number: return "a number";
+    case JsonNode::Kind::String: return "a string";
+    case JsonNode::Kind::Array: return "an array";
+    case JsonNode::Kind::Object: return "an object";
+  }
+  return "";
+}
+
+JsonNode parseJson(const std::string& text, const std::string& file) {
+  const char* furthest = text.data();
+  TreeBuilder builder(text, file, &furthest);
+  const CountingIterator begin{text.data(), &furthest}, end{text.data() + text.size(), nullptr};
+  nlohmann::json::sax_parse(begin, end, &builder, nlohmann::json::input_format_t::json, true, true);
+  return std::move(builder.root);
+}
+
+std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  // A pipe or a device might never end, or never begin.
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
+    throw FaultError(Fault{{}, "is no regular file", "a file on a disk", FilePlace{file}});
+  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > mostBytes)
+    throw FaultError(Fault{{}, fmt::format("has {} bytes", size), fmt::format("up to {}", mostBytes), FilePlace{file}});
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (text.fail()) (void)in.peek();  // nothing was copied: an empty file is at its end, and what is no file (a folder) is bad
+  if (in.bad() || (text.fail() && !in.eof()))
+    throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
+  return std::move(text).str();
+}
+
+}  // namespace reachlab

@@ -1,0 +1,92 @@
+#pragma once
+#include "base/ticks.h"
+#include "bench/contender.h"
+#include "bench/visit_system.h"
+
+namespace reachlab::bench {
+
+/// A hand-written right-hand side with its hand: only the axes and the degree that the scene uses are evaluated. Time counts from the
+/// beginning of the current tick.
+template <class System>
+struct PeerSystem {
+  static constexpr int kStates = 2 * System::kCoordinates;
+  System system;
+  const dynamics::HandSegment* segment = nullptr;
+  std::uint64_t evaluations = 0;
+
+  void rate(const double* y, double* dy, double t) {
+    ++evaluations;
+    double r[3] = {}, v[3] = {};
+    const double s = t * (1 / kTickSeconds);
+    constexpr int d = System::kHandDegree;
+    constexpr unsigned axes = System::kHandAxes;
+    const auto& p = segment->position;
+    const auto& q = segment->velocity;
+    if constexpr (axes & 1) r[0] = horner<d>([&](int k) { return p[k].x; }, s);
+    if constexpr (axes & 2) r[1] = horner<d>([&](int k) { return p[k].y; }, s);
+    if constexpr (axes & 4) r[2] = horner<d>([&](int k) { return p[k].z; }, s);
+    if (system.handVelocity()) {
+      if constexpr (axes & 1) v[0] = horner<d>([&](int k) { return q[k].x; }, s);
+      if constexpr (axes & 2) v[1] = horner<d>([&](int k) { return q[k].y; }, s);
+      if constexpr (axes & 4) v[2] = horner<d>([&](int k) { return q[k].z; }, s);
+    }
+    system.rate(y, r, v, dy);
+  }
+
+ private:
+  template <int Degree, class Coefficient>
+  static double horner(Coefficient c, double s) {
+    double sum = c(Degree);
+    for (int k = Degree - 1; k >= 0; --k) sum = c(k) + s * sum;
+    return sum;
+  }
+};
+
+/// The scene's initial numbers, as the right-hand side counts them.
+template <class System>
+void setInitialState(const BenchScene& scene, double* y) {
+  constexpr int n = System::kCoordinates, perMass = n / System::kMasses;
+  const bool line = scene.experiment.constraint.name == "line";
+  for (int i = 0; i < n; ++i) {
+    y[i] = line ? 0 : scene.start[i % perMass];
+    y[n + i] = scene.rate.empty() ? 0 : scene.rate[i % perMass];
+  }
+}
+
+/// Appends the state (past a pole: position and velocity in the world) and the positions.
+template <class System>
+void appendSample(const System& system, const double* y, Trajectory& out) {
+  std::vector<double> r(3 * System::kMasses);
+  system.positions(y, r.data());
+  if constexpr (requires { system.shape.radius; }) {
+    double world[6];
+    system.shape.placeAndVelocity(y[0], y[1], y[2], y[3], world, world + 3);
+    out.states.insert(out.states.end(), world, world + 6);
+  } else {
+    out.states.insert(out.states.end(), y, y + 2 * System::kCoordinates);
+  }
+  out.positions.insert(out.positions.end(), r.begin(), r.end());
+}
+
+/// Drives `tick(segment index)` through a reach and takes samples; `tick` returns false when it gave up. `y` points to the state.
+template <class System, class Tick>
+void runReach(PeerSystem<System>& peer, const std::vector<dynamics::HandSegment>& segments, const double* y, Trajectory* out, Tick tick) {
+  peer.evaluations = 0;
+  if (out) appendSample(peer.system, y, *out);
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    peer.segment = &segments[i];
+    if (!tick()) {
+      if (out) out->failure = "gave up at " + std::to_string(static_cast<double>(i) * kTickSeconds) + " s";
+      return;
+    }
+    if (!out) continue;
+    out->worstTick = std::max(out->worstTick, peer.evaluations - before);
+    before = peer.evaluations;
+    if ((i + 1) % kTicksPerSample == 0) appendSample(peer.system, y, *out);
+  }
+  if (out) out->rhsEvaluations = peer.evaluations;
+  consume(y[0]);
+}
+
+}  // namespace reachlab::bench

@@ -1,0 +1,350 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/hands.h"
+#include "analysis/report/wording.h"
+#include "analysis/report/write_analysis.h"
+#include "analysis/tables.h"
+#include "base/error.h"
+#include "base/fault.h"
+#include "cli/commands/commands.h"
+#include "cli/terminal/at_option.h"
+#include "cli/terminal/criterion_option.h"
+#include "sim/record/export/derivative.h"
+
+namespace reachlab::cli {
+namespace {
+
+struct AnalyzeOptions {
+  std::string dataset, out, experiment, onset = "percent", duration = "task", masses;
+  std::vector<std::string> criteria;
+  double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
+  int resamples = 0, bin = 10, recovery = 0, jobs = 0;
+  std::uint64_t seed = 1;
+  bool includePractice = false, json = false;
+};
+
+std::vector<double> parseMasses(const std::string& text) {
+  std::vector<double> masses;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end) {
+    double value = -1;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !(value >= 0) || !std::isfinite(value) || (stop != end && (*stop != ',' || stop + 1 == end)))
+      throw FaultError(Fault{"--hand-masses", "is " + text, "masses in kg, 0 or more, with commas between: 0,0.5,1,2"});
+    masses.push_back(value);
+    at = stop == end ? end : stop + 1;
+  }
+  return masses;
+}
+
+analysis::StudyOptions studyOptions(const AnalyzeOptions& o) {
+  analysis::StudyOptions s;
+  s.measure.cutoff = o.cutoff;
+  s.measure.onset.percent = o.percent;
+  s.measure.onset.speed = o.speed;
+  s.measure.onset.rule = o.onset == "absolute" ? analysis::OnsetRule::Absolute
+                         : o.onset == "task"   ? analysis::OnsetRule::Task
+                                               : analysis::OnsetRule::Percent;
+  s.includePractice = o.includePractice;
+  s.predictFor = o.duration == "mean" ? analysis::PredictionDuration::Moved : analysis::PredictionDuration::Task;
+  s.learningBin = o.bin;
+  if (o.handMass >= 0) s.handMass = o.handMass;
+  if (!o.masses.empty()) s.handMasses = parseMasses(o.masses);
+  s.handDamping = o.handDamping;
+  s.keepScatter = o.recovery > 0;
+  for (const std::string& name : o.criteria) s.criteria.push_back(parseCriterion(name));
+  return s;
+}
+
+using Names = std::vector<std::vector<predict::Criterion>>;
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const analysis::Interval& i) { return std::isfinite(i.low) && std::isfinite(i.high) ? Json{i.low, i.high} : Json(nullptr); }
+
+/// The paper's epsilon of one signal, as a description.
+Json jsonOf(const analysis::EpsilonTable& table, const analysis::ConditionResult& result, bool decided) {
+  auto places = Json::array();
+  auto together = Json::array();
+  for (const analysis::EpsilonPlace& p : table) {
+    const auto name = predict::nameOf(result.signals[p.criterion].criterion);
+    places.push_back({{"criterion", name},
+                      {"epsilon_m_per_s", p.epsilon},
+                      {"epsilon_interval_m_per_s", p.interval ? jsonOf(*p.interval) : Json(nullptr)},
+                      {"difference_m_per_s", p.difference},
+                      {"difference_interval_m_per_s", p.differenceInterval ? jsonOf(*p.differenceInterval) : Json(nullptr)},
+                      {"apart_from_first", p.apart}});
+    if (&p != &table.front() && !p.apart) together.push_back({predict::nameOf(result.signals[table.front().criterion].criterion), name});
+  }
+  return {{"decided", decided},
+          {"trials", result.used},
+          {"subjects", result.conclusion.subjects},
+          {"places", places},
+          {"not_told_apart", together}};
+}
+
+Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector<double>& masses) {
+  const auto name = [&](const std::optional<std::size_t>& k) { return k ? Json(analysis::nameOfCandidate(names[*k])) : Json(nullptr); };
+  auto equivalent = Json::array();
+  if (c.best)
+    for (std::size_t i = 1; i < names[*c.best].size(); ++i) equivalent.push_back(predict::nameOf(names[*c.best][i]));
+  auto posterior = Json::object();
+  for (std::size_t k = 0; k < c.posterior.size(); ++k) posterior[analysis::nameOfCandidate(names[k])] = c.posterior[k];
+  auto together = Json::array();
+  for (const auto& [i, j] : c.notToldApart) together.push_back({analysis::nameOfCandidate(names[i]), analysis::nameOfCandidate(names[j])});
+  auto scores = Json::object();
+  for (std::size_t k = 0; k < c.score.size(); ++k) scores[analysis::nameOfCandidate(names[k])] = c.score[k];
+  const bool judged = c.best.has_value();
+  return {{"criterion", name(c.follows)},
+          {"decided", c.decided()},
+          {"unit", c.overSubjects ? "subjects" : "trials"},
+          {"reason", analysis::nameOf(c.reason)},
+          {"equivalent", equivalent},
+          {"best", name(c.best)},
+          {"p", judged ? Json(c.p) : Json(nullptr)},
+          {"rival", name(c.rival)},
+          {"level", c.level},
+          {"least_difference", analysis::kLeastDifference},
+          {"subjects", c.subjects},
+          {"trials", c.trials},
+          {"posterior", posterior},
+          {"sign_flip_p", c.signFlipP ? Json(*c.signFlipP) : Json(nullptr)},
+          {"not_told_apart", together},
+          {"reference", {{"p", judged ? Json(c.referenceP) : Json(nullptr)}, {"first", c.referenceFirst}}},
+          {"r2", judged ? Json(c.r2) : Json(nullptr)},
+          {"ceiling", judged ? Json(c.ceiling) : Json(nullptr)},
+          {"scores", scores},
+          {"hand_masses_kg", masses},
+          {"sentence", analysis::describeConclusion(c, names)}};
+}
+
+Json jsonOfFits(const analysis::StudyResult& study) {
+  auto fits = Json::array();
+  for (const analysis::FitRow& f : analysis::fitRows(study))
+    fits.push_back({{"subject", f.subject},
+                    {"condition", f.condition},
+                    {"criterion", f.criterion},
+                    {"equivalent", f.equivalent},
+                    {"epsilon_fit_m_per_s", f.epsilon},
+                    {"r2", f.r2},
+                    {"score", f.score},
+                    {"ceiling", f.ceiling},
+                    {"duration_s", f.duration},
+                    {"plan_s", f.plan ? Json(*f.plan) : Json(nullptr)},
+                    {"time_law", f.timeLaw},
+                    {"hand_mass_kg", f.handMass ? Json(*f.handMass) : Json(nullptr)},
+                    {"trials", f.trials},
+                    {"decided", f.decided}});
+  return fits;
+}
+
+Json jsonOf(const analysis::Recovery& r) {
+  auto names = Json::array();
+  for (const auto& criteria : r.candidates) names.push_back(analysis::nameOfCandidate(criteria));
+  auto named = names;
+  named.push_back("undecided");
+  return {{"trials", r.trials}, {"seeds", r.studies}, {"truths", names}, {"named", named}, {"counts", r.counts}};
+}
+
+Json jsonOf(const analysis::StudyResult& study, const analysis::Effect& e) {
+  const auto place = [&](int i) { return e.ofDay ? fmt::format("D{}", i) : study.conditions[static_cast<std::size_t>(i)].name; };
+  return {{"effect", e.ofDay ? "day" : "condition"},
+          {"condition", e.ofDay ? Json(study.conditions[e.condition].name) : Json(nullptr)},
+          {"from", place(e.from)},
+          {"to", place(e.to)},
+          {"subjects", e.people},
+          {"difference_percent", e.points.mean},
+          {"difference_interval_percent", jsonOf(e.pointsInterval)},
+          {"odds_ratio", std::exp(e.logit.mean)},
+          {"odds_ratio_interval", jsonOf(analysis::Interval{std::exp(e.logitInterval.low), std::exp(e.logitInterval.high)})},
+          {"p", e.people > 1 ? Json(e.p) : Json(nullptr)}};
+}
+
+std::string summaryJson(const analysis::StudyResult& study, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
+                        const std::optional<analysis::Recovery>& recovery) {
+  Json j = Json::object();
+  j["report"] = files.report;
+  j["tables"] = files.tables;
+  j["figures"] = files.figures;
+  j["runs"] = dataset.runs.size();
+  j["notes"] = dataset.notes;
+  std::vector<double> masses;
+  for (const analysis::ConditionResult& r : study.results)
+    if (masses.empty()) masses = r.candidates.masses;
+  j["conclusion"] = jsonOf(study.overall, study.common, masses);
+  j["conclusion"]["conditions"] = Json::array();
+  for (const std::size_t c : study.together) j["conclusion"]["conditions"].push_back(study.conditions[c].name);
+  j["conditions"] = Json::array();
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    const analysis::ConditionResult& r = study.results[c];
+    Json condition{{"name", study.conditions[c].name}, {"success", r.counts.success},         {"failure", r.counts.failure},
+                   {"aborted", r.counts.aborted},      {"interrupted", r.counts.interrupted}, {"invalid_timing", r.counts.invalidTiming},
+                   {"before_go", r.counts.beforeGo},   {"other_way", r.counts.otherWay},      {"used", r.used}};
+    if (r.used > 0) {
+      condition["mean_duration_s"] = r.duration.mean;
+      condition["movement_time_s"] = {{"mean", r.movementTime.mean}, {"min", r.movementRange.low}, {"max", r.movementRange.high}};
+    }
+    if (r.success)
+      condition["success_percent"] = {
+          {"typical", 100 * r.success->mean},
+          {"interval", jsonOf(analysis::Interval{100 * r.success->interval.low, 100 * r.success->interval.high})}};
+    condition["conclusion"] = jsonOf(r.conclusion, analysis::candidatesOf(r), r.candidates.masses);
+    condition["hand_ranking"] = jsonOf(r.handEpsilon, r, r.conclusion.decided());
+    condition["object_ranking"] = jsonOf(r.objectEpsilon, r, false);
+    j["conditions"].push_back(condition);
+  }
+  j["fits"] = jsonOfFits(study);
+  j["effects"] = Json::array();
+  for (const analysis::Effect& e : study.effects) j["effects"].push_back(jsonOf(study, e));
+  j["learning"] = Json::array();
+  for (const analysis::LearningSlope& s : study.slopes)
+    j["learning"].push_back({{"condition", study.conditions[s.condition].name},
+                             {"subjects", s.people},
+                             {"slope_percent_per_100_trials", s.perHundred},
+                             {"interval", jsonOf(s.interval)},
+                             {"p", s.people > 1 ? Json(s.p) : Json(nullptr)}});
+  if (recovery) j["recovery"] = jsonOf(*recovery);
+  return j.dump(2) + "\n";
+}
+
+void printRecovery(const analysis::Recovery& recovery) {
+  fmt::print("recovery: {} simulated studies a truth\n", recovery.studies);
+  for (std::size_t t = 0; t < recovery.counts.size(); ++t) {
+    fmt::print("  truth {}:", analysis::nameOfCandidate(recovery.candidates[t]));
+    for (std::size_t k = 0; k < recovery.counts[t].size(); ++k)
+      if (recovery.counts[t][k] > 0)
+        fmt::print(" {} {}", recovery.counts[t][k],
+                   k < recovery.candidates.size() ? analysis::nameOfCandidate(recovery.candidates[k]) : "undecided");
+    fmt::print("\n");
+  }
+}
+
+void printSummary(const analysis::StudyResult& study, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
+                  const std::optional<analysis::Recovery>& recovery) {
+  for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print("{}\n", analysis::describeConclusion(study.overall, study.common));
+  if (const std::string evidence = analysis::describeEvidence(study.overall, study.common); !evidence.empty()) fmt::print("{}\n", evidence);
+  if (const std::string over = analysis::describeTogether(study); !over.empty()) fmt::print("{}\n", over);
+  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    const analysis::ConditionResult& r = study.results[c];
+    fmt::print("{}: {}\n", study.conditions[c].name, analysis::describeCounts(r));
+    if (study.conditions.size() > 1) fmt::print("  {}\n", analysis::describeConclusion(r.conclusion, analysis::candidatesOf(r)));
+  }
+  if (recovery) printRecovery(*recovery);
+  fmt::print("{} tables, {} figures and {}\n", files.tables.size(), files.figures.size(), files.report);
+}
+
+/// Every option that is not its default, so that the report can be made again.
+std::string commandOf(const AnalyzeOptions& o) {
+  const AnalyzeOptions usual;
+  std::string text = "reach analyze " + o.dataset;
+  const auto add = [&](bool changed, const std::string& words) { text += changed ? " " + words : ""; };
+  for (const std::string& c : o.criteria) text += " --criterion " + c;
+  add(o.handMass >= 0, fmt::format("--hand-mass {}", o.handMass));
+  add(!o.masses.empty(), "--hand-masses " + o.masses);
+  add(o.handDamping != 0, fmt::format("--hand-damping {}", o.handDamping));
+  add(o.duration == "mean", "--prediction-duration mean");
+  add(o.onset != usual.onset, "--onset " + o.onset);
+  add(o.percent != usual.percent, fmt::format("--onset-percent {}", o.percent));
+  add(o.speed != usual.speed, fmt::format("--onset-speed {}", o.speed));
+  add(o.cutoff != usual.cutoff, fmt::format("--cutoff {}", o.cutoff));
+  add(o.bin != usual.bin, fmt::format("--learning-bin {}", o.bin));
+  add(o.recovery > 0, fmt::format("--recovery {}", o.recovery));
+  add(o.recovery > 0 && o.seed != usual.seed, fmt::format("--seed {}", o.seed));
+  add(!o.experiment.empty(), "--experiment " + o.experiment);
+  add(o.includePractice, "--include-practice");
+  return text;
+}
+
+void run(const AnalyzeOptions& o) {
+  const analysis::StudyOptions options = studyOptions(o);  // refused before hours of reading
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto progress = [terminal](const char* what, std::size_t done, std::size_t of) {
+    if (terminal && of > 0) fmt::print(stderr, "\r{} {} of {} \033[K{}", what, done, of, done == of ? "\n" : "");
+  };
+  if (o.resamples > 0)
+    fmt::print(stderr, "note: --resamples has no effect any more: intervals are over people, by t, and nothing is drawn\n");
+  if (o.duration == "auto") fmt::print(stderr, "note: --prediction-duration auto means task now: the fits choose durations of their own\n");
+  analysis::StudyBuilder builder(options);
+  const analysis::DatasetIndex dataset = analysis::readDataset(
+      o.dataset,
+      {[&](analysis::TrialData&& trial, std::size_t condition) { builder.add(std::move(trial), condition); },
+       [&](std::size_t count) { builder.takeBack(count); }},
+      o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
+  const analysis::StudyResult study =
+      builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); });
+  std::optional<analysis::Recovery> recovery;
+  if (o.recovery > 0)
+    recovery = analysis::recover(study, o.recovery, o.seed, static_cast<unsigned>(std::max(0, o.jobs)),
+                                [&](std::size_t done, std::size_t of) { progress("simulated study", done, of); });
+  std::string folder = o.dataset;
+  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
+  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o)};
+  const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
+  analysis::AnalysisFiles files = atOption("--out", [&] { return analysis::writeAnalysis(study, dataset, header, out, recovery); });
+  for (std::string& table : atOption("--out", [&] { return analysis::writeHandsTable(dataset, out); }))
+    files.tables.push_back(std::move(table));
+  if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
+  if (o.json) fmt::print("{}", summaryJson(study, dataset, files, recovery));
+  else printSummary(study, dataset, files, recovery);
+  if (!dataset.unreadable.empty())
+    throw ResourceError(fmt::format("{} of {} runs could not be read and are not in these results: {}", dataset.unreadable.size(),
+                                    dataset.unreadable.size() + dataset.runs.size(), fmt::join(dataset.unreadable, "; ")));
+}
+
+}  // namespace
+
+void addAnalyzeCommand(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("analyze", "Tables (CSV), figures (SVG, PDF) and a report (HTML) of recorded sessions");
+  const auto o = std::make_shared<AnalyzeOptions>();
+  command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
+  command->add_option("--out", o->out, "Folder to write to (default: DATASET/derivatives/reachlab)");
+  command
+      ->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")
+      ->allow_extra_args(false);
+  command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
+  command->add_option("--hand-masses", o->masses,
+                      "Masses of the hand [kg] that the fits of (4) to (6) try where none is given, with commas (default: 0,0.5,1,2)");
+  command
+      ->add_option(
+          "--prediction-duration", o->duration,
+          "Paper's epsilon: predict for the task's T, or for the mean duration moved (auto: the task's). The fits choose their own")
+      ->check(CLI::IsMember({"auto", "task", "mean"}))
+      ->capture_default_str();
+  command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")
+      ->check(CLI::IsMember({"percent", "absolute", "task"}))
+      ->capture_default_str();
+  command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();
+  command->add_option("--onset-speed", o->speed, "Speed for --onset absolute [m/s]")->capture_default_str();
+  command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")->capture_default_str();
+  command
+      ->add_option("--recovery", o->recovery,
+                   "Simulate that many studies of this very design for each truth, and say how often each is named (all processors)")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--jobs", o->jobs, "Threads of the recovery (default: one a processor)")->check(CLI::PositiveNumber);
+  command->add_option("--resamples", o->resamples, "Has no effect any more: nothing is resampled");
+  command->add_option("--seed", o->seed, "Seed of the recovery")->capture_default_str();
+  command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
+  command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");
+  command->add_flag("--include-practice", o->includePractice, "Count practice blocks too");
+  command->add_flag("--json", o->json, "Summary as JSON on stdout");
+  command->footer(
+      "Every number of a figure or of the report is in a CSV file; docs/analysis.md defines measures and columns. The same data and\n"
+      "options give the same bytes.\n\n"
+      "Examples:\n"
+      "  reach analyze data\n"
+      "  reach analyze data --out results --cutoff 12 --onset-percent 3\n"
+      "  reach analyze data --recovery 20\n"
+      "  reach analyze data --hand-mass 1 --criterion min-hand-jerk --criterion min-hand-force-change --json");
+  command->callback([o] { run(*o); });
+}
+
+}  // namespace reachlab::cli

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/fault.h"
+#include "cli/commands/commands.h"
+#include "cli/terminal/at_option.h"
+#include "sim/record/export/exporters.h"
+#include "sim/record/log/run_log.h"
+
+namespace reachlab::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string what, format, out;
+};
+
+// The dataset that a log lies in (…/sourcedata/x_log.reach), else the log's own folder.
+fs::path datasetOf(const std::string& log) {
+  const fs::path folder = fs::absolute(log).lexically_normal().parent_path();
+  return folder.filename() == "sourcedata" ? folder.parent_path() : folder;
+}
+
+std::vector<record::RunLog> openAll(const std::string& what) {
+  std::vector<record::RunLog> runs;
+  std::vector<Fault> faults;
+  for (const std::string& path : record::findLogs(what)) {
+    try {
+      runs.push_back(record::RunLog::open(path));
+      const record::RunLog& run = runs.back();
+      if (run.goodBytes() < run.fileBytes())
+        fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(), run.fileBytes(),
+                   run.trials().size());
+    } catch (const FaultError& error) {
+      faults.insert(faults.end(), error.faults.begin(), error.faults.end());
+    }
+  }
+  if (runs.empty()) throw FaultError(std::move(faults));
+  if (!faults.empty()) fmt::print(stderr, "{}\n", toText(faults));
+  return runs;
+}
+
+void exportLogs(const Options& options) {
+  const std::vector<record::RunLog> runs = openAll(options.what);
+  const fs::path dataset = datasetOf(runs.front().path());
+  std::vector<std::string> written;
+  atOption("--out", [&] {
+    const record::Exporter& exporter = *record::findExporter(options.format);
+    written = options.out.empty() ? record::writeInto(dataset.string(), exporter, runs) : exporter.write(runs, options.out);
+  });
+  for (const std::string& path : written) fmt::print("{}\n", path);
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("export", "Writes recorded runs in formats that other programs read");
+  const auto options = std::make_shared<Options>();
+  std::string formats;
+  std::vector<std::string> names;
+  for (const record::Exporter& exporter : record::exporters()) {
+    names.emplace_back(exporter.name);
+    formats += fmt::format("{}{}: {}", formats.empty() ? "" : "; ", exporter.name, exporter.description);
+  }
+  command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")->required();
+  command->add_option("--format", options->format, formats)->required()->check(CLI::IsMember(names));
+  command->add_option("--out", options->out,
+                      "Folder to write into; default: the dataset itself (bids), its derivatives/FORMAT (the others)");
+  command->footer(
+      "Columns carry their units (movement_time_s, mass1_x_m, …); docs/recording.md lists them. A damaged log is read up to the "
+      "damage.\n"
+      "The files written are named on stdout; docs/exports.md tells what is in each and how to read it.\n\n"
+      "Examples:\n"
+      "  reach export data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --format csv --out tables\n"
+      "  reach export data/sub-01/ses-01 --format csv --out tables\n"
+      "  reach export data --format mat\n"
+      "  reach export data --format bids");
+  command->callback([options] { exportLogs(*options); });
+}
+
+}  // namespace reachlab::cli

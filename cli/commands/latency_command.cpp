@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/latency_command.h"
+#include "devices/vendor/clock_timing.h"
+
+namespace reachlab::cli {
+namespace {
+
+struct Request {
+  std::string device;
+  double seconds = 5;
+  bool json = false;
+};
+
+void compare(const Request& r) {
+  const auto rows = devices::compareClocks(r.device, r.seconds);
+  if (r.json) {
+    auto list = nlohmann::ordered_json::array();
+    for (const auto& row : rows)
+      list.push_back({{"clock", row.clock},
+                      {"ticks_per_s", row.rate},
+                      {"ticks", row.ticks},
+                      {"missed", row.missed},
+                      {"jitter_p50_s", row.jitterP50},
+                      {"jitter_p99_s", row.jitterP99},
+                      {"jitter_max_s", row.jitterMax},
+                      {"latency_p50_s", row.ageP50},
+                      {"latency_p99_s", row.ageP99},
+                      {"latency_max_s", row.ageMax}});
+    fmt::print("{}\n", list.dump(2));
+    return;
+  }
+  fmt::print("{:<10} {:>8} {:>7} {:>27} {:>27}\n", "clock", "ticks/s", "missed", "jitter us p50/p99/max", "latency us p50/p99/max");
+  for (const auto& row : rows)
+    fmt::print("{:<10} {:>8.1f} {:>7} {:>27} {:>27}\n", row.clock, row.rate, row.missed,
+               fmt::format("{:.0f} / {:.0f} / {:.0f}", row.jitterP50 * 1e6, row.jitterP99 * 1e6, row.jitterMax * 1e6),
+               fmt::format("{:.0f} / {:.0f} / {:.0f}", row.ageP50 * 1e6, row.ageP99 * 1e6, row.ageMax * 1e6));
+}
+
+}  // namespace
+
+void addLatencyCommand(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("latency", "Measures a PHANToM's two clocks: its scheduler's, and the computer's that samples it");
+  const auto r = std::make_shared<Request>();
+  command->add_option("device", r->device, "Its name in the vendor's configuration [the default device]");
+  command->add_option("--seconds", r->seconds, "How long each is measured [5 s]")->check(CLI::Range(0.1, 3600.0));
+  command->add_flag("--json", r->json, "an array of objects");
+  command->footer(
+      "Jitter: how far two ticks are from 1 ms apart. Latency: from a sample to the force that was computed from it in effect. No force is\n"
+      "rendered meanwhile. --device phantom[:NAME] takes the scheduler's clock, phantom[:NAME],clock=computer the other.\n\n"
+      "Examples:\n  reach latency\n  reach latency Left --seconds 60");
+  command->callback([r] { compare(*r); });
+}
+
+}  // namespace reachlab::cli

@@ -1,0 +1,115 @@
+#include "cli/commands/session_runner.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "base/system/stop_signals.h"
+#include "cli/output/success_table.h"
+#include "devices/instruments/instruments.h"
+#include "devices/make_device.h"
+#include "devices/preflight/preflight.h"
+#include "sim/session/backup_worker.h"
+#include "sim/session/recorded_session.h"
+#include "sim/trial/protocol.h"
+#include "sim/trial/task_places.h"
+
+namespace reachlab::cli {
+namespace {
+
+void printNotice(const session::SessionNotice& notice) {
+  if (notice.unfinished)
+    fmt::print(stderr, "an earlier run of this session was not finished; --resume goes on with it, this is a new run\n");
+  for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "{}\n", sentence);
+}
+
+void printRun(const session::RecordedRun& run) {
+  const record::RunConfiguration& c = run.configuration();
+  fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", c.run, c.condition, run.trialCount(),
+             run.trialCount() == 1 ? "" : "s", c.practice ? " of practice" : "", c.method, run.logPath());
+  for (const Fault& warning : trial::describeWay(run.experiment())) fmt::print(stderr, "warning: {}\n", toText(warning));
+}
+
+// Which hand is farthest from where it has to be.
+void printWait(const session::RecordedRun& run) {
+  const experiment::CompiledExperiment& experiment = run.experiment();
+  const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment.experiment(), experiment.constraint());
+  const haptics::TickState& state = run.latest();
+  Vec3 hand = state.device.position;
+  for (int i = 1; i < state.handCount; ++i)
+    if (const Vec3& other = handOf(state, i).device.position; norm(other - place.start) > norm(hand - place.start)) hand = other;
+  const double away = norm(hand - place.start);
+  const std::string where = away > place.armRadius
+                                ? fmt::format("{:.3g} m from there, at ({:.4f}, {:.4f}, {:.4f}) m", away, hand.x, hand.y, hand.z)
+                                : "there, and does not rest";
+  fmt::print(stderr, "the trial begins when the hand rests within {:g} m of ({:.4f}, {:.4f}, {:.4f}) m; it is {}\n", place.armRadius,
+             place.start.x, place.start.y, place.start.z, where);
+}
+
+// Before anybody feels it: what this experiment will meet on this device.
+std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
+                                                         std::uint64_t seed) {
+  auto device = devices::makeDevice(spec, experiment, seed);
+  for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) fmt::print(stderr, "warning: {}\n", sentence);
+  return device;
+}
+
+}  // namespace
+
+int runSession(const session::SessionRequest& request) {
+  const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
+  session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice, nullptr, instruments.get());
+  printNotice(session.notice());
+  if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
+  std::fflush(stdout);
+  SuccessTable table;
+  std::optional<StopRequest> stop;
+  session::SessionWords words;
+  words.resting = [](const session::BlockToRun& next) {
+    fmt::print("rest: {:g} s before the block {}\n", next.restSeconds, next.configuration.condition);
+    std::fflush(stdout);
+  };
+  bool seedTold = !session.notice().seedDrawn;
+  words.opened = [&](const session::RecordedRun& run) {
+    if (!seedTold) fmt::print("seed={}\n", session.seed());
+    seedTold = true;
+    printRun(run);
+    if (!run.instructions().empty()) fmt::print("{}\n", run.instructions());
+    stop.emplace();  // from here on a signal ends the trial, not the program
+  };
+  words.checked = [](const session::RecordedRun& run) { fmt::print(stderr, "{}\n", run.timingVerdict()->sentence); };
+  words.waiting = printWait;
+  const auto warn = [&] {
+    if (instruments == nullptr) return;
+    for (const std::string& sentence : instruments->takeWarnings()) fmt::print(stderr, "warning: {}\n", sentence);
+  };
+  words.ended = [&](const session::RecordedRun& run, const haptics::ConductedTrial& trial) {
+    warn();
+    fmt::print("{}\n", trialLine(run.numberOf(trial), trial.result));
+    std::fflush(stdout);
+    table.add(run.configuration().condition + (trial.planned.catchTrial ? " (catch)" : ""), trial.result);
+  };
+  words.logClosed = [&](const session::RecordedRun& run) {
+    warn();
+    if (!run.timing().empty()) fmt::print(stderr, "{}\n", run.timing());
+    stop->allInOrder();
+  };
+  std::optional<session::BackupWorker> backup;
+  if (!request.backup.empty()) backup.emplace(request.place.data, request.backup);
+  words.closed = [&](const session::RecordedRun&) {
+    stop.reset();
+    if (backup) backup->request();
+  };
+  const bool done = session::conduct(session, StopRequest::asked(), words);
+  fmt::print("{}", table.text());
+  std::fflush(stdout);
+  if (backup) {
+    backup->request();  // the last log is let go of only now
+    const session::BackupState state = backup->finish();
+    if (state.kind == session::BackupState::Kind::Failed) throw ResourceError(state.sentence);
+    fmt::print(stderr, "{}\n", state.sentence);
+  }
+  return done ? 0 : StopRequest::exitCode();
+}
+
+}  // namespace reachlab::cli

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "analysis/figure/figure.h"
+#include "base/error.h"
+#include "base/fault.h"
+#include "cli/commands/commands.h"
+#include "devices/virtual/stability_map.h"
+
+namespace reachlab::cli {
+namespace {
+
+struct Request {
+  std::string model, out;
+  devices::StabilityMapSettings settings;
+  double coupling = 600;  // [N/m] shown as a line
+};
+
+std::string tableOf(const std::vector<devices::StabilityPoint>& map) {
+  std::string text = "hand_damping_n_s_per_m,damping_n_s_per_m,largest_stable_stiffness_n_per_m,largest_passive_stiffness_n_per_m\n";
+  for (const auto& p : map)
+    text += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", p.handDamping, p.damping, p.largestStable, p.largestPassive);
+  return text;
+}
+
+figure::Figure figureOf(const devices::DeviceModel& model, const Request& request, const std::vector<devices::StabilityPoint>& map) {
+  figure::Panel panel;
+  panel.title = fmt::format("{}, hand of {:g} kg", model.title, request.settings.handMass);
+  panel.x.label = "Coupling damping b_h (N s/m)";
+  panel.y.label = "Largest coupling stiffness k_h (N/m)";
+  panel.y.scale = figure::Scale::Log;
+  int color = 0;
+  for (const double hand : request.settings.handDampings) {
+    figure::Series stable, passive;
+    stable.label = fmt::format("stable, hand {:g} N s/m", hand);
+    passive.label = fmt::format("passive (Colgate), hand {:g} N s/m", hand);
+    stable.color = passive.color = figure::palette::series(color++);
+    passive.dash = figure::Dash::Dashed;
+    for (const auto& p : map) {
+      if (p.handDamping != hand) continue;
+      stable.x.push_back(p.damping), stable.y.push_back(p.largestStable);
+      if (p.largestPassive > 0) passive.x.push_back(p.damping), passive.y.push_back(p.largestPassive);
+    }
+    panel.series.push_back(std::move(stable));
+    if (!passive.x.empty()) panel.series.push_back(std::move(passive));
+  }
+  panel.rules.push_back({request.coupling, false, fmt::format("k_h = {:g}", request.coupling)});
+  panel.legend = figure::LegendPlace::Right;
+  figure::Figure figure;
+  figure.panels.push_back(std::move(panel));
+  figure.panelWidth = 100, figure.panelHeight = 70;
+  return figure;
+}
+
+void writeText(const std::string& text, const std::filesystem::path& path) {
+  std::ofstream out(path, std::ios::binary);
+  out << text << std::flush;
+  if (!out) throw ResourceError(path.string() + ": cannot be written");
+}
+
+void drawMap(const Request& request) {
+  const devices::DeviceModel* model = devices::findDeviceModel(request.model);
+  if (model == nullptr)
+    throw FaultError(Fault{"model", "is " + request.model + ", which is unknown; `reach list devices` has them as virtual:MODEL"});
+  const auto map = devices::computeStabilityMap(*model, request.settings);
+  if (request.out.empty()) {
+    fmt::print("{}", tableOf(map));
+    return;
+  }
+  std::error_code error;
+  std::filesystem::create_directories(request.out, error);
+  if (error) throw ResourceError(request.out + ": " + error.message());
+  const std::filesystem::path folder = request.out, name = "stability-" + request.model;
+  writeText(tableOf(map), folder / (name.string() + ".csv"));
+  figure::writeFigure(figureOf(*model, request, map), (folder / (name.string() + ".svg")).string());
+  fmt::print(stderr, "{}\n", (folder / (name.string() + ".{csv,svg}")).string());
+}
+
+}  // namespace
+
+void addStabilityCommand(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("stability", "Largest coupling stiffness that a held device renders stably");
+  const auto r = std::make_shared<Request>();
+  command->add_option("model", r->model, "Device: omni, premium15, premium60, highforce, omega3, inverse3")->required();
+  command->add_option("--hand-mass", r->settings.handMass, "Mass of the hand that moves with the handle [0.3 kg]")
+      ->check(CLI::Range(0.0, 50.0));
+  command->add_option("--hand-damping", r->settings.handDampings, "Dampings of the hand [0.5 1 3 10 N s/m]")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--damping", r->settings.mostDamping, "Coupling damping b_h from 0 to this [20 N s/m]")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--step", r->settings.dampingStep, "Step of b_h [0.25 N s/m]")->check(CLI::Range(0.01, 1000.0));
+  command->add_option("--delay-ms", r->settings.delayTicks, "Delay of the device beyond the tick's own [0 ms]")->check(CLI::Range(0, 31));
+  command->add_option("--out", r->out, "Folder for the table and the figure; default: the table to stdout");
+  command->footer(
+      "Linear: Coulomb friction and encoder steps are left out. `passive` is Colgate's bound, 2 (b - |b_h|)/T.\n\n"
+      "Examples:\n  reach stability premium15 --out stability\n  reach stability omni --hand-damping 1 --delay-ms 2");
+  command->callback([r] { drawMap(*r); });
+}
+
+}  // namespace reachlab::cli

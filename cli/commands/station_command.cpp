@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "base/fault.h"
+#include "base/system/os.h"
+#include "base/system/stop_signals.h"
+#include "cli/commands/commands.h"
+#include "cli/output/success_table.h"
+#include "cli/terminal/seed_option.h"
+#include "devices/make_device.h"
+#include "network/station/looker_on.h"
+#include "network/station/station_options.h"
+#include "sim/session/recorded_run.h"
+
+namespace reachlab::cli {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(2);
+
+struct StationRequest {
+  session::SessionRequest session;
+  network::StationSetup setup;
+  bool lookOn = false;
+  double every = 1;  // [s] between two looks
+};
+
+/// One station from its first word to its last; every trial is armed as soon as it can be.
+int conduct(const StationRequest& request) {
+  const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
+  network::StationRun station(request.setup, block.experiment);
+  session::RecordedRunOptions options;
+  options.place = request.session.place;
+  options.diskReserve = request.session.diskReserve;
+  station.prepare(options);
+  session::RecordedRun run(block, devices::makeDevice(request.session.device, block.experiment, station.seedHere(block.configuration.seed)),
+                           options);
+  const StopRequest stop;
+  fmt::print(stderr, "run {}: station {}; recording to {}\n", run.configuration().run, station.station(), run.logPath());
+  station.begin(run);
+  SuccessTable table;
+  std::string problem;
+  for (network::StationNews news; !news.finished; std::this_thread::sleep_for(kLook)) {
+    if (StopRequest::asked() || !problem.empty()) station.stop();
+    if (station.isConductor() && station.isIdle()) {
+      if (run.fault() && problem.empty()) problem = *run.fault();
+      if (run.trialsLeft() == 0 || !problem.empty()) station.stop();
+      station.armNext();
+    }
+    news = station.poll();
+    for (const std::string& line : news.words) fmt::print(stderr, "{}\n", line);
+    if (!news.notArmed.empty()) fmt::print(stderr, "not armed: {}\n", news.notArmed);
+    if (!news.problem.empty()) problem = news.problem;
+    if (!news.ended) continue;
+    fmt::print("{}\n", trialLine(run.numberOf(*news.ended), news.ended->result));
+    std::fflush(stdout);
+    table.add(run.configuration().condition, news.ended->result);
+  }
+  fmt::print(stderr, "{}", station.close());
+  run.finish();
+  fmt::print("{}", table.text());
+  if (!problem.empty()) throw ResourceError(problem);
+  return StopRequest::exitCode();
+}
+
+/// Until the conductor's last word.
+int watchStations(const StationRequest& request) {
+  const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
+  network::LookerOn looker(request.setup, block.experiment);
+  const StopRequest stop;
+  const auto every = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(request.every));
+  auto shown = std::chrono::steady_clock::now();
+  for (; !StopRequest::asked(); std::this_thread::sleep_for(kLook)) {
+    const network::LookerNews news = looker.poll();
+    for (const network::LineEvent& event : news.ended)
+      fmt::print("station={} trial={} outcome={}{} apart_rms_m={:.6g}\n", event.station, event.trial, trial::nameOf(event.outcome),
+                 event.reason == trial::Reason::None ? "" : fmt::format(" reason={}", trial::nameOf(event.reason)), event.apart);
+    std::fflush(stdout);
+    if (news.finished) return 0;
+    if (!news.problem.empty()) throw ResourceError(news.problem);
+    if (std::chrono::steady_clock::now() - shown < every) continue;
+    fmt::print("{}", network::describeNewest(looker, static_cast<double>(os::now()) * 1e-9));
+    std::fflush(stdout);
+    shown = std::chrono::steady_clock::now();
+  }
+  return StopRequest::exitCode();
+}
+
+}  // namespace
+
+void addStationCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("station", "One of several stations that move one object together");
+  const auto r = std::make_shared<StationRequest>();
+  session::SessionRequest& s = r->session;
+  command->add_option("experiment", s.what, "Experiment with a hand for each station; the same at all of them")->required();
+  auto* number = command->add_option("--number", r->setup.line.station, "Which of the experiment's hands is here, from 1")
+                     ->check(CLI::Range(1, network::kMaxStations));
+  auto* device = command->add_option("--device", s.device, "The device here; reach list devices tells all");
+  network::addStationOptions(*command, r->setup);
+  auto* lookOn =
+      command->add_flag("--look-on", r->lookOn, "Without a hand: prints what the stations do, and how trials end; records nothing")
+          ->excludes(number)
+          ->excludes(device)
+          ->excludes(command->get_option("--conductor"));
+  command->add_option("--every", r->every, "Seconds between two looks of who looks on")
+      ->check(CLI::Range(0.01, 3600.0))
+      ->capture_default_str()
+      ->needs(lookOn);
+  command->add_option("--trials", s.trials, "Trials [one]; the conductor's count holds")->check(CLI::Range(1, 1000000));
+  command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [01]");
+  command->add_option("--session", s.place.session, "Session's label, letters and digits [01]");
+  command->add_option("--data", s.place.data, "Folder of the dataset, this station's own [./data]");
+  command->add_option("--seed", s.seed, "Seed of noise; default: one is drawn and stored")->check(wholeSeed());
+  command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
+  command->footer(
+      "Prints one line a trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "
+      "too\n"
+      "poor a line (more than 120 ms round trip, nothing for more than 50 ms at a time): stderr says which, with the numbers.\n\n"
+      "Examples, on one machine:\n"
+      "  reach station chain-two-hands --number 1 --conductor --device simulated --insecure --interface lo --peer 127.0.0.1 --data left\n"
+      "  reach station chain-two-hands --number 2 --device partner:follower --insecure --interface lo --peer 127.0.0.1 --data right\n"
+      "  reach station chain-two-hands --look-on --insecure --interface lo --peer 127.0.0.1");
+  command->callback([r, number, device, &exitCode] {
+    if (!r->lookOn && number->count() == 0)
+      throw FaultError(Fault{"number", "is not told", "1 up, which of the experiment's hands is here; or --look-on"});
+    if (!r->lookOn && device->count() == 0)
+      throw FaultError(Fault{"device", "is not told", "the device here (reach list devices); or --look-on"});
+    if (r->lookOn) r->session.device = "simulated";  // of a plan that is never carried out
+    network::completeStationSetup(r->setup, r->session.device, "reach station");
+    if (r->setup.insecure) fmt::print(stderr, "NOT ENCRYPTED: whoever is on this network can listen and join\n");
+    if (!r->lookOn) {
+      exitCode = conduct(*r);
+      return;
+    }
+    exitCode = watchStations(*r);
+  });
+}
+
+}  // namespace reachlab::cli

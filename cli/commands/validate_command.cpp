@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "base/fault.h"
+#include "base/json/json_reader.h"
+#include "cli/commands/commands.h"
+#include "cli/output/preflight_output.h"
+#include "cli/output/study_words.h"
+#include "cli/terminal/option_words.h"
+#include "constraints/catalogue/definition.h"
+#include "devices/make_device.h"
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/resources.h"
+#include "sim/session/checked_programme.h"
+#include "sim/trial/task_check.h"
+#include "sim/trial/task_places.h"
+
+namespace reachlab::cli {
+namespace {
+
+constexpr const char* kExpected =
+    "an experiment file, a constraint definition, a session plan or a study (JSON with comments), or the name of a shipped one";
+
+// The file behind a name, as `reach run` and the constraint commands understand it.
+std::string fileOf(const std::string& fileOrName) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(fileOrName, error)) throw FaultError(Fault{{}, "is a folder", kExpected, FilePlace{fileOrName}});
+  if (!fs::exists(fileOrName, error))
+    if (const auto shipped = experiment::shippedExperimentFile(fileOrName)) return *shipped;
+  return session::findPlan(fileOrName).value_or(fileOrName);
+}
+
+// A table or a recording would only be told where JSON breaks off.
+void checkIsJsonObject(const std::string& text, const std::string& file) {
+  const std::size_t at = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (at == std::string::npos || (text[at] != '{' && text[at] != '/'))
+    throw FaultError(Fault{{},
+                           std::string("is no JSON object") + (file.ends_with(".csv")     ? ", but a table"
+                                                               : file.ends_with(".reach") ? ", but a recording"
+                                                                                          : ""),
+                           kExpected,
+                           FilePlace{file, 1, 1}});
+}
+
+// What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing. Returns what can
+// be done with it, if it is an experiment or a plan.
+std::optional<session::Programme> validateFile(const std::string& fileOrName) {
+  const std::string file = fileOf(fileOrName);
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr)
+    return std::nullopt;
+  if (!std::filesystem::exists(file, error)) experiment::readExperiment(file);  // says which names there are
+  const std::string text = readTextFile(file);
+  checkIsJsonObject(text, file);
+  const JsonNode tree = parseJson(text, file);
+  if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
+    return session::checkedProgramme(file);
+  } else if (tree.find("subjects") != nullptr) {
+    study::checkPoints(study::readDesign(file), prepareSimulated());
+  } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
+    constraints::parseDefinition(text, file);
+  } else {
+    const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
+    if (experiment.experiment().task) trial::checkTask(experiment, file);
+    for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)})
+      for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "warning: {}\n", toText(warning));
+    return session::programmeOf(experiment);
+  }
+  return std::nullopt;
+}
+
+struct Request {
+  std::vector<std::string> files;
+  std::string device;
+  bool json = false;
+};
+
+// Every experiment of the file against the device, before anybody holds it.
+void checkOnDevice(const Request& r, const session::Programme& programme) {
+  for (const experiment::CompiledExperiment& block : programme.experiments) {
+    const auto device = devices::makeDevice(r.device, block, 0);
+    const auto lines = devices::checkBeforeBlock(block, *device);
+    std::string names = device->info().name;
+    for (const haptics::HapticDevice* other : device->otherHands()) names += " + " + other->info().name;
+    if (r.json) fmt::print("{}", preflightJson(lines));
+    else fmt::print("{} on {}:\n{}", block.experiment().name, names, preflightText(lines));
+  }
+}
+
+}  // namespace
+
+void addValidateCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions, session plans and studies");
+  const auto r = std::make_shared<Request>();
+  command->add_option("files", r->files, "files to check, or names of shipped ones; every fault of every file is named at once")
+      ->required();
+  CLI::Option* device = command->add_option(
+      "--device", r->device, "checks also what the experiment asks of this device: forces, stability, workspace; as for reach run");
+  command->add_flag("--json", r->json, "with --device: an array of {hand, name, verdict, asked, limit, unit, sentence, remedy}")
+      ->needs(device);
+  command->footer(
+      "Examples:\n  reach validate my-experiment.json\n  reach validate *.json\n  reach validate chain-fast --device virtual:omni");
+  command->callback([r, &exitCode] {
+    for (const std::string& file : r->files) {
+      try {
+        const auto programme = validateFile(file);
+        if (!r->json) fmt::print("{}: fine\n", file);
+        if (!r->device.empty()) checkOnDevice(*r, programme ? *programme : session::readProgramme(file));
+      } catch (const FaultError& e) {
+        fmt::print(stderr, "{}\n", toText(inOptionWords(e.faults)));
+        exitCode = 2;
+      }
+    }
+  });
+}
+
+}  // namespace reachlab::cli

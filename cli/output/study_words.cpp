@@ -1,0 +1,82 @@
+#include "cli/output/study_words.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "base/fault.h"
+#include "base/system/os.h"
+#include "devices/simulated/simulated_hand.h"
+
+namespace reachlab::cli {
+namespace {
+
+std::optional<int> wholeNumber(std::string_view text) {
+  int value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return fault == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<int> fromEnvironment(const char* name) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? std::nullopt : wholeNumber(text);
+}
+
+// Tasks are numbered as the user likes; the share is the task's place among them.
+study::Shard shardOfSlurm() {
+  const auto id = fromEnvironment("SLURM_ARRAY_TASK_ID"), count = fromEnvironment("SLURM_ARRAY_TASK_COUNT");
+  if (!id || !count) return {};
+  const int least = fromEnvironment("SLURM_ARRAY_TASK_MIN").value_or(1), step = fromEnvironment("SLURM_ARRAY_TASK_STEP").value_or(1);
+  const study::Shard shard{step > 0 ? (*id - least) / step + 1 : 0, *count};
+  if (*count < 1 || shard.index < 1 || shard.index > shard.of || (*id - least) % step != 0)
+    throw FaultError(Fault{"SLURM_ARRAY_TASK_ID",
+                           fmt::format("is {} of {} tasks from {} by {}, which is no share", *id, *count, least, step),
+                           "an array without gaps, or --shard I/N"});
+  return shard;
+}
+
+}  // namespace
+
+study::Shard shardOf(const std::string& text) {
+  if (text.empty()) return shardOfSlurm();
+  const std::size_t slash = text.find('/');
+  const auto index = slash == std::string::npos ? std::nullopt : wholeNumber(std::string_view(text).substr(0, slash));
+  const auto of = slash == std::string::npos ? std::nullopt : wholeNumber(std::string_view(text).substr(slash + 1));
+  if (!index || !of || *of < 1 || *index < 1 || *index > *of) throw FaultError(Fault{"--shard", "is " + text, "I/N with 1 <= I <= N"});
+  return {*index, *of};
+}
+
+study::PrepareSubjects prepareSimulated() {
+  return [](const std::string& device, const experiment::CompiledExperiment& experiment) {
+    return study::SubjectHands(devices::prepareSubjects(experiment, device));
+  };
+}
+
+std::string describeSeconds(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} s", whole);
+}
+
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::tell(const study::StudyProgress& progress) {
+  const bool last = progress.trialsDone >= progress.trials;
+  const std::int64_t now = os::now(), period = terminal_ ? 250'000'000 : 30'000'000'000;
+  if (now < nextNs_ && !last) return;
+  nextNs_ = now + period;
+  told_ = true;
+  fmt::print(stderr, "{}{} of {} trials, {:.0f} a second, {} left{}", terminal_ ? "\r" : "", progress.trialsDone, progress.trials,
+             progress.rate(), describeSeconds(progress.secondsLeft()), terminal_ ? "\033[K" : "\n");
+}
+
+void ProgressLine::end() {
+  if (terminal_ && told_) fmt::print(stderr, "\n");
+}
+
+}  // namespace reachlab::cli

@@ -1,0 +1,48 @@
+#include "cli/output/success_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/record/export/tidy_csv.h"
+
+namespace reachlab::cli {
+
+void SuccessTable::add(const std::string& condition, const trial::TrialResult& result) {
+  auto row = std::find_if(rows_.begin(), rows_.end(), [&](const auto& r) { return r.first == condition; });
+  if (row == rows_.end()) row = rows_.insert(rows_.end(), {condition, {}});
+  OutcomeCounts& counts = row->second;
+  ++counts.trials;
+  counts.success += result.outcome == trial::Outcome::Success;
+  counts.failure += result.outcome == trial::Outcome::Failure;
+  counts.aborted += result.outcome == trial::Outcome::Aborted;
+  counts.interrupted += result.outcome == trial::Outcome::Interrupted;
+  if (result.outcome != trial::Outcome::Success) ++counts.reasons[std::string(trial::nameOf(result.reason))];
+}
+
+std::string SuccessTable::text() const {
+  if (rows_.empty()) return {};
+  std::size_t width = 9;
+  for (const auto& row : rows_) width = std::max(width, row.first.size());
+  std::string text = fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15}  {}\n", "condition", width, "trials", "success",
+                                 "failure", "aborted", "interrupted", "success_percent", "reasons");
+  for (const auto& [condition, c] : rows_) {
+    std::string reasons;
+    for (const auto& [reason, count] : c.reasons) reasons += fmt::format("{}{}={}", reasons.empty() ? "" : ",", reason, count);
+    text += fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15.1f}  {}\n", condition, width, c.trials, c.success, c.failure,
+                        c.aborted, c.interrupted, 100.0 * c.success / c.trials, reasons.empty() ? "-" : reasons);
+  }
+  return text;
+}
+
+std::string trialLine(int trial, const trial::TrialResult& result) {
+  std::string line = fmt::format("trial={} outcome={}", trial, trial::nameOf(result.outcome));
+  if (result.outcome != trial::Outcome::Success) line += fmt::format(" reason={}", trial::nameOf(result.reason));
+  if (result.mass > 0) line += fmt::format(" mass={}", result.mass);
+  // For a person; the log and the exports have every digit.
+  if (result.by != 0) line += fmt::format(" by={:.3g}", result.by);
+  if (const std::string unit = record::unitOf(result.reason); result.by != 0 && !unit.empty()) line += " by_unit=" + unit;
+  return line + fmt::format(" time_s={:.3f}", result.movementTime);
+}
+
+}  // namespace reachlab::cli

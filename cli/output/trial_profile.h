@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "analysis/figure/figure.h"
+#include "sim/record/log/run_log.h"
+
+namespace reachlab::cli {
+
+/// What a recorded trial looked like at its samples, from where it was put up to its end.
+struct TrialProfile {
+  std::vector<double> time;        // [s] since onset; since the trial was put up where the hand never set off
+  std::vector<double> handSpeed;   // [m/s]
+  std::vector<double> firstSpeed;  // [m/s] of the driven mass
+  std::vector<double> lastSpeed;   // [m/s] of the last mass
+  std::vector<double> force;       // [N] magnitude of the coupling's
+  bool sinceOnset = true;
+};
+
+/// Reads the trial's rows; throws FaultError if the log has changed meanwhile.
+TrialProfile profileOf(const record::RunLog& log, const record::RecordedTrial& trial);
+/// Speeds with the task's T and T ± dT, and the coupling force, over time.
+figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial& trial);
+
+}  // namespace reachlab::cli

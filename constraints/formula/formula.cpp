@@ -1,0 +1,182 @@
+#include "constraints/formula/formula.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/fault.h"
+#include "constraints/formula/guards.h"
+
+namespace reachlab::constraints {
+namespace {
+
+struct Parsed {
+  std::array<int, 3> roots{-1, -1, -1};
+  std::vector<FormulaFault> faults;
+};
+
+// What cancels out takes the end of its domain with it: 0*log(phi) would go on below 0, where the formula as written has no value.
+std::optional<FormulaFault> cancelledEnd(const ExpressionGraph& graph, const std::array<int, 3>& roots, const std::array<int, 3>& sizes,
+                                         const FormulaNames& names) {
+  const std::vector<bool> needed = graph.reachableFrom(roots), moving = findMoving(graph);
+  for (int id = 0; id < graph.size(); ++id) {
+    if (needed[static_cast<std::size_t>(id)] || !moving[static_cast<std::size_t>(id)]) continue;
+    const ExpressionNode& n = graph.node(id);
+    const bool endsBelowZero = (n.op == Op::Log || n.op == Op::Sqrt || n.op == Op::Pow) && !graph.isNeverNegative(n.a);
+    if (n.op != Op::Asin && n.op != Op::Acos && !endsBelowZero) continue;
+    const auto coordinate = std::find_if(sizes.begin(), sizes.end(), [&](int size) { return id < size; });
+    return FormulaFault{static_cast<int>(coordinate - sizes.begin()), 0, 1,
+                        writeFormula(graph, id, names.variables, names.parameters) +
+                            " cancels out, and what is left would go on where the formula as written has no value",
+                        "a formula without it"};
+  }
+  return std::nullopt;
+}
+
+Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
+  const FormulaNames names{variablesOf(text.kind), text.parameters};
+  Parsed result;
+  std::vector<bool> used(text.parameters.size(), false);
+  std::array<int, 3> sizes{};  // of the graph, after each coordinate
+  for (std::size_t k = 0; k < 3; ++k) {
+    ParsedFormula parsed = parseFormula(text.coordinates[k], names, graph);
+    result.roots[k] = parsed.root;
+    sizes[k] = graph.size();
+    for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || parsed.used[i];
+    if (parsed.fault) {
+      parsed.fault->coordinate = static_cast<int>(k);
+      result.faults.push_back(*parsed.fault);
+    }
+  }
+  if (!result.faults.empty()) return result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<bool> needed = graph.reachableFrom(std::vector<int>{result.roots[k]});
+    for (std::size_t id = 0; id < needed.size(); ++id) {
+      const ExpressionNode& n = graph.node(static_cast<int>(id));
+      const bool divided = n.op == Op::Div && graph.isConstant(n.a) && graph.isConstant(n.b);  // by 0: the graph leaves it as it is
+      const double value = divided ? graph.node(n.a).value / graph.node(n.b).value : n.value;  // of what is no number itself: 0
+      if (needed[id] && !std::isfinite(value)) {
+        result.faults.push_back({static_cast<int>(k), 0, 1,
+                                 "has no finite value anywhere: a part of it that does not move is not finite (1/0, log(0), the root of a "
+                                 "negative number)",
+                                 "numbers that have a value"});
+        break;
+      }
+    }
+  }
+  if (!result.faults.empty()) return result;
+  if (std::optional<FormulaFault> fault = cancelledEnd(graph, result.roots, sizes, names)) result.faults.push_back(std::move(*fault));
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!used[i])
+      result.faults.push_back({-1, 0, 0, "shape." + text.parameters[i] + " is used by no coordinate", "names that the formula uses"});
+  return result;
+}
+
+std::vector<FormulaFault> parameterFaults(const FormulaText& text) {
+  std::vector<FormulaFault> faults;
+  if (text.parameters.size() > kMaxShapeParameters)
+    faults.push_back(
+        {-1, 0, 0, "has " + std::to_string(text.parameters.size()) + " shape parameters", std::to_string(kMaxShapeParameters)});
+  for (const std::string& name : text.parameters)
+    if (const auto fault = parameterNameFault(name, variablesOf(text.kind))) faults.push_back(*fault);
+  return faults;
+}
+
+void append(std::vector<int>& roots, const std::vector<int>& more) { roots.insert(roots.end(), more.begin(), more.end()); }
+
+}  // namespace
+
+std::vector<std::string> variablesOf(ConstraintKind kind) {
+  if (kind == ConstraintKind::Curve) return {"phi"};
+  if (kind == ConstraintKind::Surface) return {"u", "v"};
+  return {};
+}
+
+Fault toFault(const FormulaFault& fault, ConstraintKind kind, const std::string& key) {
+  const std::string formula = keyIn(key, kind == ConstraintKind::Curve ? "curve" : "surface");
+  if (fault.coordinate < 0) return {formula, fault.what, fault.allowed};
+  return {formula + "[" + std::to_string(fault.coordinate) + "]", fault.what, fault.allowed,
+          FilePlace{{}, 0, static_cast<int>(fault.character)}};
+}
+
+std::vector<FormulaFault> formulaFaults(const FormulaText& text) {
+  if (std::vector<FormulaFault> faults = parameterFaults(text); !faults.empty()) return faults;
+  ExpressionGraph graph;
+  return parseCoordinates(text, graph).faults;
+}
+
+std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& key) {
+  auto formula = std::make_shared<CompiledFormula>();
+  formula->text = text;
+  ExpressionGraph& graph = formula->graph;
+  std::vector<FormulaFault> faults = parameterFaults(text);
+  Parsed parsed;
+  if (faults.empty()) {
+    parsed = parseCoordinates(text, graph);
+    faults = parsed.faults;
+  }
+  if (!faults.empty()) {
+    std::vector<Fault> told;
+    for (const FormulaFault& fault : faults) told.push_back(toFault(fault, text.kind, key));
+    throw FaultError(std::move(told));
+  }
+
+  const std::vector<int> r(parsed.roots.begin(), parsed.roots.end());
+  formula->roots = r;
+  if (text.kind == ConstraintKind::Curve) {
+    std::vector<int> order = r;
+    formula->derivatives.push_back(parsed.roots);
+    for (int k = 1; k <= kMaxDerivative; ++k) {
+      try {
+        order = graph.differentiate(order, 0);
+      } catch (const FaultError&) {
+        if (k <= 2) throw FaultError(Fault{key, "the formula with its derivatives is too large", "a shorter formula"});
+        break;  // the third and fourth are extras of small formulas
+      }
+      formula->derivatives.push_back({order[0], order[1], order[2]});
+      if (k <= 2) append(formula->roots, order);
+    }
+    const auto& second = formula->derivatives[2];
+    // A derivative of 0 says nothing of kinks and jumps: {phi/10, abs(phi), 0} is none, nor is atan2(sin(phi), cos(phi)).
+    const std::vector<bool> needed = graph.reachableFrom(r), moving = findMoving(graph);
+    bool broken = false;
+    for (std::size_t id = 0; id < needed.size(); ++id) {
+      const ExpressionNode& n = graph.node(static_cast<int>(id));
+      const bool polynomial = n.op == Op::Variable || n.op == Op::Add || n.op == Op::Sub || n.op == Op::Mul || n.op == Op::Neg ||
+                              n.op == Op::PowInt || (n.op == Op::Div && !moving[static_cast<std::size_t>(n.b)]);
+      broken = broken || (needed[id] && moving[id] && !polynomial);
+    }
+    formula->straight = !broken && std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
+  } else {
+    const std::vector<int> rU = graph.differentiate(r, 0), rV = graph.differentiate(r, 1);
+    append(formula->roots, rU);
+    append(formula->roots, rV);
+    append(formula->roots, graph.differentiate(rU, 0));
+    append(formula->roots, graph.differentiate(rU, 1));
+    append(formula->roots, graph.differentiate(rV, 1));
+  }
+  formula->program =
+      compileProgram(graph, formula->roots, static_cast<int>(text.parameters.size()), static_cast<int>(variablesOf(text.kind).size()));
+  return formula;
+}
+
+std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables) {
+  const std::vector<bool> needed = graph.reachableFrom(roots);
+  std::vector<double> values(needed.size(), 0.0);
+  for (std::size_t id = 0; id < needed.size(); ++id) {
+    if (!needed[id]) continue;
+    const ExpressionNode& n = graph.node(static_cast<int>(id));
+    switch (n.op) {
+      case Op::Constant: values[id] = n.value; break;
+      case Op::Variable: values[id] = variables[n.a]; break;
+      case Op::Parameter: values[id] = shape[n.a]; break;
+      case Op::PowInt: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b); break;
+      default: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b < 0 ? 0 : values[static_cast<std::size_t>(n.b)]);
+    }
+  }
+  std::vector<double> result;
+  for (const int root : roots) result.push_back(values[static_cast<std::size_t>(root)]);
+  return result;
+}
+
+}  // namespace reachlab::constraints

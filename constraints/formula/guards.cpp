@@ -1,0 +1,135 @@
+#include "constraints/formula/guards.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "constraints/formula/formula.h"
+
+namespace reachlab::constraints {
+std::vector<bool> findMoving(const ExpressionGraph& graph) {
+  std::vector<bool> moves(static_cast<std::size_t>(graph.size()), false);
+  for (int id = 0; id < graph.size(); ++id) {
+    const ExpressionNode& n = graph.node(id);
+    const int operands = operandCount(n.op);
+    moves[static_cast<std::size_t>(id)] = n.op == Op::Variable || (operands >= 1 && moves[static_cast<std::size_t>(n.a)]) ||
+                                          (operands == 2 && moves[static_cast<std::size_t>(n.b)]);
+  }
+  return moves;
+}
+
+std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& roots, const double* shape) {
+  const std::vector<bool> needed = graph.reachableFrom(roots), moves = findMoving(graph);
+  std::vector<Guard> guards;
+  for (std::size_t id = 0; id < needed.size(); ++id) {
+    if (!needed[id] || !moves[id]) continue;
+    const ExpressionNode n = graph.node(static_cast<int>(id));
+    const auto moving = [&](int operand) { return operand >= 0 && moves[static_cast<std::size_t>(operand)]; };
+    const auto add = [&](int argument, double level = 0) {
+      if (argument >= static_cast<int>(moves.size()) || moving(argument)) guards.push_back({n.op, static_cast<int>(id), argument, level});
+    };
+    switch (n.op) {
+      case Op::Abs:
+      case Op::Sign:
+      case Op::Sqrt:
+      case Op::Log: add(n.a); break;
+      case Op::Div: add(n.b); break;
+      case Op::Atan2:
+        if (moving(n.a)) add(n.a);
+        else if (evaluateNodes(graph, std::vector<int>{n.a}, shape, nullptr)[0] == 0) add(n.b);
+        break;
+      case Op::Asin:
+      case Op::Acos:
+        add(n.a, 1);
+        add(n.a, -1);
+        break;
+      case Op::Tan: add(graph.apply(Op::Cos, n.a)); break;
+      case Op::Pow: {
+        const double exponent = moving(n.b) ? 0.5 : evaluateNodes(graph, std::vector<int>{n.b}, shape, nullptr)[0];
+        if (!(exponent >= 0 && exponent == std::floor(exponent))) add(n.a);
+        break;
+      }
+      default: break;
+    }
+  }
+  return guards;
+}
+
+std::vector<int> freezeBranches(ExpressionGraph& graph, const std::vector<int>& roots, const std::vector<Guard>& guards,
+                                const std::vector<int>& signs) {
+  const std::vector<bool> needed = graph.reachableFrom(roots), moves = findMoving(graph);
+  std::map<int, int> signAt;
+  for (std::size_t k = 0; k < guards.size() && k < signs.size(); ++k)
+    if (guards[k].branches()) signAt[guards[k].node] = signs[k];
+  std::vector<int> image(needed.size(), -1);
+  for (std::size_t id = 0; id < needed.size(); ++id) {
+    if (!needed[id]) continue;
+    const ExpressionNode n = graph.node(static_cast<int>(id));
+    const int operands = operandCount(n.op);
+    const int a = operands >= 1 ? image[static_cast<std::size_t>(n.a)] : -1, b = operands == 2 ? image[static_cast<std::size_t>(n.b)] : -1;
+    int& result = image[id];
+    if (const auto sign = signAt.find(static_cast<int>(id)); sign != signAt.end() && (n.op != Op::Atan2 || sign->second != 0)) {
+      const int side = graph.constant(sign->second);
+      if (n.op == Op::Sign) result = side;
+      else if (n.op == Op::Atan2 && !moves[static_cast<std::size_t>(n.a)]) result = graph.apply(n.op, a, b);
+      else if (n.op == Op::Abs) result = graph.mul(side, a);
+      else  // by a quarter turn, so that the cut lies on the other side
+        result = graph.add(graph.constant(sign->second * std::numbers::pi / 2),
+                           graph.apply(Op::Atan2, graph.mul(graph.constant(-sign->second), b), graph.mul(side, a)));
+      continue;
+    }
+    switch (n.op) {
+      case Op::Constant:
+      case Op::Variable:
+      case Op::Parameter: result = static_cast<int>(id); break;
+      case Op::Add: result = graph.add(a, b); break;
+      case Op::Sub: result = graph.sub(a, b); break;
+      case Op::Mul: result = graph.mul(a, b); break;
+      case Op::Div: result = graph.div(a, b); break;
+      case Op::Neg: result = graph.neg(a); break;
+      case Op::Pow: result = graph.pow(a, b); break;
+      case Op::PowInt: result = graph.powInt(a, n.b); break;
+      default: result = graph.apply(n.op, a, b);
+    }
+  }
+  std::vector<int> result;
+  for (const int root : roots) result.push_back(image[static_cast<std::size_t>(root)]);
+  return result;
+}
+
+std::string writeFormula(const ExpressionGraph& graph, int id, const std::vector<std::string>& variables,
+                         const std::vector<std::string>& parameters, std::size_t most) {
+  // Precedence: 0 sum, 1 product, 2 sign, 3 power, 4 atom.
+  const auto write = [&](const auto& self, int node, int outer, int depth) -> std::string {
+    if (depth > 24) return "…";
+    const ExpressionNode& n = graph.node(node);
+    const auto part = [&](int operand, int precedence) { return self(self, operand, precedence, depth + 1); };
+    std::string text;
+    int own = 4;
+    switch (n.op) {
+      case Op::Constant:
+        text = n.value == std::numbers::pi ? "pi" : fmt::format("{:.6g}", n.value);
+        if (n.value < 0) own = 2;
+        break;
+      case Op::Variable: text = variables[static_cast<std::size_t>(n.a)]; break;
+      case Op::Parameter: text = parameters[static_cast<std::size_t>(n.a)]; break;
+      case Op::Add: text = part(n.a, 0) + " + " + part(n.b, 1), own = 0; break;
+      case Op::Sub: text = part(n.a, 0) + " - " + part(n.b, 1), own = 0; break;
+      case Op::Mul: text = part(n.a, 1) + "*" + part(n.b, 2), own = 1; break;
+      case Op::Div: text = part(n.a, 1) + "/" + part(n.b, 2), own = 1; break;
+      case Op::Neg: text = "-" + part(n.a, 2), own = 2; break;
+      case Op::PowInt: text = part(n.a, 4) + fmt::format("^{}", n.b), own = 3; break;
+      case Op::Pow: text = part(n.a, 4) + "^" + part(n.b, 4), own = 3; break;
+      case Op::Atan2: text = "atan2(" + part(n.a, 0) + ", " + part(n.b, 0) + ")"; break;
+      default: text = std::string(nameOf(n.op)) + "(" + part(n.a, 0) + ")";
+    }
+    return own < outer ? "(" + text + ")" : text;
+  };
+  std::string text = write(write, id, 0, 0);
+  if (text.size() > most) text = text.substr(0, most) + "…";
+  return text;
+}
+
+}  // namespace reachlab::constraints

@@ -1,0 +1,162 @@
+#include "constraints/formula/interval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/math/elementary.h"
+
+namespace reachlab::constraints {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr Interval kEverything{-kInf, kInf};
+
+Interval hull(std::initializer_list<double> values) { return {std::min(values), std::max(values)}; }
+
+Interval product(Interval a, Interval b) {
+  const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
+  return hull({times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)});
+}
+
+bool contains(Interval a, double x) { return a.lo <= x && x <= a.hi; }
+
+// Powers of an interval with a whole exponent > 0.
+Interval wholePower(Interval a, double n) {
+  const double lo = elementary::pow(a.lo, n), hi = elementary::pow(a.hi, n);
+  if (std::fmod(n, 2) != 0) return {lo, hi};
+  return {contains(a, 0) ? 0.0 : std::min(lo, hi), std::max(lo, hi)};
+}
+
+// Sine or cosine, which is 1 at `crest` and every 2 pi from there.
+Interval waveOver(double (*f)(double), double crest, Interval a) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (!(a.hi - a.lo < kTurn)) return {-1, 1};
+  const auto holds = [&](double place) { return place + kTurn * std::ceil((a.lo - place) / kTurn) <= a.hi; };
+  const double first = f(a.lo), last = f(a.hi);
+  return {holds(crest + kTurn / 2) ? -1 : std::min(first, last), holds(crest) ? 1 : std::max(first, last)};
+}
+
+// Where the box meets neither the cut nor 0, the angle grows and falls along its sides.
+Interval angleOver(Interval y, Interval x) {
+  if (!(x.lo > 0 || y.lo > 0 || y.hi < 0)) return {-std::numbers::pi, std::numbers::pi};
+  return hull({elementary::atan2(y.lo, x.lo), elementary::atan2(y.lo, x.hi), elementary::atan2(y.hi, x.lo), elementary::atan2(y.hi, x.hi)});
+}
+
+}  // namespace
+
+IntervalEvaluator::IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
+    : graph_(graph), roots_(roots.begin(), roots.end()), shape_(shape), bounds_(static_cast<std::size_t>(graph.size())) {
+  const std::vector<bool> needed = graph.reachableFrom(roots);
+  for (std::size_t id = 0; id < needed.size(); ++id)
+    if (needed[id]) order_.push_back(static_cast<int>(id));
+}
+
+IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const {
+  const int operands = operandCount(n.op);
+  const Bound none;
+  const Bound& left = operands >= 1 ? bounds_[static_cast<std::size_t>(n.a)] : none;
+  const Bound& right = operands == 2 ? bounds_[static_cast<std::size_t>(n.b)] : none;
+  const Interval a = left.range, b = right.range;
+  Finiteness f = std::max(left.finiteness, right.finiteness);
+  const auto raise = [&](Finiteness to) { f = std::max(f, to); };
+  const auto monotone = [&](double (*function)(double)) { return Interval{function(a.lo), function(a.hi)}; };
+  Interval r;
+  switch (n.op) {
+    case Op::Constant: r = {n.value, n.value}; break;
+    case Op::Variable: r = box[static_cast<std::size_t>(n.a)]; break;
+    case Op::Parameter: r = {shape_[n.a], shape_[n.a]}; break;
+    case Op::Add: r = {a.lo + b.lo, a.hi + b.hi}; break;
+    case Op::Sub: r = {a.lo - b.hi, a.hi - b.lo}; break;
+    case Op::Mul: r = product(a, b); break;
+    case Op::Neg: r = {-a.hi, -a.lo}; break;
+    case Op::Div:
+      if (contains(b, 0)) {
+        raise(b.lo == 0 && b.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
+        r = kEverything;
+      } else {
+        r = product(a, {1 / b.hi, 1 / b.lo});
+      }
+      break;
+    case Op::PowInt: r = wholePower(a, n.b); break;
+    case Op::Pow: {
+      const bool whole = b.lo == b.hi && b.lo == std::floor(b.lo);
+      if (a.lo > 0) {
+        r = hull({elementary::pow(a.lo, b.lo), elementary::pow(a.lo, b.hi), elementary::pow(a.hi, b.lo), elementary::pow(a.hi, b.hi)});
+      } else if (whole && b.lo == 0) {
+        r = {1, 1};
+      } else if (whole && b.lo > 0) {
+        r = wholePower(a, b.lo);
+      } else if (whole && a.hi < 0) {
+        r = hull({elementary::pow(a.lo, b.lo), elementary::pow(a.hi, b.lo)});
+      } else if (!whole && a.hi < 0) {
+        raise(Finiteness::Nowhere);
+        r = kEverything;
+      } else if (!whole && b.lo > 0) {
+        raise(a.lo < 0 ? Finiteness::Touching : Finiteness::Finite);
+        r = {0, std::max({1.0, elementary::pow(std::max(a.hi, 0.0), b.lo), elementary::pow(std::max(a.hi, 0.0), b.hi)})};
+      } else {
+        raise(a.lo == 0 && a.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
+        r = kEverything;
+      }
+      break;
+    }
+    case Op::Sin: r = waveOver(elementary::sin, std::numbers::pi / 2, a); break;
+    case Op::Cos: r = waveOver(elementary::cos, 0, a); break;
+    case Op::Tan: {
+      const double k = std::floor(a.lo / std::numbers::pi + 0.5);
+      if (k != std::floor(a.hi / std::numbers::pi + 0.5)) {
+        raise(Finiteness::Unknown);
+        r = kEverything;
+      } else {
+        r = monotone(elementary::tan);
+      }
+      break;
+    }
+    case Op::Asin:
+    case Op::Acos: {
+      if (a.lo > 1 || a.hi < -1) raise(Finiteness::Nowhere);
+      else if (a.lo < -1 || a.hi > 1) raise(Finiteness::Touching);
+      const double lo = std::clamp(a.lo, -1.0, 1.0), hi = std::clamp(a.hi, -1.0, 1.0);
+      r = n.op == Op::Asin ? Interval{elementary::asin(lo), elementary::asin(hi)} : Interval{elementary::acos(hi), elementary::acos(lo)};
+      break;
+    }
+    case Op::Atan: r = monotone(elementary::atan); break;
+    case Op::Atan2: r = angleOver(a, b); break;
+    case Op::Sinh: r = monotone(elementary::sinh); break;
+    case Op::Cosh:
+      r = {contains(a, 0) ? 1.0 : std::min(elementary::cosh(a.lo), elementary::cosh(a.hi)),
+           std::max(elementary::cosh(a.lo), elementary::cosh(a.hi))};
+      break;
+    case Op::Tanh: r = monotone(elementary::tanh); break;
+    case Op::Exp: r = monotone(elementary::exp); break;
+    case Op::Log:
+      if (a.hi <= 0) raise(Finiteness::Nowhere);
+      else if (a.lo <= 0) raise(Finiteness::Unknown);
+      r = a.lo > 0 ? monotone(elementary::log) : kEverything;
+      break;
+    case Op::Sqrt:
+      if (a.hi < 0) raise(Finiteness::Nowhere);
+      else if (a.lo < 0) raise(Finiteness::Touching);
+      r = {std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
+      break;
+    case Op::Abs: r = {contains(a, 0) ? 0.0 : std::min(std::abs(a.lo), std::abs(a.hi)), std::max(std::abs(a.lo), std::abs(a.hi))}; break;
+    case Op::Sign: r = {a.lo > 0 ? 1.0 : a.lo == 0 ? 0.0 : -1.0, a.hi < 0 ? -1.0 : a.hi == 0 ? 0.0 : 1.0}; break;
+  }
+  if (!(std::isfinite(r.lo) && std::isfinite(r.hi))) {
+    raise(Finiteness::Unknown);
+    if (std::isnan(r.lo) || std::isnan(r.hi)) r = kEverything;
+    if (r.lo == r.hi) raise(Finiteness::Nowhere);  // infinite for sure
+  }
+  return {r, f};
+}
+
+const std::vector<Finiteness>& IntervalEvaluator::evaluate(const std::array<Interval, 2>& box) {
+  for (const int id : order_) bounds_[static_cast<std::size_t>(id)] = boundOf(graph_.node(id), box);
+  result_.clear();
+  for (const int root : roots_) result_.push_back(bounds_[static_cast<std::size_t>(root)].finiteness);
+  return result_;
+}
+
+}  // namespace reachlab::constraints

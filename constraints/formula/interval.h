@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "constraints/formula/expression.h"
+
+namespace reachlab::constraints {
+
+/// Bounds of an expression over a box of its variables (natural interval extension, Moore 1966). Not rounded outwards: used to find
+/// places where a formula has no finite value, where a rounding more or less decides nothing.
+struct Interval {
+  double lo = 0, hi = 0;
+};
+
+/// What is known of a node on a box. Touching: a root or an arc function reaches the end of its domain there (finite itself).
+enum class Finiteness { Finite, Touching, Unknown, Nowhere };
+
+class IntervalEvaluator {
+ public:
+  IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape);
+  /// Finiteness of each root on the box.
+  const std::vector<Finiteness>& evaluate(const std::array<Interval, 2>& box);
+  /// Bounds of root k on the box last evaluated.
+  Interval rangeOf(std::size_t k) const { return bounds_[static_cast<std::size_t>(roots_[k])].range; }
+
+ private:
+  struct Bound {
+    Interval range;
+    Finiteness finiteness = Finiteness::Finite;
+  };
+  Bound boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const;
+
+  const ExpressionGraph& graph_;
+  std::vector<int> roots_, order_;
+  const double* shape_;
+  std::vector<Bound> bounds_;
+  std::vector<Finiteness> result_;
+};
+
+}  // namespace reachlab::constraints

@@ -1,0 +1,89 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "constraints/constraint.h"
+#include "constraints/formula/expression.h"
+
+namespace reachlab::constraints {
+
+/// Operations of the straight-line program. R: register, C: number kept in the instruction.
+enum class Code : std::uint16_t {
+  Load,
+  Add,
+  AddC,
+  Sub,
+  RSubC,
+  Mul,
+  MulC,
+  MulMulC,
+  NegMul,
+  MulAdd,
+  MulSub,
+  RMulSub,
+  Div,
+  RDivC,
+  Neg,
+  Square,
+  SinCos,
+  Pow,
+  Tan,
+  Asin,
+  Acos,
+  Atan,
+  Atan2,
+  Sinh,
+  Cosh,
+  Tanh,
+  Exp,
+  Log,
+  Sqrt,
+  Abs,
+  Sign,
+  Return,
+  TwoMul,
+  TwoMulMulC,
+  TwoNegMul,
+  TwoNeg,
+  TwoSquare  // this instruction and the next, of the same kind, with one jump
+};
+
+struct Instruction {
+  const void* handler = nullptr;  // where the interpreter jumps for it
+  double number = 0;
+  std::uint16_t a = 0, b = 0, c = 0;  // operand registers; SinCos: b receives the sine, c the cosine
+  std::uint16_t out = 0;
+};
+
+inline constexpr int kMaxOutputs = 18;
+inline constexpr int kMaxRegisters = 1024 + kMaxOutputs;
+
+/// A formula with its derivatives as a list of operations on registers: first the results (9 or 18, in the order of CurvePoint's or
+/// SurfacePoint's members; each is computed in its place), then the shape, the variables, and what lies between.
+/// Immutable once made; evaluated by any thread, without allocation, recursion or loops.
+struct Program {
+  std::vector<Instruction> instructions;
+  std::vector<Code> codes;  // of the instructions, before pairs were made
+  std::uint16_t parameterCount = 0;
+  std::array<double, kMaxOutputs> constants{};  // results that never change
+  // Results that are the same as another, or as a parameter or variable.
+  struct Copy {
+    std::uint16_t slot, from;
+  };
+  std::vector<Copy> copies;
+};
+
+/// Compiles roots (x, y, z of r, then of each derivative, in the order of the point's members). Throws FaultError when it needs more
+/// than kMaxRegisters.
+Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int parameterCount, int variableCount);
+
+/// The interpreter, as the functions of constraint.h; `program` points to a Program.
+void evaluateCurveProgram(const void* program, const double* shape, double phi, CurvePoint& out) noexcept;
+void evaluateCurveBatchProgram(const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept;
+void evaluateSurfaceProgram(const void* program, const double* shape, double u, double v, SurfacePoint& out) noexcept;
+
+/// Address that the interpreter jumps to for an operation.
+const void* handlerOf(Code code) noexcept;
+
+}  // namespace reachlab::constraints

@@ -1,0 +1,119 @@
+#include "constraints/regularity/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "constraints/formula/formula.h"
+
+namespace reachlab::constraints {
+namespace {
+
+constexpr double kStill = 1e-9;  // of the largest |r_phi|: what rounding leaves of a cusp is far below, a near cusp far above
+
+double speedAt(const Constraint& c, double phi) { return norm(evaluate(c.curve, phi).rPhi); }
+// Half the slope of |r_phi|^2: changes sign at a minimum, sharply also at a cusp.
+double slopeAt(const Constraint& c, double phi) {
+  const CurvePoint p = evaluate(c.curve, phi);
+  return dot(p.rPhi, p.rPhiPhi);
+}
+
+int sampleCount(double lo, double hi) { return static_cast<int>(std::clamp(512 * (hi - lo) / (2 * std::numbers::pi), 2048.0, 200000.0)); }
+
+// Minimum of the speed between two places where the slope is negative and positive.
+double bisectSlope(const Constraint& c, double lo, double hi) {
+  for (int i = 0; i < 200; ++i) {
+    const double middle = lo + (hi - lo) / 2;
+    if (middle <= lo || middle >= hi) break;
+    (slopeAt(c, middle) < 0 ? lo : hi) = middle;
+  }
+  return speedAt(c, lo) < speedAt(c, hi) ? lo : hi;
+}
+
+// All local minima of |r_phi| in [lo, hi], ends included, and the largest |r_phi| seen.
+std::vector<SlowPlace> localMinima(const Constraint& c, double lo, double hi, double& largest) {
+  std::vector<SlowPlace> minima;
+  const int n = sampleCount(lo, hi);
+  largest = 0;
+  double previous = lo, previousSlope = slopeAt(c, lo);
+  minima.push_back({lo, speedAt(c, lo)});
+  for (int i = 1; i <= n; ++i) {
+    const double phi = i == n ? hi : lo + (hi - lo) * i / n;
+    const double slope = slopeAt(c, phi);
+    largest = std::max(largest, speedAt(c, phi));
+    if (previousSlope < 0 && slope > 0) {
+      const double at = bisectSlope(c, previous, phi);
+      minima.push_back({at, speedAt(c, at)});
+    } else if (slope == 0 && i < n) {
+      minima.push_back({phi, speedAt(c, phi)});
+    }
+    previous = phi;
+    previousSlope = slope;
+  }
+  minima.push_back({hi, speedAt(c, hi)});
+  return minima;
+}
+
+void requireCurve(const Constraint& c) {
+  if (c.kind != ConstraintKind::Curve) throw RefusedError(c.name + " is no curve");
+}
+
+}  // namespace
+
+std::array<Domain, 2> boundedDomain(const Constraint& c) {
+  std::array<Domain, 2> domain = c.domain;
+  const double lo = c.kind == ConstraintKind::Surface ? -1 : 0;
+  const double hi = c.kind == ConstraintKind::Surface ? 1 : 2 * std::numbers::pi;
+  for (Domain& d : domain) {
+    if (std::isinf(d.lo) && std::isinf(d.hi)) d.lo = lo, d.hi = hi;
+    if (std::isinf(d.lo)) d.lo = d.hi - (hi - lo);
+    if (std::isinf(d.hi)) d.hi = d.lo + (hi - lo);
+  }
+  return domain;
+}
+
+std::vector<Vec3> computeDerivatives(const Constraint& c, double phi, int order) {
+  requireCurve(c);
+  const auto formula = std::static_pointer_cast<const CompiledFormula>(c.owner);
+  if (order < 0 || order >= static_cast<int>(formula->derivatives.size()))
+    throw RefusedError("derivative " + std::to_string(order) + " of " + c.name + " can't be formed; allowed: orders up to " +
+                       std::to_string(formula->derivatives.size() - 1));
+  std::vector<int> roots;
+  for (int k = 0; k <= order; ++k)
+    roots.insert(roots.end(), formula->derivatives[static_cast<std::size_t>(k)].begin(),
+                 formula->derivatives[static_cast<std::size_t>(k)].end());
+  const std::vector<double> values = evaluateNodes(formula->graph, roots, c.curve.shape.data(), &phi);
+  std::vector<Vec3> result;
+  for (std::size_t k = 0; k < values.size(); k += 3) result.push_back({values[k], values[k + 1], values[k + 2]});
+  return result;
+}
+
+std::vector<double> findCusps(const Constraint& c, double lo, double hi) {
+  std::vector<double> cusps;
+  if (c.kind != ConstraintKind::Curve || c.straight || !(lo < hi)) return cusps;
+  double largest = 0;
+  const double apart = 1e-9 * (hi - lo);
+  for (const SlowPlace& place : localMinima(c, lo, hi, largest))
+    if (place.speed <= kStill * largest && (cusps.empty() || place.phi - cusps.back() > apart)) cusps.push_back(place.phi);
+  return cusps;
+}
+
+SlowPlace findMinSpeed(const Constraint& c, double lo, double hi) {
+  requireCurve(c);
+  double largest = 0;
+  const std::vector<SlowPlace> minima = localMinima(c, std::min(lo, hi), std::max(lo, hi), largest);
+  return *std::min_element(minima.begin(), minima.end(), [](const SlowPlace& a, const SlowPlace& b) { return a.speed < b.speed; });
+}
+
+double computeAngleSine(const SurfacePoint& p) noexcept {
+  const double sides = norm(p.rU) * norm(p.rV);
+  return sides > 0 ? norm(cross(p.rU, p.rV)) / sides : 0;
+}
+
+const char* nameOf(DegenerateKind kind) {
+  static constexpr const char* kNames[] = {"pole", "apex", "edge", "pinch"};
+  return kNames[static_cast<int>(kind)];
+}
+
+}  // namespace reachlab::constraints

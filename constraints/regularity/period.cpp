@@ -1,0 +1,101 @@
+#include "constraints/regularity/period.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "constraints/formula/formula.h"
+#include "constraints/formula/guards.h"
+
+namespace reachlab::constraints {
+namespace {
+
+/// Slopes a of every sine, cosine and tangent of a phi + b; false where phi stands anywhere else.
+class Slopes {
+ public:
+  Slopes(const ExpressionGraph& graph, const double* shape) : graph_(graph), shape_(shape), moving_(findMoving(graph)) {}
+
+  bool collect(int root, std::vector<double>& slopes) const {
+    const std::vector<int> one{root};
+    const std::vector<bool> needed = graph_.reachableFrom(one);
+    std::vector<bool> reached(needed.size(), false);
+    reached[static_cast<std::size_t>(root)] = true;
+    for (int id = root; id >= 0; --id) {
+      if (!reached[static_cast<std::size_t>(id)] || !moving_[static_cast<std::size_t>(id)]) continue;
+      const ExpressionNode& n = graph_.node(id);
+      if (n.op == Op::Variable) return false;
+      if (n.op == Op::Sin || n.op == Op::Cos || n.op == Op::Tan) {
+        if (double slope = 0; isAffine(n.a, slope)) {
+          slopes.push_back(std::abs(slope));
+          continue;
+        }
+      }
+      reached[static_cast<std::size_t>(n.a)] = true;
+      if (operandCount(n.op) == 2) reached[static_cast<std::size_t>(n.b)] = true;
+    }
+    return true;
+  }
+
+ private:
+  double numberOf(int id) const {
+    const std::vector<int> one{id};
+    const double nowhere = 0;
+    return evaluateNodes(graph_, one, shape_, &nowhere)[0];
+  }
+  bool isAffine(int id, double& slope) const {
+    if (!moving_[static_cast<std::size_t>(id)]) {
+      slope = 0;
+      return true;
+    }
+    const ExpressionNode& n = graph_.node(id);
+    double a = 0, b = 0;
+    switch (n.op) {
+      case Op::Variable: slope = 1; return true;
+      case Op::Neg: return isAffine(n.a, a) && (slope = -a, true);
+      case Op::Add: return isAffine(n.a, a) && isAffine(n.b, b) && (slope = a + b, true);
+      case Op::Sub: return isAffine(n.a, a) && isAffine(n.b, b) && (slope = a - b, true);
+      case Op::Mul:
+        if (!moving_[static_cast<std::size_t>(n.a)]) return isAffine(n.b, b) && (slope = numberOf(n.a) * b, true);
+        if (!moving_[static_cast<std::size_t>(n.b)]) return isAffine(n.a, a) && (slope = numberOf(n.b) * a, true);
+        return false;
+      case Op::Div: return !moving_[static_cast<std::size_t>(n.b)] && isAffine(n.a, a) && (slope = a / numberOf(n.b), true);
+      default: return false;
+    }
+  }
+
+  const ExpressionGraph& graph_;
+  const double* shape_;
+  std::vector<bool> moving_;
+};
+
+}  // namespace
+
+Period findPeriod(const Constraint& curve) {
+  constexpr long double kTurn = 6.283185307179586476925286766559L;
+  constexpr double kSame = 1e-12;
+  constexpr int kMost = 64;
+  if (curve.kind != ConstraintKind::Curve || curve.owner == nullptr) return {};
+  const auto& formula = *std::static_pointer_cast<const CompiledFormula>(curve.owner);
+  const Slopes all(formula.graph, curve.curve.shape.data());
+  std::vector<double> slopes;
+  for (int k = 0; k < 3; ++k)
+    if (!all.collect(formula.roots[static_cast<std::size_t>(k)], slopes)) return {};
+  double least = std::numeric_limits<double>::infinity();
+  for (const double a : slopes)
+    if (a > 0) least = std::min(least, a);
+  if (!std::isfinite(least)) return {};
+  for (int turns = 1; turns <= kMost; ++turns) {
+    bool whole = true;
+    for (const double a : slopes) {
+      const double count = a / least * turns;
+      whole = whole && std::abs(count - std::nearbyint(count)) <= kSame * count;
+    }
+    if (!whole) continue;
+    const long double period = kTurn * turns / static_cast<long double>(least);
+    const double turn = static_cast<double>(period);
+    return {turn, static_cast<double>(period - static_cast<long double>(turn))};
+  }
+  return {};
+}
+
+}  // namespace reachlab::constraints

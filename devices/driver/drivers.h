@@ -1,0 +1,23 @@
+#pragma once
+#include "devices/driver/registry.h"
+
+/// Every driver's entry; each is defined beside its driver.
+namespace reachlab::devices {
+
+DeviceDriver simulatedDriver();
+DeviceDriver partnerDriver();
+DeviceDriver replayDriver();
+DeviceDriver mouseDriver();
+DeviceDriver virtualDriver();
+DeviceDriver phantomDriver();
+DeviceDriver forceDimensionDriver();
+DeviceDriver hidDriver();
+DeviceDriver spaceMouseDriver();
+DeviceDriver haplyDriver();
+DeviceDriver polhemDriver();
+DeviceDriver stickDriver();
+DeviceDriver keyboardDriver();
+DeviceDriver gamepadDriver();
+DeviceDriver tabletDriver();
+
+}  // namespace reachlab::devices

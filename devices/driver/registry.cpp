@@ -1,0 +1,70 @@
+#include "devices/driver/registry.h"
+
+#include <algorithm>
+
+#include "devices/driver/drivers.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab::devices {
+
+std::span<const DeviceDriver> deviceDrivers() {
+  static const std::vector<DeviceDriver> drivers{
+      simulatedDriver(), partnerDriver(),        replayDriver(),   mouseDriver(),      virtualDriver(),
+      phantomDriver(),   forceDimensionDriver(), hidDriver(),      spaceMouseDriver(), haplyDriver(),
+      polhemDriver(),    stickDriver(),          keyboardDriver(), gamepadDriver(),    tabletDriver(),
+  };
+  return drivers;
+}
+
+const DeviceDriver* findDriver(const std::string& name) {
+  const auto drivers = deviceDrivers();
+  const auto at = std::find_if(drivers.begin(), drivers.end(), [&](const DeviceDriver& driver) { return driver.name == name; });
+  return at == drivers.end() ? nullptr : &*at;
+}
+
+std::vector<FoundDevice> findDevices() {
+  std::vector<FoundDevice> found;
+  for (const DeviceDriver& driver : deviceDrivers())
+    for (FoundDevice& device : driver.find(driver)) found.push_back(std::move(device));
+  return found;
+}
+
+Vec3 startOf(const experiment::CompiledExperiment& experiment) {
+  if (!experiment.experiment().task) return {};
+  return trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start;
+}
+
+std::vector<FoundDevice> alwaysThere(const DeviceDriver& self) {
+  FoundDevice row;
+  row.name = row.kind = self.name;
+  row.description = self.description;
+  row.present = true;
+  row.degreesOfFreedom = 3;
+  row.maxForce = row.continuousForce = 0;
+  row.rate = 1000;
+  return {row};
+}
+
+FoundDevice presentDevice(const DeviceDriver& self, const std::string& name, const haptics::DeviceInfo& info) {
+  FoundDevice row;
+  row.name = name;
+  row.kind = self.name;
+  row.description = info.name.empty() ? self.description : info.name;
+  row.present = true;
+  row.degreesOfFreedom = info.degreesOfFreedom;
+  row.maxForce = info.rendersForce ? info.maxForce : 0;
+  if (!info.rendersForce) row.continuousForce = 0;
+  else if (info.maxContinuousForce > 0) row.continuousForce = info.maxContinuousForce;
+  row.rate = info.rate;
+  return row;
+}
+
+FoundDevice absentDevice(const DeviceDriver& self, const std::string& whyNot) {
+  FoundDevice row;
+  row.name = row.kind = self.name;
+  row.description = self.description;
+  row.whyNot = whyNot;
+  return row;
+}
+
+}  // namespace reachlab::devices

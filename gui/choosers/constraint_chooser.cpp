@@ -1,0 +1,373 @@
+#include "gui/choosers/constraint_chooser.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/fault.h"
+#include "base/system/ending.h"
+#include "gui/choosers/formula_editor.h"
+#include "gui/scene/scene_view.h"
+#include "gui/scene/thumbnail.h"
+#include "gui/widgets/shape_sliders.h"
+
+namespace reachlab::gui::docks {
+namespace {
+
+experiment::Experiment onePoint() {
+  experiment::Experiment e;
+  e.object.kind = experiment::ObjectKind::Point;
+  e.object.masses = {1};
+  e.coupling = experiment::Coupling{600, 0};
+  e.task = experiment::Task{};
+  return e;
+}
+
+QString text(const std::string& s) { return QString::fromStdString(s); }
+
+QImage thumbnailOf(const constraints::Definition& definition, const QSize& size, double ratio) {
+  experiment::Experiment probe = onePoint();
+  probe.task->start = definition.start;
+  probe.task->target = definition.target;
+  return scene::drawThumbnail(scene::planScene(probe, constraints::makeConstraint(definition)), size, ratio);
+}
+
+// A formula that no file speaks of begins in the middle of what is drawn of it and goes a quarter of the way.
+void givePlaces(constraints::Definition& definition) {
+  if (definition.kind == constraints::ConstraintKind::Surface) {
+    definition.start = {-0.5, -0.5};
+    definition.target = {0.5, 0.5};
+  } else {
+    definition.start = {0};
+    definition.target = {0.5 * std::numbers::pi};
+  }
+}
+
+// Start and target are the same place, or one of them is none.
+bool coincide(const constraints::Constraint& constraint, const ConstraintChoice& choice) {
+  const auto place = [&](const std::vector<double>& q) {
+    if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) return constraints::evaluate(constraint.curve, q[0]).r;
+    if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2)
+      return constraints::evaluate(constraint.surface, q[0], q[1]).r;
+    return Vec3{};
+  };
+  const double apart = norm(place(choice.target) - place(choice.start));
+  return !(apart > 1e-6);
+}
+
+}  // namespace
+
+ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(onePoint()) {
+  setWindowTitle(QStringLiteral("Constraint"));
+  setObjectName(QStringLiteral("constraintChooser"));
+  resize(1240, 780);
+  auto* columns = new QHBoxLayout(this);
+
+  auto* left = new QVBoxLayout;
+  search_ = new QLineEdit;
+  search_->setObjectName(QStringLiteral("search"));
+  search_->setPlaceholderText(QStringLiteral("search: name, kind or words"));
+  search_->setClearButtonEnabled(true);
+  list_ = new QListWidget;
+  list_->setObjectName(QStringLiteral("definitions"));
+  list_->setIconSize({104, 72});
+  list_->setUniformItemSizes(true);
+  list_->setMinimumWidth(320);
+  left->addWidget(search_);
+  left->addWidget(list_, 1);
+  columns->addLayout(left);
+
+  auto* middle = new QVBoxLayout;
+  title_ = new QLabel;
+  QFont font = title_->font();
+  font.setPointSizeF(15);
+  font.setWeight(QFont::DemiBold);
+  title_->setFont(font);
+  sentence_ = new QLabel;
+  sentence_->setProperty("role", "quiet");
+  sentence_->setWordWrap(true);
+  preview_ = new scene::SceneView;
+  preview_->setOverlay([] {
+    scene::OverlayState o;
+    o.semaphoreShown = false;
+    return o;
+  }());
+  middle->addWidget(title_);
+  middle->addWidget(sentence_);
+  middle->addWidget(preview_, 1);
+  columns->addLayout(middle, 1);
+
+  auto* right = new QVBoxLayout;
+  auto* side = new QWidget;
+  side->setFixedWidth(350);
+  auto* sideLayout = new QVBoxLayout(side);
+  sideLayout->setContentsMargins(0, 0, 0, 0);
+  sideLayout->addWidget(new QLabel(QStringLiteral("<b>Formula</b>")));
+  formula_ = new FormulaEditor;
+  sideLayout->addWidget(formula_);
+  sideLayout->addSpacing(8);
+  sideLayout->addWidget(new QLabel(QStringLiteral("<b>Shape</b>")));
+  sliders_ = new widgets::ShapeSliders;
+  sideLayout->addWidget(sliders_);
+  sideLayout->addStretch();
+  auto* saving = new QHBoxLayout;
+  name_ = new QLineEdit;
+  name_->setObjectName(QStringLiteral("definitionName"));
+  name_->setPlaceholderText(QStringLiteral("name-of-mine"));
+  save_ = new QPushButton(QStringLiteral("Save as definition"));
+  save_->setObjectName(QStringLiteral("save"));
+  save_->setAutoDefault(false);
+  saving->addWidget(name_, 1);
+  saving->addWidget(save_);
+  sideLayout->addLayout(saving);
+  saved_ = new QLabel;
+  saved_->setObjectName(QStringLiteral("saved"));
+  saved_->setProperty("role", "quiet");
+  saved_->setWordWrap(true);
+  sideLayout->addWidget(saved_);
+  use_ = new QPushButton(QStringLiteral("Reach on this"));
+  use_->setObjectName(QStringLiteral("use"));
+  use_->setProperty("role", "go");
+  use_->setAutoDefault(false);
+  sideLayout->addWidget(use_);
+  refusal_ = new QLabel;
+  refusal_->setObjectName(QStringLiteral("refusal"));
+  refusal_->setProperty("role", "fault");
+  refusal_->setWordWrap(true);
+  refusal_->hide();
+  usePoint_ = new QPushButton(QStringLiteral("Reach on this with one mass"));
+  usePoint_->setObjectName(QStringLiteral("usePoint"));
+  usePoint_->setAutoDefault(false);
+  usePoint_->hide();
+  sideLayout->addWidget(refusal_);
+  sideLayout->addWidget(usePoint_);
+  right->addWidget(side);
+  columns->addLayout(right);
+
+  connect(search_, &QLineEdit::textChanged, this, &ConstraintChooser::filter);
+  connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {
+    if (row >= 0 && static_cast<std::size_t>(row) < definitions_.size()) show(definitions_[static_cast<std::size_t>(row)], {});
+  });
+  connect(formula_, &FormulaEditor::changed, this, &ConstraintChooser::formulaChanged);
+  connect(sliders_, &widgets::ShapeSliders::moved, this, [this] { rebuild(false); });
+  connect(save_, &QPushButton::clicked, this, &ConstraintChooser::save);
+  connect(use_, &QPushButton::clicked, this, [this] {
+    if (choice_) Q_EMIT used(*choice_);
+  });
+  connect(usePoint_, &QPushButton::clicked, this, [this] {
+    if (!choice_) return;
+    ConstraintChoice onePoint = *choice_;
+    onePoint.withPoint = true;
+    Q_EMIT used(onePoint);
+  });
+  fillList();
+  if (!definitions_.empty()) list_->setCurrentRow(0);
+}
+
+ConstraintChooser::~ConstraintChooser() = default;
+
+void ConstraintChooser::fillList() {
+  const QSignalBlocker quiet(list_);
+  list_->clear();
+  definitions_ = constraints::catalogue();
+  try {
+    for (constraints::Definition& own : constraints::readDefinitionFolder(constraints::userDefinitionFolder()))
+      definitions_.push_back(std::move(own));
+  } catch (const Error& e) {
+    saved_->setText(QString::fromUtf8(e.what()));
+  }
+  for (const constraints::Definition& d : definitions_) {
+    auto* item = new QListWidgetItem(QStringLiteral("%1\n%2").arg(
+        text(d.name), d.kind == constraints::ConstraintKind::Surface ? QStringLiteral("surface") : QStringLiteral("curve")));
+    item->setToolTip(text(d.sentence));
+    item->setData(Qt::UserRole, (text(d.name) + QLatin1Char(' ') + item->text() + QLatin1Char(' ') + text(d.sentence)).toLower());
+    try {
+      item->setIcon(QIcon(QPixmap::fromImage(thumbnailOf(d, list_->iconSize(), devicePixelRatioF()))));
+    } catch (const Error& e) {
+      item->setToolTip(QString::fromUtf8(e.what()));
+    }
+    list_->addItem(item);
+  }
+  filter(search_->text());
+}
+
+void ConstraintChooser::filter(const QString& words) {
+  const QStringList wanted = words.toLower().split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  for (int i = 0; i < list_->count(); ++i) {
+    const QString hay = list_->item(i)->data(Qt::UserRole).toString();
+    list_->item(i)->setHidden(!std::all_of(wanted.begin(), wanted.end(), [&](const QString& w) { return hay.contains(w); }));
+  }
+}
+
+int ConstraintChooser::shownCount() const {
+  int count = 0;
+  for (int i = 0; i < list_->count(); ++i) count += list_->item(i)->isHidden() ? 0 : 1;
+  return count;
+}
+
+void ConstraintChooser::answer(const QStringList& faults) {
+  refusal_->setText(faults.join(QLatin1Char('\n')));
+  refusal_->setVisible(!faults.isEmpty());
+  usePoint_->setVisible(!faults.isEmpty() && severalMasses_);
+  if (faults.isEmpty()) close();
+}
+
+void ConstraintChooser::setCurrent(const experiment::Experiment& experiment) {
+  severalMasses_ = experiment.object.masses.size() > 1;
+  refusal_->hide();
+  usePoint_->hide();
+  const constraints::ConstraintSpec& spec = experiment.constraint;
+  for (std::size_t i = 0; i < definitions_.size(); ++i)
+    if (spec.curve.empty() && spec.surface.empty() && definitions_[i].name == spec.name) {
+      const QSignalBlocker quiet(list_);
+      list_->setCurrentRow(static_cast<int>(i));
+      show(definitions_[i], spec.shape);
+      return;
+    }
+}
+
+void ConstraintChooser::show(const constraints::Definition& definition, const std::map<std::string, double>& shape) {
+  current_ = definition;
+  title_->setText(text(definition.name));
+  sentence_->setText(text(definition.sentence) +
+                     (definition.source.empty() ? QString() : QStringLiteral("  [%1]").arg(text(definition.source))));
+  formula_->setFormula(definition.kind, definition.coordinates);
+  sliders_->setParameters(definition.shape, shape);
+  rebuild(true);
+}
+
+bool ConstraintChooser::isTyped() const {
+  return current_.name.empty() || formula_->kind() != current_.kind || formula_->coordinates() != current_.coordinates;
+}
+
+constraints::Definition ConstraintChooser::typedDefinition() const {
+  constraints::Definition d = current_;
+  d.kind = formula_->kind();
+  d.coordinates = formula_->coordinates();
+  if (d.kind != current_.kind) {
+    d.domain = {};
+    givePlaces(d);
+  }
+  d.shape.clear();
+  for (const std::string& name : parameterNames(d.kind, d.coordinates)) {
+    constraints::ShapeParameter p{name, 0.1, -1, 1, "1", "typed"};
+    for (const constraints::ShapeParameter& known : current_.shape)
+      if (known.name == name) p = known;
+    d.shape.push_back(p);
+  }
+  return d;
+}
+
+void ConstraintChooser::formulaChanged() {
+  use_->setEnabled(formula_->fine());
+  save_->setEnabled(formula_->fine());
+  if (!formula_->fine()) {
+    choice_.reset();
+    dropVanishedSliders();
+    return;
+  }
+  constraints::Definition typed = typedDefinition();
+  const std::string before = current_.name;
+  if (!before.empty() && isTyped()) {
+    typed.name.clear();
+    typed.domain = {};  // another formula's ends are not this one's
+    typed.sentence = "typed; after " + before;
+    typed.source.clear();
+    title_->setText(QStringLiteral("typed formula"));
+    sentence_->setText(QStringLiteral("as typed at the right; the picture follows"));
+    const QSignalBlocker quiet(list_);
+    list_->setCurrentRow(-1);
+  }
+  const auto values = sliders_->values();
+  const bool sameNames =
+      typed.shape.size() == values.size() &&
+      std::all_of(typed.shape.begin(), typed.shape.end(), [&](const constraints::ShapeParameter& p) { return values.contains(p.name); });
+  current_ = typed;
+  if (!sameNames) sliders_->setParameters(typed.shape, values);
+  rebuild(true);
+}
+
+// Of "sin" typed letter by letter, "s" and "si" were names of sliders for a moment.
+void ConstraintChooser::dropVanishedSliders() {
+  const std::vector<std::string> names = parameterNames(formula_->kind(), formula_->coordinates());
+  const auto values = sliders_->values();
+  std::vector<constraints::ShapeParameter> kept;
+  for (const constraints::ShapeParameter& p : current_.shape)
+    if (values.contains(p.name) && std::find(names.begin(), names.end(), p.name) != names.end()) kept.push_back(p);
+  if (kept.size() < values.size()) sliders_->setParameters(kept, values);
+}
+
+void ConstraintChooser::rebuild(bool resetCamera) {
+  choice_.reset();
+  refusal_->hide();  // it was another choice's
+  usePoint_->hide();
+  ConstraintChoice choice;
+  choice.start = current_.start;
+  choice.target = current_.target;
+  if (current_.name.empty()) {
+    const std::vector<std::string> lines(current_.coordinates.begin(), current_.coordinates.end());
+    (current_.kind == constraints::ConstraintKind::Surface ? choice.spec.surface : choice.spec.curve) = lines;
+    choice.spec.name = current_.kind == constraints::ConstraintKind::Surface ? "surface" : "curve";
+  } else {
+    choice.spec.name = current_.name;
+  }
+  choice.spec.shape = sliders_->values();
+  try {
+    const constraints::Constraint constraint = current_.name.empty() ? constraints::makeConstraint(choice.spec, "formula")
+                                                                     : constraints::makeConstraint(current_, choice.spec.shape);
+    if (current_.name.empty() && coincide(constraint, choice)) {  // after another formula's places: nowhere to go
+      givePlaces(current_);
+      choice.start = current_.start;
+      choice.target = current_.target;
+    }
+    probe_.constraint = choice.spec;
+    probe_.task->start = choice.start;
+    probe_.task->target = choice.target;
+    preview_->setPlan(scene::planScene(probe_, constraint), resetCamera);
+    formula_->setFault({});
+    choice_ = choice;
+  } catch (const Error& e) {
+    formula_->setFault(QString::fromUtf8(e.what()));
+  }
+  use_->setEnabled(choice_.has_value());
+  save_->setEnabled(choice_.has_value());
+}
+
+void ConstraintChooser::save() {
+  const std::string name = name_->text().trimmed().toLower().replace(QLatin1Char(' '), QLatin1Char('-')).toStdString();
+  constraints::Definition d = current_;
+  d.name = name;
+  d.shape = sliders_->parameters();
+  const auto values = sliders_->values();
+  for (constraints::ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
+  try {
+    if (name.empty()) throw FaultError(Fault{.what = "a definition needs a name: lower-case words joined by '-'"});
+    if (constraints::findInCatalogue(name) != nullptr) throw FaultError(Fault{.what = "there is already a definition of the name " + name});
+    const std::string content = constraints::toJson(d);
+    namespace fs = std::filesystem;
+    const fs::path folder = constraints::userDefinitionFolder(), file = folder / (name + ".json");
+    (void)constraints::parseDefinition(content, file.string());  // nothing is saved that could not be read again
+    fs::create_directories(folder);
+    std::ofstream out(file, std::ios::binary);
+    out << content;
+    out.close();
+    if (!out) throw ResourceError(file.string() + ": could not be written");
+    saved_->setText(QStringLiteral("saved as %1").arg(text(file.string())));
+    fillList();
+    for (std::size_t i = 0; i < definitions_.size(); ++i)
+      if (definitions_[i].name == name) list_->setCurrentRow(static_cast<int>(i));
+  } catch (const std::exception& e) {
+    saved_->setText(QString::fromStdString(endingOf(e).sentence));
+  }
+}
+
+}  // namespace reachlab::gui::docks

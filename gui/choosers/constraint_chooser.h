@@ -1,0 +1,77 @@
+#pragma once
+#include <QDialog>
+#include <optional>
+#include <vector>
+
+#include "constraints/catalogue/definition.h"
+#include "sim/experiment/experiment.h"
+
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+
+namespace reachlab::gui::scene {
+class SceneView;
+}
+namespace reachlab::gui::widgets {
+class ShapeSliders;
+}
+
+namespace reachlab::gui::docks {
+
+class FormulaEditor;
+
+/// A choice made: what an experiment needs to use it.
+struct ConstraintChoice {
+  constraints::ConstraintSpec spec;
+  std::vector<double> start, target;
+  bool withPoint = false;  // the object becomes one mass of the same weight
+};
+
+/// Choose a constraint from a searchable list with thumbnails and move its sliders, or type a formula; both with a live picture. A typed
+/// formula can be saved as a definition. "Use" reaches on it at once, without a restart.
+class ConstraintChooser : public QDialog {
+  Q_OBJECT
+ public:
+  explicit ConstraintChooser(QWidget* parent = nullptr);
+  ~ConstraintChooser() override;
+  /// Shows what is in use.
+  void setCurrent(const experiment::Experiment& experiment);
+  /// Why the choice cannot be reached on with the object as it is; where it is more than one mass, one is offered instead. Empty: it was
+  /// taken, and the dialog closes.
+  void answer(const QStringList& faults);
+  /// What would be used now; nullopt while it cannot be.
+  std::optional<ConstraintChoice> choice() const { return choice_; }
+  scene::SceneView* preview() { return preview_; }
+  int shownCount() const;
+
+ Q_SIGNALS:
+  void used(const reachlab::gui::docks::ConstraintChoice& choice);
+
+ private:
+  void fillList();
+  void filter(const QString& words);
+  void show(const constraints::Definition& definition, const std::map<std::string, double>& shape);
+  void formulaChanged();
+  void dropVanishedSliders();
+  void rebuild(bool resetCamera);
+  void save();
+  constraints::Definition typedDefinition() const;
+  bool isTyped() const;
+
+  std::vector<constraints::Definition> definitions_;
+  constraints::Definition current_;
+  experiment::Experiment probe_;  // one mass on the constraint, for the picture
+  std::optional<ConstraintChoice> choice_;
+  QLineEdit *search_, *name_;
+  QListWidget* list_;
+  scene::SceneView* preview_;
+  widgets::ShapeSliders* sliders_;
+  FormulaEditor* formula_;
+  QLabel *title_, *sentence_, *saved_, *refusal_;
+  QPushButton *use_, *usePoint_, *save_;
+  bool severalMasses_ = false;
+};
+
+}  // namespace reachlab::gui::docks

@@ -1,0 +1,151 @@
+#include "gui/choosers/device_dialog.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "base/error.h"
+#include "devices/driver/registry.h"
+#include "gui/choosers/device_view.h"
+#include "gui/widgets/wait_cursor.h"
+
+namespace reachlab::gui::docks {
+namespace {
+
+constexpr int kLookMs = 33;
+
+QString millimetres(double metres) { return QStringLiteral("%1").arg(1e3 * metres, 7, 'f', 2); }
+
+bool inWindowOnly(const QString& name) {
+  const devices::DeviceDriver* driver =
+      devices::findDriver(name.section(QLatin1Char(':'), 0, 0).section(QLatin1Char(','), 0, 0).toStdString());
+  return driver != nullptr && driver->inWindowOnly;
+}
+
+}  // namespace
+
+DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, const QString& chosen,
+                           std::function<void(const QString& name)> take, QWidget* parent)
+    : QDialog(parent), experiment_(experiment), taken_(std::move(take)) {
+  setObjectName(QStringLiteral("device"));
+  setWindowTitle(tr("Device"));
+  resize(860, 390);
+  auto* layout = new QVBoxLayout(this);
+  auto* line = new QHBoxLayout;
+  name_ = new QLineEdit(chosen);
+  name_->setObjectName(QStringLiteral("deviceName"));
+  name_->setPlaceholderText(tr("device, with its options: hid:SERIAL,model=polhem_v1"));
+  open_ = new QPushButton;
+  open_->setObjectName(QStringLiteral("deviceOpen"));
+  calibrate_ = new QPushButton(tr("Calibrate"));
+  calibrate_->setObjectName(QStringLiteral("deviceCalibrate"));
+  take_ = new QPushButton(tr("Use it"));
+  take_->setObjectName(QStringLiteral("deviceTake"));
+  line->addWidget(name_, 1);
+  for (QPushButton* button : {open_, calibrate_, take_}) {
+    button->setAutoDefault(false);
+    line->addWidget(button);
+  }
+  layout->addLayout(line);
+  hint_ = new QLabel;
+  hint_->setWordWrap(true);
+  layout->addWidget(hint_);
+  view_ = new DeviceView;
+  layout->addWidget(view_);
+  numbers_ = new QLabel;
+  numbers_->setObjectName(QStringLiteral("deviceNumbers"));
+  numbers_->setTextFormat(Qt::PlainText);
+  layout->addWidget(numbers_);
+
+  timer_ = new QTimer(this);
+  connect(timer_, &QTimer::timeout, this, &DeviceDialog::look);
+  connect(name_, &QLineEdit::textChanged, this, &DeviceDialog::showButtons);
+  connect(open_, &QPushButton::clicked, this, &DeviceDialog::openOrLetGo);
+  connect(calibrate_, &QPushButton::clicked, this, &DeviceDialog::calibrate);
+  connect(take_, &QPushButton::clicked, this, [this] {
+    timer_->stop();
+    device_.reset();  // the run is to have it
+    taken_(name_->text().trimmed());
+    accept();
+  });
+  showButtons();
+}
+
+DeviceDialog::~DeviceDialog() = default;
+
+void DeviceDialog::showButtons() {
+  const QString name = name_->text().trimmed();
+  open_->setText(device_ ? tr("Let it go") : tr("Look at it"));
+  open_->setEnabled(device_ != nullptr || (!name.isEmpty() && !inWindowOnly(name)));
+  open_->setToolTip(inWindowOnly(name) ? tr("it is seen in the window itself") : QString());
+  calibrate_->setEnabled(device_ != nullptr && !device_->calibrationHint().empty());
+  take_->setEnabled(!name.isEmpty());
+  name_->setEnabled(!device_);
+}
+
+void DeviceDialog::tell(const QString& sentence, bool isFault) {
+  hint_->setStyleSheet(isFault ? QStringLiteral("color: #ff9d8c;") : QString());
+  hint_->setText(sentence);
+}
+
+void DeviceDialog::openOrLetGo() {
+  if (device_) {
+    timer_->stop();
+    device_.reset();
+    view_->clear();
+    numbers_->clear();
+    tell({}, false);
+    showButtons();
+    return;
+  }
+  try {
+    const widgets::WaitCursor wait;
+    device_ = std::make_unique<devices::LiveDevice>(name_->text().trimmed().toStdString(), experiment_);
+    const haptics::DeviceInfo info = device_->info();
+    reach_ = info.workspaceRadius > 0 ? info.workspaceRadius : 0.15;
+    force_ = info.rendersForce && info.maxForce > 0 ? info.maxForce : 1;
+    const QString hint = QString::fromStdString(device_->calibrationHint());
+    tell(QString::fromStdString(info.name) +
+             (hint.isEmpty() ? tr(": needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
+         false);
+    timer_->start(kLookMs);
+  } catch (const Error& fault) {
+    tell(QString::fromStdString(fault.what()), true);
+  }
+  showButtons();
+}
+
+void DeviceDialog::look() {
+  const devices::LiveDevice::View view = device_->look();
+  view_->display(view, reach_, force_);
+  QString buttons;
+  for (int i = 0; i < 32; ++i)
+    if ((view.buttons >> i & 1u) != 0) buttons += QStringLiteral(" %1").arg(i + 1);
+  numbers_->setText(tr("place %1 %2 %3 mm    speed %4 mm/s    force %5 %6 %7 N    %8 reports/s    buttons%9")
+                        .arg(millimetres(view.position.x), millimetres(view.position.y), millimetres(view.position.z))
+                        .arg(1e3 * view.speed, 6, 'f', 1)
+                        .arg(view.force.x, 5, 'f', 2)
+                        .arg(view.force.y, 5, 'f', 2)
+                        .arg(view.force.z, 5, 'f', 2)
+                        .arg(view.rate, 6, 'f', 1)
+                        .arg(buttons.isEmpty() ? QStringLiteral(" –") : buttons));
+  if (!view.fault.empty()) tell(QString::fromStdString(view.fault), true);
+}
+
+void DeviceDialog::calibrate() {
+  try {
+    const widgets::WaitCursor wait;
+    device_->calibrate();
+    tell(tr("calibrated: this is its calibration place now"), false);
+  } catch (const Error& fault) {
+    tell(QString::fromStdString(fault.what()), true);
+  }
+}
+
+QString DeviceDialog::words() const { return numbers_->text(); }
+
+}  // namespace reachlab::gui::docks

@@ -1,0 +1,49 @@
+#pragma once
+#include <QWidget>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "constraints/catalogue/definition.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+
+namespace reachlab::gui::docks {
+
+/// Names in the formulas that are neither variables, constants nor functions: the shape parameters, in order of appearance.
+std::vector<std::string> parameterNames(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates);
+
+/// The variable that a parameter's name was perhaps to be: one letter away from it, or the same but for capitals; empty: none.
+std::string variableMeant(constraints::ConstraintKind kind, const std::string& name);
+
+/// Three lines of formula with the fault of each under it, at the character where it went wrong. Knows no scene.
+class FormulaEditor : public QWidget {
+  Q_OBJECT
+ public:
+  explicit FormulaEditor(QWidget* parent = nullptr);
+  void setFormula(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates);
+  constraints::ConstraintKind kind() const;
+  std::array<std::string, 3> coordinates() const;
+  /// True when every line can be compiled.
+  bool fine() const { return fine_; }
+  /// A fault of the whole, found beyond the text (degenerate everywhere, not finite somewhere); empty: none.
+  void setFault(const QString& fault);
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  void check();
+
+  QComboBox* kind_;
+  std::array<QLineEdit*, 3> lines_{};
+  std::array<QLabel*, 3> faults_{};
+  QLabel* fault_;
+  bool fine_ = true;
+};
+
+}  // namespace reachlab::gui::docks

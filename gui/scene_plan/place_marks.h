@@ -1,0 +1,20 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "constraints/constraint.h"
+
+namespace reachlab::gui::scene {
+
+/// A place where a constraint's formula is not smooth, to be marked on the picture.
+struct PlaceMark {
+  Vec3 r;               // [m]
+  bool passed = false;  // a mass goes on across it; else never crossed
+};
+
+/// The constraint's list of places (constraints/regularity/places.h) in the domain that is drawn: a curve's as they are, those of a surface's lines
+/// as points along them. `about`: the start, where there is a task.
+std::vector<PlaceMark> markPlaces(const constraints::Constraint& constraint, const std::array<constraints::Domain, 2>& drawn,
+                                  const std::vector<double>& about);
+
+}  // namespace reachlab::gui::scene

@@ -1,0 +1,260 @@
+#include "gui/scene_plan/scene_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/geometry/task_path.h"
+#include "gui/scene_plan/hand_colours.h"
+#include "gui/scene_plan/part_names.h"
+#include "gui/widgets/themes.h"
+#include "sim/experiment/scene_look.h"
+
+namespace reachlab::gui::scene {
+namespace {
+
+Vec3 placeOrOrigin(const constraints::Constraint& constraint, const std::vector<double>& q) {
+  const Vec3 r = constraints::placeOn(constraint, q);
+  return isFinite(r) ? r : Vec3{};
+}
+
+// Looks at the broadest side of the box, a little from above and from the right.
+Vec3 viewDirection(const Box& box, constraints::ConstraintKind kind) {
+  const Vec3 extent = box.high - box.low;
+  if (kind == constraints::ConstraintKind::Surface)
+    return extent.z < 0.35 * std::max(extent.x, extent.y) ? Vec3{0.45, -0.9, 1.1} : Vec3{0.6, 0.55, 1};
+  const double thin = 0.02 * box.diagonal();
+  if (extent.x <= thin && extent.z > thin) return {1, 0.22, 0.3};  // lies in the y-z plane
+  if (extent.y <= thin && extent.z > thin) return {0.1, 1, 0.55};  // in the x-z plane
+  if (extent.z <= thin) return {0.06, 0.18, 1};
+  return {0.55, 0.45, 1};
+}
+
+std::vector<double> radiiOf(const std::vector<double>& masses, double unit) {
+  double heaviest = 0;
+  for (const double m : masses) heaviest = std::max(heaviest, m);
+  const double most = (masses.size() > 12 ? 0.022 : 0.034) * unit;
+  std::vector<double> radii;
+  for (const double m : masses) radii.push_back(heaviest > 0 ? most * std::clamp(std::cbrt(m / heaviest), 0.45, 1.0) : most);
+  return radii;
+}
+
+bool isSideBySide(const experiment::Object& object, ViewOptions::SideBySide wish) {
+  if (object.masses.size() < 2 || wish == ViewOptions::SideBySide::Never) return false;
+  return wish == ViewOptions::SideBySide::Always || object.kind == experiment::ObjectKind::Parallel;
+}
+
+// What each hand holds.
+void planHands(const experiment::Experiment& experiment, int masses, ScenePlan& plan) {
+  const bool parallel = experiment.object.kind == experiment::ObjectKind::Parallel;
+  const auto toAll = [&](int hand) {
+    for (int i = 0; i < masses; ++i) plan.springs.push_back({-1, i, hand, false});
+  };
+  if (experiment.hands.empty()) {
+    if (parallel) toAll(0);
+    else if (experiment.coupling) plan.springs.push_back({-1, 0, 0, true});
+    return;
+  }
+  for (std::size_t hand = 0; hand < experiment.hands.size(); ++hand) {
+    plan.hands.push_back({widgets::themed(handColour(hand))});
+    const int mass = experiment.hands[hand].mass;
+    if (parallel && mass == 0) toAll(static_cast<int>(hand));
+    else plan.springs.push_back({-1, std::clamp(mass - 1, 0, masses - 1), static_cast<int>(hand), true});
+  }
+}
+
+void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
+  const experiment::Object& object = experiment.object;
+  const std::size_t count = object.masses.size();
+  plan.massRadius = radiiOf(object.masses, std::max(plan.unit, 0.6 * plan.size));
+  plan.massRole.assign(count, MassRole::Middle);
+  plan.massShift.assign(count, Vec3{});
+  if (count == 0) return;
+  plan.massRole.back() = MassRole::Last;
+  plan.massRole.front() = MassRole::Driven;
+  const bool shifted = isSideBySide(object, wish);
+  if (!shifted)  // where all coincide the driven one would hide the rest
+    for (std::size_t i = 1; i + 1 < count; ++i) plan.massRadius[i] *= 0.72;
+  if (shifted) {
+    const Vec3 across = plan.kind == constraints::ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit
+                            ? Vec3{0, -1, 0}
+                            : Vec3{0.7, -0.7, 0};
+    const double step = std::min(0.22, 0.5 / static_cast<double>(count)) * plan.unit;
+    const double middle = object.kind == experiment::ObjectKind::Parallel ? 0.5 * static_cast<double>(count - 1) : 0.0;
+    for (std::size_t i = 0; i < count; ++i) plan.massShift[i] = ((static_cast<double>(i) - middle) * step) * across;
+  }
+  const int last = static_cast<int>(count);
+  planHands(experiment, last, plan);
+  if (object.kind == experiment::ObjectKind::Chain)
+    for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, 0, false});
+}
+
+}  // namespace
+
+widgets::Colour* partNamed(PartColours& c, const std::string& name) {
+  const std::pair<const char*, widgets::Colour*> parts[] = {{"background_top", &c.backgroundTop},
+                                                            {"background_bottom", &c.backgroundBottom},
+                                                            {"rail", &c.rail},
+                                                            {"surface", &c.surface},
+                                                            {"surface_line", &c.surfaceLine},
+                                                            {"start", &c.start},
+                                                            {"target", &c.target},
+                                                            {"driven", &c.driven},
+                                                            {"middle", &c.middle},
+                                                            {"last", &c.last},
+                                                            {"hand", &c.hand},
+                                                            {"spring", &c.spring},
+                                                            {"coupling", &c.coupling},
+                                                            {"force", &c.force},
+                                                            {"trace", &c.trace}};
+  for (const auto& [known, colour] : parts)
+    if (name == known) return colour;
+  return nullptr;
+}
+
+namespace {
+
+PlanLook plannedLook(const experiment::Experiment& experiment) {
+  using namespace widgets::colours;
+  const experiment::SceneLook look = experiment::lookOf(experiment);
+  PlanLook plan;
+  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven,
+                  kMiddle, kLast,      kHand, kSpring,  kCoupling,    kRed,   kTrace};
+  for (const std::string& part : experiment::colouredParts()) {
+    widgets::Colour* colour = partNamed(plan.colours, part);
+    if (colour == nullptr) continue;
+    *colour = widgets::themed(*colour);
+    if (const auto own = look.colours.find(part); own != look.colours.end()) *colour = widgets::colourOf(own->second);
+  }
+  plan.surfaceOpacity = look.surfaceOpacity;
+  plan.shadow = look.depthCue == "shadow";
+  plan.grid = plan.shadow || look.depthCue == "grid";
+  plan.trace = look.trace;
+  plan.forceArrow = look.forceArrow;
+  return plan;
+}
+
+// Some hundreds of the constraint's points, and the task's places with the shifts of their masses.
+std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
+  std::vector<Vec3> seen;
+  const std::size_t skip = 1 + plan.curve.pointCount() / 400;
+  for (const auto& piece : plan.curve.pieces) {
+    for (std::size_t i = 0; i < piece.size(); i += skip) seen.push_back(piece[i]);
+    seen.push_back(piece.back());
+  }
+  const std::size_t skipQuads = 1 + plan.surface.quads.size() / 800;
+  for (std::size_t i = 0; i < plan.surface.quads.size(); i += skipQuads) seen.push_back(plan.surface.points[plan.surface.quads[i][0]]);
+  if (plan.hasTask)
+    for (const Vec3& place : {plan.start, plan.target}) {
+      seen.push_back(place);
+      for (const Vec3& shift : plan.massShift) seen.push_back(place + shift);
+    }
+  if (seen.empty()) seen = {plan.centre - Vec3{0.5 * plan.size, 0, 0}, plan.centre + Vec3{0.5 * plan.size, 0, 0}};
+  return seen;
+}
+
+}  // namespace
+
+ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options) {
+  ScenePlan plan;
+  plan.kind = constraint.kind;
+  plan.body = experiment.object.kind == experiment::ObjectKind::Body;
+  const std::vector<double> none;
+  const auto& from = experiment.task ? experiment.task->start : none;
+  const auto& to = experiment.task ? experiment.task->target : none;
+  Box box;
+  if (constraint.kind == constraints::ConstraintKind::Curve) {
+    const auto domain = drawnDomain(constraint, from, to);
+    plan.curve = sampleCurve(constraint.curve, domain[0].lo, domain[0].hi);
+    plan.places = markPlaces(constraint, domain, from);
+    box = boxOf(plan.curve);
+  } else if (constraint.kind == constraints::ConstraintKind::Surface) {
+    const auto domain = drawnDomain(constraint, from, to);
+    plan.surface = sampleSurface(constraint.surface, domain);
+    plan.places = markPlaces(constraint, domain, from);
+    box = boxOf(plan.surface);
+  }
+  if (experiment.task) {
+    plan.hasTask = true;
+    plan.start = placeOrOrigin(constraint, from);
+    plan.target = placeOrOrigin(constraint, to);
+    plan.tolerance = experiment.task->tolerance.position;
+    box.add(plan.start);
+    box.add(plan.target);
+  }
+  if (!box.valid() || box.diagonal() <= 0) box.add({-0.1, -0.05, 0}), box.add({0.1, 0.05, 0});
+  plan.centre = box.centre();
+  plan.size = box.diagonal();
+  const double reach = norm(plan.target - plan.start);
+  plan.unit = plan.hasTask && reach > 0.3 * plan.size ? reach : std::max(0.5 * plan.size, reach);
+  plan.viewFrom = viewDirection(box, plan.kind);
+  plan.handRadius = 0.016 * plan.unit;
+  plan.markRadius = 0.014 * plan.unit;
+  plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
+  planMasses(experiment, options.sideBySide, plan);
+  plan.look = plannedLook(experiment);
+  plan.ownHand = std::clamp(options.ownHand, 0, std::max(static_cast<int>(plan.hands.size()) - 1, 0));
+  if (!plan.hands.empty() && !experiment::lookOf(experiment).colours.contains("hand"))
+    plan.look.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand)).colour;
+  plan.box = box;
+  plan.floor = box.low.y - 0.12 * plan.size;
+  plan.seen = pointsSeen(plan);
+  return plan;
+}
+
+ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) {
+  plan.targetShown = screen.target;
+  if (!screen.masses) {
+    plan.massRadius.clear();
+    plan.massRole.clear();
+    plan.massShift.clear();
+    plan.springs.clear();
+  }
+  return plan;
+}
+
+SceneFrame restingFrame(const ScenePlan& plan) {
+  SceneFrame frame;
+  frame.hand = plan.start;
+  frame.masses.assign(plan.massRadius.size(), plan.start);
+  for (int hand = 0; hand < static_cast<int>(plan.hands.size()); ++hand)
+    if (hand != plan.ownHand) frame.others.push_back({hand, plan.start});
+  return frame;
+}
+
+void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
+  frame.hand = state.hand.position;
+  frame.handValid = state.hand.valid;
+  frame.others.clear();
+  for (int hand = 1; hand < state.handCount; ++hand) frame.others.push_back({hand, handOf(state, hand).hand.position});
+  frame.force = state.feedbackForce;
+  frame.trial = state.trial;
+  frame.traced = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving;
+  frame.body = state.body;
+  frame.masses.resize(static_cast<std::size_t>(state.massCount));
+  for (std::size_t i = 0; i < frame.masses.size(); ++i) frame.masses[i] = state.masses[i].r;
+}
+
+bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
+  const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
+  if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || apart(from.hand, to.hand)) return true;
+  if (from.others.size() != to.others.size()) return true;
+  for (std::size_t i = 0; i < from.others.size(); ++i)
+    if (apart(from.others[i].place, to.others[i].place)) return true;
+  for (std::size_t i = 0; i < from.masses.size(); ++i)
+    if (apart(from.masses[i], to.masses[i])) return true;
+  if (!(norm(from.force - to.force) <= 0.05)) return true;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!(std::abs(from.body.orientation[i] - to.body.orientation[i]) <= 1e-3)) return true;
+  return false;
+}
+
+int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
+  const std::size_t count = std::min(frame.masses.size(), plan.massRadius.size());
+  if (count < 2) return 0;
+  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan.massShift[i]; };
+  for (std::size_t i = 1; i < count; ++i)
+    if (!(norm(drawn(i) - drawn(0)) < 0.5 * plan.massRadius[i])) return 0;
+  return static_cast<int>(count);
+}
+
+}  // namespace reachlab::gui::scene

@@ -1,0 +1,106 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "gui/model/model.h"
+#include "gui/scene_plan/constraint_mesh.h"
+#include "gui/scene_plan/place_marks.h"
+#include "gui/widgets/colours.h"
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_state.h"
+
+/// What is to be drawn of an experiment, as plain data: sizes, places, colours' roles. Known to no graphics library.
+namespace reachlab::gui::scene {
+
+enum class MassRole { Driven, Middle, Last };
+
+struct SpringPlan {
+  int from = -1, to = 0;  // masses from 0; -1: a hand
+  int hand = 0;           // which, from 0
+  bool coupling = false;  // the coupling (8): drawn thinner than the object's own springs
+};
+
+/// Colours of the scene's parts: the theme's, and over them the experiment's.
+struct PartColours {
+  widgets::Colour backgroundTop, backgroundBottom, rail, surface, surfaceLine, start, target, driven, middle, last, hand, spring, coupling,
+      force, trace;
+};
+
+/// How it is drawn.
+struct PlanLook {
+  PartColours colours;
+  double surfaceOpacity = 0.42;
+  bool grid = false, shadow = false;  // at the height `floor`
+  bool trace = false, forceArrow = false;
+};
+
+/// One of several hands on one object.
+struct HandPlan {
+  widgets::Colour colour;
+};
+
+struct ScenePlan {
+  constraints::ConstraintKind kind = constraints::ConstraintKind::Free;
+  CurveMesh curve;
+  SurfaceMesh surface;
+  std::vector<PlaceMark> places;  // where the formula is not smooth
+  Vec3 start, target;             // [m]
+  bool hasTask = false;
+  bool targetShown = true;
+  double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
+  Vec3 centre{};                   // [m] what the camera looks at
+  double size = 0.2;               // [m] diagonal of what is seen
+  double unit = 0.2;               // [m] what bodies are sized by
+  Vec3 viewFrom{0.1, 0.35, 1};     // direction from the centre to the camera
+  std::vector<Vec3> seen;          // [m] points that a view of the whole must hold
+  std::vector<double> massRadius;  // [m]
+  std::vector<MassRole> massRole;
+  std::vector<Vec3> massShift;  // [m] added for the eye only
+  std::vector<SpringPlan> springs;
+  std::vector<HandPlan> hands;                            // empty: one hand
+  int ownHand = 0;                                        // which of them the frame's own hand is
+  bool body = false;                                      // drawn as a box that turns
+  double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
+  PlanLook look;
+  Box box;                                    // [m] of constraint and task
+  double floor = 0;                           // [m] height of the grid, below all of it
+  std::shared_ptr<const model::Model> model;  // scenery, and what stands for hand and masses; null: none
+};
+
+struct ViewOptions {
+  enum class SideBySide { Auto, Always, Never };
+  SideBySide sideBySide = SideBySide::Auto;  // Auto: parallel masses only, as in the paper's Fig. 7
+  int ownHand = 0;                           // which of the experiment's hands is here, from 0
+};
+
+ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
+
+/// The same without its masses and springs, or without its target.
+ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
+
+/// A hand besides the first, or at another station.
+struct OtherHand {
+  int hand = 0;  // from 0
+  Vec3 place;    // [m]
+};
+
+/// One instant of it: what actors are moved to.
+struct SceneFrame {
+  Vec3 hand;  // [m]
+  std::vector<OtherHand> others;
+  std::vector<Vec3> masses;  // [m] true places
+  dynamics::BodyState body;
+  bool handValid = true;
+  Vec3 force;              // [N] of the coupling on the hand; zero where no arrow is drawn
+  std::int32_t trial = 0;  // a trace ends with its trial
+  bool traced = false;     // the hand is under way
+};
+/// At rest at the start.
+SceneFrame restingFrame(const ScenePlan& plan);
+void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
+/// Something has moved by more than that [m], turned by more than a thousandth, the drawn force is another by 0.05 N, or the hand was lost or found.
+bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);
+/// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
+int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
+
+}  // namespace reachlab::gui::scene

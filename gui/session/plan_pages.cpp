@@ -1,0 +1,96 @@
+#include "gui/session/plan_pages.h"
+
+#include <QEvent>
+#include <QTimer>
+#include <algorithm>
+
+#include "base/system/ending.h"
+#include "gui/docks/session_dock.h"
+#include "gui/plan/plan_composer.h"
+#include "gui/plan/start_page.h"
+#include "gui/scene/scene_view.h"
+#include "gui/session/session_controller.h"
+
+namespace reachlab::gui::app {
+
+PlanPages::PlanPages(SessionController& session, docks::SessionDock& dock, scene::SceneView& view)
+    : QObject(&view), session_(session), dock_(dock), view_(view), page_(new plan::StartPage(&view)) {
+  page_->hide();
+  view.installEventFilter(this);
+  connect(page_, &plan::StartPage::beginRequested, this, &PlanPages::beginRequested);
+  connect(page_, &plan::StartPage::resumeRequested, this, &PlanPages::resumeRequested);
+  connect(page_, &plan::StartPage::composeRequested, this, &PlanPages::composeRequested);
+  connect(page_, &plan::StartPage::placeEdited, this, [this](const QString& subject, const QString& sessionLabel) {
+    session::SessionRequest request = dock_.request();
+    request.place.subject = subject.toStdString();
+    request.place.session = sessionLabel.toStdString();
+    dock_.setRequest(request);
+    refresh();
+  });
+}
+
+bool PlanPages::resumes() const { return page_->isVisible() && page_->resumes(); }
+
+void PlanPages::refresh() {
+  const bool shown = session_.isPlan() && session_.run() == nullptr;
+  view_.setOverlayVisible(!shown);  // two pages of words over one another are none
+  if (!shown) {
+    known_ = false;
+    return page_->hide();
+  }
+  const session::SessionRequest request = dock_.request();
+  const session::Plan& plan = session_.programme().plan;
+  if (known_ && request.place == knownPlace_ && request.day == knownDay_ && plan.text == knownPlan_) return;
+  known_ = true;
+  knownPlace_ = request.place;
+  knownDay_ = request.day;
+  knownPlan_ = plan.text;
+  plan::StartPage::Shown what;
+  what.plan = QString::fromStdString(plan.name);
+  what.subject = QString::fromStdString(request.place.subject);
+  what.session = QString::fromStdString(request.place.session);
+  try {
+    what.standing = session::standingOf(request, session_.programme());
+    for (const session::PlanBlock& block : plan.blocks)
+      if (block.day != 0) what.day = session::sessionDay(request, plan);
+  } catch (const std::exception& e) {
+    what.fault = QString::fromStdString(endingOf(e).sentence);
+  }
+  page_->show(what);
+  page_->setVisible(true);
+  place();
+}
+
+void PlanPages::place() {
+  const int width = std::min(660, view_.width() - 30);
+  page_->setFixedWidth(std::max(width, 300));
+  page_->adjustSize();
+  page_->move((view_.width() - page_->width()) / 2, std::max(8, (view_.height() - page_->height()) / 2));
+  page_->raise();
+}
+
+bool PlanPages::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && page_->isVisible()) QTimer::singleShot(0, this, &PlanPages::place);  // above what the view raises
+  return QObject::eventFilter(watched, event);
+}
+
+void PlanPages::compose(QWidget* window, const QString& file) {
+  if (!composer_) {
+    composer_ = new plan::PlanComposer(window);
+    connect(composer_, &plan::PlanComposer::used, this, &PlanPages::composed);
+  }
+  if (session_.isPlan()) {
+    composer_->setPlan(session_.programme().plan, file);
+  } else {
+    session::Plan plan;
+    plan.name = "session";
+    plan.blocks.push_back(session_.programme().plan.blocks.front());
+    if (!file.isEmpty()) plan.blocks.front().experiment = file.toStdString();
+    plan.blocks.front().trials = 20;
+    composer_->setPlan(plan, {});
+  }
+  composer_->show();
+  composer_->raise();
+}
+
+}  // namespace reachlab::gui::app

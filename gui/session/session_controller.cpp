@@ -1,0 +1,415 @@
+#include "gui/session/session_controller.h"
+#include "sim/dynamics/compiled_scene.h"
+
+#include <QStringList>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "base/fault.h"
+#include "base/system/ending.h"
+#include "devices/instruments/instruments.h"
+#include "devices/kept_mapping.h"
+#include "devices/make_device.h"
+#include "devices/mouse/mouse_device.h"
+#include "devices/preflight/preflight.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+// The experiment that is shown before anything is run: of a plan that of the block that this subject does first.
+experiment::CompiledExperiment firstExperiment(const session::Programme& programme, const session::SessionRequest& request) {
+  if (!programme.isPlan()) return programme.experiments.front();
+  const session::SessionToRun session = session::planSession(request, programme);
+  return session.blocks.empty() ? programme.experiments.front() : session.blocks.front().experiment;
+}
+
+// Another subject, session, day or folder is another session.
+bool isSameSession(const session::SessionRequest& a, const session::SessionRequest& b) { return a.place == b.place && a.day == b.day; }
+
+}  // namespace
+
+QString wordsOf(const session::SessionNotice& notice) {
+  QStringList sentences;
+  if (notice.unfinished)
+    sentences << QStringLiteral("An earlier run of this session was not finished: Trial, Resume goes on with it. This is a new run.");
+  for (const std::string& sentence : notice.unreadable) sentences << QString::fromStdString(sentence);
+  return sentences.join(QLatin1Char('\n'));
+}
+
+SessionController::SessionController(const session::SessionRequest& request, std::optional<network::StationSetup> station, QObject* parent)
+    : QObject(parent), programme_(session::readProgramme(request.what)), shown_(firstExperiment(programme_, request)),
+      resume_(request.resume), asked_(request), setup_(std::move(station)),
+      endsOnSignal_([this](const std::stop_token& over) { endOnSignal(over); }) {
+  if (setup_ && isPlan()) throw FaultError(Fault{"experiment", "is a plan", "a single experiment: the same one at every station"});
+}
+
+SessionController::~SessionController() {
+  const std::scoped_lock lock(changing_);
+  (void)putInOrder();  // nobody is left to be told
+}
+
+// First what cannot be done again: zero force, the trial marked, the log closed. What went wrong, in a sentence. With `changing_` held.
+std::optional<std::string> SessionController::putInOrder() {
+  if (run() == nullptr) return std::nullopt;
+  try {
+    if (station_) (void)station_->close();
+    else run()->closeLog();
+    stop_->allInOrder();
+    return std::nullopt;
+  } catch (const std::exception& e) {
+    return endingOf(e).sentence;
+  }
+}
+
+void SessionController::setProgramme(const session::Programme& programme) {
+  programme_ = programme;
+  const bool lookedOn = looker_ != nullptr;
+  looker_.reset();  // of another experiment
+  try {
+    shown_ = firstExperiment(programme, asked_);
+  } catch (const Error&) {  // the plan has nothing for this subject and day: that is said when a run is to be opened
+    shown_ = programme.experiments.front();
+  }
+  if (underWay()) {
+    endAfterTrial_ = true;
+  } else {
+    endRun();
+    const std::scoped_lock lock(changing_);
+    recorded_.reset();
+  }
+  Q_EMIT experimentChanged();
+  try {
+    if (lookedOn) join(asked_);
+  } catch (const std::exception& e) {
+    Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
+  }
+}
+
+std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& experiment) {
+  experiment::Experiment edited = experiment;
+  edited.text = toJson(edited);
+  try {
+    const experiment::CompiledExperiment compiled(edited);
+    (void)dynamics::compileScene(compiled);  // refused now, with the reason, and not when the subject sits there
+    setProgramme(session::programmeOf(compiled));
+    return {};
+  } catch (const FaultError& error) {
+    return error.faults;
+  }
+}
+
+std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const std::string& spec,
+                                                                         const experiment::CompiledExperiment& experiment,
+                                                                         std::uint64_t seed) {
+  mouse_ = nullptr;
+  if (spec != "mouse") {
+    auto device = devices::makeDevice(spec, experiment, station_ ? station_->seedHere(seed) : seed);
+    for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) onOpening_ << QString::fromStdString(sentence);
+    return device;
+  }
+  auto mouse = std::make_unique<devices::MouseDevice>(trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start);
+  mouse_ = mouse.get();
+  return mouse;
+}
+
+void SessionController::planRuns(const session::SessionRequest& request) {
+  session::SessionRequest asked = request;
+  asked.resume = resume_;
+  if (numberUsed_) asked.run.reset();
+  if (follows()) asked.trials = 1;  // the conductor's count holds
+  std::vector<std::string> mappings;
+  asked.device = devices::withKeptMappings(asked.device, asked.place.data, asked.place.subject, mappings);
+  for (const std::string& file : mappings)
+    onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
+  if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
+  auto planned = std::make_unique<session::RecordedSession>(
+      programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
+      &trace_, instruments_.get());
+  if (planned->blocksLeft() == 0)
+    throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
+  recorded_ = std::move(planned);
+  asked_ = request;
+  resume_ = false;
+  if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) onOpening_ << words;
+}
+
+void SessionController::openRun(const session::SessionRequest& request) {
+  const std::scoped_lock lock(changing_);
+  onOpening_.clear();
+  if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) planRuns(request);
+  if (setup_) {
+    setup_->line.device = request.device;
+    station_ = std::make_unique<network::StationRun>(*setup_, programme_.experiments.front());
+    recorded_->prepareRuns([this](session::RecordedRunOptions& options) { station_->prepare(options); });
+  }
+  const bool opened = recorded_->openNext();
+  if (!onOpening_.isEmpty()) Q_EMIT told(onOpening_.join(QLatin1Char('\n')));
+  if (!opened) return;
+  if (station_) station_->begin(*run());
+  stop_.emplace();
+  timingTold_ = false;
+  numberUsed_ = true;
+  for (plot::TracePoint left; trace_.tryTake(left);) {}  // of the run before
+  last_.reset();
+}
+
+void SessionController::tellOpened() {
+  if (run() == nullptr) return;
+  if (isPlan()) {
+    shown_ = run()->experiment();
+    Q_EMIT experimentChanged();
+  }
+  Q_EMIT runOpened();
+}
+
+void SessionController::resume() {
+  const std::scoped_lock lock(changing_);
+  if (run() == nullptr) recorded_.reset();  // planned anew, from what is on the disk
+  resume_ = true;
+}
+
+void SessionController::beginAnew() {
+  const std::scoped_lock lock(changing_);
+  if (run() == nullptr) recorded_.reset();
+  resume_ = false;
+}
+
+double SessionController::restLeft() const {
+  const auto left = restUntil_ - std::chrono::steady_clock::now();
+  return std::max(0.0, std::chrono::duration<double>(left).count());
+}
+
+QString SessionController::instructions() {
+  if (run() == nullptr) return {};
+  if (run()->underWay() || run()->trialsLeft() > 0) return QString::fromStdString(run()->instructions());
+  const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr;
+  return next == nullptr ? QString() : QString::fromStdString(next->instructions);
+}
+
+void SessionController::join(const session::SessionRequest& request) {
+  if (run() != nullptr) return;
+  if (looksOn()) {
+    const std::scoped_lock lock(changing_);
+    if (!looker_) looker_ = std::make_unique<network::LookerOn>(*setup_, shown_);
+    return;
+  }
+  openRun(request);
+  tellOpened();
+}
+
+bool SessionController::next(const session::SessionRequest& request) {
+  if (underWay()) return false;
+  if (looksOn()) throw FaultError(Fault{"station", "only looks on", "a station's number, to take part"});
+  if (run() != nullptr && run()->trialsLeft() == 0 && !follows()) {
+    endRun();
+    if (isPlan() && recorded_->blocksLeft() == 0) return false;
+  }
+  join(request);
+  {
+    const std::scoped_lock lock(changing_);
+    if (station_) {
+      station_->armNext();
+      return true;
+    }
+    if (run() == nullptr || !run()->putUpNext()) return false;
+  }
+  Q_EMIT trialBegun();
+  return true;
+}
+
+void SessionController::abort() {
+  const std::scoped_lock lock(changing_);
+  if (station_) station_->abort();
+  else if (run() != nullptr) run()->abort();
+}
+
+bool SessionController::repeat() {
+  const std::scoped_lock lock(changing_);
+  if (run() == nullptr || !last_ || follows()) return false;
+  run()->repeat(last_->planned);
+  return true;
+}
+
+bool SessionController::takeBackRepeat() {
+  const std::scoped_lock lock(changing_);
+  return run() != nullptr && run()->takeBackRepeat();
+}
+
+void SessionController::note(const QString& text) {
+  if (run() == nullptr) return;
+  try {
+    const std::scoped_lock lock(changing_);
+    run()->note(text.toStdString());
+  } catch (const Error& e) {
+    fail(e);
+  }
+}
+
+void SessionController::endRun() {
+  if (run() == nullptr) return;
+  restUntil_ = {};
+  endAfterTrial_ = false;
+  mouse_ = nullptr;
+  std::unique_lock lock(changing_);
+  if (const auto wrong = putInOrder()) Q_EMIT failed(QString::fromStdString(*wrong));
+  try {
+    const std::string dataset = asked_.place.data;
+    recorded_->closeRun();
+    station_.reset();
+    tellInstruments();
+    if (!asked_.backup.empty()) {
+      if (!backup_ || backupOf_ != dataset) {
+        backup_.reset();
+        backup_.emplace(backupOf_ = dataset, asked_.backup);
+      }
+      backup_->request();
+    }
+  } catch (const std::exception& e) {
+    Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
+  }
+  stop_.reset();
+  lock.unlock();
+  Q_EMIT runClosed();
+}
+
+void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
+  constexpr std::int64_t kNsPerMs = 1'000'000;
+  if (mouse_ != nullptr) mouse_->point(place, eventMs * kNsPerMs);
+}
+
+void SessionController::poll() {
+  if (StopRequest::asked()) return;
+  tellBackup();
+  if (looker_) return lookOn();
+  if (run() == nullptr) return;
+  try {
+    network::StationNews news;
+    {
+      const std::scoped_lock lock(changing_);
+      if (station_) news = station_->poll();
+      else news.ended = run()->poll();
+    }
+    tellTiming();
+    tellStation(news);
+    if (news.finished) {
+      endRun();
+      Q_EMIT told(tr("The conductor has ended the run."));
+    }
+    const std::optional<haptics::ConductedTrial>& ended = news.ended;
+    if (!ended) return;
+    tellInstruments();
+    last_ = *ended;
+    if (const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr;
+        next != nullptr && run()->trialsLeft() == 0 && !recorded_->isFast())
+      restUntil_ = std::chrono::steady_clock::now() +
+                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(next->restSeconds));
+    Q_EMIT trialEnded();
+    if (run() == nullptr) return;
+    if (const auto fault = run()->fault()) throw ResourceError(*fault);
+    if (!endAfterTrial_) return;
+    endRun();
+    const std::scoped_lock lock(changing_);
+    recorded_.reset();  // what is to be done next is another
+  } catch (const std::exception& e) {
+    fail(e);
+  }
+}
+
+void SessionController::lookOn() {
+  const network::LookerNews news = looker_->poll();
+  for (const network::LineEvent& event : news.ended) Q_EMIT stationTold(QString::fromStdString(network::wordsOf(event)));
+  if (news.finished) Q_EMIT told(tr("The conductor has ended the run."));
+  if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
+}
+
+void SessionController::tellStation(const network::StationNews& news) {
+  for (const std::string& line : news.words) Q_EMIT stationTold(QString::fromStdString(line));
+  if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
+  if (news.begun) Q_EMIT trialBegun();
+}
+
+std::vector<network::StationStanding> SessionController::standings() {
+  const std::scoped_lock lock(changing_);
+  if (looker_) return looker_->line().standings();
+  return station_ ? station_->line().standings() : std::vector<network::StationStanding>();
+}
+
+network::OtherHands SessionController::otherHands() {
+  const std::scoped_lock lock(changing_);
+  if (looker_) return looker_->hands();
+  return station_ ? station_->otherHands() : network::OtherHands();
+}
+
+// A machine that keeps time well needs no word.
+void SessionController::tellTiming() {
+  const auto& verdict = run()->timingVerdict();
+  if (!verdict || std::exchange(timingTold_, true) || (verdict->good && verdict->realTime)) return;
+  Q_EMIT told(QString::fromStdString(verdict->sentence));
+}
+
+void SessionController::tellInstruments() {
+  if (!instruments_) return;
+  for (const std::string& sentence : instruments_->takeWarnings()) Q_EMIT failed(QString::fromStdString(sentence));
+}
+
+// Each state once.
+void SessionController::tellBackup() {
+  if (!backup_) return;
+  const session::BackupState state = backup_->state();
+  if (std::exchange(backupTold_, state.kind) == state.kind || state.kind == session::BackupState::Kind::Idle) return;
+  const QString sentence = QString::fromStdString(state.sentence);
+  if (state.kind == session::BackupState::Kind::Failed) Q_EMIT failed(sentence);
+  else Q_EMIT told(sentence);
+}
+
+void SessionController::endOnSignal(const std::stop_token& over) {
+  constexpr auto kLook = std::chrono::milliseconds(10);
+  while (!over.stop_requested() && !StopRequest::asked()) {
+    std::this_thread::sleep_for(kLook);
+    keepStation();
+  }
+  if (StopRequest::asked()) stopInOrder();
+}
+
+// What the other stations send is kept however long the window is busy: the rings hold a second or so.
+void SessionController::keepStation() {
+  const std::unique_lock lock(changing_, std::try_to_lock);
+  if (!lock || !station_ || run() == nullptr) return;
+  try {
+    station_->keep();
+  } catch (const Error&) {  // the disk is full: the window's next look says so
+  }
+}
+
+// The window is not asked, and its objects are left as they are: it may be in the midst of anything.
+void SessionController::stopInOrder() {
+  const std::scoped_lock lock(changing_);
+  auto wrong = putInOrder();
+  try {
+    if (run() != nullptr && !wrong) run()->finish();
+  } catch (const std::exception& e) {
+    wrong = endingOf(e).sentence;
+  }
+  if (wrong) std::fprintf(stderr, "%s\n", wrong->c_str());
+  std::_Exit(StopRequest::exitCode());
+}
+
+// The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
+void SessionController::fail(const std::exception& fault) {
+  const QString sentence = QString::fromStdString(endingOf(fault).sentence);
+  mouse_ = nullptr;
+  std::unique_lock lock(changing_);
+  (void)putInOrder();  // the fault itself is what is told
+  recorded_.reset();
+  station_.reset();
+  stop_.reset();
+  lock.unlock();
+  resume_ = isPlan();  // its other blocks are still to be done
+  Q_EMIT failed(sentence);
+  Q_EMIT runClosed();
+}
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,96 @@
+#include "gui/session/session_overlay.h"
+
+#include <cmath>
+
+#include "gui/scene/trial_texts.h"
+#include "gui/session/session_controller.h"
+#include "gui/subject/subject_words.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+bool isBeforeTheFirstReach(const haptics::TickState& state) {
+  return state.trial <= 1 && (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Waiting);
+}
+
+bool isOver(SessionController& session) { return !session.run()->underWay() && session.run()->trialsLeft() == 0 && !session.follows(); }
+
+// Between trials it is the conductor who does something, and perhaps a line that is waited for.
+void tellStations(SessionController& session, scene::OverlayState& overlay) {
+  const haptics::TickState& state = session.run()->latest();
+  if (session.follows()) overlay.counter = state.trial > 0 ? QStringLiteral("Trial %1").arg(state.trial) : QString();
+  if (session.run()->underWay()) return;
+  const QString next = session.isArming()  ? QStringLiteral("Waiting for the other stations")
+                       : session.follows() ? QStringLiteral("The conductor begins the next trial")
+                                           : QStringLiteral("Space: next trial");
+  (state.trial == 0 ? overlay.instruction : overlay.detail) =
+      state.trial == 0 && !session.isArming() && !session.follows() ? QStringLiteral("Press Space to begin") : next;
+}
+
+// What the stations do, as far as a picture does not say it.
+scene::OverlayState lookersOverlay(SessionController& session) {
+  using trial::Phase;
+  scene::OverlayState overlay;
+  const haptics::TickState* state = session.seen();
+  overlay.counter = state != nullptr && state->trial > 0 ? QStringLiteral("Trial %1").arg(state->trial)
+                                                         : QString::fromStdString(session.experiment().name);
+  overlay.instruction = state == nullptr                 ? QStringLiteral("Looking on: nothing has come yet")
+                        : state->phase == Phase::Waiting ? QStringLiteral("Looking on: the hands go to the start")
+                        : state->phase == Phase::Armed   ? QStringLiteral("Looking on: every hand is at the start")
+                        : state->phase == Phase::Moving  ? QStringLiteral("Looking on: they move")
+                                                         : QStringLiteral("Looking on: between trials");
+  return overlay;
+}
+
+}  // namespace
+
+scene::OverlayState overlayOf(SessionController& session, bool mouse, bool massesHide) {
+  if (session.looksOn()) return lookersOverlay(session);
+  const experiment::Experiment& experiment = session.experiment();
+  session::RecordedRun* run = session.run();
+  scene::OverlayState overlay;
+  if (run == nullptr) {
+    overlay = scene::restingOverlay(QString::fromStdString(experiment.name), mouse);
+  } else {
+    overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse);
+    if (!run->underWay() && run->latest().trial == 0) overlay.instruction = QStringLiteral("Press Space to begin");
+    if (session.isPlan())
+      overlay.counter =
+          QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
+    if (session.station() != nullptr) tellStations(session, overlay);
+    if (isOver(session)) {
+      overlay.detail = session.restLeft() > 0     ? QStringLiteral("the block is done: rest %1 s more").arg(std::ceil(session.restLeft()))
+                       : session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
+                       : session.isPlan()         ? QStringLiteral("the session is complete")
+                                                  : QStringLiteral("the run is complete");
+    }
+  }
+  const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there
+  if (!startPage && (run == nullptr || isBeforeTheFirstReach(run->latest()))) overlay.task = scene::taskText(experiment, massesHide);
+  if (run != nullptr && (isOver(session) || isBeforeTheFirstReach(run->latest())))
+    if (const QString words = session.instructions(); !words.isEmpty())
+      overlay.task = overlay.task.isEmpty() ? words : words + QLatin1Char('\n') + overlay.task;
+  return overlay;
+}
+
+scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score) {
+  const experiment::SubjectScreen& screen = session.experiment().subjectScreen;
+  scene::OverlayState overlay;
+  overlay.rulersShown = false;
+  overlay.semaphoreShown = screen.semaphore;
+  session::RecordedRun* run = session.run();
+  const haptics::TickState idle;
+  const haptics::TickState& state = run == nullptr ? idle : run->latest();
+  overlay.semaphore = state.semaphore;
+  if (screen.score) overlay.counter = QString::number(score);
+  if (!screen.words) return overlay;
+  overlay.instruction = words.instruction(state, screen.target);
+  if (state.phase == trial::Phase::Done)
+    overlay.tone = state.result.outcome == trial::Outcome::Success ? scene::OverlayState::Tone::Good : scene::OverlayState::Tone::Bad;
+  if (run == nullptr) return overlay;
+  if (isOver(session)) overlay.detail = session.blocksLeft() > 0 ? words.rest() : words.thanks();
+  if (isOver(session) || isBeforeTheFirstReach(state)) overlay.task = session.instructions();
+  return overlay;
+}
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,59 @@
+#include "gui/session/sound_cues.h"
+
+#include <QAudioDeviceInfo>
+#include <QFileInfo>
+#include <QSettings>
+#include <QSoundEffect>
+#include <QUrl>
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "sim/experiment/experiment.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+constexpr std::array kFiles{"go.wav", "success.wav", "failure.wav"};
+
+QString volumeKey() { return QStringLiteral("sound/volume"); }
+
+}  // namespace
+
+struct SoundCues::Impl {
+  std::array<std::unique_ptr<QSoundEffect>, kFiles.size()> effects;  // none without a sound device
+};
+
+SoundCues::SoundCues() : impl_(std::make_unique<Impl>()) {
+  if (QAudioDeviceInfo::defaultOutputDevice().isNull()) return;
+  try {
+    const QString folder = QString::fromStdString(experiment::resourceFolder()) + QStringLiteral("/sounds/");
+    for (std::size_t i = 0; i < kFiles.size(); ++i) {
+      const QString file = folder + QLatin1String(kFiles[i]);
+      if (!QFileInfo::exists(file)) continue;
+      impl_->effects[i] = std::make_unique<QSoundEffect>();
+      impl_->effects[i]->setSource(QUrl::fromLocalFile(file));
+    }
+  } catch (const Error&) {  // no resources: a silent program is better than none
+  }
+  setVolume(QSettings().value(volumeKey(), volume_).toDouble());
+}
+
+SoundCues::~SoundCues() = default;
+
+void SoundCues::play(Cue cue) {
+  const auto& effect = impl_->effects[static_cast<std::size_t>(cue)];
+  if (effect && !muted_) effect->play();
+}
+
+void SoundCues::setVolume(double volume) {
+  volume_ = std::clamp(volume, 0.0, 1.0);
+  QSettings().setValue(volumeKey(), volume_);
+  const qreal amplitude = QAudio::convertVolume(volume_, QAudio::LogarithmicVolumeScale, QAudio::LinearVolumeScale);
+  for (const auto& effect : impl_->effects)
+    if (effect) effect->setVolume(amplitude);
+}
+
+bool SoundCues::canBeHeard() const { return impl_->effects.front() != nullptr; }
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,51 @@
+#include "gui/session/trial_marking.h"
+
+#include <QInputDialog>
+#include <functional>
+
+#include "base/system/ending.h"
+#include "gui/docks/trials_dock.h"
+#include "gui/session/session_controller.h"
+#include "gui/widgets/message_bar.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+void change(docks::TrialsDock& dock, SessionController& session, MessageBar& message, int number,
+            const std::function<void(record::TrialMark&)>& how) {
+  if (session.run() == nullptr) return message.say(QObject::tr("The run is closed: its trials are marked on the page Inspect."));
+  try {
+    const std::string& log = session.run()->logPath();
+    record::RunMarks marks = record::readMarks(log);
+    record::TrialMark mark;
+    mark.trial = number;
+    if (const record::TrialMark* known = marks.find(number)) mark = *known;
+    how(mark);
+    marks.set(mark);
+    record::writeMarks(log, marks);
+    dock.setMark(number, mark);
+  } catch (const std::exception& e) {
+    message.say(QString::fromStdString(endingOf(e).sentence));
+  }
+}
+
+}  // namespace
+
+void wireMarking(docks::TrialsDock& dock, SessionController& session, MessageBar& message) {
+  QObject::connect(&dock, &docks::TrialsDock::flagRequested, &dock, [&dock, &session, &message](int number) {
+    change(dock, session, message, number, [](record::TrialMark& mark) { mark.flagged = !mark.flagged; });
+  });
+  QObject::connect(&dock, &docks::TrialsDock::excludeRequested, &dock, [&dock, &session, &message](int number, const QString& known) {
+    bool fine = false;
+    const QString reason =
+        QInputDialog::getText(&dock, QObject::tr("Exclude trial %1").arg(number),
+                              QObject::tr("Why it is not to count (nothing: it counts):"), QLineEdit::Normal, known, &fine);
+    if (!fine) return;
+    change(dock, session, message, number, [&](record::TrialMark& mark) { mark.excluded = reason.trimmed().toStdString(); });
+  });
+  QObject::connect(&dock, &docks::TrialsDock::takeBackRequested, &dock, [&session, &message] {
+    if (!session.takeBackRepeat()) message.say(QObject::tr("No repeat is still to be done."));
+  });
+}
+
+}  // namespace reachlab::gui::app

@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/math/lanes.h"
+#include "base/math/matrix.h"
+#include "sim/dynamics/exact/dense_core.h"
+#include "sim/dynamics/object/end_masses.h"
+
+namespace reachlab::dynamics {
+
+/// Independent oscillators e_j'' + c_j e_j' + w_j^2 e_j = g_j f, four at a time, each by its own exact propagator. A parallel object is
+/// one as it stands; a chain is one in its modes, where N masses cost O(N) a step.
+class OscillatorCore {
+ public:
+  static constexpr int kLanes = 4;
+  using Lanes = reachlab::Lanes<kLanes>;
+  struct State {
+    std::vector<Lanes> x, v;
+  };
+
+  /// Parallel objects, or chains whose damping the modes diagonalise (canBeModal).
+  OscillatorCore(const ObjectModel& model, bool coupled, double dt);
+
+  State makeState() const;
+  void place(State& state, std::span<const double> x, std::span<const double> v) const noexcept;
+  void read(const State& state, std::span<double> x, std::span<double> v) const noexcept;
+  /// Masses 1 and N alone, in the bits of read(), by O(N); only where hasEnds().
+  bool hasEnds() const noexcept { return !endShapes_.empty(); }
+  EndPlaces readEnds(const State& state) const noexcept;
+  /// `next` must not be `state`. False if the result is not finite.
+  bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
+
+ private:
+  /// Full: with an extra force, gravity or a damped hand.
+  template <int Degree, bool Full>
+  bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
+
+  struct Group {
+    Lanes xx, xv, vx, vv;  // exp(A dt) - 1
+    Lanes rest;            // e at rest for a hand at 1 m
+    Lanes extraX, extraV, gravityX, gravityV;
+    std::array<Lanes, kForceTerms> handX{}, handV{};  // by position coefficients
+    std::array<Lanes, kForceTerms> rateX{}, rateV{};  // by velocity coefficients
+  };
+  /// A chain without damping, extra force or gravity. About the place where it would follow the hand's polynomial h for ever,
+  /// p = rest (h - h2/w^2 + h4/w^4) with h2, h4 the second and fourth derivative of h, each mode turns freely. A third of a Group's
+  /// numbers, so that 500 modes stay near the processor.
+  struct FreeGroup {
+    Lanes turn, vx, xv;  // cos(w dt) - 1, -w sin(w dt), sin(w dt)/w
+    Lanes rest, period;  // period: 1/w^2 [s^2]
+  };
+  static constexpr int kFewestFree = 128;   // masses: fewer fit as they are
+  static constexpr int kFewestEnds = 3;     // masses: fewer have nothing between
+  static constexpr int kFreeDegree = 5;     // of the hand's polynomial
+  static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
+  bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;
+
+  int n_ = 0;
+  double dt_ = 0;
+  bool damped_ = false;  // the hand's velocity matters
+  std::vector<Group> groups_;
+  std::vector<FreeGroup> free_;                   // empty where it does not apply
+  Eigen::MatrixXd toModes_, toMasses_;            // empty for a parallel object
+  std::vector<std::array<double, 2>> endShapes_;  // toMasses_, rows 1 and N, mode by mode; empty for few masses
+};
+
+/// True if K's modes diagonalise the damping to rounding (none, viscosity on equal masses, damping proportional to stiffness).
+bool canBeModal(const ObjectModel& model);
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,27 @@
+#include "sim/dynamics/hand/hand_segment.h"
+
+namespace reachlab::dynamics {
+namespace {
+
+using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
+
+/// p(s0 + width x) as a polynomial in x: Horner's shift, then powers of the width.
+Coefficients shifted(Coefficients c, int degree, double s0, double width) noexcept {
+  for (int i = 0; i < degree; ++i)
+    for (int k = degree - 1; k >= i; --k) c[k] += s0 * c[k + 1];
+  double power = 1;
+  for (int k = 1; k <= degree; ++k) c[k] *= power *= width;
+  return c;
+}
+
+}  // namespace
+
+HandSegment part(const HandSegment& whole, double s0, double s1) noexcept {
+  HandSegment result;
+  result.degree = whole.degree;
+  result.position = shifted(whole.position, whole.degree, s0, s1 - s0);
+  result.velocity = shifted(whole.velocity, whole.degree, s0, s1 - s0);
+  return result;
+}
+
+}  // namespace reachlab::dynamics

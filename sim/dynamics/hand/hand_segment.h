@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+
+#include "base/math/fused.h"
+#include "base/math/lanes.h"
+
+namespace reachlab::dynamics {
+
+/// The HIP during one step, a polynomial in s = t/dt in [0, 1]: r(s) = sum position[k] s^k [m], v(s) = sum velocity[k] s^k [m/s].
+/// Velocity has its own polynomial, because for a device it comes from an estimator and not from the positions; for a hand given as a
+/// function it is the exact derivative. Degree 3 carries device samples, 7 a smooth function to rounding at 1 ms. Coefficients beyond
+/// the degree are zero.
+struct HandSegment {
+  static constexpr int kMaxDegree = 7;
+  int degree = 0;
+  std::array<Vec3, kMaxDegree + 1> position{};
+  std::array<Vec3, kMaxDegree + 1> velocity{};
+};
+
+/// Value at s of a segment's polynomial [m] or [m/s].
+inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int degree, double s) noexcept {
+  Vec3 value = c[degree];
+  for (int k = degree - 1; k >= 0; --k) value = mulAdd(s, value, c[k]);
+  return value;
+}
+/// The part of a segment between s0 and s1, as a segment of its own.
+HandSegment part(const HandSegment& whole, double s0, double s1) noexcept;
+
+/// One hand sample in world coordinates, at the end of a tick. `valid` is false when the device was lost.
+struct HandSample {
+  Vec3 position;  // [m]
+  Vec3 velocity;  // [m/s] estimated
+  bool valid = true;
+};
+
+inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
+  return {valueAt(hand.position, hand.degree, s), valueAt(hand.velocity, hand.degree, s), true};
+}
+
+inline HandSample startOf(const HandSegment& hand) noexcept { return {hand.position[0], hand.velocity[0], true}; }
+/// The sum of all coefficients, the lowest first.
+inline Vec3 sumOf(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c) noexcept {
+  // Three lanes of four, the last being the next coefficient's: number by number the compiler takes three times as many instructions.
+  const double* from = &c[0].x;
+  Lanes<4> sum = loadLanes<Lanes<4>>(from);
+  for (int k = 1; k < HandSegment::kMaxDegree; ++k) sum += loadLanes<Lanes<4>>(from + 3 * k);
+  const Vec3& last = c[HandSegment::kMaxDegree];
+  return {sum[0] + last.x, sum[1] + last.y, sum[2] + last.z};
+}
+/// At s = 1, where multistep methods need it: without a loop of unknown length.
+inline HandSample endOf(const HandSegment& hand) noexcept { return {sumOf(hand.position), sumOf(hand.velocity), true}; }
+
+}  // namespace reachlab::dynamics

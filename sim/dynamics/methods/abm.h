@@ -1,0 +1,222 @@
+#pragma once
+#include <bit>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/math/lanes.h"
+#include "sim/dynamics/methods/adaptive.h"
+
+namespace reachlab::dynamics {
+
+/// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): at most two right-hand sides and one
+/// hand sample a tick. Predictor of order 7, corrector of order 8: y = p + dt gamma_7 nabla^7 f(p). Where the correction is near
+/// rounding, f(p) stands for f(y) and the second right-hand side is spared (PEC), but for q' of y = (q, q'), which costs nothing: that
+/// keeps an undamped mode stable up to |eigenvalue| dt = 0.1, where f(p) alone would up to 0.025. Beyond, the correction grows and brings
+/// PECE back. The correction also estimates the error; where it is too large, and in the first ticks after a start or a break, the tick is done by
+/// `Fallback` instead (the adaptive pair), and f at the ticks keeps its place in the history.
+namespace adams {
+inline constexpr int kHistory = 7;
+inline constexpr double kGamma[kHistory + 1] = {1.0, 1.0 / 2, 5.0 / 12, 3.0 / 8, 251.0 / 720, 95.0 / 288, 19087.0 / 60480, 5257.0 / 17280};
+inline constexpr double kCorrectorError = 275.0 / 24192;  // of order 7, |gamma*_7|
+inline constexpr double kSparedShare = 0.5;  // of the largest good correction: below, f(p) is wrong by less than the tick's own error
+
+/// S numbers in rows of lanes; S = 0: as many as there are. Lanes beyond the last number hold zeros.
+template <int S>
+struct Rows {
+  static constexpr int kWidth = S == 0 || Numbers<S>::kHalves ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
+  static constexpr int kCapacity = ((S == 0 ? kMaxStates : S) + kWidth - 1) / kWidth;
+  static constexpr bool kFull = S > 0;  // Numbers have room for whole rows
+  using Lanes = reachlab::Lanes<kWidth>;
+
+  static constexpr int count(int states) noexcept { return S == 0 ? (states + kWidth - 1) / kWidth : kCapacity; }
+  static Lanes load(const Numbers<S>& y, int c) noexcept {
+    if constexpr (kFull) return loadLanes<Lanes>(y.values.data() + c * kWidth);
+    return gather(y, c * kWidth, std::make_index_sequence<kWidth>());
+  }
+  static void store(const Lanes& row, Numbers<S>& y, int c) noexcept {
+    if constexpr (kFull) {
+      storeLanes(row, y.values.data() + c * kWidth);
+      return;
+    }
+    for (int i = 0; i < kWidth; ++i)
+      if (c * kWidth + i < y.size()) y[c * kWidth + i] = row[i];
+  }
+
+  /// Number kBy + i in lane i of the first kBy, zero in the others.
+  template <int kBy, std::size_t... I>
+  static Lanes shifted(const Lanes& row, std::index_sequence<I...>) noexcept {
+    return __builtin_shufflevector(row, Lanes{}, (static_cast<int>(I) < kBy ? kBy + static_cast<int>(I) : kWidth)...);
+  }
+
+ private:
+  template <std::size_t... I>
+  static Lanes gather(const Numbers<S>& y, int first, std::index_sequence<I...>) noexcept {
+    return Lanes{(first + static_cast<int>(I) < y.size() ? y[first + static_cast<int>(I)] : 0.0)...};
+  }
+};
+
+/// Marks the lanes where `x` is not within `most`, or not a number.
+template <class Lanes>
+auto beyond(const Lanes& x, const Lanes& most) noexcept {
+  return ~(magnitude(x) <= most);
+}
+}  // namespace adams
+
+template <class System, template <class> class Fallback>
+class AbmWith {
+ public:
+  using State = typename System::State;
+  AbmWith(const System& system, double tolerance)
+      : fallback_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 2),
+        maxCorrection_(limit_ / adams::kCorrectorError), rows_(static_cast<std::size_t>(Rows::count(system.states()))) {
+    State scale(system.states());
+    for (int i = 0; i < system.states(); ++i) scale[i] = system.scale(i);
+    for (int c = 0; c < rowCount(); ++c) rows_[c].scale = Rows::load(scale, c);
+  }
+  void restart() noexcept {
+    count_ = 0;
+    fallback_.restart();
+  }
+
+  [[gnu::flatten]] StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next,
+                                   StepReport& report) noexcept {
+    if constexpr (requires { system.glide(dt, y, next); })
+      if (system.glide(dt, y, next)) {  // exact, and leaves the history behind
+        restart();
+        return StepStatus::Ok;
+      }
+    if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
+    if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
+    if constexpr (requires { system.careful; })
+      if (system.careful) return stepOtherwise(system, hand, y, next, report);
+    if constexpr (requires { system.wantsCare(y); })
+      if (system.wantsCare(y)) return stepOtherwise(system, hand, y, next, report);
+    const auto end = system.handOf(endOf(hand));
+    const int n = system.states();
+    State predicted(n), f(n);
+    for (int c = 0; c < rowCount(); ++c) Rows::store(mulAdd(dt, rows_[c].ahead, Rows::load(y, c)), predicted, c);
+    system.rate(end, predicted, f);
+    report.rhs += 1;
+    report.error = limit_;
+    Lanes deviation[Rows::kCapacity];
+    Marks noticeable{}, bad{};
+    for (int c = 0; c < rowCount(); ++c) {
+      deviation[c] = Rows::load(f, c) - rows_[c].sums[0];
+      const Lanes correction = dt * deviation[c];
+      const Lanes most = maxCorrection_ * (rows_[c].scale + magnitude(Rows::load(y, c)));
+      Rows::store(mulAdd(adams::kGamma[adams::kHistory], correction, Rows::load(predicted, c)), next, c);
+      noticeable |= adams::beyond<Lanes>(correction, adams::kSparedShare * most);
+      bad |= adams::beyond<Lanes>(correction, most);
+    }
+    if (anyLane(noticeable)) {
+      if (anyLane(bad)) return stepOtherwise(system, hand, y, next, report);
+      system.rate(end, next, f);
+      report.rhs += 1;
+      Marks broken{};
+      for (int c = 0; c < rowCount(); ++c) {
+        deviation[c] = Rows::load(f, c) - rows_[c].sums[0];
+        broken |= ~(deviation[c] * 0.0 == 0.0);
+      }
+      if (anyLane(broken)) return failed(StepStatus::NotFinite);
+    } else if constexpr (System::kSecondOrder) {
+      addCorrectedRates(adams::kGamma[adams::kHistory] * dt, n, deviation);
+    }
+    for (int c = 0; c < rowCount(); ++c) rows_[c].keep(deviation[c]);
+    return StepStatus::Ok;
+  }
+
+ private:
+  using Rows = adams::Rows<System::kStates>;
+  using Lanes = typename Rows::Lanes;
+  using Marks = LaneMarks<Rows::kWidth>;
+
+  /// The history of some numbers as backward differences of f: sums[j] = nabla^j f + ... + nabla^6 f, so that sums[0] extrapolates f to
+  /// the next tick and sums[j] + (f - sums[0]) is nabla^j f there. Only `ahead` waits for the newest f. Rounding dies out in seven ticks,
+  /// since an error of nabla^j reaches higher differences alone.
+  struct Row {
+    Lanes sums[adams::kHistory]{};
+    Lanes weighted{}, ahead{};  // sum of gamma_j sums[j]; of gamma_j nabla^j f: the predictor's mean slope
+    Lanes scale{};
+
+    [[gnu::always_inline]] void keep(const Lanes& deviation) noexcept {
+      constexpr double kGammaSum = (adams::kGamma[0] + adams::kGamma[1] + adams::kGamma[2] + adams::kGamma[3]) +
+                                   (adams::kGamma[4] + adams::kGamma[5] + adams::kGamma[6]);
+      ahead = mulAdd(kGammaSum, deviation, weighted);
+      Lanes sum{}, total{};
+      for (int j = adams::kHistory - 1; j >= 0; --j) {
+        sum += sums[j] + deviation;
+        sums[j] = sum;
+        total = mulAdd(adams::kGamma[j], sum, total);
+      }
+      weighted = total;
+    }
+  };
+
+  /// q' of the corrected state in place of the predicted one's.
+  [[gnu::always_inline]] static void addCorrectedRates(double factor, int n, Lanes* deviation) noexcept {
+    constexpr int kWidth = Rows::kWidth, kHalf = System::kStates / 2;
+    if constexpr (kHalf > 0 && Rows::kCapacity == 1) {
+      deviation[0] = mulAdd(factor, Rows::template shifted<kHalf>(deviation[0], std::make_index_sequence<kWidth>()), deviation[0]);
+    } else if constexpr (kHalf > 0 && (kHalf % kWidth == 0 || System::State::kHalves)) {
+      constexpr int kRows = Rows::kCapacity / 2;
+      for (int c = 0; c < kRows; ++c) deviation[c] = mulAdd(factor, deviation[c + kRows], deviation[c]);
+    } else {
+      for (int i = 0; i < n / 2; ++i) {
+        const int from = n / 2 + i;
+        deviation[i / kWidth][i % kWidth] += factor * deviation[from / kWidth][from % kWidth];
+      }
+    }
+  }
+
+  int rowCount() const noexcept { return System::kStates > 0 ? Rows::kCapacity : static_cast<int>(rows_.size()); }
+
+  static bool isFinite(const State& f) noexcept {
+    double check = 0;
+    for (int i = 0; i < f.size(); ++i) check += f[i] * 0.0;
+    return check == 0;
+  }
+  StepStatus failed(StepStatus status) noexcept {
+    restart();
+    return status;
+  }
+  void keep(const State& f) noexcept {
+    for (int c = 0; c < rowCount(); ++c) rows_[c].keep(Rows::load(f, c) - rows_[c].sums[0]);
+    if (count_ < adams::kHistory) ++count_;
+  }
+  [[gnu::noinline]] void begin(const System& system, const HandSegment& hand, double dt, const State& y, StepReport& report) noexcept {
+    State f(system.states());
+    system.rate(system.handAt(hand, 0), y, f);
+    report.rhs += 1;
+    for (Row& row : rows_) {
+      for (Lanes& sum : row.sums) sum = Lanes{};
+      row.weighted = Lanes{};
+    }
+    dt_ = dt;
+    count_ = 0;
+    keep(f);
+  }
+  /// By the fallback.
+  [[gnu::noinline]] StepStatus stepOtherwise(const System& system, const HandSegment& hand, const State& y, State& next,
+                                             StepReport& report) noexcept {
+    const StepStatus status = fallback_.step(system, hand, dt_, y, next, report);
+    if (status != StepStatus::Ok) return failed(status);
+    State f(system.states());
+    system.rate(system.handAt(hand, 1), next, f);
+    report.rhs += 1;
+    if (!isFinite(f)) return failed(StepStatus::NotFinite);
+    keep(f);
+    return StepStatus::Ok;
+  }
+
+  Fallback<System> fallback_;
+  double limit_, maxCorrection_;  // of the scale and the state
+  double dt_ = 0;
+  int count_ = 0;
+  std::vector<Row> rows_;
+};
+
+template <class System>
+using Abm = AbmWith<System, Adaptive>;
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,246 @@
+#pragma once
+#include <limits>
+
+#include "sim/dynamics/methods/adaptive.h"
+#include "sim/dynamics/systems/curve_system.h"
+
+namespace reachlab::dynamics {
+
+/// Ticks near and through cusps, for curves in their tangential form. Where |r_phi| is small the independent variable becomes a
+/// fictitious time tau with dt = |r_phi|/c dtau (Sundman's transformation; |r_phi| of the mass nearest its cusp): then
+///   phi' = v/c,   v' = |r_phi|/c dv/dt,   t' = |r_phi|/c
+/// and nothing is divided by |r_phi|. A true cusp (|r_phi| = 0, found where r_phi.r_phiphi changes sign) ends a sub-step exactly there:
+/// arc length and speed run on, only the tangent turns, so the bead passes with its energy and the methods see smooth pieces.
+template <class System>
+class CuspAdaptive {
+ public:
+  using State = typename System::State;
+  CuspAdaptive(const System& system, double tolerance)
+      : regular_(system, tolerance), tolerance_(tolerance > 0 ? tolerance : kDefaultTolerance) {}
+  void restart() noexcept {
+    regular_.restart();
+    last_ = 0;
+  }
+
+  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
+    bool timeAlone = false;  // where |r_phi| is large it is time in which phi is smooth, and narrow places are known to sub-steps in time
+    if constexpr (requires { system.wantsCare(y); }) timeAlone = system.wantsCare(y);
+    if (timeAlone || nearest(system, y).speed > kFar * system.speedScale) {
+      StepReport tried;
+      const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
+      report.rhs += tried.rhs;
+      if (timeAlone || (status == StepStatus::Ok && tried.rhs < kSuspicious)) {
+        report.error = tried.error;
+        return status;
+      }
+    }
+    return pass(system, hand, dt, y, next, report);
+  }
+
+ private:
+  static constexpr double kFar = 0.25;               // of the largest |r_phi|: nothing hard within a tick, mostly
+  static constexpr std::uint64_t kSuspicious = 100;  // right-hand sides of a tick that was not regular after all
+  static constexpr double kCusp = 1e-9;              // |r_phi| over c below which a minimum is a true cusp
+  static constexpr int kSize = System::kStates > 0 ? System::kStates + 1 : 0;
+  using Extended = Numbers<kSize>;  // y and t
+
+  struct Lead {
+    int mass = 0;
+    double speed = 0;  // [m] |r_phi|
+  };
+  static Lead nearest(const System& system, const State& y) noexcept {
+    Lead lead{0, system.speedAt(0, y[0])};
+    for (int i = 1; i < system.n(); ++i)
+      if (const double speed = system.speedAt(i, y[i]); speed < lead.speed) lead = {i, speed};
+    return lead;
+  }
+  static double slope(const System& system, int mass, double phi) noexcept {
+    const constraints::CurvePoint p = evaluate(system.curveOf(mass), phi);
+    return dot(p.rPhi, p.rPhiPhi);
+  }
+
+  StepStatus pass(const System& system, const HandSegment& hand, double dt, const State& y0, State& next, StepReport& report) noexcept {
+    const int n = system.states();
+    const double c = system.speedScale;
+    Extended y(n + 1), trial(n + 1);
+    for (int i = 0; i < n; ++i) y[i] = y0[i];
+    y[n] = 0;
+    Lead lead{};
+    State plain(n), rates(n);
+    const auto rate = [&](double, const Extended& at, Extended& d) {
+      for (int i = 0; i < n; ++i) plain[i] = at[i];
+      const auto now = system.handAt(hand, at[n] / dt);
+      double speed = 0;
+      if constexpr (requires { system.rate(now, plain, rates, 0, speed); }) {
+        system.rate(now, plain, rates, lead.mass, speed);
+      } else {
+        system.rate(now, plain, rates);
+        speed = system.speedAt(lead.mass, at[lead.mass]);
+      }
+      const double factor = speed / c;
+      for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
+      d[lead.mass] = at[system.rates() + lead.mass] / c;
+      d[n] = factor;
+    };
+    const auto unit = [&](int i, double value) { return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_; };
+    auto k = dop853::makeStages<kSize>(n + 1);
+    int rhs = 0;
+    StepStatus status = StepStatus::Ok;
+    double h = last_ > 0 ? last_ : dt, most = 5;
+    bool onCusp = false;  // the last sub-step ended there
+    for (bool fresh = true; y[n] < dt;) {
+      if (fresh) {
+        for (int i = 0; i < n; ++i) plain[i] = y[i];
+        lead = nearest(system, plain);
+        const double speed = std::abs(y[system.rates() + lead.mass]);
+        if (lead.speed <= 1e-13 * c && speed <= 1e-14) return StepStatus::NoContinuation;  // at rest on a cusp: which way?
+        rate(0, y, k[0]);
+        ++rhs;
+        h = std::min(h, 0.3 * c / std::max(speed, 1e-300));  // no more than 0.3 in phi, so that a minimum is not stepped over
+        h = std::min(h, aim(system, lead.mass, y[lead.mass], k[0][lead.mass], k[0][system.rates() + lead.mass] / c, dt - y[n]));
+        fresh = false;
+      }
+      double error = dop853::attempt<kSize>(rate, unit, 0, h, y, k, trial);
+      rhs += dop853::kStages - 1;
+      // A true cusp inside: end there.
+      const double from = y[lead.mass], to = trial[lead.mass];
+      bool cuspEnd = false;
+      if (std::isfinite(error) && from != to) {
+        const double direction = to > from ? 1 : -1;
+        const bool falling = onCusp ? false : direction * slope(system, lead.mass, from) < 0;
+        if (falling && direction * slope(system, lead.mass, to) > 0) {
+          double phi = 0;
+          if (findCusp(system, lead.mass, from, to, phi)) {
+            double tau = h * (phi - from) / (to - from);
+            for (int round = 0; round < 12; ++round) {
+              error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
+              rhs += dop853::kStages - 1;
+              const double miss = phi - trial[lead.mass];
+              const double speed = trial[system.rates() + lead.mass] / c;
+              if (std::abs(miss) <= 4e-16 * (1 + std::abs(phi)) || speed == 0) break;
+              tau += miss / speed;
+              if (!(tau > 0 && tau <= h)) break;
+            }
+            if (std::abs(phi - trial[lead.mass]) < 1e-12 * (1 + std::abs(phi))) {
+              trial[lead.mass] = phi;
+              cuspEnd = true;  // h stays: the way to the cusp may have been too short for the time to move on behind it
+            }
+          }
+        }
+      }
+      // At the tick's end but for little: a small step in time. Past it: shorten until t meets its end.
+      bool finished = !cuspEnd && error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs);
+      if (!finished && error <= 1 && trial[n] >= dt) {
+        double low = 0, high = h, tau = h;
+        for (int round = 0; round < 40 && std::abs(trial[n] - dt) > 2e-16 * dt; ++round) {
+          (trial[n] > dt ? high : low) = tau;
+          const double factor = system.speedAt(lead.mass, trial[lead.mass]) / c;
+          double better = tau - (trial[n] - dt) / std::max(factor, 1e-300);
+          if (!(better > low && better < high)) better = 0.5 * (low + high);
+          if (better == tau) break;
+          tau = better;
+          error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
+          rhs += dop853::kStages - 1;
+          if (error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs)) break;
+        }
+        finished = true;
+        cuspEnd = false;
+      }
+      const double factor = dop853::growth(error, most);
+      most = error <= 1 ? 5 : 1;
+      if (error <= 1) {
+        report.error += tolerance_ * error;
+        if (!finished && !(trial[n] > y[n]) && !cuspEnd) {
+          status = StepStatus::Capped;
+          break;
+        }
+        y = trial;
+        onCusp = cuspEnd;
+        fresh = true;
+        if (finished) {
+          y[n] = dt;
+          last_ = h * factor;
+        }
+      } else {
+        status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
+      }
+      h *= cuspEnd ? 1.0 : factor;
+      if (y[n] < dt && rhs + 2 * dop853::kStages > kMaxRhsPerTick) {
+        status = StepStatus::Capped;
+        break;
+      }
+    }
+    report.rhs += static_cast<std::uint64_t>(rhs);
+    if (y[n] < dt) {
+      last_ = 0;
+      return status == StepStatus::Ok ? StepStatus::Capped : status;
+    }
+    for (int i = 0; i < n; ++i) next[i] = y[i];
+    return StepStatus::Ok;
+  }
+
+  /// The fictitious time after which `left` seconds have gone by, by Simpson's rule over |r_phi| along phi + rate tau + turn tau^2/2; good
+  /// to some thousandths. Infinite where it is not within reach.
+  static double aim(const System& system, int mass, double phi, double rate, double turn, double left) noexcept {
+    const double c = system.speedScale, begin = system.speedAt(mass, phi) / c;
+    double tau = left / std::max(begin, 1e-3);
+    for (int round = 0; round < 4; ++round) {
+      const double half = system.speedAt(mass, phi + tau * (0.5 * rate + 0.125 * turn * tau)) / c;
+      const double end = system.speedAt(mass, phi + tau * (rate + 0.5 * turn * tau)) / c;
+      const double miss = tau / 6 * (begin + 4 * half + end) - left;
+      if (std::abs(miss) < 1e-3 * left) return tau;
+      tau -= miss / std::max(end, 1e-3);
+      if (!(tau > 0)) break;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+  /// From `at`, whose time is nearly dt, to dt by one RK4 step in time, forwards or back, where the tangent turns so little in it that its
+  /// error is below rounding: kTurn^5/120. Not where |r_phi| is another at its last stage.
+  static bool endInTime(const System& system, const HandSegment& hand, double dt, int mass, Extended& at, State& plain, State& rates,
+                        int& rhs) noexcept {
+    constexpr double kTurn = 4e-3, kChange = 5 * kTurn;
+    const int n = system.states();
+    const double rest = dt - at[n];
+    const constraints::CurvePoint p = evaluate(system.curveOf(mass), at[mass]);
+    const double square = dot(p.rPhi, p.rPhi), speed = std::sqrt(square),
+                 turn = norm(p.rPhiPhi) * std::abs(at[system.rates() + mass] * rest);
+    if (!(turn < kTurn * square) || !(std::abs(rest) < 0.1 * dt)) return false;
+    State sum(n), begin(n);
+    for (int i = 0; i < n; ++i) begin[i] = plain[i] = at[i];
+    system.rate(system.handAt(hand, at[n] / dt), plain, rates);
+    sum = rates;
+    for (const double share : {0.5, 0.5, 1.0}) {
+      for (int i = 0; i < n; ++i) plain[i] = begin[i] + share * rest * rates[i];
+      system.rate(system.handAt(hand, (at[n] + share * rest) / dt), plain, rates);
+      for (int i = 0; i < n; ++i) sum[i] += (share < 1 ? 2 : 1) * rates[i];
+    }
+    rhs += 4;
+    if (!(std::abs(system.speedAt(mass, plain[mass]) - speed) <= kChange * speed)) return false;
+    for (int i = 0; i < n; ++i) at[i] = begin[i] + rest / 6 * sum[i];
+    at[n] = dt;
+    return true;
+  }
+
+  /// The minimum of |r_phi| between two places where it falls and rises; true if it is a cusp. Gauss-Newton on r_phi = 0.
+  static bool findCusp(const System& system, int mass, double from, double to, double& phi) noexcept {
+    double low = std::min(from, to), high = std::max(from, to);
+    phi = 0.5 * (low + high);
+    for (int round = 0; round < 80 && high - low > 1e-16 * (std::abs(low) + std::abs(high)); ++round) {
+      const constraints::CurvePoint p = evaluate(system.curveOf(mass), phi);
+      const double s = dot(p.rPhi, p.rPhiPhi);
+      if (s == 0) break;
+      (s > 0 ? high : low) = phi;
+      double better = phi - s / dot(p.rPhiPhi, p.rPhiPhi);
+      if (!(better > low && better < high)) better = 0.5 * (low + high);
+      if (better == phi) break;
+      phi = better;
+    }
+    return system.speedAt(mass, phi) < kCusp * system.speedScale;
+  }
+
+  Adaptive<System> regular_;
+  double tolerance_;
+  double last_ = 0;  // size of the last sub-step in tau
+};
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,18 @@
+#include "sim/dynamics/object/plant.h"
+
+namespace reachlab::dynamics {
+
+std::string_view describe(StepStatus status) {
+  switch (status) {
+    case StepStatus::Ok: return "ok";
+    case StepStatus::HandLost: return "hand lost";
+    case StepStatus::NotFinite: return "not finite";
+    case StepStatus::Capped: return "too many sub-steps";
+    case StepStatus::AtEnd: return "end of the constraint";
+    case StepStatus::NoContinuation: return "no continuation";
+    case StepStatus::PeerLost: return "peer lost";
+  }
+  return "";
+}
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,91 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/math/lanes.h"
+#include "sim/dynamics/systems/system.h"
+
+namespace reachlab::dynamics {
+
+using LaneIndex = LaneMarks<kBatchLanes>;
+
+constexpr int batchesFor(int masses) noexcept { return lanesFor<kBatchLanes>(masses); }
+template <int Batches>
+inline constexpr int kMaxBatches = Batches > 0 ? Batches : batchesFor(experiment::kMaxMasses);
+
+inline LaneBatch atLeast(const LaneBatch& x, double least) noexcept { return x > least ? x : broadcast<LaneBatch>(least); }
+inline LaneBatch squareRoot(const LaneBatch& x) noexcept {
+  LaneBatch root;
+  for (int lane = 0; lane < kBatchLanes; ++lane) root[lane] = std::sqrt(x[lane]);
+  return root;
+}
+/// x of the next mass in each lane; of the mass before.
+inline LaneBatch next(const LaneBatch& x, const LaneBatch& after) noexcept {
+  return __builtin_shuffle(x, after, LaneIndex{1, 2, 3, 4, 5, 6, 7, 8});
+}
+inline LaneBatch previous(const LaneBatch& before, const LaneBatch& x) noexcept {
+  return __builtin_shuffle(before, x, LaneIndex{7, 8, 9, 10, 11, 12, 13, 14});
+}
+
+struct BatchMotion {
+  std::array<LaneBatch, 3> r, v;  // [m], [m/s]
+  LaneBatch measure;              // see BatchSystem::rate
+};
+
+/// Springs and masses in lanes; numbers of lanes without a mass are zero.
+template <int Batches, bool Parallel>
+struct BatchSprings {
+  struct Row {
+    LaneBatch inverseMass{}, handStiffness{}, handDamping{};
+    LaneBatch stiffness{}, damping{};  // to the next mass
+    LaneBatch drag{};                  // viscosity / mass
+    LaneBatch first{};                 // 1 where mass 1 is
+    LaneIndex used{};
+  };
+  std::vector<Row> row;
+  Vec3 gravity, extraForce;
+
+  explicit BatchSprings(const ObjectModel& model) : row(static_cast<std::size_t>(batchesFor(model.count()))), gravity(model.gravity) {
+    row[0].first[0] = 1;
+    for (int i = 0; i < model.count(); ++i) {
+      Row& own = row[i / kBatchLanes];
+      own.inverseMass[i % kBatchLanes] = 1 / model.mass[i];
+      own.drag[i % kBatchLanes] = model.viscosity / model.mass[i];
+      own.used[i % kBatchLanes] = -1;
+      if (Parallel || i + 1 >= model.count()) continue;
+      own.stiffness[i % kBatchLanes] = model.stiffness[i];
+      own.damping[i % kBatchLanes] = model.damping[i];
+    }
+    setCoupled(model, true);
+  }
+  void setCoupled(const ObjectModel& model, bool coupled) noexcept {
+    for (int i = 0; i < model.count(); ++i) {
+      row[i / kBatchLanes].handStiffness[i % kBatchLanes] = coupled ? model.handStiffness[i] : 0;
+      row[i / kBatchLanes].handDamping[i % kBatchLanes] = coupled ? model.handDamping[i] : 0;
+    }
+  }
+  int batches() const noexcept { return Batches > 0 ? Batches : static_cast<int>(row.size()); }
+
+  /// Force over mass plus gravity, coordinate k of batch o [m/s^2]. `tension` [N]: of the springs of the batch before to their next
+  /// masses, and on return of this one's.
+  LaneBatch acceleration(const HandSample& hand, const BatchMotion* motions, int o, int k, LaneBatch& tension) const noexcept {
+    const Row& s = row[o];
+    const LaneBatch x = motions[o].r[k], v = motions[o].v[k];
+    LaneBatch force = s.first * component(extraForce, k);
+    if (Parallel || o == 0)
+      force = mulAdd(s.handStiffness, component(hand.position, k) - x, mulAdd(s.handDamping, component(hand.velocity, k) - v, force));
+    if constexpr (!Parallel) {
+      const BatchMotion& after = motions[o + 1 < batches() ? o + 1 : o];
+      const LaneBatch own = mulAdd(s.stiffness, next(x, after.r[k]) - x, s.damping * (next(v, after.v[k]) - v));
+      force += own - previous(tension, own);
+      tension = own;
+    }
+    return mulAdd(s.inverseMass, force, broadcast<LaneBatch>(component(gravity, k)));
+  }
+
+ private:
+  static double component(const Vec3& v, int k) noexcept { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+};
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,95 @@
+#pragma once
+#include "sim/dynamics/systems/surface_rates.h"
+#include "sim/dynamics/systems/system.h"
+
+namespace reachlab::dynamics {
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
+  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+}
+
+/// A rigid body in free space: the hand's force acts at the FP, at `fpOffset` from the centre of mass in body axes, so that it turns the
+/// body as well (c_i of Eq. 7 are force and moment). y = (r, v, quaternion w x y z, angular velocity in body axes).
+///   m r'' = F + m g - lambda v,   q' = q (0, w)/2,   I w' = R^T ((R offset) x F) - w x I w
+struct BodySystem {
+  static constexpr int kStates = 13;
+  static constexpr bool kSecondOrder = false;
+  static constexpr bool kEnds = false;
+  static constexpr const char* kNoContinuation = "there is no continuation here";
+  using State = Numbers<13>;
+  using Hand = HandSample;
+
+  Springs<1, true> springs;
+  Matrix3 inertia{}, inverseInertia{};
+  Vec3 fpOffset;
+
+  BodySystem(const ObjectModel& model, const experiment::Object& object);
+  static constexpr int states() noexcept { return 13; }
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  struct Pose {
+    Vec3 r, v, turn;    // turn: angular velocity, body axes
+    double w, x, y, z;  // unit quaternion
+    /// Body axes to world and back.
+    Vec3 toWorld(const Vec3& a) const noexcept {
+      const Vec3 u{x, y, z}, t = 2.0 * cross(u, a);
+      return a + w * t + cross(u, t);
+    }
+    Vec3 toBody(const Vec3& a) const noexcept {
+      const Vec3 u{-x, -y, -z}, t = 2.0 * cross(u, a);
+      return a + w * t + cross(u, t);
+    }
+  };
+  static Pose pose(const State& s) noexcept {
+    return {{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[10], s[11], s[12]}, s[6], s[7], s[8], s[9]};
+  }
+  /// Force of the hand at the FP [N].
+  Vec3 handForce(const Pose& p, const Hand& hand) const noexcept {
+    const Vec3 arm = p.toWorld(fpOffset), speed = p.v + cross(p.toWorld(p.turn), arm);
+    return springs.handStiffness[0] * (hand.position - p.r - arm) + springs.handDamping[0] * (hand.velocity - speed);
+  }
+  void rate(const Hand& hand, const State& s, State& ds) const noexcept {
+    const Pose p = pose(s);
+    const Vec3 held = handForce(p, hand);
+    const Vec3 force = held + springs.extraForce;
+    const Vec3 a = springs.inverseMass[0] * (force - springs.viscosity * p.v) + springs.gravity;
+    // The extra force acts on mass 1 itself, its centre; the hand's at the FP.
+    const Vec3 moment = cross(fpOffset, p.toBody(held)) - cross(p.turn, times(inertia, p.turn));
+    const Vec3 spin = times(inverseInertia, moment);
+    const Vec3& o = p.turn;
+    ds.values = {p.v.x,
+                 p.v.y,
+                 p.v.z,
+                 a.x,
+                 a.y,
+                 a.z,
+                 0.5 * (-p.x * o.x - p.y * o.y - p.z * o.z),
+                 0.5 * (p.w * o.x + p.y * o.z - p.z * o.y),
+                 0.5 * (p.w * o.y + p.z * o.x - p.x * o.z),
+                 0.5 * (p.w * o.z + p.x * o.y - p.y * o.x),
+                 spin.x,
+                 spin.y,
+                 spin.z};
+  }
+  double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
+  Settled settle(const State&, State& s) const noexcept {
+    const double length = 1 / std::sqrt(s[6] * s[6] + s[7] * s[7] + s[8] * s[8] + s[9] * s[9]);
+    for (int i = 6; i < 10; ++i) s[i] *= length;
+    return Settled::Same;
+  }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& s) const noexcept {
+    s.values = {q[0], q[1], q[2], qRate[0], qRate[1], qRate[2], 1, 0, 0, 0, 0, 0, 0};
+  }
+  void locate(const State& s, std::span<MassState> masses) const noexcept {
+    masses[0].r = {s[0], s[1], s[2]};
+    masses[0].v = {s[3], s[4], s[5]};
+  }
+  void accelerate(const State&, const State& ds, std::span<MassState> masses) const noexcept { masses[0].a = {ds[3], ds[4], ds[5]}; }
+};
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,268 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+
+#include "constraints/regularity/places.h"
+#include "sim/dynamics/systems/curve_places.h"
+
+namespace reachlab::dynamics {
+
+/// A curve whose formula is smooth by pieces only: each mass moves on the branch of the piece it is in, with the speed along the curve as
+/// velocity, and events (Adaptive::stepInside) bring it onto the piece's ends.
+///   Passed (kink, bend, hole): it goes on into the next piece with the speed it has; the forces act along the new tangent.
+///   Not passed (jump, pole, end, spike): what `at_end` says.
+/// In a kink that both sides push it into, a mass rests as soon as its swing would last less than kSwing of a step; it leaves when a side
+/// pulls it out.
+template <int N, bool Parallel>
+struct BrokenCurveSystem {
+  static constexpr int kStates = 2 * N;
+  static constexpr bool kTangential = true;
+  static constexpr bool kSecondOrder = false;
+  static constexpr bool kEnds = true;
+  static constexpr double kSwing = 1.0 / 30;
+  static constexpr const char* kNoContinuation =
+      "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined";
+  using State = Numbers<kStates>;
+  using Hand = HandSample;
+
+  std::shared_ptr<const constraints::CurveRegularity> regularity;
+  constraints::Domain domain;
+  double speedScale;  // [m] typical |r_phi|
+  int count;
+  Springs<N, Parallel> springs;
+  struct Where {
+    int piece = 0;
+    bool held = false;  // at rest on its piece's lower end, in the corner of a kink
+  };
+  std::array<Where, kMassCapacity<N>> where{};
+  int stoppedMass = -1;
+  bool stoppedLow = false;
+
+  BrokenCurveSystem(const ObjectModel& model, const constraints::Constraint& constraint,
+                    std::shared_ptr<const constraints::CurveRegularity> pieces, double typicalSpeed)
+      : regularity(std::move(pieces)), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()), springs(model) {}
+
+  constexpr int n() const noexcept { return N > 0 ? N : count; }
+  constexpr int rates() const noexcept { return n(); }
+  constexpr int states() const noexcept { return 2 * n(); }
+  const constraints::CurvePiece& pieceOf(int i) const noexcept { return regularity->pieces[static_cast<std::size_t>(where[i].piece)]; }
+  const constraints::Curve& curveOf(int i) const noexcept { return pieceOf(i).curve; }
+  double speedAt(int i, double phi) const noexcept { return norm(evaluate(curveOf(i), phi).rPhi); }
+  double scale(int) const noexcept { return 0.1; }
+  /// [s] Within which no mass goes further than a part of a narrow piece it is in, so that sub-steps see what is there.
+  double reach(const State&, const State& rates) const noexcept {
+    constexpr double kParts = 24;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < n(); ++i)
+      if (const constraints::CurvePiece& piece = pieceOf(i); piece.narrow)
+        least = std::fmin(least, (piece.hi - piece.lo) / (kParts * std::abs(rates[i])));
+    return least;
+  }
+  /// Sub-steps alone know how to go on: phi is needed more exactly than usual, or something narrow is being passed.
+  bool wantsCare(const State& y) const noexcept {
+    constexpr double kSteep = 4;
+    for (int i = 0; i < n(); ++i)
+      if (pieceOf(i).narrow) return true;
+    return steepness(y) > kSteep;
+  }
+  /// How many times more than usual a unit of phi moves a mass; without bound towards the end of an arc, a root or a power.
+  double steepness(const State& y) const noexcept {
+    double most = 1;
+    for (int i = 0; i < n(); ++i) most = std::fmax(most, speedAt(i, y[i]) / speedScale);
+    return most;
+  }
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  struct Vectors {
+    std::array<Vec3, kMassCapacity<N>> all;
+    Vec3& operator[](int i) noexcept { return all[i]; }
+    const Vec3& operator[](int i) const noexcept { return all[i]; }
+  };
+  /// Force over mass on each mass [m/s^2], without viscosity; and what the equations need of the curve.
+  void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent, std::array<double, kMassCapacity<N>>& measure,
+            int lead = -1, double* speed = nullptr) const noexcept {
+    Vectors r, v;
+    for (int i = 0; i < n(); ++i) {
+      const constraints::CurvePoint p = evaluate(curveOf(i), y[i]);
+      const double length = norm(p.rPhi);
+      if (i == lead) *speed = length;
+      measure[i] = 1 / std::fmax(length, 1e-290);
+      tangent[i] = measure[i] * p.rPhi;
+      r[i] = p.r;
+      v[i] = y[n() + i] * tangent[i];
+    }
+    springs.push(hand.position, hand.velocity, r, v, drive);
+    drive[0] += springs.extraForce;
+    for (int i = 0; i < n(); ++i) drive[i] = springs.inverseMass[i] * drive[i] + springs.gravity;
+  }
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    double none = 0;
+    rate(hand, y, dy, -1, none);
+  }
+  /// The rate, and |r_phi| [m] of mass `lead` from the same evaluation.
+  void rate(const Hand& hand, const State& y, State& dy, int lead, double& speed) const noexcept {
+    Vectors drive, tangent;
+    std::array<double, kMassCapacity<N>> measure;
+    push(hand, y, drive, tangent, measure, lead, &speed);
+    for (int i = 0; i < n(); ++i) {
+      const double v = y[n() + i];
+      dy[i] = where[i].held ? 0 : v * measure[i];
+      dy[n() + i] = where[i].held ? 0 : dot(tangent[i], drive[i]) - springs.inverseMass[i] * springs.viscosity * v;
+    }
+  }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
+    const int found = std::max(0, regularity->pieceAt(q[0]));
+    const constraints::CurvePiece& piece = regularity->pieces[static_cast<std::size_t>(found)];
+    const bool corner = q[0] == piece.lo && piece.passedAtLo;
+    const bool backwards = corner && qRate[0] < 0;
+    for (int i = 0; i < n(); ++i) {
+      where[i] = {found - (backwards ? 1 : 0), corner && qRate[0] == 0};
+      y[i] = q[0];
+      y[n() + i] = qRate[0] * speedAt(i, q[0]);
+    }
+    stoppedMass = -1;
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      const int i = static_cast<int>(k);
+      const constraints::CurvePoint p = evaluate(curveOf(i), y[i]);
+      const double omega = y[n() + i] / std::fmax(norm(p.rPhi), 1e-290);
+      masses[k].q = {y[i], 0};
+      masses[k].qRate = {omega, 0};
+      masses[k].r = p.r;
+      masses[k].v = omega * p.rPhi;
+    }
+  }
+  void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      const int i = static_cast<int>(k);
+      const constraints::CurvePoint p = evaluate(curveOf(i), y[i]);
+      const double square = std::fmax(dot(p.rPhi, p.rPhi), 1e-290), v = y[n() + i];
+      masses[k].a = dy[n() + i] / std::sqrt(square) * p.rPhi + v * v / square * (p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi);
+    }
+  }
+
+  static constexpr bool bounded() noexcept { return true; }
+  bool bounces() const noexcept { return domain.atEnd == constraints::AtEnd::Bounce; }
+  bool inside(const State& y) const noexcept {
+    for (int i = 0; i < n(); ++i)
+      if (const constraints::CurvePiece& piece = pieceOf(i); !(y[i] >= piece.lo && y[i] <= piece.hi)) return false;
+    return true;
+  }
+  /// A mass turned round within the step so near an end that it may have been beyond it in between.
+  bool turned(const State& from, const State& to, double dt) const noexcept {
+    for (int i = 0; i < n(); ++i) {
+      const double v = from[n() + i];
+      if (!(v * to[n() + i] < 0)) continue;
+      const constraints::CurvePiece& piece = pieceOf(i);
+      const double reach = std::abs(v) * dt / std::fmax(speedAt(i, from[i]), 1e-290);
+      if (v > 0 ? std::fmax(from[i], to[i]) + reach > piece.hi : std::fmin(from[i], to[i]) - reach < piece.lo) return true;
+    }
+    return false;
+  }
+
+  /// Each mass that `beyond` shows behind a passed end goes on in the next piece; false if one may not.
+  bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept {
+    for (int i = 0; i < n(); ++i) {
+      const constraints::CurvePiece& piece = pieceOf(i);
+      const bool low = beyond[i] < piece.lo;
+      if (!low && !(beyond[i] > piece.hi)) continue;
+      if (!(low ? piece.passedAtLo : piece.passedAtHi)) {
+        stoppedMass = i;
+        stoppedLow = low;
+        return false;
+      }
+      y[i] = low ? piece.lo : piece.hi;
+      const double behind = slopeOf(i, y, hand);
+      where[i].piece += low ? -1 : 1;
+      const double ahead = slopeOf(i, y, hand), side = low ? -1 : 1, v = std::abs(y[n() + i]);
+      if (side * behind > 0 && side * ahead < 0 && 2 * v < kSwing * dt * std::abs(ahead)) {
+        y[n() + i] = 0;
+        if (low) ++where[i].piece;  // held at its piece's lower end
+        where[i].held = true;
+      }
+    }
+    return true;
+  }
+  /// Resting masses that a side pulls out of their kink by now, or by the step's end, start to move. False if both sides pull.
+  bool release(const Hand& begin, const Hand& end, const State& y) noexcept {
+    for (int i = 0; i < n(); ++i) {
+      if (!where[i].held) continue;
+      for (const Hand& hand : {begin, end}) {
+        const bool up = slopeOf(i, y, hand) > 0;
+        --where[i].piece;
+        const bool down = slopeOf(i, y, hand) < 0;
+        if (up || !down) ++where[i].piece;
+        if (up && down) return false;
+        where[i].held = !(up || down);
+        if (!where[i].held) break;
+      }
+    }
+    return true;
+  }
+  bool anyHeld() const noexcept {
+    for (int i = 0; i < n(); ++i)
+      if (where[i].held) return true;
+    return false;
+  }
+
+  std::string endReason() const {
+    if (stoppedMass < 0) return "a mass reached the end of the constraint's domain";
+    const constraints::CurvePiece& piece = pieceOf(stoppedMass);
+    const int place = stoppedLow ? piece.placeAtLo : piece.placeAtHi;
+    const std::string mass = fmt::format("mass {} at phi = {:.9g}", stoppedMass + 1, stoppedLow ? piece.lo : piece.hi);
+    if (place >= 0)
+      return mass + " met a place that is never crossed: " +
+             describe(regularity->places[static_cast<std::size_t>(place)], constraints::ConstraintKind::Curve);
+    const double end = stoppedLow ? piece.lo : piece.hi;
+    if (end == domain.lo || end == domain.hi) return mass + " reached the end of the constraint's domain";
+    return mass + fmt::format(" left what was examined: kinks and jumps of the formula were looked for from {:.6g} to {:.6g} only",
+                              regularity->lo, regularity->hi);
+  }
+  /// Where the masses are when no step leads on: nearest to what.
+  std::string troubleReason(const State& y) const {
+    std::string told;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < n(); ++i)
+      for (const constraints::Place& place : regularity->places)
+        if (const double distance = std::abs(place.at - y[i]); distance < nearest) {
+          nearest = distance;
+          told = fmt::format("mass {} at phi = {:.9g}, {:.2g} from a {}; the formula loses its digits there", i + 1, y[i], distance,
+                             describe(place, constraints::ConstraintKind::Curve));
+        }
+    for (int i = 0; i < n(); ++i)
+      for (const constraints::CurvePiece& piece : regularity->pieces)
+        if (const double at = piece.lo + 0.5 * (piece.hi - piece.lo); piece.narrow && std::abs(at - y[i]) < nearest) {
+          nearest = std::abs(at - y[i]);
+          told = fmt::format("mass {} at phi = {:.9g}, before phi = {:.9g}, about which the curve turns within {:.2g}", i + 1, y[i], at,
+                             piece.hi - piece.lo);
+        }
+    return told;
+  }
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
+    for (int i = 0; i < n(); ++i) {
+      const constraints::CurvePiece& piece = pieceOf(i);
+      const bool low = beyond[i] < piece.lo;
+      if (!low && !(beyond[i] > piece.hi)) continue;
+      y[i] = low ? piece.lo : piece.hi;
+      double& v = y[n() + i];
+      if (bounce) v = low ? std::abs(v) : -std::abs(v);
+    }
+  }
+
+ private:
+  /// d(speed)/dt without viscosity [m/s^2].
+  double slopeOf(int i, const State& y, const Hand& hand) const noexcept {
+    Vectors drive, tangent;
+    std::array<double, kMassCapacity<N>> measure;
+    push(hand, y, drive, tangent, measure);
+    return dot(tangent[i], drive[i]);
+  }
+};
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,66 @@
+#pragma once
+#include "sim/dynamics/systems/system.h"
+
+namespace reachlab::dynamics {
+
+/// A point, chain or parallel object in free space, y = (r_1 … r_N, v_1 … v_N). For methods other than the exact one.
+template <int N, bool Parallel>
+struct FreeSystem {
+  static constexpr int kStates = 6 * N;
+  static constexpr bool kSecondOrder = true;
+  static constexpr bool kEnds = false;
+  static constexpr const char* kNoContinuation = "there is no continuation here";
+  using State = Numbers<kStates>;
+  using Hand = HandSample;
+
+  Springs<N, Parallel> springs;
+
+  explicit FreeSystem(const ObjectModel& model) : springs(model) {}
+  int n() const noexcept { return springs.n(); }
+  int states() const noexcept { return 6 * n(); }
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    struct Points {
+      std::array<Vec3, kMassCapacity<N>> value;
+      Vec3& operator[](int i) noexcept { return value[i]; }
+      const Vec3& operator[](int i) const noexcept { return value[i]; }
+    };
+    Points r, v, force;
+    for (int i = 0; i < n(); ++i) {
+      r[i] = at(y, i);
+      v[i] = at(y, n() + i);
+    }
+    springs.push(hand.position, hand.velocity, r, v, force);
+    force[0] += springs.extraForce;
+    for (int i = 0; i < n(); ++i) {
+      put(dy, i, v[i]);
+      put(dy, n() + i, springs.inverseMass[i] * (force[i] - springs.viscosity * v[i]) + springs.gravity);
+    }
+  }
+  double scale(int i) const noexcept { return i < 3 * n() ? 0.1 : 1.0; }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+    for (int i = 0; i < n(); ++i) {
+      put(y, i, {q[0], q[1], q[2]});
+      put(y, n() + i, {qRate[0], qRate[1], qRate[2]});
+    }
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      masses[i].r = at(y, static_cast<int>(i));
+      masses[i].v = at(y, n() + static_cast<int>(i));
+    }
+  }
+  void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept {
+    for (std::size_t i = 0; i < masses.size(); ++i) masses[i].a = at(dy, n() + static_cast<int>(i));
+  }
+
+ private:
+  static Vec3 at(const State& y, int i) noexcept { return {y[3 * i], y[3 * i + 1], y[3 * i + 2]}; }
+  static void put(State& y, int i, const Vec3& value) noexcept { y[3 * i] = value.x, y[3 * i + 1] = value.y, y[3 * i + 2] = value.z; }
+};
+
+}  // namespace reachlab::dynamics

@@ -1,0 +1,87 @@
+#pragma once
+#include "sim/dynamics/exact/linear_plant.h"
+#include "sim/dynamics/systems/system.h"
+
+namespace reachlab::dynamics {
+
+/// A chain or parallel object on a straight line, y = (x_1 … x_N, v_1 … v_N) in metres along it. For the methods that an experimenter may
+/// ask for beside the exact one.
+template <int N, bool Parallel>
+struct LineSystem {
+  static constexpr int kStates = 2 * N;
+  static constexpr bool kSecondOrder = true;
+  static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation = "the line has no continuation here";
+  using State = Numbers<kStates>;
+  struct Hand {
+    double r, v;
+  };
+
+  Springs<N, Parallel> springs;
+  LinearSpace space;
+  double length;
+  Vec3 axis;
+  double gravity = 0, extraForce = 0;
+
+  LineSystem(const ObjectModel& model, const LinearSpace& where)
+      : springs(model), space(where), length(norm(where.tangent)), axis(where.tangent / length) {
+    setExtraForce({});
+  }
+  int n() const noexcept { return springs.n(); }
+  int states() const noexcept { return 2 * n(); }
+  void setExtraForce(const Vec3& force) noexcept {
+    extraForce = dot(force, axis);
+    gravity = dot(springs.gravity, axis);
+  }
+  Hand handAt(const HandSegment& hand, double s) const noexcept {
+    return {dot(valueAt(hand.position, hand.degree, s) - space.origin, axis), dot(valueAt(hand.velocity, hand.degree, s), axis)};
+  }
+  Hand handOf(const HandSample& hand) const noexcept { return {dot(hand.position - space.origin, axis), dot(hand.velocity, axis)}; }
+
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    Numbers<N> r(n()), v(n()), force(n());
+    for (int i = 0; i < n(); ++i) r[i] = y[i], v[i] = y[n() + i];
+    springs.push(hand.r, hand.v, r, v, force);
+    force[0] += extraForce;
+    for (int i = 0; i < n(); ++i) {
+      dy[i] = v[i];
+      dy[n() + i] = gravity + springs.inverseMass[i] * (force[i] - springs.viscosity * v[i]);
+    }
+  }
+  double scale(int i) const noexcept { return i < n() ? 0.1 : 1.0; }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
+    for (int i = 0; i < n(); ++i) y[i] = q[0] * length, y[n() + i] = qRate[0] * length;
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      const double x = y[static_cast<int>(i)], v = y[n() + static_cast<int>(i)];
+      masses[i].q = {x / length, 0};
+      masses[i].qRate = {v / length, 0};
+      masses[i].r = space.origin + x * axis;
+      masses[i].v = v * axis;
+    }
+  }
+  void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept {
+    for (std::size_t i = 0; i < masses.size(); ++i) masses[i].a = dy[n() + static_cast<int>(i)] * axis;
+  }
+
+  bool bounded() const noexcept { return !space.domain.periodic && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi)); }
+  bool bounces() const noexcept { return space.domain.atEnd == constraints::AtEnd::Bounce; }
+  bool inside(const State& y) const noexcept {
+    for (int i = 0; i < n(); ++i)
+      if (!(y[i] >= space.domain.lo * length && y[i] <= space.domain.hi * length)) return false;
+    return true;
+  }
+  /// Puts the mass that is nearest beyond an end onto it, and turns it round if it `bounces`.
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
+    for (int i = 0; i < n(); ++i) {
+      const bool low = beyond[i] < space.domain.lo * length;
+      if (!low && !(beyond[i] > space.domain.hi * length)) continue;
+      y[i] = (low ? space.domain.lo : space.domain.hi) * length;
+      if (bounce) y[n() + i] = low ? std::abs(y[n() + i]) : -std::abs(y[n() + i]);
+    }
+  }
+};
+
+}  // namespace reachlab::dynamics

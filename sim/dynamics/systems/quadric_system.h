@@ -1,0 +1,135 @@
+#pragma once
+#include "sim/dynamics/systems/quadric.h"
+#include "sim/dynamics/systems/surface_rates.h"
+#include "sim/dynamics/systems/system.h"
+
+namespace reachlab::dynamics {
+
+/// A point on a surface of second degree in world coordinates, y = (r, v): r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and
+/// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for. On a sphere where nothing pulls, the motion
+/// is a great circle in closed form.
+struct QuadricSystem {
+  static constexpr int kStates = 6;
+  static constexpr bool kSecondOrder = true;
+  static constexpr bool kEnds = true;
+  static constexpr int kProjectEvery = 8;  // ticks
+  static constexpr const char* kNoContinuation = "the surface has no tangent plane here (a cone's apex): there is no unique continuation";
+  using State = Numbers<6>;
+  using Hand = HandSample;
+
+  Springs<1, true> springs;
+  Quadric quadric;
+  constraints::Surface surface;
+  std::array<constraints::Domain, 2> domain;
+  bool apex = true;    // somewhere on it there is no normal (a cone)
+  bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
+  int ticks = 0;
+  mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
+  std::optional<Sphere> sphere;
+  bool gliding = false;  // on a sphere, and nothing pulls
+
+  QuadricSystem(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& q)
+      : springs(model), quadric(q), surface(constraint.surface), domain(constraint.domain), sphere(sphereOf(q)) {
+    setGliding();
+  }
+  static constexpr int states() noexcept { return 6; }
+  void setExtraForce(const Vec3& force) noexcept {
+    springs.extraForce = force;
+    setGliding();
+  }
+  void setCoupled(const ObjectModel& model, bool coupled) noexcept {
+    springs.setCoupled(model, coupled);
+    setGliding();
+  }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    const Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
+    const Vec3 force =
+        mulAdd(springs.handStiffness[0], hand.position - r, mulAdd(springs.handDamping[0], hand.velocity - v, springs.extraForce));
+    const Vec3 f = mulAdd(springs.inverseMass[0], mulAdd(-springs.viscosity, v, force), springs.gravity);
+    const Vec3 n = quadric.gradient(r);
+    const Vec3 a = mulAdd(-(mulAdd(2, fusedDot(v, quadric.times(v)), fusedDot(n, f)) / fusedDot(n, n)), n, f);
+    dy.assign(v.x, v.y, v.z, a.x, a.y, a.z);
+  }
+  double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
+
+  /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where something pulls, or where the
+  /// turn is too large for the series.
+  bool glide(double dt, const State& y, State& next) const noexcept {
+    if (!gliding) return false;
+    const Vec3 d = Vec3{y[0], y[1], y[2]} - sphere->middle, v{y[3], y[4], y[5]};
+    const double share = dt / sphere->radius, turn2 = fusedDot(v, v) * (share * share);
+    if (!(turn2 <= kMostTurn2)) return false;
+    // cos x - 1 and sin x / x to rounding; x^2 = turn2. What is added is small, so that its rounding, the same at each tick, adds up to
+    // nothing.
+    const double less = turn2 * mulAdd(mulAdd(mulAdd(turn2, 1.0 / 40320, -1.0 / 720), turn2, 1.0 / 24), turn2, -0.5);
+    const double sine = mulAdd(mulAdd(mulAdd(mulAdd(turn2, 1.0 / 362880, -1.0 / 5040), turn2, 1.0 / 120), turn2, -1.0 / 6), turn2, 1.0);
+    const Vec3 r = mulAdd(sine * dt, v, less * d), w = mulAdd(-(sine * (turn2 / dt)), d, less * v);
+    next.assign(y[0] + r.x, y[1] + r.y, y[2] + r.z, v.x + w.x, v.y + w.y, v.z + w.z);
+    return true;
+  }
+
+  /// Back onto the surface every few ticks: rounding's drift, far below what a multistep history notices. Lost where the normal turned
+  /// round within the step: a cone's apex, beyond which nothing says where to go.
+  Settled settle(const State& before, State& y) noexcept {
+    const bool project = ++ticks % kProjectEvery == 0;
+    if (!project && !apex) return Settled::Same;
+    Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
+    const Vec3 n = quadric.gradient(r), nBefore = quadric.gradient({before[0], before[1], before[2]});
+    if (dot(n, nBefore) < 0 && lost(before)) return Settled::Lost;
+    if (!project) return Settled::Same;
+    // The normal's length of the tick before does: what a step drifts is rounding, and waiting for this tick's would cost a division.
+    const double square = 1 / fusedDot(nBefore, nBefore);
+    r = mulAdd(-(quadric.value(r) * square), n, r);
+    v = mulAdd(-(fusedDot(n, v) * square), n, v);
+    y.assign(r.x, r.y, r.z, v.x, v.y, v.z);
+    return Settled::Same;
+  }
+  /// Beside a place without a normal (the gradient is of order one elsewhere).
+  bool lost(const State& y) const noexcept { return norm(quadric.gradient({y[0], y[1], y[2]})) < 0.1; }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
+    const constraints::SurfacePoint p = constraints::evaluate(surface, q[0], q[1]);
+    const Vec3 v = qRate[0] * p.rU + qRate[1] * p.rV;
+    y.assign(p.r.x, p.r.y, p.r.z, v.x, v.y, v.z);
+    parameters = {q[0], q[1]};
+    ticks = 0;
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    masses[0].r = {y[0], y[1], y[2]};
+    masses[0].v = {y[3], y[4], y[5]};
+  }
+  void parametrise(std::span<MassState> masses) const noexcept {
+    follow(masses[0].r);
+    masses[0].q = parameters;
+    const constraints::SurfacePoint p = constraints::evaluate(surface, parameters[0], parameters[1]);
+    masses[0].qRate = solveRates(p, masses[0].v);
+  }
+  void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept { masses[0].a = {dy[3], dy[4], dy[5]}; }
+
+  bool bounded() const noexcept { return edges; }
+  bool bounces() const noexcept { return domain[0].atEnd == constraints::AtEnd::Bounce || domain[1].atEnd == constraints::AtEnd::Bounce; }
+  bool inside(const State& y) const noexcept {
+    follow({y[0], y[1], y[2]});
+    constexpr double kRounding = 1e-12;  // of the search: a mass that was just thrown back from an edge is inside
+    for (int k = 0; k < 2; ++k)
+      if (!domain[k].periodic && !(parameters[k] >= domain[k].lo - kRounding && parameters[k] <= domain[k].hi + kRounding)) return false;
+    return true;
+  }
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept;
+
+  /// Follows the parameters to r by Gauss-Newton from where they were; far off, from the nearest of a grid.
+  void follow(const Vec3& r) const noexcept;
+
+ private:
+  static constexpr double kMostTurn2 = 0.01;  // [rad^2], where the next terms are 3e-17
+
+  void setGliding() noexcept {
+    gliding = sphere && springs.handStiffness[0] == 0 && springs.handDamping[0] == 0 && springs.viscosity == 0 &&
+              springs.gravity == Vec3{} && springs.extraForce == Vec3{};
+  }
+};
+
+}  // namespace reachlab::dynamics

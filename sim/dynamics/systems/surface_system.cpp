@@ -1,0 +1,237 @@
+#include "sim/dynamics/systems/surface_system.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace reachlab::dynamics {
+namespace {
+
+constexpr double kContinuous = 1e-9;          // of a millimetre and of the surface's size: what counts as no jump
+constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
+constexpr double kMargin = 1e-5;              // of the argument's size
+constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
+constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
+constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
+constexpr double kBeside = 0.05;              // of a unit of the parameters
+
+/// [m] by how much two limits of r may differ that are one.
+double slack(const constraints::SurfacePoint& p) noexcept {
+  return kContinuous * (1e-3 + std::fmin(norm(p.r), norm(p.rU) + norm(p.rV))) + kRounding * norm(p.r);
+}
+
+}  // namespace
+
+Settled SurfaceSystem::chooseChart(State& y) noexcept {
+  if (inPolar) {
+    if (y[0] * y[0] + y[1] * y[1] < kLeave * kLeave) return Settled::Same;
+    const constraints::SurfacePoint local = constraints::evaluate(active, y[0], y[1]);
+    const Vec3 v = y[2] * local.rU + y[3] * local.rV;
+    const std::array<double, 2> q = polar.toBase(y[0], y[1]);
+    const std::array<double, 2> rate = solveRates(constraints::evaluate(surface, q[0], q[1]), v);
+    y.values = {q[0], q[1], rate[0], rate[1]};
+    active = surface;
+    inPolar = false;
+    return Settled::OtherChart;
+  }
+  const constraints::SurfacePoint p = constraints::evaluate(surface, y[0], y[1]);
+  look(p);
+  if (waiting > 0) --waiting;
+  const int fixed = dot(p.rU, p.rU) < kNear * kNear * largestU ? 1 : dot(p.rV, p.rV) < kNear * kNear * largestV ? 0 : -1;
+  if (fixed < 0 || waiting > 0) return Settled::Same;
+  if (!findPole(y, fixed)) {
+    waiting = kWaitAfterNothing;
+    return Settled::Same;
+  }
+  const Vec3 v = y[2] * p.rU + y[3] * p.rV;
+  const std::array<double, 2> q = polar.toLocal(y[0], y[1]);
+  active = polar.surface();
+  const std::array<double, 2> rate = solveRates(constraints::evaluate(active, q[0], q[1]), v);
+  y.values = {q[0], q[1], rate[0], rate[1]};
+  inPolar = true;
+  return Settled::OtherChart;
+}
+
+bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
+  const auto at = [&](double angle, double across) {
+    return fixed == 1 ? constraints::evaluate(surface, angle, across) : constraints::evaluate(surface, across, angle);
+  };
+  const double angle = fixed == 1 ? y[0] : y[1], from = fixed == 1 ? y[1] : y[0];
+  double across = from;
+  for (int round = 0; round < 12; ++round) {
+    const constraints::SurfacePoint p = at(angle, across);
+    const Vec3 along = fixed == 1 ? p.rU : p.rV;
+    const double change = dot(along, p.rUv) / dot(p.rUv, p.rUv);
+    if (!std::isfinite(change)) break;
+    across -= change;
+    if (std::abs(change) < 1e-16 * std::abs(across)) break;
+  }
+  if (!std::isfinite(across) || std::abs(across - from) > kEnter || across == from) return false;
+  // A pole: the whole line is one point, 2 pi is a period, and opposite sides continue each other.
+  const double largest = std::sqrt(std::max(largestU, largestV)), reach = 0.1 * (from - across);
+  const constraints::SurfacePoint pole = at(angle, across), beside = at(angle, across + reach),
+                                  again = at(angle + 2 * std::numbers::pi, across + reach);
+  if (norm(again.r - beside.r) > 1e-12 * largest) return false;
+  for (int i = 0; i < 8; ++i) {
+    const constraints::SurfacePoint a = at(angle + 0.25 * std::numbers::pi * i, across),
+                                    b = at(angle + 0.25 * std::numbers::pi * i + std::numbers::pi, across);
+    const Vec3 outA = fixed == 1 ? a.rV : a.rU, outB = fixed == 1 ? b.rV : b.rU;
+    if (norm(a.r - pole.r) > 1e-12 * largest || norm(outA + outB) > 1e-9 * largest) return false;
+  }
+  polar = {surface, fixed, across, from > across ? 1.0 : -1.0};
+  return true;
+}
+
+void SurfaceSystem::findBranch(std::span<const double> q, std::span<const double> qRate) noexcept {
+  const auto lines = branches->at(q[0], q[1]);
+  where = {};
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    double value = lines[k].value;
+    if (value == 0) value = lines[k].u * qRate[0] + lines[k].v * qRate[1];
+    where.side[k] = value < 0 ? -1 : 1;
+    const double typical = std::max(std::abs(value), 0.1 * (std::abs(lines[k].u) + std::abs(lines[k].v)));
+    margin[k] = branches->lines[k].passable ? 0 : kMargin * typical;
+    if (const int bit = branches->lines[k].bit; bit >= 0 && where.side[k] > 0) where.branch |= 1 << bit;
+  }
+  useBranch();
+}
+
+bool SurfaceSystem::onBranch(const State& y) const noexcept {
+  const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
+  const auto lines = branches->at(q[0], q[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double inwards = lines[k].value * where.side[k];
+    if (!(inwards >= margin[k])) return false;
+    if (inwards == 0 && !hasLimit(q, static_cast<int>(k), lines[k].u, lines[k].v)) return false;
+    met.besideEnd = met.besideEnd || (!branches->lines[k].passable && inwards < kBeside * (std::abs(lines[k].u) + std::abs(lines[k].v)));
+  }
+  return true;
+}
+
+bool SurfaceSystem::hasLimit(const std::array<double, 2>& q, int k, double alongU, double alongV) const noexcept {
+  constexpr double kStep = 1e-7, kSame = 1e-4;  // of the parameters, and of a derivative's size
+  const constraints::SurfacePoint here = evaluate(surface, q[0], q[1]);
+  if (!isFinite(here.r) || !isFinite(here.rU) || !isFinite(here.rV)) return false;
+  const double steep = std::hypot(alongU, alongV);
+  if (!(steep > 0)) return true;
+  const double step = kStep * where.side[static_cast<std::size_t>(k)] / steep, du = step * alongU, dv = step * alongV;
+  const constraints::SurfacePoint beside = evaluate(surface, q[0] + du, q[1] + dv);
+  return norm(beside.r - du * beside.rU - dv * beside.rV - here.r) <= slack(here) &&
+         norm(here.rU - beside.rU) + norm(here.rV - beside.rV) <= kSame * (norm(beside.rU) + norm(beside.rV));
+}
+
+bool SurfaceSystem::turned(const State& from, const State& to, double dt) const noexcept {
+  if (branches == nullptr || inPolar) return false;
+  const auto a = branches->at(from[0], from[1]), b = branches->at(to[0], to[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double before = (a[k].u * from[2] + a[k].v * from[3]) * where.side[k], after = (b[k].u * to[2] + b[k].v * to[3]) * where.side[k];
+    if (before < 0 && after > 0 && std::fmin(a[k].value, b[k].value) * where.side[k] < -before * dt) return true;
+  }
+  return false;
+}
+
+bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double) noexcept {
+  if (branches == nullptr) return false;
+  std::array<double, 2> behind = inPolar ? polar.toBase(beyond[0], beyond[1]) : std::array{beyond[0], beyond[1]};
+  // On a line where the formula has no limit nothing can be told: a little behind it.
+  constexpr double kBehind = 1e-12;  // of the parameters
+  auto lines = branches->at(behind[0], behind[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double steep = std::hypot(lines[k].u, lines[k].v);
+    if (lines[k].value != 0 || !(steep > 0) || hasLimit(behind, static_cast<int>(k), lines[k].u, lines[k].v)) continue;
+    const double step = kBehind * std::fmax(1, std::hypot(behind[0], behind[1])) * where.side[k] / steep;
+    behind = {behind[0] - step * lines[k].u, behind[1] - step * lines[k].v};
+  }
+  lines = branches->at(behind[0], behind[1]);
+  bool passed = false;
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    if (lines[k].value * where.side[k] >= margin[k]) continue;
+    metLine = static_cast<int>(k);
+    const constraints::SurfaceBranches::Line& line = branches->lines[k];
+    if (!line.passable) return false;
+    if (inPolar) {
+      const constraints::SurfacePoint local = evaluate(active, y[0], y[1]);
+      const std::array<double, 2> q = polar.toBase(y[0], y[1]);
+      const std::array<double, 2> rate = solveRates(evaluate(surface, q[0], q[1]), y[2] * local.rU + y[3] * local.rV);
+      y.values = {q[0], q[1], rate[0], rate[1]};
+      active = surface;
+      inPolar = false;
+    }
+    const Where other{where.branch ^ (1 << line.bit), where.side};
+    const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
+    // Just behind the line: before it the other branch may have a value that it has not got there (atan2(u, u)).
+    const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], behind[0], behind[1]);
+    if (!(norm(here.r - there.r) <= slack(here))) return false;
+    const auto at = branches->at(behind[0], behind[1])[k];
+    // Unit vectors along the crease and across it, the latter in each side's tangent plane.
+    const auto across = [&](const constraints::SurfacePoint& p, const Vec3& along) {
+      const Vec3 through = at.u * p.rU + at.v * p.rV, part = through - dot(through, along) * along;
+      return part / norm(part);
+    };
+    Vec3 along = at.u * here.rV - at.v * here.rU;
+    along = along / norm(along);
+    const Vec3 v = y[2] * here.rU + y[3] * here.rV;
+    const Vec3 turnedVelocity = dot(v, along) * along + dot(v, across(here, along)) * across(there, along);
+    const std::array<double, 2> rate = solveRates(there, turnedVelocity);
+    if (!std::isfinite(rate[0]) || !std::isfinite(rate[1])) return false;
+    y.values = {behind[0], behind[1], rate[0], rate[1]};
+    where = other;
+    where.side[k] = static_cast<signed char>(-where.side[k]);
+    useBranch();
+    metLine = -1;
+    passed = true;
+  }
+  return passed;
+}
+
+bool SurfaceSystem::roundingShows(const State& y) const noexcept {
+  constexpr double kRounded = std::numeric_limits<double>::epsilon();
+  const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
+  const double byU = norm(p.rUu) / norm(p.rU) + norm(p.rUv) / norm(p.rV), byV = norm(p.rUv) / norm(p.rU) + norm(p.rVv) / norm(p.rV);
+  return !(kRounded * (std::abs(y[0]) * byU + std::abs(y[1]) * byV) <= kShows);
+}
+
+int SurfaceSystem::endingLine(const State& y) const noexcept {
+  if (branches == nullptr) return -1;
+  const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
+  const auto lines = branches->at(q[0], q[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k)
+    if (!branches->lines[k].passable && !(std::abs(lines[k].value) > 0.02 * (std::abs(lines[k].u) + std::abs(lines[k].v))))
+      return static_cast<int>(k);
+  return -1;
+}
+
+std::string SurfaceSystem::endReason() const {
+  if (metLine < 0) return "the mass reached the end of the constraint's domain";
+  const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(metLine)];
+  if (line.passable)
+    return fmt::format("the mass met a place of the surface that is never crossed: {}: {}", nameOf(constraints::PlaceKind::Jump),
+                       line.because);
+  return fmt::format(
+      "the mass is beside a place of the surface that is never crossed: {}: {} (its argument is {:.2g} from {:g}; nearer, the formula loses "
+      "the digits of the speed)",
+      nameOf(line.kind), line.because, margin[static_cast<std::size_t>(metLine)], line.level);
+}
+
+std::string SurfaceSystem::lostReason(const State& y) const {
+  const int k = endingLine(y);
+  if (k < 0) {
+    const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
+    const Vec3 area = cross(p.rU, p.rV);
+    if (dot(area, area) < 100 * kParallel * dot(p.rU, p.rU) * dot(p.rV, p.rV))
+      return fmt::format(
+          "the surface's parameter lines run into each other here: r_u and r_v are {:.2g} degrees apart, too little for a "
+          "velocity to be told from its rates; write the surface in other parameters",
+          std::sqrt(dot(area, area) / (dot(p.rU, p.rU) * dot(p.rV, p.rV))) * 180 / std::numbers::pi);
+    if (roundingShows(y))
+      return fmt::format(
+          "the surface is so steep in its parameters here (|r_u| {:.2g} m, |r_v| {:.2g} m) that their rounding shows in the speed; write the "
+          "surface in other parameters",
+          norm(p.rU), norm(p.rV));
+    return kNoContinuation;
+  }
+  const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];
+  return fmt::format("the mass is beside a place of the surface that is never crossed: {}: {}", nameOf(line.kind), line.because);
+}
+
+}  // namespace reachlab::dynamics

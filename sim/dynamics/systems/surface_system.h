@@ -1,0 +1,202 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "constraints/regularity/surface_branches.h"
+#include "sim/dynamics/systems/polar_chart.h"
+#include "sim/dynamics/systems/surface_rates.h"
+#include "sim/dynamics/systems/system.h"
+
+namespace reachlab::dynamics {
+
+/// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
+struct SurfaceSystem {
+  static constexpr int kStates = 4;
+  static constexpr bool kSecondOrder = true;
+  static constexpr bool kEnds = true;
+  static constexpr const char* kNoContinuation =
+      "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
+  /// Squared sine of the angle between r_u and r_v below which the rates' tolerance, and their rounding, would show in the speed.
+  static constexpr double kOblique = 1e-3, kParallel = 1e-6;
+  static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2
+  static constexpr double kLong = 1;           // [m^2] |r_u|^2, likewise
+  static constexpr double kShows = 5e-11;
+  using State = Numbers<4>;
+  using Hand = HandSample;
+
+  Springs<1, true> springs;
+  constraints::Surface surface;  // as defined
+  constraints::Surface active;   // what the state's parameters are: `surface`, or `polar` while `inPolar`
+  std::array<constraints::Domain, 2> domain;
+  PolarChart polar;
+  bool inPolar = false;
+  int ticks = 0, waiting = 0;                          // between looks for a pole
+  double largestU = 0, largestV = 0, largestArea = 0;  // [m^2], [m^2], [m^4] the largest |r_u|^2, |r_v|^2, |r_u x r_v|^2 seen so far
+
+  /// Lines across which the formula is not smooth; null for a surface without them. A crease (abs) is passed as the geodesic does: what of
+  /// the velocity is along it stays, what is across it turns into the other side's tangent plane. Jumps, poles and ends are never crossed.
+  std::shared_ptr<const constraints::SurfaceBranches> branches;
+  struct Where {
+    int branch = 0;
+    std::array<signed char, constraints::SurfaceBranches::kMaxGuards> side{};  // sign of each line's argument - level
+  };
+  Where where;
+  int metLine = -1;  // that stopped the mass
+  /// What the right-hand sides of this step met.
+  struct Met {
+    bool flat = false;     // r_u and r_v spanned next to no plane
+    bool oblique = false;  // they came near to each other, see kOblique and kParallel
+    bool parallel = false;
+    bool longRate = false;   // |r_u|^2 or |r_v|^2 was above kLong
+    bool besideEnd = false;  // a line at which the formula ends was near
+  };
+  mutable Met met;
+  /// Where the parameter lines are oblique the rates nearly cancel in the velocity; where r_u is long a parameter's error is one of many
+  /// metres; beside an end r_u grows without bound: there parameters and rates are needed more exactly.
+  bool careful = false;
+  /// How near a mass comes to a line at which the formula ends, in its argument: nearer, its rounding shows in the speed.
+  std::array<double, constraints::SurfaceBranches::kMaxGuards> margin{};
+
+  SurfaceSystem(const ObjectModel& model, const constraints::Constraint& constraint)
+      : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
+  static constexpr int states() noexcept { return 4; }
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+
+  void rate(const Hand& hand, const State& y, State& dy) const noexcept {
+    constraints::Unfilled<constraints::SurfacePoint> room;
+    active.function(active.program, active.shape.data(), y[0], y[1], room.value);
+    const constraints::SurfacePoint& p = room.value;
+    const double du = y[2], dv = y[3], drag = springs.inverseMass[0] * springs.viscosity;
+    const Vec3 velocity = mulAdd(du, p.rU, dv * p.rV);
+    const Vec3 bend = mulAdd(du * du, p.rUu, mulAdd(2 * du * dv, p.rUv, (dv * dv) * p.rVv));
+    const Vec3 force =
+        mulAdd(springs.handStiffness[0], hand.position - p.r, mulAdd(springs.handDamping[0], hand.velocity - velocity, springs.extraForce));
+    const Vec3 drive = mulAdd(springs.inverseMass[0], force, springs.gravity - bend);
+    const double e = fusedDot(p.rU, p.rU), f = fusedDot(p.rU, p.rV), g = fusedDot(p.rV, p.rV);
+    const double determinant = mulAdd(e, g, -(f * f));
+    const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
+    // Whoever is not oblique by more than what is flat is neither flat nor parallel: one comparison tells it of nearly all.
+    const double awayFromOblique = mulAdd(-kOblique * e, g, determinant), flatBelow = kDegenerate * largestArea;
+    if (!(awayFromOblique > flatBelow && std::max(e, g) <= kLong)) [[unlikely]] {
+      met.flat |= determinant < flatBelow;
+      met.oblique |= awayFromOblique < 0;
+      met.parallel |= mulAdd(-kParallel * e, g, determinant) < 0;
+      met.longRate |= e > kLong || g > kLong;
+    }
+    if (careful) [[unlikely]] {
+      // By vectors at right angles to r_v and r_u: e g - f^2 would lose twice the digits.
+      const Vec3 area = cross(p.rU, p.rV);
+      const double whole = dot(area, area);
+      dy.assign(du, dv, dot(drive, cross(p.rV, area)) / whole - drag * du, dot(drive, cross(area, p.rU)) / whole - drag * dv);
+      return;
+    }
+    dy.assign(du, dv, mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du)), mulAdd(mulAdd(e, b, -(f * a)), inverse, -(drag * dv)));
+  }
+  double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
+
+  void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
+    y.values = {q[0], q[1], qRate[0], qRate[1]};
+    inPolar = false;
+    metLine = -1;
+    met = {};
+    careful = false;
+    if (branches != nullptr) findBranch(q, qRate);
+    active = surface;
+    ticks = waiting = 0;
+    for (int i = 0; i < 16; ++i) look(constraints::evaluate(surface, q[0] + 0.4 * (i % 4), q[1] + 0.4 * (i / 4)));
+  }
+  void locate(const State& y, std::span<MassState> masses) const noexcept {
+    const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
+    masses[0].r = p.r;
+    masses[0].v = y[2] * p.rU + y[3] * p.rV;
+    masses[0].q = {y[0], y[1]};
+    masses[0].qRate = {y[2], y[3]};
+    if (!inPolar) return;
+    masses[0].q = polar.toBase(y[0], y[1]);
+    masses[0].qRate = solveRates(constraints::evaluate(surface, masses[0].q[0], masses[0].q[1]), masses[0].v);
+  }
+
+  /// Every few ticks: is a pole near, or has it been left?
+  Settled settle(const State&, State& y) noexcept {
+    // Across a place where r_u and r_v span no plane the parameters carry no velocity: what comes out of such a step is nothing.
+    const bool degenerate = met.flat || met.parallel;
+    careful = met.oblique || met.longRate || met.besideEnd;
+    met = {};
+    if (degenerate || (careful && roundingShows(y))) return Settled::Lost;
+    constexpr int kLookEvery = 4;
+    return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
+  }
+  Settled chooseChart(State& y) noexcept;
+  /// A rounding of u or v changes |r_u| or |r_v|, and with them the speed, by more than kShows of it.
+  bool roundingShows(const State& y) const noexcept;
+  /// Beside a place where r_u and r_v do not span a plane.
+  bool lost(const State& y) const noexcept {
+    if (endingLine(y) >= 0) return true;
+    const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
+    const Vec3 area = cross(p.rU, p.rV);
+    return dot(area, area) < 0.25 * 0.25 * largestArea;
+  }
+  void look(const constraints::SurfacePoint& p) noexcept {
+    const double uu = dot(p.rU, p.rU), uv = dot(p.rU, p.rV), vv = dot(p.rV, p.rV), area = uu * vv - uv * uv;
+    if (!std::isfinite(area)) return;
+    largestU = std::max(largestU, uu);
+    largestV = std::max(largestV, vv);
+    largestArea = std::max(largestArea, area);
+  }
+  /// The pole ahead where the lines of parameter `fixed` = const collapse, if there is one: Newton on r_(other) = 0 along it, then a look
+  /// round the whole line.
+  bool findPole(const State& y, int fixed) noexcept;
+  void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
+    const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
+    masses[0].a = dy[2] * p.rU + dy[3] * p.rV + (y[2] * y[2]) * p.rUu + (2 * y[2] * y[3]) * p.rUv + (y[3] * y[3]) * p.rVv;
+  }
+
+  static bool ends(const constraints::Domain& d) noexcept { return !d.periodic && (std::isfinite(d.lo) || std::isfinite(d.hi)); }
+  bool bounded() const noexcept { return ends(domain[0]) || ends(domain[1]) || branches != nullptr; }
+  bool bounces() const noexcept { return metLine < 0 && (ends(domain[0]) ? domain[0] : domain[1]).atEnd == constraints::AtEnd::Bounce; }
+  bool inside(const State& y) const noexcept {
+    if (branches != nullptr && !onBranch(y)) return false;
+    if (inPolar) return true;  // left long before another end comes near
+    for (int k = 0; k < 2; ++k)
+      if (!domain[k].periodic && !(y[k] >= domain[k].lo && y[k] <= domain[k].hi)) return false;
+    return true;
+  }
+  /// Takes the branch at q; on a line itself the one that the rates lead to.
+  void findBranch(std::span<const double> q, std::span<const double> qRate) noexcept;
+  void useBranch() noexcept {
+    if (branches == nullptr) return;
+    surface = branches->branches[static_cast<std::size_t>(where.branch)];
+    if (!inPolar) active = surface;
+  }
+  bool onBranch(const State& y) const noexcept;
+  /// Whether the formula has its limit on line k itself, at q: atan2(0, 0) is a number, but none.
+  bool hasLimit(const std::array<double, 2>& q, int k, double alongU, double alongV) const noexcept;
+  /// The mass may have crossed a line and come back within a step.
+  bool turned(const State& from, const State& to, double dt) const noexcept;
+  /// The mass goes on behind the line that it crosses; false where it may not, or where it met an end of the domain.
+  bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept;
+  /// A line at which the formula ends, if the mass is beside it; else -1.
+  int endingLine(const State& y) const noexcept;
+  std::string endReason() const;
+  std::string lostReason(const State& y) const;
+  /// An elastic edge turns the velocity's part across it, which is not the parameter's rate where the lines are oblique.
+  void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
+    for (int k = 0; k < 2; ++k) {
+      const bool low = beyond[k] < domain[k].lo;
+      if (domain[k].periodic || (!low && !(beyond[k] > domain[k].hi))) continue;
+      y[k] = low ? domain[k].lo : domain[k].hi;
+      if (!bounce) continue;
+      const constraints::SurfacePoint p = constraints::evaluate(surface, y[0], y[1]);
+      const Vec3 along = k == 0 ? p.rV : p.rU, through = k == 0 ? p.rU : p.rV;
+      const double oblique = dot(along, through) / dot(along, along), rate = y[2 + k];
+      y[2 + k] = low ? std::abs(rate) : -std::abs(rate);
+      y[2 + (1 - k)] += oblique * (rate - y[2 + k]);
+    }
+  }
+};
+
+}  // namespace reachlab::dynamics

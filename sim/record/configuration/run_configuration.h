@@ -1,0 +1,104 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/fault.h"
+#include "sim/experiment/compiled_experiment.h"
+#include "sim/record/configuration/channels.h"
+#include "sim/trial/planned_trial.h"
+
+namespace reachlab::record {
+
+/// What is known of a person, under the pseudonym that is the subject label. Empty or nullopt: not told.
+struct Participant {
+  std::optional<double> age;  // [years]
+  std::string sex;            // F | M | O
+  std::string handedness;     // R | L | A
+};
+
+/// What is known of a further hand's device; the first hand's stands in the configuration itself.
+struct HandDevice {
+  std::string name, version;
+  double maxForce = 0;         // [N]
+  bool virtualHand = false;    // DeviceInfo::virtualHand
+  bool rendersForce = false;   // DeviceInfo::rendersForce
+  double continuousForce = 0;  // [N] 0: no budget was kept
+  double thermalSeconds = 10;  // [s]
+  haptics::GuardSettings guards;
+  std::string mapping;  // DeviceInfo::mapping
+};
+
+/// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value. Its fields are read, written
+/// and compared by one list, in run_fields.h.
+struct RunConfiguration {
+  std::string subject = "01", session = "01", task = "reach";
+  int run = 1;         // as in the file name
+  int firstRun = 1;    // the run that this one resumes, or itself: together they are one block
+  int firstTrial = 1;  // the number of this run's first trial; a resumed block goes on counting
+  int block = 1;       // within the session's plan, from 1; 1 without a plan
+  bool practice = false;
+  std::string condition;                       // of the plan; empty: the experiment's name
+  int day = 0;                                 // of the plan; 0: none
+  double pauseSeconds = 0;                     // between trials
+  bool repeatAborted = false;                  // an aborted trial is put up once more at the end
+  std::string experimentName, experimentText;  // the file as it was read
+  std::string definitionText;                  // of the named constraint, see definitionTextOf; empty for a typed formula and free space
+  std::string planName, planText;              // empty without a plan
+  std::uint64_t seed = 0;                      // of this block: trial i depends on (seed, i) alone
+  std::uint64_t sessionSeed = 0;               // that the blocks' seeds come from
+  std::uint64_t orderSeed = 0;                 // of the plan
+  std::vector<trial::PlannedTrial> trials;
+  std::string device;  // as asked for: "simulated:noise=0"; several hands' as "A + B"
+  std::string deviceName, deviceVersion;
+  double deviceMaxForce = 0;         // [N]
+  bool virtualHand = false;          // DeviceInfo::virtualHand
+  bool rendersForce = false;         // DeviceInfo::rendersForce; this and the next two are not in logs of 0.1.0
+  double deviceContinuousForce = 0;  // [N] 0: no budget was kept
+  double deviceThermalSeconds = 10;  // [s]
+  experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by; logs before 2026-11-22 had none
+  haptics::GuardSettings guards;                                  // wall, compensation, passivity control
+  std::string deviceMapping;                                      // DeviceInfo::mapping
+  experiment::StartRest rest = experiment::kNoStartRest;  // that a trial asked for before it was armed; logs before 2026-11-22 had none
+  std::string instruments;                                // InstrumentLink::names; empty: none
+  std::string method, methodReason;                       // what the scene was compiled to
+  std::string softwareVersion, buildDescription, computer;
+  std::string startedUtc;        // ISO 8601 with milliseconds
+  std::string clock = "steady";  // or virtual: as fast as the processor allows
+  double samplingHz = 100;       // of the sample rows
+  std::uint32_t sampleEveryTicks = 10;
+  Participant participant;
+  std::string notes;                   // by the experimenter
+  std::vector<HandDevice> otherHands;  // of the second hand on
+  ChannelTable table;
+};
+
+std::string toJson(const RunConfiguration& configuration);
+/// Throws FaultError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
+RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
+
+/// Keys of the fields in which two configurations differ.
+std::vector<std::string> differingKeys(const RunConfiguration& a, const RunConfiguration& b);
+
+/// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
+/// Throws FaultError when its text cannot be understood.
+experiment::CompiledExperiment recordedExperiment(const RunConfiguration& configuration);
+/// The same for who only tells what it said: its constraint is not compiled. Throws FaultError when its text cannot be understood.
+experiment::Experiment recordedValues(const RunConfiguration& configuration);
+
+/// How the names begin of channels behind those of the scene (FurtherColumns).
+inline constexpr std::string_view kFurtherName = "station";
+
+/// What a configuration from a file says of itself holds: labels are labels (they become names of files), every count within its bounds, and
+/// the table has the channels that its counts ask for, and behind them none but further ones. Throws FaultError.
+void checkConfiguration(const RunConfiguration& configuration);
+
+/// Labels are letters and digits only (BIDS), at most 60: what is wrong with the one under `key`, if anything.
+std::optional<Fault> labelFault(const std::string& label, const std::string& key);
+inline constexpr double kMaxAge = 130;  // [years]
+/// An age is 0 to kMaxAge, so that the record can be written and read; empty when fine.
+std::vector<Fault> problems(const Participant& participant);
+
+}  // namespace reachlab::record

@@ -1,0 +1,138 @@
+#pragma once
+#include "base/ticks.h"
+#include "sim/experiment/checked_experiment.h"
+#include "sim/record/configuration/json_fields.h"
+#include "sim/record/configuration/run_configuration.h"
+
+/// What a run's configuration holds, as its JSON has it: the one list for reading, writing and comparing. A new field is one member in
+/// run_configuration.h and one line here (`mayMiss`, since earlier recordings do not have it).
+namespace reachlab::record {
+
+template <class T, class Of>
+concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
+
+inline constexpr double kMaxRuns = 9999, kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6;
+inline constexpr bool kMayMiss = true;
+
+template <MaybeConst<Channel> T, class Visit>
+void visitFields(T& c, const Visit& visit) {
+  visit(Field{"name"}, c.name);
+  visit(Field{"component"}, c.component);
+  visit(Field{"type"}, c.type);
+  visit(Field{"tracked_point"}, c.trackedPoint);
+  visit(Field{"units"}, c.units);
+  visit(Field{"description"}, c.description);
+  visit(Field{"column"}, c.column);
+}
+
+template <MaybeConst<ChannelTable> T, class Visit>
+void visitFields(T& t, const Visit& visit) {
+  visit(Field{"mass_count", 1, experiment::kMaxMasses}, t.massCount);
+  visit(Field{"parameter_count", 0, 3}, t.parameterCount);
+  visit(Field{"body"}, t.body);
+  visit(Field{.key = "port_energy", .mayMiss = true}, t.portEnergy);
+  visit(Field{"hands", 1, experiment::kMaxHands, kMayMiss}, t.hands);
+  visit(Field{.key = "channels", .most = kMaxChannels}, t.channels);
+}
+
+template <MaybeConst<trial::PlannedTrial> T, class Visit>
+void visitFields(T& t, const Visit& visit) {
+  visit(Field{"index", 0, kMaxTrials}, t.index);
+  visit(Field{"foreperiod_ms", 0, kMaxForeperiod}, t.foreperiodTicks);
+  visit(Field{"catch"}, t.catchTrial);
+}
+
+template <MaybeConst<Participant> T, class Visit>
+void visitFields(T& p, const Visit& visit) {
+  visit(Field{"age_years", 0, kMaxAge}, p.age);
+  visit(Field{.key = "sex", .mayMiss = true}, p.sex);
+  visit(Field{.key = "handedness", .mayMiss = true}, p.handedness);
+}
+
+template <MaybeConst<experiment::TimingLimits> T, class Visit>
+void visitFields(T& t, const Visit& visit) {
+  visit(Field{"max_missed_ticks", 0, experiment::kNoTimingLimits.maxMissedTicks}, t.maxMissedTicks);
+  visit(Field{"max_gap_s", kTickSeconds, experiment::kNoTimingLimits.maxGap}, t.maxGap);
+}
+
+template <MaybeConst<experiment::StartRest> T, class Visit>
+void visitFields(T& r, const Visit& visit) {
+  visit(Field{"rest_s", 0, experiment::kMaxRestDuration}, r.seconds);
+  visit(Field{"rest_speed_m_per_s", 0, 1e6}, r.speed);
+}
+
+template <MaybeConst<haptics::GuardSettings> T, class Visit>
+void visitFields(T& g, const Visit& visit) {
+  visit(Field{"wall_centre_m"}, g.wallCentre);
+  visit(Field{"wall_radius_m", 0, 1e3}, g.wallRadius);
+  visit(Field{"wall_stiffness_n_per_m", 0, 1e6}, g.wallStiffness);
+  visit(Field{"wall_damping_n_s_per_m", 0, 1e6}, g.wallDamping);
+  visit(Field{"compensation_n"}, g.compensation);
+  visit(Field{"passivity_control"}, g.passivityControl);
+}
+
+template <MaybeConst<HandDevice> T, class Visit>
+void visitFields(T& h, const Visit& visit) {
+  visit(Field{"name"}, h.name);
+  visit(Field{"version"}, h.version);
+  visit(Field{"max_force_n", 0, kMaxNewtons}, h.maxForce);
+  visit(Field{"virtual_hand"}, h.virtualHand);
+  visit(Field{"renders_force"}, h.rendersForce);
+  visit(Field{"continuous_force_n", 0, kMaxNewtons}, h.continuousForce);
+  visit(Field{"thermal_s", 1e-3, 1e6}, h.thermalSeconds);
+  visit(Field{"guards"}, h.guards);
+  visit(Field{"mapping"}, h.mapping);
+}
+
+template <MaybeConst<RunConfiguration> T, class Visit>
+void visitFields(T& c, const Visit& visit) {
+  visit(Field{"subject"}, c.subject);
+  visit(Field{"session"}, c.session);
+  visit(Field{"task"}, c.task);
+  visit(Field{"run", 1, kMaxRuns}, c.run);
+  visit(Field{"first_run", 1, kMaxRuns}, c.firstRun);
+  visit(Field{"first_trial", 1, kMaxTrials}, c.firstTrial);
+  visit(Field{"block", 1, kMaxTrials}, c.block);
+  visit(Field{"practice"}, c.practice);
+  visit(Field{"condition"}, c.condition);
+  visit(Field{"day", 0, kMaxTrials}, c.day);
+  visit(Field{"pause_s", 0, 1e6}, c.pauseSeconds);
+  visit(Field{"repeat_aborted"}, c.repeatAborted);
+  visit(Field{"experiment_name"}, c.experimentName);
+  visit(Field{"experiment_text"}, c.experimentText);
+  visit(Field{.key = "definition_text", .mayMiss = true}, c.definitionText);
+  visit(Field{"plan_name"}, c.planName);
+  visit(Field{"plan_text"}, c.planText);
+  visit(Field{"seed"}, c.seed);
+  visit(Field{"session_seed"}, c.sessionSeed);
+  visit(Field{"order_seed"}, c.orderSeed);
+  visit(Field{.key = "trials", .most = kMaxTrials}, c.trials);
+  visit(Field{"device"}, c.device);
+  visit(Field{"device_name"}, c.deviceName);
+  visit(Field{"device_version"}, c.deviceVersion);
+  visit(Field{"device_max_force_n", 0, kMaxNewtons}, c.deviceMaxForce);
+  visit(Field{"virtual_hand"}, c.virtualHand);
+  visit(Field{.key = "device_renders_force", .mayMiss = true}, c.rendersForce);
+  visit(Field{"device_continuous_force_n", 0, kMaxNewtons, kMayMiss}, c.deviceContinuousForce);
+  visit(Field{"device_thermal_s", 1e-3, 1e6, kMayMiss}, c.deviceThermalSeconds);
+  visit(Field{.key = "instruments", .mayMiss = true}, c.instruments);
+  visit(Field{"method"}, c.method);
+  visit(Field{"method_reason"}, c.methodReason);
+  visit(Field{"software_version"}, c.softwareVersion);
+  visit(Field{"build"}, c.buildDescription);
+  visit(Field{"computer"}, c.computer);
+  visit(Field{"started_utc"}, c.startedUtc);
+  visit(Field{"clock"}, c.clock);
+  visit(Field{"sampling_hz", 1e-3, 1e6}, c.samplingHz);
+  visit(Field{"sample_every_ticks", 1, 1e6}, c.sampleEveryTicks);
+  visit(Field{.key = "timing", .mayMiss = true}, c.timing);
+  visit(Field{.key = "start_rest", .mayMiss = true}, c.rest);
+  visit(Field{.key = "guards", .mayMiss = true}, c.guards);
+  visit(Field{.key = "device_mapping", .mayMiss = true}, c.deviceMapping);
+  visit(Field{"participant"}, c.participant);
+  visit(Field{"notes"}, c.notes);
+  visit(Field{.key = "other_hands", .most = experiment::kMaxHands, .mayMiss = true}, c.otherHands);
+  visit(Field{"table"}, c.table);
+}
+
+}  // namespace reachlab::record

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/fault.h"
+#include "sim/experiment/describe.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/export/tidy_csv.h"
+
+namespace reachlab::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kTaskDescription = "Rest-to-rest reaching with the simulated object of experiment";
+const std::string kObjectFollows = ". Object: ";
+
+Json orNull(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+/// Empty where this program no longer understands what an earlier one recorded.
+std::optional<experiment::Experiment> understood(const RunConfiguration& c) {
+  try {
+    return recordedValues(c);
+  } catch (const FaultError&) {
+    return std::nullopt;
+  }
+}
+
+std::string taskDescription(const RunConfiguration& c, const std::optional<experiment::Experiment>& experiment) {
+  return fmt::format("{} {}{}", kTaskDescription, c.experimentName, experiment ? kObjectFollows + experiment::describe(*experiment) : "");
+}
+
+}  // namespace
+
+std::string experimentPath(const RunConfiguration& c) { return "code/experiments/" + runName(c) + "_experiment.json"; }
+
+std::string describeTask(const RunConfiguration& c) { return taskDescription(c, understood(c)); }
+
+std::string experimentNameIn(const std::string& description) {
+  const std::size_t at = description.find(kTaskDescription);
+  if (at == std::string::npos) return {};
+  const std::string rest = description.substr(at + std::string(kTaskDescription).size() + 1);
+  return rest.substr(0, rest.find(kObjectFollows));
+}
+
+std::string experimentJson(const RunConfiguration& c) {
+  const std::optional<experiment::Experiment> experiment = understood(c);
+  Json j = Json::object();
+  j["description"] = taskDescription(c, experiment);
+  const Json known = Json::parse(experiment ? experiment::toJson(*experiment) : c.experimentText, nullptr, false, true);
+  j["experiment"] = known.is_discarded() ? Json() : known;
+  j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);
+  Json& run = j["run"] = Json::object();
+  run["subject"] = c.subject, run["session"] = c.session, run["run"] = c.run, run["block"] = c.block, run["practice"] = c.practice;
+  run["condition"] = orNull(c.condition);
+  run["trials"] = c.trials.size(), run["pause_s"] = c.pauseSeconds, run["seed"] = c.seed;
+  run["device"] = orNull(c.device), run["device_name"] = orNull(c.deviceName), run["device_version"] = orNull(c.deviceVersion);
+  run["device_max_force_n"] = c.deviceMaxForce, run["virtual_hand"] = c.virtualHand;
+  run["method"] = orNull(c.method), run["method_reason"] = orNull(c.methodReason);
+  run["sampling_hz"] = c.samplingHz, run["clock"] = c.clock;
+  run["software_version"] = orNull(c.softwareVersion), run["build"] = orNull(c.buildDescription);
+  run["started_utc"] = orNull(c.startedUtc), run["notes"] = orNull(c.notes);
+  return j.dump(2) + "\n";
+}
+
+experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin) {
+  try {
+    const Json j = Json::parse(text);
+    return experiment::openExperimentText(j.at("experiment").dump(2), origin,
+                                          j.at("definition").is_null() ? "" : j.at("definition").dump(2));
+  } catch (const nlohmann::json::exception&) {
+    throw FaultError(Fault{
+        .what = "is no experiment of a dataset", .allowed = "what reach export writes into code/experiments", .place = FilePlace{origin}});
+  }
+}
+
+}  // namespace reachlab::record

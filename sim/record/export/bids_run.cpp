@@ -1,0 +1,227 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/table_text.h"
+#include "base/ticks.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/export/run_tables.h"
+#include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/append_file.h"
+#include "sim/record/log/trial_measures.h"
+
+namespace reachlab::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string orUnknown(const std::string& text) { return text.empty() ? "n/a" : text; }
+
+// The dataset's clock is the tick; rows lie a sampling period apart wherever nothing was dropped.
+struct RowSpan {
+  std::uint64_t first = 0, last = 0;  // ticks
+  std::size_t rows = 0;
+  double seconds() const { return secondsBetween(first, last); }
+  double frequency(double nominal) const { return seconds() > 0 ? static_cast<double>(rows - 1) / seconds() : nominal; }
+};
+
+RowSpan spanOf(const RunLog& run) {
+  RowSpan span;
+  run.eachBlock([&](const SampleRows& block) {
+    if (block.size() == 0) return;
+    if (span.rows == 0) span.first = block.ticks.front();
+    span.last = block.ticks.back();
+    span.rows += block.size();
+  });
+  return span;
+}
+
+bool isSpatial(const Channel& channel) { return channel.component != "n/a"; }
+
+std::string systemName(int hand) { return hand == 1 ? "haptic" : fmt::format("haptic{}", hand); }
+
+std::vector<Channel> channelsOf(const ChannelTable& table, int hand) {
+  std::vector<Channel> channels;
+  for (const std::size_t column : columnsOf(table, hand)) channels.push_back(table.channels[column]);
+  return channels;
+}
+
+Json described(const std::string& description, const std::string& units = "") {
+  Json entry{{"Description", description}};
+  if (!units.empty()) entry["Units"] = units;
+  return entry;
+}
+
+}  // namespace
+
+// No header: the columns are those of channels.tsv.
+void motionTsv(const RunLog& run, const TakePiece& take, int hand) {
+  writeRows(run, columnsOf(run.configuration().table, hand), TableText('\t', "n/a"), take);
+}
+
+// Every system has its time; a further hand's columns begin with its name.
+std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand) {
+  const auto whose = [&](const Channel& channel) {
+    for (int other = 2; other <= table.hands; ++other)
+      if (channel.name.starts_with(fmt::format("hand{}_", other)) || channel.name.starts_with(fmt::format("device{}_", other)))
+        return other;
+    return 1;
+  };
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (table.channels[i].type == "LATENCY" || whose(table.channels[i]) == hand) columns.push_back(i);
+  return columns;
+}
+
+std::string motionJson(const RunLog& run, int hand) {
+  const RunConfiguration& c = run.configuration();
+  const RowSpan span = spanOf(run);
+  const std::vector<Channel> channels = channelsOf(c.table, hand);
+  const auto count = [&](const std::string& type) {
+    return std::count_if(channels.begin(), channels.end(), [&](const Channel& channel) { return channel.type == type; });
+  };
+  std::set<std::string> points;
+  for (const Channel& channel : channels)
+    if (channel.trackedPoint != "n/a") points.insert(channel.trackedPoint);
+  Json j = Json::object();
+  j["TaskName"] = c.task;
+  j["TaskDescription"] = describeTask(c);
+  j["Instructions"] = "Move the object to the target in the prescribed time and bring it to rest there";
+  j["SamplingFrequency"] = c.samplingHz;
+  j["SamplingFrequencyEffective"] = span.frequency(c.samplingHz);
+  j["RecordingDuration"] = span.seconds();
+  j["TrackingSystemName"] = systemName(hand);
+  j["Manufacturer"] = "n/a";
+  j["ManufacturersModelName"] = orUnknown(hand == 1 ? c.deviceName : c.otherHands.at(static_cast<std::size_t>(hand - 2)).name);
+  j["DeviceSerialNumber"] = "n/a";
+  j["SoftwareVersions"] = orUnknown(c.softwareVersion);
+  j["InstitutionName"] = "n/a";
+  j["InstitutionAddress"] = "n/a";
+  j["InstitutionalDepartmentName"] = "n/a";
+  j["MotionChannelCount"] = channels.size();
+  for (const char* type : {"POS", "VEL", "ACCEL", "ANGACCEL", "GYRO", "JNTANG", "MAGN", "ORNT", "LATENCY", "MISC"})
+    j[std::string(type) + "ChannelCount"] = count(type);
+  j["TrackedPointsCount"] = points.size();
+  j["MissingValues"] = "n/a";
+  j["SubjectArtefactDescription"] = "n/a";
+  return j.dump(2) + "\n";
+}
+
+std::string channelsTsv(const RunConfiguration& c, int hand) {
+  TableText table('\t', "n/a");
+  table.row({"name", "component", "type", "tracked_point", "units", "placement", "reference_frame", "description"});
+  for (const Channel& channel : channelsOf(c.table, hand)) {
+    const std::string frame = isSpatial(channel) ? "world" : "n/a";
+    table.row({channel.name, channel.component, channel.type, channel.trackedPoint, channel.units, "n/a", frame, channel.description});
+  }
+  return table.text();
+}
+
+std::string channelsJson() {
+  Json world = Json::object();
+  world["Description"] = "Fixed frame of the scene, right-handed: x to the subject's right, y up, z towards the subject";
+  world["SpatialAxes"] = "RSP";
+  world["RotationOrder"] = "ZXY";
+  world["RotationRule"] = "right-hand";
+  Json j = Json::object();
+  j["reference_frame"] = {{"Description", "Reference frame of the channel"}, {"Levels", {{"world", world}}}};
+  return j.dump(2) + "\n";
+}
+
+void eventsTsv(const RunLog& run, const TakePiece& take) {
+  const RunConfiguration& c = run.configuration();
+  TableText table('\t', "n/a");
+  table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
+             "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
+             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s"});
+  // BIDS counts events from the first row of the motion file, which is not the run's first tick.
+  double begin = 0;
+  if (!run.trials().empty())
+    if (const SampleRows first = run.rows(0, run.trials().front().lastTick); first.size() > 0) begin = secondsOf(first.ticks.front());
+  for (const RecordedTrial& trial : run.trials()) {
+    const TrialTimes times = timesOf(trial);
+    const double onset = std::isfinite(times.onset) ? times.onset : times.start;
+    table.number(onset - begin).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
+    table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(c.condition);
+    table.cell(trial::nameOf(trial.result.outcome))
+        .cell(trial::nameOf(trial.result.reason))
+        .whole(trial.result.mass)
+        .number(trial.result.by);
+    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go - begin).number(secondsOf(trial.planned.foreperiodTicks));
+    table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
+    table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed - begin).number(trial.meanForce).whole(c.day);
+    table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed);
+    table.endRow();
+    take(table.takeText());
+  }
+  take(table.takeText());
+}
+
+std::string eventsJson(const RunConfiguration& c) {
+  Json j = Json::object();
+  j["onset"] = described("Since the first sample of the recording. " + clockStatement(c), "s");
+  j["trial_type"] = described("Kind of trial");
+  j["trial_type"]["Levels"] = {{"reach", "Rest-to-rest reach; onset is the start of the movement, duration ends with the trial"},
+                               {"catch", "Trial without a go signal: the hand should stay"}};
+  j["trial"] = described("Trial number within the block, from 1");
+  j["block"] = described("Block of the session's plan, from 1");
+  j["phase"] = described("Whether the block counts");
+  j["phase"]["Levels"] = {{"practice", "Familiarisation"}, {"recorded", "Counted in the analysis"}};
+  j["condition"] = described("Condition of the plan, else the experiment's name");
+  j["outcome"] = described("How the trial ended");
+  j["outcome"]["Levels"] = {
+      {"success", "Every mass within all tolerances"},
+      {"failure", "A tolerance was missed"},
+      {"aborted", "Stopped by the experimenter, or no movement"},
+      {"interrupted", "Cut off by a stop of the program, a lost device or a computer too busy to keep time; counts for nothing"}};
+  j["reason"] = described("Which tolerance was missed or what stopped the trial");
+  j["mass"] = described("Mass that missed the tolerance, from 1; 0: none");
+  j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short and time_long");
+  j["movement_time"] = described("From movement onset to the end of the trial", "s");
+  j["reaction_time"] = described("From the go signal to movement onset", "s");
+  j["go"] = described("Go signal, since the first sample of the recording", "s");
+  j["foreperiod"] = described("Planned time from arming to the go signal", "s");
+  j["peak_hand_speed"] = described("Largest estimated speed of the hand, every tick, unfiltered", "m/s");
+  j["hand_path"] = described("Length of the hand's path during the movement", "m");
+  j["peak_force"] = described("Largest coupling force", "N");
+  j["missed_ticks"] = described("Ticks of 1 ms that were skipped in the trial");
+  j["armed"] = described("When the hand was at the start and the trial could begin, since the first sample of the recording", "s");
+  j["mean_force"] = described("Mean coupling force over every tick of the movement", "N");
+  j["day"] = described("Day of the session's plan; 0: the plan gives none");
+  j["dropped_samples"] = described("Ticks of 1 ms that were simulated but not recorded, because the disk was too slow");
+  j["elapsed_s"] = described("From the go signal to the end of the trial by the computer's clock", "s");
+  j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
+  return j.dump(2) + "\n";
+}
+
+std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder) {
+  const RunConfiguration& c = run.configuration();
+  const std::string session = fmt::format("{}/sub-{}/ses-{}", folder, c.subject, c.session);
+  std::vector<std::string> written;
+  const auto writePieces = [&](const std::string& path, const auto& writer) {
+    AtomicFile file(path);
+    writer([&](std::string_view piece) { file.append(piece); });
+    file.commit();
+    written.push_back(path);
+  };
+  const auto write = [&](const std::string& path, const std::string& text) {
+    writePieces(path, [&](const TakePiece& take) { take(text); });
+  };
+  const auto baseOf = [&](int hand) { return session + "/motion/" + runName(c, fmt::format("tracksys-{}_", systemName(hand))); };
+  for (int hand = 1; hand <= c.table.hands; ++hand) {
+    const std::string system = baseOf(hand);
+    writePieces(system + "_motion.tsv", [&](const TakePiece& take) { motionTsv(run, take, hand); });
+    write(system + "_motion.json", motionJson(run, hand));
+    write(system + "_channels.tsv", channelsTsv(c, hand));
+    write(system + "_channels.json", channelsJson());
+  }
+  const std::string base = baseOf(1);
+  writePieces(base + "_events.tsv", [&](const TakePiece& take) { eventsTsv(run, take); });
+  write(base + "_events.json", eventsJson(c));
+  write(folder + "/" + experimentPath(c), experimentJson(c));
+  return written;
+}
+
+}  // namespace reachlab::record

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/record/log/run_log.h"
+
+namespace reachlab::record {
+
+/// A way to write recorded runs for other programs. A new format is a file with its `write`, and its line in exporters.cpp; the command line's
+/// help and choice, and the end of every recorded run, follow from the list.
+struct Exporter {
+  std::string_view name;         // as asked for: "bids"
+  std::string_view description;  // a few words for lists and help
+  std::string_view folder;       // where in the dataset, unless another is asked for; empty: the dataset itself
+  bool withEachRun = false;      // written at the end of every recorded run, so that the dataset is up to date
+  /// Adds these runs to what is in the folder; returns the files written. Throws ResourceError. Other programs may not write at once.
+  std::vector<std::string> (*write)(const std::vector<RunLog>& runs, const std::string& folder) = nullptr;
+};
+
+const std::vector<Exporter>& exporters();
+/// Where it writes to in a dataset unless told otherwise.
+std::string folderIn(const std::string& dataset, const Exporter& exporter);
+/// Writes these runs there; a folder of derivatives then also says what it is. Throws ResourceError.
+std::vector<std::string> writeInto(const std::string& dataset, const Exporter& exporter, const std::vector<RunLog>& runs);
+/// Null when there is none of that name.
+const Exporter* findExporter(std::string_view name);
+
+}  // namespace reachlab::record

@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+
+#include "sim/record/export/column_table.h"
+#include "sim/record/log/run_log.h"
+
+/// A run as tables of columns, for formats that are written so.
+namespace reachlab::record {
+
+/// One row a trial, the columns of trials.csv.
+ColumnTable trialTable(const RunLog& run);
+/// One row an event: time_s since the run began, event, trial (0: none), value and text as docs/recording.md lists them.
+ColumnTable eventTable(const RunLog& run);
+
+/// Gives every channel of the samples, in the table's order, as one column over the whole run. Few at a time are in memory: a run that is
+/// longer than `mostNumbers` is read several times.
+void eachSampleColumn(const RunLog& run, const std::function<void(std::size_t channel, std::span<const double> values)>& take,
+                      std::size_t mostNumbers = std::size_t{1} << 22);
+
+/// Which clock the times of this run are of, in one sentence: every file that has times carries it.
+std::string clockStatement(const RunConfiguration& configuration);
+
+}  // namespace reachlab::record

@@ -1,0 +1,99 @@
+#include "sim/record/export/tidy_csv.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "base/table_text.h"
+#include "sim/record/export/column_dictionary.h"
+#include "sim/record/export/trial_row.h"
+#include "sim/record/log/append_file.h"
+
+namespace reachlab::record {
+
+experiment::Task taskOf(const RunConfiguration& configuration) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  experiment::Task unknown;
+  unknown.duration = kUnknown;
+  unknown.tolerance = {kUnknown, kUnknown, kUnknown};
+  try {
+    return recordedValues(configuration).task.value_or(unknown);
+  } catch (const std::runtime_error&) {
+    return unknown;
+  }
+}
+
+std::string unitOf(trial::Reason reason) {
+  switch (reason) {
+    case trial::Reason::Position: return "m";
+    case trial::Reason::Velocity: return "m/s";
+    case trial::Reason::TimeShort:
+    case trial::Reason::TimeLong: return "s";
+    default: return "";
+  }
+}
+
+std::string runName(const RunConfiguration& c, const std::string& between) {
+  return fmt::format("sub-{}_ses-{}_task-{}_{}run-{:02}", c.subject, c.session, c.task, between, c.run);
+}
+
+void writeRows(const RunLog& run, TableText table, const TakePiece& take) {
+  std::vector<std::size_t> all(run.configuration().table.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  writeRows(run, all, std::move(table), take);
+}
+
+void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take) {
+  run.eachBlock([&](const SampleRows& block) {
+    for (std::size_t row = 0; row < block.size(); ++row) {
+      for (const std::size_t column : columns) table.number(block.at(row, column));
+      table.endRow();
+    }
+    take(table.takeText());
+  });
+}
+
+void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take) {
+  TableText table(',', "");
+  table.row(kTrialColumns);
+  for (const RunLog& run : runs) {
+    const experiment::Task task = taskOf(run.configuration());
+    for (const RecordedTrial& trial : run.trials()) {
+      addTrial(table, run.configuration(), task, trial);
+      take(table.takeText());
+    }
+  }
+  take(table.takeText());
+}
+
+void samplesCsv(const RunLog& run, const TakePiece& take) {
+  TableText table(',', "");
+  for (const Channel& channel : run.configuration().table.channels) table.cell(channel.column);
+  table.endRow();
+  take(table.takeText());
+  writeRows(run, std::move(table), take);
+}
+
+std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder) {
+  std::vector<std::string> written;
+  // The table, and beside it its dictionary, which asks for the table's first line.
+  const auto write = [&](const std::string& name, const auto& writer, const auto& dictionaryOf) {
+    std::string header;
+    AtomicFile table(written.emplace_back(fmt::format("{}/{}", folder, name)));
+    writer([&](std::string_view piece) {
+      if (header.empty()) header = piece.substr(0, piece.find('\n'));
+      table.append(piece);
+    });
+    table.commit();
+    writeFileAtomically(written.emplace_back(fmt::format("{}/{}", folder, dictionaryPathOf(name))), dictionaryOf(header));
+  };
+  for (const RunLog& run : runs)
+    write(
+        runName(run.configuration()) + "_samples.csv", [&](const TakePiece& take) { samplesCsv(run, take); },
+        [&](const std::string& header) { return samplesDictionary(run.configuration(), header); });
+  write(
+      "trials.csv", [&](const TakePiece& take) { trialsCsv(runs, take); }, trialsDictionary);
+  return written;
+}
+
+}  // namespace reachlab::record

@@ -1,0 +1,291 @@
+#include "sim/record/log/run_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "base/fault.h"
+#include "base/ticks.h"
+#include "sim/record/log/records.h"
+
+namespace reachlab::record {
+namespace {
+
+constexpr std::uint64_t kNoTick = std::numeric_limits<std::uint64_t>::max();
+
+std::string_view textOf(const RecordView& record) { return {reinterpret_cast<const char*>(record.payload.data()), record.payload.size()}; }
+
+// The trial that was under way when the log broke off, put together from what was logged of it.
+struct OpenTrial {
+  std::vector<TrialSetup> setups;
+  RecordedTrial trial;
+  bool underWay = false;
+
+  void add(const RecordedEvent& event) {
+    if (event.kind == EventKind::TrialStart) begin(event);
+    if (!underWay || event.trial != trial.trial) return;
+    if (event.kind == EventKind::Armed) trial.armedTick = event.tick;
+    if (event.kind == EventKind::Go) trial.goTick = event.tick;
+    if (event.kind == EventKind::Onset) trial.result.onsetTick = event.tick;
+  }
+  void begin(const RecordedEvent& event) {
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    trial = {};
+    trial.trial = event.trial;
+    trial.planned.index = static_cast<int>(event.value);
+    for (const TrialSetup& setup : setups)
+      if (setup.trial == event.trial) trial.planned = setup.planned;
+    trial.startTick = trial.lastTick = event.tick;
+    trial.peakHandSpeed = trial.handPathLength = trial.peakForce = trial.meanForce = unknown;
+    trial.result.outcome = trial::Outcome::Interrupted;
+    trial.result.reason = trial::Reason::Program;
+    trial.complete = false;
+    underWay = true;
+  }
+  RecordedTrial brokenOff(std::uint64_t lastTick) const {
+    RecordedTrial t = trial;
+    t.lastTick = std::max(t.lastTick, lastTick);
+    t.result.endTick = t.lastTick;
+    if (t.result.onsetTick > 0) t.result.movementTime = secondsBetween(t.result.onsetTick, t.lastTick);
+    return t;
+  }
+};
+
+// A record whose place is known from elsewhere (the closing record, a trial's link): false unless it is good and of that type.
+bool readAt(LogReader& reader, std::uint64_t offset, std::uint32_t sequence, RecordType type, RecordView& record) {
+  if (offset < kLogHeaderBytes || offset >= reader.fileSize()) return false;
+  reader.seek(offset, sequence);
+  return reader.next(record) && record.type == type;
+}
+
+std::size_t trialPayloadBytes(std::uint32_t schemaVersion) {
+  constexpr std::size_t kSinceVersion2 = sizeof(double) + sizeof(std::uint64_t);
+  ByteWriter bytes;
+  encode(RecordedTrial{}, TrialLink{}, bytes);
+  return bytes.size() - (schemaVersion < 2 ? kSinceVersion2 : 0);
+}
+
+// Looks backwards from the end of a log that was not closed for its last trial record.
+bool findLastTrial(LogReader& reader, TrialLink& link) {
+  const std::size_t length = trialPayloadBytes(reader.schemaVersion());
+  const std::uint64_t whole = kRecordFrameBytes + length;
+  RecordView record;
+  for (std::uint64_t end = reader.fileSize(); end >= kLogHeaderBytes + whole; --end) {
+    const std::uint64_t offset = end - whole;
+    if (!reader.looksLike(offset, RecordType::Trial, static_cast<std::uint32_t>(length))) continue;
+    link = {offset, reader.sequenceAt(offset)};
+    if (readAt(reader, link.offset, link.sequence, RecordType::Trial, record)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+RunLog RunLog::open(const std::string& path, LogCheck check) {
+  LogReader reader(path);
+  try {
+    return open(path, reader, check);
+  } catch (const FaultError& error) {
+    throw FaultError(inFile(path, error.faults));
+  }
+}
+
+RunLog RunLog::open(const std::string& path, LogReader& reader, LogCheck check) {
+  RecordView record;
+  if (!reader.next(record) || record.type != RecordType::Configuration)
+    throw FaultError(Fault{.what = "the configuration at the start of the log is damaged, so nothing in it can be read"});
+  RunLog log;
+  log.path_ = path;
+  log.fileBytes_ = reader.fileSize();
+  log.configuration_ = configurationFromJson(textOf(record), path);
+  const std::uint64_t first = reader.goodEnd();
+  if (check == LogCheck::Trials && log.readChain(reader)) return log;
+  log.trials_.clear();
+  reader.seek(first, 1);
+  log.scan(reader);
+  return log;
+}
+
+// From the last trial record back to the first. False when a link is broken: then only reading everything tells what is good.
+bool RunLog::readChain(LogReader& reader) {
+  const std::uint64_t endOffset = fileBytes_ - kRecordFrameBytes - kEndPayloadBytes;
+  TrialLink link;
+  RecordView record;
+  closed_ = fileBytes_ > kEndPayloadBytes + kRecordFrameBytes + kLogHeaderBytes &&
+            reader.looksLike(endOffset, RecordType::End, kEndPayloadBytes) &&
+            readAt(reader, endOffset, reader.sequenceAt(endOffset), RecordType::End, record);
+  if (closed_) link = decodeEnd(record.payload);
+  else if (!findLastTrial(reader, link)) return false;
+  const TrialLink last = link;
+  while (link.offset != 0) {
+    if (!readAt(reader, link.offset, link.sequence, RecordType::Trial, record)) return false;
+    const std::uint64_t at = link.offset;
+    trials_.push_back(decodeTrial(record.payload, link));
+    if (link.offset >= at) return false;
+  }
+  std::reverse(trials_.begin(), trials_.end());
+  healthy_ = closed_;
+  goodBytes_ = fileBytes_;
+  if (closed_) return true;
+  reader.seek(last.offset, last.sequence);  // and the tail behind it
+  std::vector<RecordedTrial> before = std::move(trials_);
+  trials_.clear();
+  scan(reader);
+  trials_.erase(trials_.begin());
+  trials_.insert(trials_.begin(), before.begin(), before.end());
+  return true;
+}
+
+void RunLog::scan(LogReader& reader) {
+  OpenTrial open;
+  RecordView record;
+  TrialLink previous;
+  std::vector<RecordedTick> ticks;
+  TrialLink start;
+  while (reader.next(record)) {
+    if (record.type == RecordType::TrialSetup) {
+      open.setups.push_back(decodeSetup(record.payload));
+      start = {reader.goodEnd(), reader.nextSequence()};
+    }
+    if (record.type == RecordType::Event) open.add(decodeEvent(record.payload));
+    if (record.type == RecordType::Ticks) {
+      ticks.clear();
+      decodeTicks(record.payload, ticks);
+    }
+    if (record.type == RecordType::Trial) {
+      trials_.push_back(decodeTrial(record.payload, previous));
+      open = {};
+    }
+    closed_ = record.type == RecordType::End;
+  }
+  goodBytes_ = reader.goodEnd();
+  healthy_ = closed_ && goodBytes_ == fileBytes_;
+  if (open.underWay) {
+    trials_.push_back(open.brokenOff(ticks.empty() ? 0 : ticks.back().tick));
+    trials_.back().offset = start.offset;
+    trials_.back().sequence = start.sequence;
+  }
+}
+
+template <typename Visit>
+void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
+  LogReader reader(path_);
+  const auto after = std::upper_bound(trials_.begin(), trials_.end(), firstTick,
+                                      [](std::uint64_t tick, const RecordedTrial& trial) { return tick < trial.startTick; });
+  // Whoever asks from the first tick on asks for what was before it too: setups, notes.
+  if (firstTick > 0 && after != trials_.begin() && std::prev(after)->offset != 0)
+    reader.seek(std::prev(after)->offset, std::prev(after)->sequence);
+  RecordView record;
+  while (reader.goodEnd() < goodBytes_) {
+    if (!reader.next(record))
+      throw FaultError(
+          Fault{{}, fmt::format("damaged after byte {}; mend it with: reach recover {}", reader.goodEnd(), path_), {}, FilePlace{path_}});
+    try {
+      if (!visit(record)) return;
+    } catch (const FaultError& error) {
+      throw FaultError(inFile(path_, error.faults));
+    }
+  }
+}
+
+SampleRows RunLog::rows(std::uint64_t firstTick, std::uint64_t lastTick) const {
+  SampleRows rows;
+  rows.columns = configuration_.table.size();
+  visit(firstTick, [&](const RecordView& record) {
+    if (record.type != RecordType::Samples) return true;
+    decodeSamples(record.payload, firstTick, lastTick, rows);
+    return firstTickOf(record.payload) <= lastTick;
+  });
+  return rows;
+}
+
+SampleRows RunLog::allRows() const { return rows(0, kNoTick); }
+
+void RunLog::eachBlock(const std::function<void(const SampleRows& block)>& take) const {
+  SampleRows block;
+  block.columns = configuration_.table.size();
+  visit(0, [&](const RecordView& record) {
+    if (record.type != RecordType::Samples) return true;
+    block.ticks.clear();
+    block.values.clear();
+    decodeSamples(record.payload, 0, kNoTick, block);
+    take(block);
+    return true;
+  });
+}
+
+std::vector<RecordedTick> RunLog::ticks() const {
+  std::vector<RecordedTick> ticks;
+  visit(0, [&](const RecordView& record) {
+    if (record.type == RecordType::Ticks) decodeTicks(record.payload, ticks);
+    return true;
+  });
+  return ticks;
+}
+
+std::vector<std::vector<haptics::DeviceSample>> RunLog::otherTicks() const {
+  std::vector<std::vector<haptics::DeviceSample>> hands(configuration_.otherHands.size());
+  if (hands.empty()) return hands;
+  visit(0, [&](const RecordView& record) {
+    if (record.type != RecordType::HandTicks) return true;
+    const HandTicks hand = decodeHandTicks(record.payload);
+    const auto index = static_cast<std::size_t>(hand.hand - 2);
+    if (index >= hands.size()) throw FaultError(Fault{.what = fmt::format("hand {} in a log of {} hands", hand.hand, hands.size() + 1)});
+    hands[index].insert(hands[index].end(), hand.samples.begin(), hand.samples.end());
+    return true;
+  });
+  return hands;
+}
+
+std::vector<RecordedEvent> RunLog::events() const {
+  std::vector<RecordedEvent> events;
+  visit(0, [&](const RecordView& record) {
+    if (record.type == RecordType::Event) events.push_back(decodeEvent(record.payload));
+    return true;
+  });
+  return events;
+}
+
+std::vector<TrialSetup> RunLog::setups() const {
+  std::vector<TrialSetup> setups;
+  visit(0, [&](const RecordView& record) {
+    if (record.type == RecordType::TrialSetup) setups.push_back(decodeSetup(record.payload));
+    return true;
+  });
+  return setups;
+}
+
+std::vector<std::string> findLogs(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view kEnding = "_log.reach";
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return {path};
+  if (!fs::is_directory(path, error)) throw FaultError(Fault{{}, "no such log or folder", {}, FilePlace{path}});
+  // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
+  // in their names.
+  std::string prefix;
+  fs::path root = fs::absolute(path).lexically_normal();
+  if (!root.has_filename()) root = root.parent_path();
+  const std::string name = root.filename().string();
+  const std::string parent = root.parent_path().filename().string();
+  if (name.starts_with("ses-") && parent.starts_with("sub-")) {
+    prefix = parent + "_" + name + "_";
+    root = root.parent_path().parent_path();
+  } else if (name.starts_with("sub-")) {
+    prefix = name + "_";
+    root = root.parent_path();
+  }
+  if (fs::is_directory(root / "sourcedata", error)) root /= "sourcedata";
+  std::vector<std::string> logs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root, error)) {
+    const std::string file = entry.path().filename().string();
+    if (file.ends_with(kEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
+  }
+  if (logs.empty()) throw FaultError(Fault{{}, "no logs (…_log.reach) in this folder", {}, FilePlace{path}});
+  std::sort(logs.begin(), logs.end());
+  return logs;
+}
+
+}  // namespace reachlab::record

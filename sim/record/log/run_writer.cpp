@@ -1,0 +1,143 @@
+#include "sim/record/log/run_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/system/os.h"
+
+namespace reachlab::record {
+namespace {
+
+constexpr auto kFlushEvery = std::chrono::milliseconds(60);  // leaves room for a late recorder within the 100 ms that are promised
+constexpr std::uint32_t kTicksPerBlock = 1000;
+constexpr std::uint32_t kTicksPerClockLook = 16;
+constexpr std::uint64_t kBytesPerDiskLook = 1 << 20;
+
+std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+
+}  // namespace
+
+RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve, CutBy cutBy)
+    : cutBy_(cutBy), diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()),
+      tracker_(configuration.firstTrial) {
+  for (int hand = 2; hand <= configuration.table.hands; ++hand) otherTicks_.emplace_back(hand);
+  log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
+  log_.sync();
+  lookedAt_ = log_.size();
+  keepReserve();
+}
+
+std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve) {
+  const std::uint64_t reserve = std::min(diskReserve, disk.size / 20);
+  if (disk.size == 0 || disk.free >= reserve) return {};
+  return fmt::format(
+      "{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free; what was recorded is safe: free space, "
+      "keep less free, or choose another folder",
+      path, static_cast<double>(disk.free) * 1e-6, static_cast<double>(reserve) * 1e-6);
+}
+
+// What a full disk would take with it is more than this recording.
+void RunWriter::keepReserve() {
+  if (const std::string fault = reserveFault(log_.path(), os::diskSpace(log_.path()), diskReserve_); !fault.empty())
+    throw ResourceError(fault);
+}
+
+void RunWriter::announce(const TrialSetup& setup) {
+  flush();
+  ByteWriter payload;
+  encode(setup, payload);
+  tracker_.announce(setup);
+  log_.append(RecordType::TrialSetup, payload.bytes());
+}
+
+bool RunWriter::add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row) {
+  lastTick_ = tick.raw.tick;
+  // A trial begins a block of its own, so that it can be read without the one before.
+  const auto step = tracker_.add(tick.raw, tick.facts, events_);
+  if (step.started) {
+    std::vector<RecordedEvent> own;
+    own.swap(events_);
+    flush();
+    events_.swap(own);
+    tracker_.trial().offset = log_.size();
+    tracker_.trial().sequence = log_.nextSequence();
+  }
+  ticks_.add(tick.raw);
+  for (std::size_t i = 0; i < otherTicks_.size() && i < others.size(); ++i) otherTicks_[i].add(others[i]);
+  if (row != nullptr) samples_.add(tick.raw.tick, row);
+  if (step.finished) {
+    flush();
+    writeTrial(tracker_.trial());
+    return true;
+  }
+  if (ticks_.count() >= kTicksPerBlock || ticks_.count() % kTicksPerClockLook == 0) flushIfDue();
+  return false;
+}
+
+void RunWriter::flushIfDue() {
+  const bool due = cutBy_ == CutBy::Clock && std::chrono::steady_clock::now() - flushed_ >= kFlushEvery;
+  if (due || ticks_.count() >= kTicksPerBlock) flush();
+}
+
+void RunWriter::flush() {
+  if (log_.size() - lookedAt_ > kBytesPerDiskLook) {
+    lookedAt_ = log_.size();
+    keepReserve();
+  }
+  if (!ticks_.empty()) {
+    log_.append(RecordType::Ticks, ticks_.payload());
+    ticks_.clear();
+  }
+  for (HandBlock& block : otherTicks_) {
+    if (block.empty()) continue;
+    log_.append(RecordType::HandTicks, block.payload());
+    block.clear();
+  }
+  if (!samples_.empty()) {
+    log_.append(RecordType::Samples, samples_.payload());
+    samples_.clear();
+  }
+  writeEvents();
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+void RunWriter::writeEvents() {
+  for (const RecordedEvent& event : events_) {
+    ByteWriter payload;
+    encode(event, payload);
+    log_.append(RecordType::Event, payload.bytes());
+  }
+  events_.clear();
+}
+
+void RunWriter::writeTrial(RecordedTrial trial) {
+  ByteWriter payload;
+  encode(trial, lastLink_, payload);
+  const std::uint32_t sequence = log_.nextSequence();
+  lastLink_ = {log_.append(RecordType::Trial, payload.bytes()), sequence};
+  log_.sync();
+  lastTrial_ = trial;
+}
+
+void RunWriter::note(const std::string& text) {
+  events_.push_back({lastTick_, EventKind::Note, tracker_.underWay() ? tracker_.trial().trial : 0, 0, text});
+  flush();
+}
+
+void RunWriter::add(const std::vector<RecordedEvent>& events) {
+  events_.insert(events_.end(), events.begin(), events.end());
+  flush();
+}
+
+void RunWriter::close() {
+  flush();
+  if (tracker_.underWay()) writeTrial(tracker_.brokenOff());
+  ByteWriter payload;
+  encodeEnd(lastLink_, payload);
+  log_.append(RecordType::End, payload.bytes());
+  log_.sync();
+}
+
+}  // namespace reachlab::record

@@ -1,0 +1,59 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "base/system/os.h"
+#include "sim/record/log/records.h"
+#include "sim/record/log/tick_ring.h"
+
+namespace reachlab::record {
+
+/// Why nothing more is written beside `path`: its disk has less than `diskReserve` [bytes] left, or than a twentieth of it where that is
+/// less. Empty while there is enough, or where nothing is known of the disk.
+std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve);
+
+/// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
+class RunWriter {
+ public:
+  /// What the blocks of the log are cut by: the wall clock too, so that little is lost when the program is killed, or ticks alone, so that
+  /// the same run gives the same bytes.
+  enum class CutBy { Clock, Ticks };
+  /// `diskReserve`: see RecorderOptions.
+  RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve = 0, CutBy cutBy = CutBy::Clock);
+
+  void announce(const TrialSetup& setup);
+  /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
+  bool add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row);
+  void note(const std::string& text);
+  /// A record of somebody else's, as it is.
+  void append(RecordType type, std::span<const std::uint8_t> payload) { log_.append(type, payload); }
+  void add(const std::vector<RecordedEvent>& events);
+  /// Hands what has gathered to the kernel; done by `add` when 1000 ticks or, by the clock, 100 ms have gathered.
+  void flush();
+  void flushIfDue();
+  void close();
+
+  const RecordedTrial& lastTrial() const { return lastTrial_; }
+
+ private:
+  void writeEvents();
+  void keepReserve();
+  void writeTrial(RecordedTrial trial);
+
+  CutBy cutBy_;
+  std::uint64_t diskReserve_;
+  std::uint64_t lookedAt_ = 0;  // size of the log when the disk was last looked at
+  LogWriter log_;
+  TickBlock ticks_;
+  std::vector<HandBlock> otherTicks_;  // of the second hand on, tick by tick with `ticks_`
+  SampleBlock samples_;
+  std::vector<RecordedEvent> events_;
+  TrialTracker tracker_;
+  RecordedTrial lastTrial_;
+  TrialLink lastLink_;
+  std::uint64_t lastTick_ = 0;
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace reachlab::record

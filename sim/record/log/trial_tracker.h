@@ -1,0 +1,67 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "sim/record/log/run_log.h"
+
+namespace reachlab::record {
+
+/// What the recording needs of a tick besides its raw input and its row.
+struct TickFacts {
+  trial::Phase phase = trial::Phase::Idle;
+  dynamics::StepStatus status = dynamics::StepStatus::Ok;
+  std::int32_t trial = 0;
+  bool clamped = false;  // the device gets less force than the object gives
+  haptics::DeviceState deviceState = haptics::DeviceState::Off;
+  std::uint8_t interventions = 0;  // bits of haptics::intervention
+  dynamics::HandSample hand;
+  Vec3 couplingForce;         // [N]
+  trial::TrialResult result;  // in phase Done
+};
+TickFacts factsOf(const haptics::TickState& state) noexcept;
+
+/// Follows a run tick by tick and tells what happened and how each trial went. A function of the ticks alone, so that the
+/// recorder and a reader of the log come to the same trial. One thread.
+class TrialTracker {
+ public:
+  /// Trials are numbered from `firstTrial`; the engine counts them from 1.
+  explicit TrialTracker(int firstTrial = 1) : firstTrial_(firstTrial) {}
+  /// What the next trials stand for in the planned order.
+  void announce(const TrialSetup& setup) { setups_.push_back(setup); }
+
+  struct Step {
+    bool started = false;   // this tick is the first of a trial
+    bool finished = false;  // `trial()` is complete
+  };
+  /// Appends to `events` what happened at this tick.
+  Step add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
+
+  /// The trial under way or just finished; trial number 0 before the first.
+  const RecordedTrial& trial() const { return trial_; }
+  RecordedTrial& trial() { return trial_; }
+  bool underWay() const { return underWay_; }
+  /// The trial under way as it is when the record breaks off here: interrupted by the program.
+  RecordedTrial brokenOff() const;
+
+ private:
+  void begin(const RecordedTick& tick, std::int32_t number);
+  void measure(const TickFacts& facts);
+  void tellGuards(const RecordedTick& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events);
+
+  int firstTrial_;
+  std::vector<TrialSetup> setups_;
+  RecordedTrial trial_;
+  bool underWay_ = false;
+  trial::Phase phase_ = trial::Phase::Idle;
+  bool clamped_ = false, valid_ = true;
+  haptics::DeviceState deviceState_ = haptics::DeviceState::Off;
+  std::array<std::uint64_t, haptics::intervention::kCount> lastActive_{};  // tick at which each bit was last set; 0: it is not under way
+  bool intervened_ = false;                                                // one of them is under way
+  dynamics::StepStatus status_ = dynamics::StepStatus::Ok;
+  Vec3 lastPosition_;
+  std::int64_t goNs_ = 0;  // clock at the go signal
+  double forceSum_ = 0;
+  std::uint64_t moving_ = 0;  // ticks of the movement so far
+};
+
+}  // namespace reachlab::record

@@ -1,0 +1,297 @@
+#include "analysis/dataset.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "analysis/report/wording.h"
+#include "analysis/report/write_analysis.h"
+#include "analysis/tables.h"
+#include "analysis/trials/experiment_difference.h"
+#include "base/fault.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/export/column_dictionary.h"
+#include "sim/record/log/append_file.h"
+#include "test_paths.h"
+#include "tests/analysis/recorded.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr const char* kQuiet = "simulated:noise=0";
+
+StudyOptions quick() {
+  StudyOptions options;
+  options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle};
+  return options;
+}
+
+// What is left of a dataset when nobody has kept its logs.
+void writeDatasetWithoutLogs(const std::string& folder, const std::string& log) {
+  std::vector<record::RunLog> runs;
+  runs.push_back(record::RunLog::open(log));
+  record::writeBids(runs, folder);
+  std::filesystem::remove_all(folder + "/sourcedata");
+}
+
+std::string textOfNumber(double value) { return nlohmann::ordered_json(value).dump(); }
+
+TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 4});
+  recordRun(folder.path(), {.experiment = "chain-moderate", .session = "02", .trials = 2, .practice = true});
+  recordRun(folder.path(), {.experiment = "chain-fast", .device = kQuiet, .subject = "02", .trials = 1});
+  const Dataset dataset = openDataset(folder.path());
+  ASSERT_EQ(dataset.runs.size(), 3u);
+  ASSERT_EQ(dataset.input.trials.size(), 7u);
+  EXPECT_EQ(dataset.input.conditions.size(), 2u);
+  EXPECT_TRUE(dataset.notes.empty());
+  std::size_t i = 0;
+  for (const char* file :
+       {"sub-01_ses-01_task-chainmoderate_run-01", "sub-01_ses-02_task-chainmoderate_run-01", "sub-02_ses-01_task-chainfast_run-01"}) {
+    const record::RunLog log = record::RunLog::open(folder.path() + "/sourcedata/" + file + "_log.reach");
+    for (const record::RecordedTrial& trial : log.trials()) {
+      EXPECT_EQ(dataset.input.trials[i].result.outcome, trial.result.outcome);
+      EXPECT_EQ(dataset.input.trials[i].key.trial, trial.trial);
+      EXPECT_NEAR(dataset.input.trials[i].taskEnd - dataset.input.trials[i].taskOnset, trial.result.movementTime, 1.5e-3);
+      ++i;
+    }
+  }
+  EXPECT_TRUE(dataset.input.trials[4].practice);
+  StudyOptions options = quick();
+  options.includePractice = true;
+  const StudyResult study = analyzeStudy(dataset.input, options);  // where the plan gave none, sessions are days
+  EXPECT_EQ(study.trials[0].key.day, 1);
+  for (const StudyTrial& trial : study.trials) EXPECT_EQ(trial.key.day, trial.key.session == "02" ? 2 : 1);
+}
+
+TEST(Dataset, ExperimentsOfOneNameAreToldApartByWhatDiffers) {
+  const TemporaryFolder folder;
+  experiment::Experiment e = experiment::readExperiment("dingwell");
+  e.name = "mine";
+  const auto record = [&](const char* session) {
+    const std::string file = folder.path() + "/mine.json";
+    std::ofstream(file) << experiment::toJson(e);
+    recordRun(folder.path() + "/data", {.experiment = file, .device = kQuiet, .session = session, .trials = 1});
+  };
+  record("01");
+  e.task->duration += 0.25;
+  record("02");
+  record("03");
+  e.object.masses = {2.5};
+  record("04");
+  const Dataset dataset = openDataset(folder.path() + "/data");
+  ASSERT_EQ(dataset.input.conditions.size(), 3u);
+  EXPECT_EQ(dataset.input.conditions[0].name, "mine");
+  const std::string longer = "duration " + textOfNumber(e.task->duration) + " s";
+  EXPECT_EQ(dataset.input.conditions[1].name, "mine (" + longer + ")");
+  EXPECT_EQ(dataset.input.conditions[2].name, "mine (masses 2.5 kg, " + longer + ")");
+  EXPECT_EQ(dataset.input.conditionOf, (std::vector<std::size_t>{0, 1, 1, 2}));
+  ASSERT_EQ(dataset.notes.size(), 2u);
+  EXPECT_NE(dataset.notes[0].find(longer), std::string::npos) << dataset.notes[0];
+}
+
+TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
+  const experiment::Experiment e = experiment::readExperiment("chain-moderate");
+  const experiment::Experiment written =
+      experiment::parseExperiment(experiment::toJson(e), "chain-moderate", experiment::definitionTextOf(e));
+  EXPECT_EQ(differences(e, written), std::vector<std::string>{});
+  experiment::Experiment other = e;
+  other.coupling.reset();
+  other.object.masses.assign(5, 0.5);
+  other.task->tolerance.velocity = 0.02;
+  EXPECT_EQ(differences(e, other), (std::vector<std::string>{"masses 5 x 0.5 kg", "tolerance velocity 0.02 m/s", "no coupling"}));
+}
+
+TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .device = kQuiet, .trials = 2});
+  const StudyResult study = analyzeStudy(openDataset(folder.path()).input, quick());
+  const ConditionResult& r = study.results[0];
+  ASSERT_EQ(r.used, 2u);
+  ASSERT_EQ(r.handEpsilon.front().criterion, 0u);
+  EXPECT_LT(r.handEpsilon[0].epsilon, 0.1 * r.handEpsilon[1].epsilon);
+}
+
+TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
+  const TemporaryFolder folder;
+  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 12});
+  const StudyResult fromLog = analyzeStudy(openDataset(folder.path()).input, quick());
+  writeDatasetWithoutLogs(folder.path(), log);
+  const Dataset dataset = openDataset(folder.path());
+  ASSERT_EQ(dataset.notes.size(), 1u);
+  EXPECT_NE(dataset.notes[0].find("code/experiments"), std::string::npos) << "not the experiment that is shipped now: " << dataset.notes[0];
+  const StudyResult fromBids = analyzeStudy(dataset.input, quick());
+  ASSERT_EQ(fromBids.trials.size(), fromLog.trials.size());
+  // Every number the same to the last bit: the rows are the same, and events say when each trial was armed, left and ended.
+  std::string tables[2];
+  int which = 0;
+  for (const StudyResult* study : {&fromLog, &fromBids})
+    writeTables(*study, [&, at = which++](const std::string&, std::string_view piece) { tables[at] += piece; });
+  EXPECT_EQ(tables[0], tables[1]);
+}
+
+TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
+  const TemporaryFolder folder;
+  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
+  ASSERT_EQ(analyzeStudy(openDataset(folder.path()).input, quick()).trials.size(), 2u);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+    if (entry.path().filename().string().ends_with("_events.tsv"))
+      for (const std::string& text :
+           {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
+        std::ofstream(entry.path(), std::ios::binary) << text;
+        EXPECT_THROW(analyzeStudy(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
+      }
+}
+
+// The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
+TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
+  const TemporaryFolder folder;
+  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1}));
+  std::filesystem::path motion;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+    const std::string name = entry.path().string();
+    if (name.ends_with("_motion.tsv")) motion = entry.path();
+    if (!name.ends_with("_motion.json")) continue;
+    auto about = nlohmann::json::parse(std::ifstream(entry.path()));
+    about.at("SamplingFrequency") = 0.5;
+    std::ofstream(entry.path()) << about.dump();
+    EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 0.5) << "said, however slow";
+    ASSERT_EQ(about.erase("SamplingFrequency"), 1u);
+    std::ofstream(entry.path()) << about.dump();
+  }
+  EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 100);
+  std::ifstream rows(motion);
+  std::string first, second;
+  std::getline(rows, first), std::getline(rows, second);
+  rows.close();
+  std::ofstream(motion) << first << '\n';
+  EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 100);
+}
+
+TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+  EXPECT_TRUE(openDataset(folder.path()).notes.empty());
+  recordRun(folder.path(),
+            {.experiment = "chain-moderate", .device = "replay:" REACHLAB_SOURCE_DIR "/resources/reaches", .subject = "02", .trials = 2});
+  const Dataset mixed = openDataset(folder.path());
+  ASSERT_EQ(mixed.notes.size(), 1u);
+  EXPECT_NE(mixed.notes[0].find("(replay, simulated)"), std::string::npos) << mixed.notes[0];
+}
+
+TEST(FileName, OfAConditionHasLettersNumbersAndSingleHyphens) {
+  EXPECT_EQ(fileNameOf("slow, light"), "slow-light");
+  EXPECT_EQ(fileNameOf("Pace 2 -- (far)"), "Pace-2-far");
+  EXPECT_EQ(fileNameOf(" /../x"), "x");
+  EXPECT_EQ(fileNameOf("???"), "condition");
+}
+
+TEST(Dataset, ThatIsNoneIsRefusedInOneSentence) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(openDataset(folder.path()), FaultError);
+  EXPECT_THROW(openDataset(folder.path() + "/nowhere"), FaultError);
+}
+
+TEST(Dataset, WithADamagedLogKeepsWhatIsGoodAndSaysSo) {
+  const TemporaryFolder folder;
+  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 4});
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
+  const Dataset dataset = openDataset(folder.path());
+  EXPECT_FALSE(dataset.input.trials.empty());
+  EXPECT_EQ(dataset.notes.size(), 1u);
+  EXPECT_NO_THROW(analyzeStudy(dataset.input, quick()));
+}
+
+TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 5, .seed = 3});
+  Dataset dataset = openDataset(folder.path());
+  const StudyResult study = analyzeStudy(dataset.input, quick());
+  const ReportHeader header{"dataset", "0.1.0", "reach analyze dataset"};
+  const AnalysisFiles first = writeAnalysis(study, dataset, header, folder.path() + "/one");
+  const AnalysisFiles second = writeAnalysis(study, dataset, header, folder.path() + "/two");
+  ASSERT_EQ(first.tables.size(), second.tables.size());
+  for (std::size_t i = 0; i < first.tables.size(); ++i)
+    EXPECT_EQ(record::readWholeFile(first.tables[i]), record::readWholeFile(second.tables[i]));
+  for (std::size_t i = 0; i < first.figures.size(); ++i)
+    EXPECT_EQ(record::readWholeFile(first.figures[i]), record::readWholeFile(second.figures[i]));
+  const std::string report = record::readWholeFile(first.report);
+  EXPECT_EQ(report, record::readWholeFile(second.report));
+
+  // Self-contained, ids unique, numbers finite, text escaped.
+  EXPECT_EQ(report.find("<script"), std::string::npos);
+  EXPECT_EQ(report.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(report.find(">nan"), std::string::npos);
+  std::set<std::string> ids;
+  const std::regex id(" id=\"([^\"]+)\"");
+  for (auto it = std::sregex_iterator(report.begin(), report.end(), id); it != std::sregex_iterator(); ++it)
+    EXPECT_TRUE(ids.insert((*it)[1]).second) << (*it)[1];
+
+  const std::string profiles = record::readWholeFile(folder.path() + "/one/profiles.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(profiles.begin(), profiles.end(), '\n')), 1 + 101 * study.results[0].used);
+}
+
+TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+  const Dataset dataset = openDataset(folder.path());
+  const StudyResult study = analyzeStudy(dataset.input, quick());
+  for (const std::string& table : writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out").tables) {
+    const std::string csv = record::readWholeFile(table);
+    const auto dictionary = nlohmann::json::parse(record::readWholeFile(record::dictionaryPathOf(table)));
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',')) + 1,
+              dictionary.size())
+        << table;
+    for (const auto& [column, entry] : dictionary.items()) EXPECT_NE(entry.at("Description"), "") << table << ": " << column;
+  }
+}
+
+TEST(Analysis, OfNoSuccessIsStillAReport) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .device = "replay:" + experiment::resourceFolder() + "/reaches", .trials = 2});
+  Dataset dataset = openDataset(folder.path());
+  for (TrialData& trial : dataset.input.trials) trial.result.outcome = trial::Outcome::Failure;
+  const StudyResult study = analyzeStudy(dataset.input, quick());
+  const AnalysisFiles files = writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out");
+  EXPECT_NE(record::readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
+}
+
+TEST(Wording, SaysHowSureTheShareOfSuccessIs) {
+  ConditionResult result;
+  result.counts.success = 30;
+  result.counts.failure = 20;
+  result.success = MeanInterval{0.62, {0.41, 0.79}, 5};
+  EXPECT_EQ(describeCounts(result),
+            "30 of 50 trials succeeded (60 %); a typical one of the 5 subjects 62 % [41, 79]. 0 trials in profiles and errors.");
+}
+
+TEST(Wording, SaysWhatCannotBeToldApart) {
+  Conclusion c;
+  c.reason = Obstacle::NotToldApart;
+  c.best = 1;
+  c.rival = 0;
+  c.against.resize(3);
+  c.against[0].p = 0.3;
+  c.against[2].p = 1e-9;
+  c.against[2].mean = 1;
+  c.p = 0.3;
+  const std::string text = describeConclusion(c, {{predict::Criterion::MinHandJerk}, {predict::Criterion::MinCrackle}, {}});
+  EXPECT_EQ(text,
+            "Nothing can be concluded: (3) min-crackle is the closest candidate, but cannot be told from (1) min-hand-jerk (p = 0.3).");
+  c.against[0] = {.mean = 0.04, .p = 0.001};
+  c.against[2].mean = 1;
+  c.p = 0.001;
+  EXPECT_EQ(describeConclusion(c, {{predict::Criterion::MinHandJerk}, {predict::Criterion::MinCrackle}, {}}),
+            "Nothing can be concluded: (3) min-crackle is the closest candidate, but cannot be told from (1) min-hand-jerk (their squared "
+            "errors differ by less than 10 %).");
+  EXPECT_NE(describeConclusion({}, {}).find("no subject has 10 successful trials"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

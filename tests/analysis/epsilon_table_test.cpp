@@ -1,0 +1,76 @@
+#include "analysis/epsilon_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace reachlab::analysis {
+namespace {
+
+StudyTrial trialOf(const std::string& subject, std::vector<double> errors) {
+  StudyTrial trial;
+  trial.key.subject = subject;
+  trial.paperError = std::move(errors);
+  return trial;
+}
+
+TEST(EpsilonTable, IsTheRootOfTheMeanOfSquaresLeastFirst) {
+  std::vector<StudyTrial> trials{trialOf("a", {3, 1, 9, 8}), trialOf("a", {4, 7, 1, 2}), trialOf("a", {100, 0, 0, 0})};
+  trials[2].exclusion = "practice";
+  trials.push_back(trialOf("a", {}));
+  const EpsilonTable hand = makeEpsilonTable(trials, 2, false), object = makeEpsilonTable(trials, 2, true);
+  ASSERT_EQ(hand.size(), 2u);
+  EXPECT_EQ(hand[0].criterion, 0u);
+  EXPECT_DOUBLE_EQ(hand[0].epsilon, std::sqrt(25.0 / 2));
+  EXPECT_DOUBLE_EQ(hand[1].epsilon, 5);
+  EXPECT_EQ(object[0].criterion, 1u);
+  EXPECT_DOUBLE_EQ(object[0].epsilon, std::sqrt(68.0 / 2));
+  EXPECT_DOUBLE_EQ(object[1].epsilon, std::sqrt(82.0 / 2));
+  EXPECT_FALSE(hand[0].interval) << "one person has no interval";
+  EXPECT_EQ(hand[0].difference, 0);
+  EXPECT_DOUBLE_EQ(hand[1].difference, hand[1].epsilon - hand[0].epsilon);
+  EXPECT_FALSE(hand[1].differenceInterval);
+}
+
+TEST(EpsilonTable, OfNoTrialIsEmpty) {
+  EXPECT_TRUE(makeEpsilonTable({}, 3, false).empty());
+  const EpsilonPlace fresh;
+  EXPECT_TRUE(fresh.criterion == 0 && fresh.epsilon == 0 && fresh.difference == 0 && !fresh.apart);
+}
+
+// Three people with unlike numbers of trials: a person's own root mean square counts once.
+TEST(EpsilonTable, ComparesOverPeople) {
+  const std::vector<StudyTrial> trials{trialOf("a", {1, 5, 3}), trialOf("a", {7, 5, 3}), trialOf("b", {3, 9, 3.5}),
+                                       trialOf("c", {4, 12, 4})};
+  const EpsilonTable table = makeEpsilonTable(trials, 3, false);
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_EQ(table[0].criterion, 2u);
+  EXPECT_EQ(table[1].criterion, 0u);
+  EXPECT_EQ(table[2].criterion, 1u);
+  EXPECT_DOUBLE_EQ(table[2].epsilon, std::sqrt((25 + 25 + 81 + 144) / 4.0));
+  const std::vector<double> people{5, 9, 12}, apart{2, 5.5, 8};
+  const Interval own = computeMeanInterval(people), difference = computeMeanInterval(apart, 0.975);
+  EXPECT_NEAR(table[2].interval->low, own.low, 1e-12);
+  EXPECT_NEAR(table[2].interval->high, own.high, 1e-12);
+  EXPECT_NEAR(table[2].difference, 15.5 / 3, 1e-12);
+  EXPECT_NEAR(table[2].differenceInterval->low, difference.low, 1e-9) << "two comparisons: 2.5 % each";
+  EXPECT_NEAR(table[2].differenceInterval->high, difference.high, 1e-9);
+  EXPECT_FALSE(table[2].apart);
+  EXPECT_TRUE(table[0].interval);
+  EXPECT_FALSE(table[0].differenceInterval) << "not from itself";
+  EXPECT_EQ(table[0].difference, 0);
+  EXPECT_FALSE(table[0].apart);
+}
+
+TEST(EpsilonTable, SaysWhichAreApartFromTheFirst) {
+  std::vector<StudyTrial> trials;
+  for (int i = 0; i < 4; ++i)
+    trials.push_back(trialOf(std::string(1, static_cast<char>('a' + i)), {2 + 0.1 * i, 5 + 0.11 * i, 2.1 - 0.1 * i}));
+  const EpsilonTable table = makeEpsilonTable(trials, 3, false);
+  EXPECT_EQ(table[2].criterion, 1u);
+  EXPECT_TRUE(table[2].apart);
+  EXPECT_FALSE(table[1].apart);
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

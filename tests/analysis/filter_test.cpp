@@ -1,0 +1,147 @@
+#include "analysis/measures/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/fault.h"
+
+namespace reachlab::analysis {
+namespace {
+
+std::vector<double> tone(double frequency, double rate, std::size_t n) {
+  std::vector<double> x(n);
+  for (std::size_t i = 0; i < n; ++i) x[i] = std::sin(2 * std::numbers::pi * frequency * static_cast<double>(i) / rate);
+  return x;
+}
+
+TEST(LowPass, AgreesWithAnIndependentImplementation) {
+  // scipy.signal: b, a = butter(2, 10/50); filtfilt(b, a, x) with x = sin(0.3 i) + 0.1 i^1.1, i = 0 … 29
+  std::vector<double> x;
+  for (int i = 0; i < 30; ++i) x.push_back(std::sin(0.3 * i) + 0.1 * std::pow(i, 1.1));
+  const std::vector<double> y = lowPass(x, 100, 10);
+  const std::pair<std::size_t, double> expected[] = {{0, -0.00048064439796959013}, {1, 0.391238328453585},  {7, 1.673843187994375},
+                                                     {15, 1.0326692749422177},     {28, 4.701033694560048}, {29, 4.732836361743194}};
+  for (const auto& [i, value] : expected) EXPECT_NEAR(y[i], value, 1e-13) << i;  // rounding of a few dozen operations
+}
+
+TEST(LowPass, PassesAConstantUnchanged) {
+  for (const double v : lowPass(std::vector<double>(50, 0.37), 100, 10)) EXPECT_NEAR(v, 0.37, 1e-14);
+}
+
+TEST(LowPass, HalvesTheAmplitudeAtTheCutOffAndDelaysNothing) {
+  for (const double cutoff : {5.0, 10.0, 20.0}) {
+    const std::vector<double> x = tone(cutoff, 1000, 4000), y = lowPass(x, 1000, cutoff);
+    // Away from the ends, where the extension is not a sine. Each pass has 1/sqrt 2, so together 1/2, in phase.
+    for (std::size_t i = 1500; i < 2500; ++i) EXPECT_NEAR(y[i], 0.5 * x[i], 1e-9);
+  }
+}
+
+TEST(LowPass, IsTheSameForwardsAndBackwards) {
+  std::vector<double> x = tone(3, 100, 120);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 1e-3 * static_cast<double>((i * 7919) % 101);
+  const std::vector<double> forward = lowPass(x, 100, 8);
+  const std::vector<double> backward = lowPass(std::vector<double>(x.rbegin(), x.rend()), 100, 8);
+  // Not exactly: the pass that comes second starts from what the first left at the end. Away from the ends it has died out.
+  for (std::size_t i = 40; i < 80; ++i) EXPECT_NEAR(forward[i], backward[x.size() - 1 - i], 1e-7);
+}
+
+TEST(LowPass, RefusesACutOffBeyondHalfTheRate) {
+  const std::vector<double> x(20, 0.0);
+  EXPECT_THROW(lowPass(x, 100, 50), FaultError);
+  EXPECT_THROW(lowPass(x, 100, -1), FaultError);
+  EXPECT_EQ(lowPass(x, 100, 0), x);
+}
+
+TEST(LowPass, BearsSignalsOfAnyLength) {
+  for (std::size_t n = 0; n < 12; ++n) {
+    const std::vector<double> y = lowPass(std::vector<double>(n, 1.0), 100, 10);
+    ASSERT_EQ(y.size(), n);
+    for (const double v : y) EXPECT_NEAR(v, 1, 1e-14);
+  }
+}
+
+TEST(Differentiate, IsExactForPolynomialsOfItsOrder) {
+  std::vector<double> x;
+  for (int i = 0; i < 40; ++i) x.push_back(std::pow(0.01 * i, 4) - 2 * std::pow(0.01 * i, 2));
+  const std::vector<double> v = differentiate(x, 100);
+  for (std::size_t i = 2; i < 38; ++i) {
+    const double t = 0.01 * static_cast<double>(i);
+    EXPECT_NEAR(v[i], 4 * t * t * t - 4 * t, 1e-12);
+  }
+}
+
+TEST(Differentiate, NeedsThreeSamplesAndNoMore) {
+  EXPECT_EQ(differentiate(std::vector<double>{0, 1, 4}, 10)[1], 20);
+  EXPECT_EQ(differentiate(std::vector<double>{0, 1}, 10), std::vector<double>(2, 0.0));
+}
+
+/// Once through the difference equation as it is written, after so long a rest at the first value that nothing is left of the start.
+std::vector<double> runFromRest(const Biquad& s, const std::vector<double>& signal) {
+  std::vector<double> x(3000, signal.front()), y(2, 0.0);
+  x.insert(x.end(), signal.begin(), signal.end());
+  for (std::size_t i = 2; i < x.size(); ++i)
+    y.push_back(s.b[0] * x[i] + s.b[1] * x[i - 1] + s.b[2] * x[i - 2] - s.a[1] * y[i - 1] - s.a[2] * y[i - 2]);
+  return {y.end() - static_cast<std::ptrdiff_t>(signal.size()), y.end()};
+}
+
+std::vector<double> bothWaysByDefinition(const Biquad& section, const std::vector<double>& signal) {
+  const std::size_t n = signal.size(), pad = std::min<std::size_t>(9, n - 1);
+  std::vector<double> x(n + 2 * pad);
+  for (std::size_t i = 0; i < n; ++i) x[pad + i] = signal[i];
+  for (std::size_t i = 1; i <= pad; ++i) {
+    x[pad - i] = 2 * signal[0] - signal[i];
+    x[pad + n - 1 + i] = 2 * signal[n - 1] - signal[n - 1 - i];
+  }
+  x = runFromRest(section, x);
+  std::reverse(x.begin(), x.end());
+  x = runFromRest(section, x);
+  std::reverse(x.begin(), x.end());
+  return {x.begin() + static_cast<std::ptrdiff_t>(pad), x.begin() + static_cast<std::ptrdiff_t>(pad + n)};
+}
+
+TEST(FilterBothWays, IsTheDifferenceEquationThereAndBackWhateverTheSectionAndTheLength) {
+  const Biquad lopsided{{0.3, 0.2, -0.1}, {1, -0.5, 0.2}}, low = butterworthLowPass(10, 0.01);
+  for (const Biquad& section : {lopsided, low})
+    for (const std::size_t n : {2u, 3u, 5u, 9u, 10u, 11u, 40u}) {
+      std::vector<double> x;
+      for (std::size_t i = 0; i < n; ++i) x.push_back(2 + std::sin(0.7 * static_cast<double>(i * i)));
+      const std::vector<double> y = filterBothWays(section, x), expected = bothWaysByDefinition(section, x);
+      ASSERT_EQ(y.size(), n);
+      for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(y[i], expected[i], 1e-12) << i << " of " << n;
+    }
+  EXPECT_EQ(filterBothWays(lopsided, std::vector<double>{3}), std::vector<double>{3}) << "one sample comes back as it is";
+}
+
+TEST(LowPass, SaysWhichCutOffItRefuses) {
+  const std::vector<double> x(20, 0.0);
+  EXPECT_NO_THROW(lowPass(x, 100, 49.9));
+  for (const auto& [rate, cutoff] : {std::pair{100.0, std::nan("")}, {100.0, 50.0}, {INFINITY, 10.0}, {std::nan(""), 10.0}})
+    EXPECT_THROW(lowPass(x, rate, cutoff), FaultError) << rate << " " << cutoff;
+  try {
+    lowPass(x, 90, 45);
+    FAIL();
+  } catch (const FaultError& e) {
+    EXPECT_NE(std::string(e.what()).find("is 45 Hz at 90 samples per second"), std::string::npos) << e.what();
+  }
+}
+
+// Of t^2 every rule of second order is exact; of t^3 the one next to the ends is off by the square of the spacing.
+TEST(Differentiate, IsOfSecondOrderAtTheEnds) {
+  for (const std::size_t n : {3u, 4u, 5u, 9u}) {
+    std::vector<double> square, cube;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = 0.25 * static_cast<double>(i);
+      square.push_back(3 + t - t * t), cube.push_back(t * t * t);
+    }
+    const std::vector<double> v = differentiate(square, 4), w = differentiate(cube, 4);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(v[i], 1 - 0.5 * static_cast<double>(i), 1e-12) << i << " of " << n;
+    EXPECT_NEAR(w[1], 3 * 0.25 * 0.25 + 0.25 * 0.25, 1e-12) << n;
+    for (std::size_t i = 2; i + 2 < n; ++i) EXPECT_NEAR(w[i], 3 * std::pow(0.25 * static_cast<double>(i), 2), 1e-12) << i << " of " << n;
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

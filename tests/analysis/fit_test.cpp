@@ -1,0 +1,258 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "analysis/conclusions/near_predictions.h"
+#include "analysis/conclusions/person_fit.h"
+#include "analysis/measures/filter.h"
+#include "tests/analysis/synthetic.h"
+
+namespace reachlab::analysis {
+namespace {
+
+using predict::Criterion;
+
+CandidateOptions of(std::vector<Criterion> criteria) {
+  CandidateOptions options;
+  options.criteria = std::move(criteria);
+  return options;
+}
+const std::vector<Criterion> kQuick{Criterion::MinHandJerk, Criterion::MinCrackle, Criterion::MinHandForce, Criterion::MinHandForceChange,
+                                    Criterion::MinHandCrackle};
+
+/// A recording of `family` at `duration`, from 0.3 s before it to 0.3 s after.
+FitWindow recorded(const ProfileFamily& family, double duration, double onset, double amplitude, double stretch = 1) {
+  Profile profile;
+  EXPECT_TRUE(family.at(duration, profile));
+  FitWindow window;
+  window.rate = 100;
+  window.begin = onset - 0.3;
+  const double T = stretch * duration;
+  for (int i = 0; i <= static_cast<int>((T + 0.6) * 100); ++i)
+    window.velocity.push_back(amplitude * profile.at((window.begin + i / 100.0 - onset) / T));
+  window.weight.assign(window.velocity.size(), 1.0);
+  return window;
+}
+
+TEST(RecordingFilter, IsWhatTheDigitalFilterDoesToSamples) {
+  // A minimum jerk of 0.8 s, sampled at 1 kHz and filtered there both ways, against the filter of the function.
+  const double T = 0.8, rate = 1000;
+  std::vector<double> exact(801), samples(2001, 0.0);
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double s = static_cast<double>(i) / 800;
+    exact[i] = samples[i + 600] = 30 * s * s * (1 - s) * (1 - s);
+  }
+  const std::vector<double> digital = lowPass(samples, rate, 10);
+  const std::vector<double> ours = RecordingFilter(10, rate).apply(exact, T, 300);
+  for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], digital[i + 300], 2e-6 * 1.875) << i;  // reach ends at 1e-6
+}
+
+TEST(RecordingFilter, IntegratesPolynomialsOfSeventhDegreeExactly) {
+  const std::vector<double> w = gregoryWeights(41);
+  for (int degree = 0; degree <= 7; ++degree) {
+    double sum = 0;
+    for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * std::pow(static_cast<double>(i) / 40, degree) / 40;
+    EXPECT_NEAR(sum, 1.0 / (degree + 1), 1e-13) << degree;
+  }
+}
+
+TEST(Profile, HasItsValuesUpToItsEndsAndIsNothingBeyond) {
+  const Profile profile{-0.5, 0.25, {1, 3, 2, 5, 4}, {}};
+  for (std::size_t i = 0; i < profile.value.size(); ++i)
+    EXPECT_DOUBLE_EQ(profile.at(profile.first + profile.step * static_cast<double>(i)), profile.value[i]);
+  for (const double s : {profile.first + 0.01, profile.last() - 0.01}) EXPECT_GT(profile.at(s), 0.5) << s;
+  for (const double s : {profile.first - 0.01, profile.last() + 0.01}) EXPECT_EQ(profile.at(s), 0) << s;
+}
+
+TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
+  for (const double T : {0.68, 1.35, 2.26}) {
+    const experiment::Experiment chain = chainExperiment(T);
+    const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of(kQuick));
+    for (const Candidate& candidate : set.candidates)
+      for (const auto& family : candidate.families)
+        for (const double t : {0.8 * T, 0.93 * T, 1.21 * T}) {
+          const double between = (std::floor(t / family->grid().spacing) + 0.5) * family->grid().spacing;
+          EXPECT_LT(family->errorAt(between), 1e-6);
+        }
+  }
+}
+
+TEST(ProfileFamily, ReachesAsFarBehindTheMovementAsBeforeIt) {
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk}));
+  for (const double t : {0.8, 1.35, 2.0}) {
+    Profile profile;
+    ASSERT_TRUE(set.candidates.front().families.front()->at(t, profile));
+    EXPECT_NEAR(profile.last() - 1, -profile.first, 1e-12) << t;
+    EXPECT_EQ(profile.change.size(), profile.value.size()) << t;
+  }
+}
+
+// Joint torque change is predicted at few durations, each started from its neighbours: against predictions of its own for each duration.
+TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother) {
+  experiment::Experiment chain = experiment::readExperiment("chain-moderate");
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinTorqueChange}));
+  const ProfileFamily& family = *set.candidates.front().families.front();
+  for (const double t : {1.35, 0.95, 1.4, 1.77, 1.0}) {  // half-way between two of its durations, where it is worst, in any order
+    const double node = std::floor(t / family.grid().spacing) * family.grid().spacing;
+    predict::PredictOptions how;
+    how.duration = node + 0.5 * family.grid().spacing;
+    const auto exact = predict::predict(chain, Criterion::MinTorqueChange, how);
+    std::vector<double> phi(family.grid().parts + 1);
+    ASSERT_TRUE(sampleProfile(*exact, phi));
+    Profile between;
+    ASSERT_TRUE(family.at(how.duration, between));
+    const std::size_t margin = (between.value.size() - phi.size()) / 2;
+    const std::vector<double> filtered = RecordingFilter(10, 100).apply(phi, how.duration, margin);
+    const double peak = *std::max_element(filtered.begin(), filtered.end());
+    for (std::size_t i = 0; i < filtered.size(); ++i) ASSERT_NEAR(between.value[i], filtered[i], 1e-6 * peak) << t << " s, sample " << i;
+  }
+}
+
+TEST(MovementFit, FindsOnsetDurationAndAmplitudeOfASampledPrediction) {
+  const experiment::Experiment chain = chainExperiment(1.35);
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of(kQuick));
+  for (const Candidate& candidate : set.candidates) {
+    const ProfileFamily& family = *candidate.families.back();
+    const FitWindow window = recorded(family, 1.2, 0.47, 0.16);
+    Profile start, scratch;
+    ASSERT_TRUE(family.at(1.35, start));
+    const MovementFit fit = fitMovement(window, family, startFrom(momentsOf(window), momentsOf(start)), scratch);
+    ASSERT_TRUE(fit.found);
+    EXPECT_NEAR(fit.onset, 0.47, 1e-6);
+    EXPECT_NEAR(fit.duration, 1.2, 1e-6);
+    EXPECT_NEAR(fit.amplitude, 0.16, 1e-6);
+  }
+}
+
+/// Trials of one plan run faster or slower (stretched), or planned anew for each duration; no scatter but of the durations.
+PersonFit fitOf(const CandidateSet& set, std::size_t truth, std::size_t family, bool onePlan, double T) {
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 10; ++i) {
+    const double stretch = 0.9 + 0.2 * std::generate_canonical<double, 53>(random);
+    windows.push_back(onePlan ? recorded(*set.candidates[truth].families[family], T, 0.5, 0.2 / T / stretch, stretch)
+                              : recorded(*set.candidates[truth].families[family], T * stretch, 0.5, 0.2 / T / stretch));
+    durations.push_back(0.95 * T * stretch);
+  }
+  return fitPerson(windows, durations, set);
+}
+
+TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
+  for (const experiment::Experiment& e :
+       {chainExperiment(1.35), parallelExperiment(2.5), lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)}) {
+    const CandidateSet set = makeCandidates(experiment::CompiledExperiment(e), of(kQuick));
+    for (std::size_t truth = 0; truth < set.candidates.size(); ++truth)
+      for (const bool onePlan : {false, true}) {
+        if (onePlan && set.candidates[truth].reference()) continue;
+        const std::size_t family = set.candidates[truth].families.size() > 2 ? 2 : 0;  // 1 kg
+        const PersonFit fit = fitOf(set, truth, family, onePlan, e.task->duration);
+        std::size_t best = 0;
+        for (std::size_t k = 1; k < fit.candidates.size(); ++k)
+          if (fit.candidates[k].meanScore < fit.candidates[best].meanScore) best = k;
+        EXPECT_EQ(best, truth) << e.task->duration << (onePlan ? " one plan" : " anew");
+        // One plan's duration and the hand's mass can stand for one another; planned anew they cannot.
+        if (!onePlan) {
+          EXPECT_EQ(fit.candidates[truth].choice.family, family) << e.task->duration;
+        }
+      }
+  }
+}
+
+// An even and an odd number of trials, so that their median duration is one of them or lies between two.
+TEST(PersonFit, OfAllTrialsDoesNotDependOnTheirOrder) {
+  const CandidateSet set =
+      makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk, Criterion::MinHandForceChange}));
+  for (const int count : {12, 13}) {
+    std::vector<FitWindow> windows;
+    std::vector<double> durations;
+    std::vector<std::size_t> order;
+    for (int i = 0; i < count; ++i) {
+      const double stretch = 0.8 + 0.03 * i;
+      windows.push_back(recorded(*set.candidates[1].families[0], 1.35, 0.5, 0.2 / stretch, stretch));
+      durations.push_back(1.3 * stretch);
+      order.push_back(static_cast<std::size_t>(i * 5 % count));
+    }
+    const auto choicesIn = [&](const std::vector<std::size_t>& places) {
+      std::vector<FitWindow> w;
+      std::vector<double> d;
+      for (const std::size_t i : places) w.push_back(windows[i]), d.push_back(durations[i]);
+      std::vector<double> plans;
+      for (const CandidateFit& fit : fitPerson(w, d, set).candidates) plans.push_back(fit.choice.plan);
+      return plans;
+    };
+    const std::vector<double> shuffled = choicesIn(order);
+    std::sort(order.begin(), order.end());
+    const std::vector<double> sorted = choicesIn(order);
+    ASSERT_EQ(shuffled.size(), sorted.size());
+    EXPECT_GT(sorted[1], 0) << "one plan, stretched, as they were made";
+    for (std::size_t k = 0; k < sorted.size(); ++k) EXPECT_NEAR(shuffled[k], sorted[k], 1e-7) << count << " trials";
+  }
+}
+
+// Plans are tried 1.8 % apart. Where trials waver alike, the plan of several is the mean of theirs, which lies between two that are tried:
+// of a fold that is left out, a part of a step away from the plan of all.
+TEST(PersonFit, FindsAPlanBetweenThoseThatItTries) {
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk}));
+  constexpr double kApart[kFolds] = {-0.02, 0.01, 0.02, -0.01, 0};  // of ln P, by fold
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  for (int i = 0; i < 15; ++i) {
+    const double stretch = 0.86 + 0.02 * i;
+    windows.push_back(recorded(*set.candidates[0].families[0], 1.35 * std::exp(kApart[i % kFolds]), 0.5, 0.2 / stretch, stretch));
+    std::vector<double>& velocity = windows.back().velocity;
+    for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += 0.006 * std::sin(0.35 * static_cast<double>(k) / stretch) / stretch;
+    durations.push_back(1.3 * stretch);
+  }
+  const CandidateFit fit = fitPerson(windows, durations, set).candidates[0];
+  ASSERT_EQ(fit.choice.law, TimeLaw::OnePlan);
+  EXPECT_NEAR(std::log(fit.choice.plan / 1.35), 0, 0.001);
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    ASSERT_EQ(fit.foldChoice[fold].law, TimeLaw::OnePlan);
+    EXPECT_NEAR(std::log(fit.foldChoice[fold].plan / 1.35), -kApart[fold] / (kFolds - 1), 0.0015) << "without fold " << fold;
+  }
+}
+
+// A fold's choice must not depend on its own trials: changing them changes neither the choice nor the other folds' scores' shapes.
+TEST(PersonFit, ScoresNoTrialByAChoiceItTookPartIn) {
+  const experiment::Experiment chain = chainExperiment(1.35);
+  const CandidateSet set =
+      makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinHandForceChange, Criterion::MinHandJerk}));
+  const std::size_t force = 0;
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  // Fold 0 is planned with 2 kg, the other four with none.
+  for (int i = 0; i < 15; ++i) {
+    windows.push_back(recorded(*set.candidates[force].families[i % 5 == 0 ? 3 : 0], 1.3 + 0.01 * i, 0.5, 0.15));
+    durations.push_back(1.25 + 0.01 * i);
+  }
+  const PersonFit fit = fitPerson(windows, durations, set);
+  EXPECT_EQ(fit.candidates[force].foldChoice[0].family, 0u);
+  for (std::size_t i = 0; i < windows.size(); i += 5) EXPECT_GT(fit.candidates[force].score[i], fit.candidates[force].score[i + 1] + 3);
+}
+
+TEST(PersonFit, GivesEveryCandidateTheSameWindowAndWeights) {
+  const experiment::Experiment chain = chainExperiment(1.35);
+  const auto weightsWith = [&](std::vector<Criterion> criteria) {
+    const CandidateSet truth = makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinHandJerk})),
+                       set = makeCandidates(experiment::CompiledExperiment(chain), of(std::move(criteria)));
+    std::vector<FitWindow> windows;
+    std::vector<double> durations;
+    for (int i = 0; i < 10; ++i) {
+      windows.push_back(recorded(*truth.candidates[0].families[0], 1.2 + 0.02 * i, 0.5, 0.15 + 0.002 * (i % 3)));
+      durations.push_back(1.1 + 0.02 * i);
+      for (std::size_t k = 0; k < windows.back().velocity.size(); ++k)
+        windows.back().velocity[k] += 0.004 * std::sin(0.1 * i * static_cast<double>(k));
+    }
+    fitPerson(windows, durations, set);
+    std::vector<std::vector<double>> weights;
+    for (const FitWindow& w : windows) weights.push_back(w.weight);
+    return weights;
+  };
+  EXPECT_EQ(weightsWith({Criterion::MinHandJerk}), weightsWith({Criterion::MinCrackle, Criterion::MinHandForce}));
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

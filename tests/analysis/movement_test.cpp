@@ -1,0 +1,321 @@
+#include "analysis/measures/movement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "analysis/measures/measures.h"
+#include "tests/analysis/synthetic.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr double kRate = 100;
+
+std::vector<double> bell(double before, double duration, double after, double height = 0.3) {
+  std::vector<double> v;
+  for (int i = 0; i <= static_cast<int>(std::lround((before + duration + after) * kRate)); ++i) {
+    const double s = (i / kRate - before) / duration;
+    v.push_back(s < 0 || s > 1 ? 0 : height * 16 * s * s * (1 - s) * (1 - s));
+  }
+  return v;
+}
+
+/// Where 16 s^2 (1-s)^2 reaches `share`.
+double crossing(double share) { return (1 - std::sqrt(1 - std::sqrt(share))) / 2; }
+
+TEST(FindMovement, FindsTheCrossingsOfABell) {
+  for (const double percent : {2.0, 5.0, 10.0}) {
+    OnsetOptions options;
+    options.percent = percent;
+    const Movement m = findMovement(bell(0.5, 1.0, 0.7), kRate, options);
+    ASSERT_TRUE(m.found);
+    const double kLinear = 1e-3;  // [s] linear interpolation over 10 ms of a curve
+    EXPECT_NEAR(m.onset, 0.5 + crossing(percent / 100), kLinear);
+    EXPECT_NEAR(m.offset, 1.5 - crossing(percent / 100), kLinear);
+    EXPECT_NEAR(m.peakTime, 1.0, 1e-9);
+    EXPECT_NEAR(m.peak, 0.3, 1e-12);
+    EXPECT_FALSE(m.cutAtStart || m.cutAtEnd);
+  }
+}
+
+TEST(FindMovement, SkipsATwitchBeforeTheMovement) {
+  std::vector<double> v = bell(0.5, 1.0, 0.7);
+  v[10] = v[11] = 0.1;  // 20 ms
+  EXPECT_NEAR(findMovement(v, kRate, {}).onset, 0.5 + crossing(0.05), 1e-3);
+}
+
+TEST(FindMovement, SearchesBackFromThePeakSoThatADriftBeginsNothing) {
+  // A slow drift at 8 % of the peak, which ends 0.2 s before the reach: the first upward crossing is the drift's.
+  std::vector<double> v = bell(0.8, 1.0, 0.7);
+  for (std::size_t i = 10; i < static_cast<std::size_t>(0.6 * kRate); ++i) v[i] = std::max(v[i], 0.08 * 0.7);
+  const Movement drifting = findMovement(v, kRate, {}), clean = findMovement(bell(0.8, 1.0, 0.7), kRate, {});
+  EXPECT_DOUBLE_EQ(drifting.onset, clean.onset);
+  EXPECT_DOUBLE_EQ(drifting.offset, clean.offset);
+}
+
+TEST(FindMovement, KeepsBothPhasesOfATwoPhaseMovement) {
+  std::vector<double> v = bell(0.3, 0.5, 0.0);
+  const std::vector<double> second = bell(0.1, 0.6, 0.4, 0.2);
+  v.insert(v.end(), second.begin(), second.end());
+  const Movement m = findMovement(v, kRate, {});
+  EXPECT_LT(m.onset, 0.4);
+  EXPECT_GT(m.offset, 1.4);
+}
+
+TEST(FindMovement, SaysWhereTheSignalBeginsOrEndsTooSoon) {
+  std::vector<double> v = bell(0, 1, 0);
+  v.erase(v.begin(), v.begin() + 30);
+  v.resize(v.size() - 30);
+  const Movement m = findMovement(v, kRate, {});
+  EXPECT_TRUE(m.found && m.cutAtStart && m.cutAtEnd);
+  EXPECT_DOUBLE_EQ(m.onset, 0);
+  EXPECT_DOUBLE_EQ(m.offset, static_cast<double>(v.size() - 1) / kRate);
+}
+
+TEST(FindMovement, FindsNoneInStillness) {
+  EXPECT_FALSE(findMovement(std::vector<double>(100, 0.0), kRate, {}).found);
+  EXPECT_FALSE(findMovement({}, kRate, {}).found);
+  OnsetOptions absolute;
+  absolute.rule = OnsetRule::Absolute;
+  absolute.speed = 0.5;
+  EXPECT_FALSE(findMovement(bell(0.2, 1, 0.2), kRate, absolute).found);
+}
+
+// Of a hand that trembles, 5 % of the peak speed is passed at once and at last: the whole trial would be its movement.
+TEST(FindMovement, FindsNoneWhereTheTrialEndedBecauseTheHandNeverLeft) {
+  TrialData trial;
+  trial.rate = kRate;
+  for (int i = 0; i < 200; ++i) {
+    trial.hand.push_back({2e-5 * std::sin(60.0 * i / kRate), 0, 0});
+    trial.object.push_back({});
+    trial.objectVelocity.push_back({});
+    trial.force.push_back(0);
+  }
+  EXPECT_TRUE(computeSignals(trial, {}).movement.found);
+  for (const trial::Reason reason : {trial::Reason::NoOnset, trial::Reason::NoStart}) {
+    trial.result = {trial::Outcome::Aborted, reason};
+    EXPECT_FALSE(computeSignals(trial, {}).movement.found);
+  }
+}
+
+TEST(ScaleVelocity, KeepsTheDistance) {
+  const std::vector<double> v = bell(0.5, 1.0, 0.7);
+  const auto distance = [](const std::vector<double>& profile, double duration) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) sum += 0.5 * (profile[i] + profile[i + 1]);
+    return sum * duration / static_cast<double>(profile.size() - 1);
+  };
+  const double d = distance(normaliseTime(v, kRate, 0.5, 1.5), 1.0);
+  for (const double duration : {0.5, 1.0, 2.26}) EXPECT_NEAR(distance(scaleVelocity(v, kRate, 0.5, 1.5, duration), duration), d, 1e-12);
+}
+
+TEST(SmoothValue, FollowsACurveBetterThanTheChord) {
+  std::vector<double> v;
+  for (int i = 0; i < 100; ++i) v.push_back(std::sin(0.1 * i));
+  double chord = 0, smooth = 0;
+  for (double t = 0.1; t < 0.9; t += 0.0037) {
+    chord = std::max(chord, std::abs(valueAt(v, kRate, t) - std::sin(10 * t)));
+    smooth = std::max(smooth, std::abs(smoothValueAt(v, kRate, t) - std::sin(10 * t)));
+  }
+  EXPECT_LT(smooth, chord / 10);
+}
+
+TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
+  // Known onsets: where the planned, time-stretched velocity itself crosses 5 % of its peak. What is left is the measurement's noise,
+  // the filter and 100 Hz sampling.
+  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
+  OnsetOptions onset;
+  const double planned = [&] {
+    double peak = std::abs(plan->handPeak), t = 0;
+    while (plan->handAt(t).velocity < 0.05 * peak) t += 1e-5;
+    return t;
+  }();
+  std::mt19937_64 random(7);
+  std::vector<double> errors;
+  Scatter scatter;
+  scatter.shape = 0;  // a wave would move the truth itself
+  for (int i = 0; i < 200; ++i) {
+    const TrialData trial = followPlan(*plan, scatter, random);
+    const TrialSignals signals = computeSignals(trial, {});
+    const double truth = trial.taskOnset + planned * (trial.taskEnd - trial.taskOnset) / plan->duration;
+    errors.push_back(signals.movement.onset - truth);
+  }
+  const MeanSd e = computeMeanSd(errors);
+  std::printf("onset at 5 %% of peak, 200 simulated trials, 20 um noise, 10 Hz filter: bias %.2f ms, spread (SD) %.2f ms\n", 1e3 * e.mean,
+              1e3 * e.sd);
+  EXPECT_LT(std::abs(e.mean), 0.005);  // half a sample
+  EXPECT_LT(e.sd, 0.005);
+}
+
+/// Up from 0 at `begin` to `height` at `top` and down to 0 at `end` in straight lines; samples.
+std::vector<double> tent(std::size_t samples, double begin, double top, double end, double height = 1) {
+  std::vector<double> v;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double t = static_cast<double>(i);
+    v.push_back(std::max(0.0, height * std::min((t - begin) / (top - begin), (end - t) / (end - top))));
+  }
+  return v;
+}
+
+OnsetOptions above(double speed, double holdSeconds = 0.04) {
+  OnsetOptions options;
+  options.rule = OnsetRule::Absolute;
+  options.speed = speed;
+  options.holdSeconds = holdSeconds;
+  return options;
+}
+
+TEST(FindMovement, CrossesTheThresholdWhereAStraightLineDoes) {
+  const std::vector<double> v = tent(40, 4, 14, 34, 2);  // 0.2 a sample up, 0.1 down
+  const Movement m = findMovement(v, 50, above(0.3));
+  EXPECT_NEAR(m.onset, 5.5 / 50, 1e-12);
+  EXPECT_NEAR(m.offset, 31.0 / 50, 1e-12);
+  EXPECT_NEAR(m.duration(), 25.5 / 50, 1e-12);
+  EXPECT_EQ(m.peak, 2);
+  // The parabola through 1.8, 2 and 1.9.
+  EXPECT_NEAR(m.peakTime, (14 + 0.5 * (1.8 - 1.9) / (1.8 - 4 + 1.9)) / 50, 1e-12);
+  EXPECT_NEAR(findMovement(v, 50, {}).onset, 4.5 / 50, 1e-12) << "5 % of 2 m/s";
+}
+
+TEST(FindMovement, BeginsAndEndsOnASampleThatIsAtTheThreshold) {
+  const std::vector<double> v{0, 0, 0.25, 0.5, 1, 0.75, 0.25, 0, 0};
+  const Movement m = findMovement(v, 1, above(0.25, 0));
+  EXPECT_EQ(m.onset, 2);
+  EXPECT_EQ(m.offset, 6);
+}
+
+TEST(FindMovement, NeedsAPeakAboveTheThreshold) {
+  const std::vector<double> v{0, 0.5, 1, 0.5, 0};
+  EXPECT_FALSE(findMovement(v, 10, above(1)).found);
+  EXPECT_TRUE(findMovement(v, 10, above(0.999)).found);
+  OnsetOptions whole;
+  whole.percent = 100;
+  EXPECT_FALSE(findMovement(v, 10, whole).found);
+  EXPECT_FALSE(findMovement(std::vector<double>{1, 2}, 10, {}).found) << "two samples are none";
+  EXPECT_TRUE(findMovement(std::vector<double>{0, 2, 0}, 10, {}).found);
+}
+
+TEST(FindMovement, TakesTheFirstOfEqualPeaksAndNoneBeyondTheEnds) {
+  EXPECT_EQ(findMovement(std::vector<double>{0, 1, 3, 1, 3, 1, 0}, 1, {}).peakTime, 2);
+  EXPECT_EQ(findMovement(std::vector<double>{3, 2, 0, 0}, 1, {}).peakTime, 0) << "no neighbour, no parabola";
+  EXPECT_EQ(findMovement(std::vector<double>{0, 0, 2, 3}, 1, {}).peakTime, 3);
+  EXPECT_EQ(findMovement(std::vector<double>{0, 3, 3, 0}, 1, {}).peakTime, 1.5);
+}
+
+// 40 ms at 100 Hz are four samples above the threshold; the movement itself may be shorter.
+TEST(FindMovement, EndsAfterTheLastStretchThatIsHeld) {
+  const auto offsetWith = [](std::size_t samples, double hold) {
+    std::vector<double> v = tent(60, 5, 10, 15);
+    for (std::size_t i = 30; i < 30 + samples; ++i) v[i] = 0.5;
+    return findMovement(v, kRate, above(0.25, hold)).offset;
+  };
+  EXPECT_NEAR(offsetWith(3, 0.04), 0.1375, 1e-12) << "a twitch";
+  EXPECT_NEAR(offsetWith(4, 0.04), 0.335, 1e-12);
+  EXPECT_NEAR(offsetWith(1, 0), 0.305, 1e-12) << "whatever is asked for, a sample is enough";
+  EXPECT_NEAR(offsetWith(3, OnsetOptions{}.holdSeconds), 0.1375, 1e-12);
+  EXPECT_NEAR(findMovement(tent(30, 5, 6, 7), kRate, above(0.5, 0.04)).offset, 0.065, 1e-12) << "two samples are the movement";
+}
+
+// The first hump that reaches half the peak begins the movement, though the hand rested between the two.
+TEST(FindMovement, BeginsWithTheFirstHumpOfHalfThePeak) {
+  const auto onsetOf = [](double first) {
+    std::vector<double> v = tent(80, 5, 15, 25, first);
+    const std::vector<double> second = tent(80, 40, 50, 60, 2);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += second[i];
+    return findMovement(v, kRate, above(0.1)).onset;
+  };
+  EXPECT_NEAR(onsetOf(1), 0.06, 1e-12);
+  EXPECT_NEAR(onsetOf(0.99), 0.405, 1e-12);
+}
+
+TEST(FindMovement, AtAThresholdAboveHalfThePeakBeginsWhereItIsPassed) {
+  const std::vector<double> v = tent(40, 4, 14, 34, 2);
+  EXPECT_NEAR(findMovement(v, 50, above(1.5)).onset, 11.5 / 50, 1e-12);
+}
+
+TEST(FindMovement, GoesByFivePercentOrACentimetreASecondHeldFor40Milliseconds) {
+  const OnsetOptions usual;
+  EXPECT_EQ(usual.rule, OnsetRule::Percent);
+  EXPECT_EQ(usual.percent, 5);
+  EXPECT_EQ(usual.speed, 0.01);
+  EXPECT_EQ(usual.holdSeconds, 0.04);
+  const Movement none;
+  EXPECT_TRUE(!none.found && !none.cutAtStart && !none.cutAtEnd && none.onset == 0 && none.offset == 0 && none.peak == 0 &&
+              none.peakTime == 0);
+  EXPECT_EQ(nameOf(OnsetRule::Percent), "percent");
+  EXPECT_EQ(nameOf(OnsetRule::Absolute), "absolute");
+  EXPECT_EQ(nameOf(OnsetRule::Task), "task");
+}
+
+TEST(FindMovement, SaysOnlyWhatIsCut) {
+  const std::vector<double> v = tent(40, -5, 14, 34);
+  const Movement begun = findMovement(v, kRate, above(0.2));
+  EXPECT_TRUE(begun.cutAtStart && !begun.cutAtEnd);
+  EXPECT_EQ(begun.onset, 0);
+  const Movement unfinished = findMovement(std::vector<double>(v.rbegin(), v.rend()), kRate, above(0.2));
+  EXPECT_TRUE(!unfinished.cutAtStart && unfinished.cutAtEnd);
+  EXPECT_DOUBLE_EQ(unfinished.offset, 0.39);
+}
+
+TEST(MovementWithin, LooksForThePeakInsideTheWindowAlone) {
+  const std::vector<double> v{9, 1, 2, 5, 3, 2, 8, 9};
+  const Movement m = movementWithin(v, 10, 0.1, 0.5);
+  EXPECT_TRUE(m.found && !m.cutAtStart && !m.cutAtEnd);
+  EXPECT_EQ(m.onset, 0.1);
+  EXPECT_EQ(m.offset, 0.5);
+  EXPECT_EQ(m.peak, 5);
+  EXPECT_NEAR(m.peakTime, 0.3 + 0.05 * (2.0 - 3) / (2 - 10 + 3), 1e-12);
+  EXPECT_EQ(movementWithin(v, 10, 0.1, 0.599).peak, 5) << "sample 6 is not reached";
+  EXPECT_EQ(movementWithin(v, 10, 0.1, 0.6).peak, 8);
+  EXPECT_EQ(movementWithin(v, 10, 0.3, 0.5).peak, 5) << "3 is 0.3 times 10 but for rounding";
+  EXPECT_EQ(movementWithin(v, 10, 0.301, 0.5).peak, 3);
+  EXPECT_EQ(movementWithin(v, 10, -3, 9).peak, 9);
+}
+
+TEST(MovementWithin, OfNoWindowIsNone) {
+  const std::vector<double> v{0, 1, 2, 1, 0};
+  EXPECT_FALSE(movementWithin(v, 10, 0.2, 0.2).found);
+  EXPECT_FALSE(movementWithin(v, 10, 0.3, 0.2).found);
+  EXPECT_FALSE(movementWithin(v, 10, 0.11, 0.19).found) << "no sample lies in it";
+  EXPECT_FALSE(movementWithin(v, 10, 0.16, 0.24).found) << "one alone";
+  EXPECT_TRUE(movementWithin(v, 10, 0.16, 0.31).found);
+  EXPECT_FALSE(movementWithin(std::vector<double>{0, 1}, 10, 0, 0.1).found);
+  EXPECT_FALSE(movementWithin(v, 10, std::nan(""), 0.2).found);
+}
+
+TEST(ValueAt, IsLinearBetweenSamplesAndHeldBeyondThem) {
+  const std::vector<double> v{2, 4, 1};
+  EXPECT_DOUBLE_EQ(valueAt(v, 10, 0.025), 2.5);
+  EXPECT_DOUBLE_EQ(valueAt(v, 10, 0.175), 4 - 0.75 * 3);
+  EXPECT_EQ(valueAt(v, 10, -1), 2);
+  EXPECT_EQ(valueAt(v, 10, 0.2), 1);
+  EXPECT_EQ(valueAt(v, 10, 5), 1);
+  EXPECT_EQ(valueAt({}, 10, 0), 0);
+}
+
+TEST(SmoothValue, IsExactForParabolasInsideAndLinearNextToTheEnds) {
+  std::vector<double> v;
+  for (int i = 0; i < 7; ++i) v.push_back(1 + 2 * i - 0.5 * i * i);
+  const auto exact = [](double t) { return 1 + 2 * t - 0.5 * t * t; };
+  for (const double t : {1.0, 1.3, 2.75, 4.0, 4.9}) EXPECT_NEAR(smoothValueAt(v, 10, t / 10), exact(t), 1e-12) << t;
+  for (const double t : {0.3, 0.99, 5.0, 5.5, 6.0, 8.0, -1.0}) EXPECT_EQ(smoothValueAt(v, 10, t / 10), valueAt(v, 10, t / 10)) << t;
+  // Of a cube, the slopes at samples 1 and 2 are (8 - 0) / 2 and (27 - 1) / 2, and the cubic half-way between them follows.
+  EXPECT_NEAR(smoothValueAt(std::vector<double>{0, 1, 8, 27}, 1, 1.5), 4.5 + (4.0 - 13) / 8, 1e-12);
+}
+
+TEST(NormaliseTime, TakesAHundredAndOneInstantsFromOnsetToOffset) {
+  std::vector<double> v;
+  for (int i = 0; i < 30; ++i) v.push_back(3 + 0.5 * i);
+  const std::vector<double> out = normaliseTime(v, 10, 0.4, 2.4), scaled = scaleVelocity(v, 10, 0.4, 2.4, 0.5);
+  ASSERT_EQ(out.size(), 101u);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double expected = 3 + 5 * (0.4 + 2 * static_cast<double>(i) / 100);
+    EXPECT_NEAR(out[i], expected, 1e-12);
+    EXPECT_NEAR(scaled[i], 4 * expected, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

@@ -1,0 +1,209 @@
+#include "analysis/conclusions/progress_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace reachlab::analysis {
+namespace {
+
+void attempts(std::vector<Attempt>& to, const std::string& subject, const std::string& session, int day, std::size_t condition,
+              int successes, int trials) {
+  for (int i = 0; i < trials; ++i) to.push_back({subject, session, day, condition, i < successes});
+}
+
+double logit(double s, double n) { return std::log((s + 0.5) / (n - s + 0.5)); }
+
+TEST(SuccessTable, CountsEachSubjectDayAndConditionApart) {
+  std::vector<Attempt> all;
+  attempts(all, "a", "1", 1, 0, 3, 4);
+  attempts(all, "a", "2", 2, 0, 1, 5);
+  attempts(all, "b", "1", 1, 0, 0, 2);
+  attempts(all, "a", "1", 1, 1, 7, 7);
+  const std::vector<SuccessCell> cells = successTable(all);
+  ASSERT_EQ(cells.size(), 4u);
+  const SuccessCell& second = cells[2];  // by subject, then condition, then day
+  EXPECT_EQ(cells[0].successes, 3u);
+  EXPECT_EQ(cells[0].trials, 4u);
+  EXPECT_DOUBLE_EQ(cells[0].share(), 0.75);
+  EXPECT_EQ(cells[1].day, 2);
+  EXPECT_EQ(cells[1].successes, 1u);
+  EXPECT_EQ(second.condition, 1u);
+  EXPECT_EQ(second.successes, 7u);
+  EXPECT_EQ(cells[3].subject, "b");
+  EXPECT_NEAR(second.interval.low, computeBinomialInterval(7, 7).low, 1e-15);
+  const SuccessCell fresh;
+  EXPECT_TRUE(fresh.day == 0 && fresh.condition == 0 && fresh.successes == 0 && fresh.trials == 0);
+}
+
+TEST(LearningCurves, GroupAttemptsOfOneSubjectConditionAndSession) {
+  std::vector<Attempt> all;
+  attempts(all, "a", "1", 1, 0, 2, 5);
+  attempts(all, "a", "2", 2, 0, 1, 2);
+  attempts(all, "b", "2", 1, 0, 3, 3);
+  attempts(all, "b", "2", 1, 1, 1, 1);
+  const std::vector<LearningPoint> points = learningCurves(all, 3);
+  ASSERT_EQ(points.size(), 5u);
+  const int first[] = {1, 4, 6, 1, 1}, last[] = {3, 5, 7, 3, 1};
+  const std::size_t successes[] = {2, 0, 1, 3, 1}, trials[] = {3, 2, 2, 3, 1};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(points[i].firstTrial, first[i]) << i;
+    EXPECT_EQ(points[i].lastTrial, last[i]) << i;
+    EXPECT_EQ(points[i].successes, successes[i]) << i;
+    EXPECT_EQ(points[i].trials, trials[i]) << i;
+    const Interval exact = computeBinomialInterval(successes[i], trials[i]);
+    EXPECT_EQ(points[i].interval.low, exact.low) << i;
+    EXPECT_EQ(points[i].interval.high, exact.high) << i;
+  }
+  EXPECT_EQ(points[2].session, "2");
+  EXPECT_EQ(points[4].condition, 1u);
+  EXPECT_TRUE(learningCurves({}, 10).empty());
+  const LearningPoint fresh;
+  EXPECT_TRUE(fresh.firstTrial == 0 && fresh.lastTrial == 0 && fresh.successes == 0 && fresh.trials == 0 && fresh.condition == 0);
+}
+
+/// Three people, two days, two conditions; the third does not do the second condition on the second day.
+std::vector<SuccessCell> cells() {
+  std::vector<Attempt> all;
+  attempts(all, "a", "1", 1, 0, 4, 20);
+  attempts(all, "a", "2", 2, 0, 9, 18);
+  attempts(all, "b", "1", 1, 0, 0, 10);
+  attempts(all, "b", "2", 2, 0, 10, 10);
+  attempts(all, "c", "1", 1, 0, 6, 12);
+  attempts(all, "c", "2", 2, 0, 3, 16);
+  attempts(all, "a", "1", 1, 1, 5, 25);
+  attempts(all, "a", "2", 2, 1, 11, 20);
+  attempts(all, "b", "1", 1, 1, 2, 8);
+  attempts(all, "c", "1", 1, 1, 9, 15);
+  return successTable(all);
+}
+
+double meanOf(const std::vector<double>& v) {
+  double sum = 0;
+  for (const double x : v) sum += x;
+  return sum / static_cast<double>(v.size());
+}
+
+TEST(TypicalShare, IsTheMeanLogitOfPeopleBackAsAShare) {
+  const std::vector<SuccessCell> all = cells();
+  const auto back = [](double l) { return 1 / (1 + std::exp(-l)); };
+  const std::vector<double> day{logit(4, 20), logit(0, 10), logit(6, 12)}, both{logit(13, 38), logit(10, 20), logit(9, 28)};
+  std::vector<double> variance;
+  for (const auto& [s, n] : {std::pair{13.0, 38.0}, {10.0, 20.0}, {9.0, 28.0}}) variance.push_back(1 / (s + 0.5) + 1 / (n - s + 0.5));
+  EXPECT_NEAR(typicalShare(all, 0, 1)->mean, back(meanOf(day)), 1e-12);
+  EXPECT_EQ(typicalShare(all, 0, 1)->people, 3u);
+  const auto share = typicalShare(all, 0);
+  const PeopleMean expected = computePeopleMean(both, variance);
+  EXPECT_NEAR(share->mean, back(meanOf(both)), 1e-12);
+  EXPECT_NEAR(share->interval.low, back(expected.interval.low), 1e-12);
+  EXPECT_NEAR(share->interval.high, back(expected.interval.high), 1e-12);
+  EXPECT_FALSE(typicalShare(all, 1, 2)) << "one person has no typical one beside";
+  EXPECT_FALSE(typicalShare(all, 7));
+  EXPECT_TRUE(MeanInterval{}.mean == 0 && MeanInterval{}.people == 0);
+}
+
+/// A share's variance by the same rule, half a success and half a failure added. [1]
+double varianceOf(double s, double n) {
+  const double p = (s + 0.5) / (n + 1);
+  return p * (1 - p) / n;
+}
+
+TEST(Effects, OfDaysArePairedOverPeople) {
+  const std::vector<Effect> effects = effectsOf(cells(), 2);
+  ASSERT_EQ(effects.size(), 3u);
+  const Effect& first = effects[0];
+  EXPECT_TRUE(first.ofDay);
+  EXPECT_EQ(first.condition, 0u);
+  EXPECT_EQ(first.from, 1);
+  EXPECT_EQ(first.to, 2);
+  EXPECT_EQ(first.people, 3u);
+  const std::vector<double> points{100 * (9.0 / 18 - 4.0 / 20), 100, 100 * (3.0 / 16 - 6.0 / 12)};
+  const std::vector<double> logits{logit(9, 18) - logit(4, 20), logit(10, 10) - logit(0, 10), logit(3, 16) - logit(6, 12)};
+  const std::vector<double> pointsVariance{1e4 * (varianceOf(4, 20) + varianceOf(9, 18)), 1e4 * (varianceOf(0, 10) + varianceOf(10, 10)),
+                                           1e4 * (varianceOf(6, 12) + varianceOf(3, 16))};
+  std::vector<double> logitVariance;
+  for (const auto& [s, n, t, m] : {std::array{4.0, 20.0, 9.0, 18.0}, {0.0, 10.0, 10.0, 10.0}, {6.0, 12.0, 3.0, 16.0}})
+    logitVariance.push_back(1 / (s + 0.5) + 1 / (n - s + 0.5) + 1 / (t + 0.5) + 1 / (m - t + 0.5));
+  const PeopleMean p = computePeopleMean(points, pointsVariance), l = computePeopleMean(logits, logitVariance);
+  EXPECT_NEAR(first.points.mean, p.test.mean, 1e-9);
+  EXPECT_NEAR(first.points.p, p.test.p, 1e-9);
+  EXPECT_NEAR(first.pointsInterval.low, p.interval.low, 1e-9);
+  EXPECT_NEAR(first.pointsInterval.high, p.interval.high, 1e-9);
+  EXPECT_NEAR(first.logit.mean, l.test.mean, 1e-12);
+  EXPECT_NEAR(first.logit.p, l.test.p, 1e-12);
+  EXPECT_NEAR(first.logitInterval.low, l.interval.low, 1e-9);
+  EXPECT_NEAR(first.logitInterval.high, l.interval.high, 1e-9);
+  EXPECT_EQ(effects[1].condition, 1u);
+  EXPECT_EQ(effects[1].people, 1u) << "one did it on both days";
+  EXPECT_EQ(first.p, std::min(1.0, 2 * first.logit.p)) << "two effects of days are corrected together";
+  EXPECT_EQ(effects[1].p, 1);
+}
+
+// Three people who gain the same have no scatter between them, and are then as unsure as their own trials: 8 and then 14 of 20.
+TEST(Effects, AreNeverSurerThanThePeoplesOwnTrials) {
+  std::vector<Attempt> all;
+  for (const char* subject : {"01", "02", "03"}) {
+    attempts(all, subject, "01", 1, 0, 8, 20);
+    attempts(all, subject, "02", 2, 0, 14, 20);
+  }
+  const Effect effect = effectsOf(successTable(all), 1).at(0);
+  const double own = 100 * std::sqrt(3 * (varianceOf(8, 20) + varianceOf(14, 20))) / 3;
+  EXPECT_NEAR(effect.points.mean, 30, 1e-9);
+  EXPECT_NEAR(effect.points.p, std::erfc(30 / own / std::sqrt(2)), 1e-12);
+  EXPECT_NEAR(effect.pointsInterval.low, 30 - 1.959963984540054 * own, 1e-9);
+  EXPECT_NEAR(effect.pointsInterval.high, 30 + 1.959963984540054 * own, 1e-9);
+  const double ownLogit = std::sqrt(3 * (1 / 8.5 + 1 / 12.5 + 1 / 14.5 + 1 / 6.5)) / 3;
+  EXPECT_NEAR(effect.logitInterval.high - effect.logitInterval.low, 2 * 1.959963984540054 * ownLogit, 1e-9);
+}
+
+// A person's effect is the mean over the days on which both were done, and as sure as the mean of those.
+TEST(Effects, OfConditionsAreMeansOverCommonDays) {
+  const Effect pace = effectsOf(cells(), 2)[2];
+  EXPECT_FALSE(pace.ofDay);
+  EXPECT_EQ(pace.from, 0);
+  EXPECT_EQ(pace.to, 1);
+  EXPECT_EQ(pace.people, 3u);
+  const std::vector<double> points{100 * ((5.0 / 25 - 4.0 / 20) + (11.0 / 20 - 9.0 / 18)) / 2, 100 * (2.0 / 8),
+                                   100 * (9.0 / 15 - 6.0 / 12)};
+  const std::vector<double> variance{1e4 * (varianceOf(5, 25) + varianceOf(4, 20) + varianceOf(11, 20) + varianceOf(9, 18)) / 4,
+                                     1e4 * (varianceOf(2, 8) + varianceOf(0, 10)), 1e4 * (varianceOf(9, 15) + varianceOf(6, 12))};
+  const PeopleMean expected = computePeopleMean(points, variance);
+  EXPECT_NEAR(pace.points.mean, meanOf(points), 1e-9);
+  EXPECT_NEAR(pace.pointsInterval.low, expected.interval.low, 1e-9);
+  EXPECT_NEAR(pace.pointsInterval.high, expected.interval.high, 1e-9);
+  const double own = (logit(5, 25) - logit(4, 20) + logit(11, 20) - logit(9, 18)) / 2;
+  EXPECT_NEAR(pace.logit.mean, meanOf({own, logit(2, 8) - logit(0, 10), logit(9, 15) - logit(6, 12)}), 1e-12);
+  EXPECT_EQ(pace.p, pace.logit.p) << "the only one of its kind";
+  EXPECT_TRUE(effectsOf({}, 3).empty());
+  const Effect fresh;
+  EXPECT_TRUE(!fresh.ofDay && fresh.condition == 0 && fresh.from == 0 && fresh.to == 0 && fresh.people == 0 && fresh.p == 1);
+}
+
+// Successes in the last 3, or 2, of 6: by hand, sum x y = 0.5 + 1.5 + 2.5, or 1.5 + 2.5, and sum x^2 = 17.5.
+TEST(LearningSlopes, AreLeastSquaresInPointsPerHundredTrials) {
+  std::vector<Attempt> all;
+  for (const char* subject : {"a", "b"})
+    for (int i = 0; i < 6; ++i) all.push_back({subject, "1", 1, 1, subject[0] == 'a' ? i >= 3 : i >= 4});
+  all.push_back({"short", "1", 1, 1, true});
+  all.push_back({"short", "1", 1, 1, true});
+  const std::vector<LearningSlope> slopes = learningSlopes(all, 2);
+  ASSERT_EQ(slopes.size(), 1u) << "nobody did the first condition";
+  EXPECT_EQ(slopes[0].condition, 1u);
+  EXPECT_EQ(slopes[0].people, 2u) << "two trials have no slope";
+  const std::vector<double> own{1e4 * 4.5 / 17.5, 1e4 * 4.0 / 17.5};
+  const double scatter = 6 / 17.5 * 1e8;
+  const std::vector<double> variance{scatter * varianceOf(3, 6), scatter * varianceOf(2, 6)};
+  const PeopleMean expected = computePeopleMean(own, variance);
+  EXPECT_NEAR(slopes[0].perHundred, meanOf(own), 1e-9);
+  EXPECT_NEAR(slopes[0].interval.low, expected.interval.low, 1e-6);
+  EXPECT_NEAR(slopes[0].interval.high, expected.interval.high, 1e-6);
+  EXPECT_NEAR(slopes[0].p, expected.test.p, 1e-9);
+  all.resize(3);
+  EXPECT_EQ(learningSlopes(all, 2).at(0).people, 1u) << "three trials have one";
+  EXPECT_TRUE(LearningSlope{}.people == 0 && LearningSlope{}.perHundred == 0 && LearningSlope{}.p == 1 && LearningSlope{}.condition == 0);
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

@@ -1,0 +1,80 @@
+#pragma once
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include "constraints/constraint.h"
+#include "devices/make_device.h"
+#include "sim/haptics/run_conductor.h"
+#include "sim/record/log/recorder.h"
+#include "sim/session/session_folder.h"
+
+/// Datasets made the way a session makes them: experiment, device, engine, recorder, on the virtual clock.
+namespace reachlab::analysis {
+
+struct RunToRecord {
+  std::string experiment, device = "simulated", subject = "01", session = "01";
+  int run = 1, trials = 3;
+  bool practice = false;
+  std::uint64_t seed = 1;
+};
+
+/// A folder of its own, gone with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    path_ = (std::filesystem::temp_directory_path() / ("reachlab_analyze_" + std::to_string(getpid()) + "_" + std::to_string(counter()++)))
+                .string();
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  static int& counter() {
+    static int value = 0;
+    return value;
+  }
+  std::string path_;
+};
+
+inline std::string recordRun(const std::string& folder, const RunToRecord& what) {
+  const experiment::Experiment experiment = experiment::readExperiment(what.experiment);
+  record::RunConfiguration c;
+  c.subject = what.subject;
+  c.session = what.session;
+  c.task = session::labelOf(experiment.name);
+  c.run = c.firstRun = what.run;
+  c.condition = experiment.name;
+  c.practice = what.practice;
+  c.experimentName = experiment.name;
+  c.experimentText = experiment.text;
+  c.seed = what.seed;
+  c.device = what.device;
+  c.clock = "virtual";
+  for (int i = 0; i < what.trials; ++i) c.trials.push_back({i, 0, false});
+  c.table = record::makeChannelTable(experiment, constraints::makeConstraint(experiment.constraint).parameterCount());
+
+  const std::string path = session::logPath({folder, what.subject, what.session}, c.task, what.run);
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  haptics::LoopOptions options;
+  options.virtualClock = true;
+  haptics::RunConductor run(experiment, devices::makeDevice(what.device, experiment, what.seed), c.trials, options);
+  record::RecorderOptions recording;
+  recording.threaded = false;
+  record::Recorder recorder(path, c, recording);
+  run.start(&recorder);
+  const std::atomic<bool> stop{false};
+  while (run.runTrial(stop)) continue;
+  run.finish();
+  return path;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,123 @@
+#include "analysis/measures/recording_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/fault.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double gainByDefinition(double f, double cutoff, double rate) {
+  return f < rate / 2 ? 1 / (1 + std::pow(std::tan(kPi * f / rate) / std::tan(kPi * cutoff / rate), 4)) : 0;
+}
+
+/// 2 * integral of the gain times cos(2 pi f t), by Simpson's rule.
+double kernelByDefinition(double t, double cutoff, double rate) {
+  constexpr int kParts = 4000;
+  const double df = rate / 2 / kParts;
+  double sum = 0;
+  for (int i = 0; i <= kParts; ++i)
+    sum += (i == 0 || i == kParts ? 1 : i % 2 == 1 ? 4 : 2) * gainByDefinition(i * df, cutoff, rate) * std::cos(2 * kPi * i * df * t);
+  return 2 * sum * df / 3;
+}
+
+TEST(RecordingFilter, HasTheGainOfASquaredButterworthAndNoneFromHalfTheRateOn) {
+  for (const auto& [cutoff, rate] : {std::pair{10.0, 100.0}, {6.0, 250.0}}) {
+    const RecordingFilter filter(cutoff, rate);
+    EXPECT_TRUE(filter.active());
+    EXPECT_EQ(filter.cutoff(), cutoff);
+    EXPECT_EQ(filter.rate(), rate);
+    EXPECT_NEAR(filter.gain(cutoff), 0.5, 1e-15);
+    EXPECT_EQ(filter.gain(0), 1);
+    for (const double f : {0.3, 3.0, 17.0, 0.49 * rate}) {
+      EXPECT_NEAR(filter.gain(f), gainByDefinition(f, cutoff, rate), 1e-14) << f;
+      EXPECT_EQ(filter.gain(-f), filter.gain(f)) << f;
+    }
+    EXPECT_EQ(filter.gain(rate / 2), 0);
+    EXPECT_EQ(filter.gain(-0.7 * rate), 0);
+  }
+}
+
+TEST(RecordingFilter, HasTheKernelOfItsGainAndNextToNothingBeyondItsReach) {
+  for (const auto& [cutoff, rate] : {std::pair{10.0, 100.0}, {6.0, 250.0}, {20.0, 100.0}}) {
+    const RecordingFilter filter(cutoff, rate);
+    const double peak = filter.kernel(0), step = filter.reach() / 97;
+    EXPECT_NEAR(peak, kernelByDefinition(0, cutoff, rate), 1e-6 * peak);
+    EXPECT_GT(filter.reach(), 1.5 / cutoff) << "a few periods";
+    for (double t = step; t < filter.reach(); t += step) {
+      EXPECT_NEAR(filter.kernel(t), kernelByDefinition(t, cutoff, rate), 1e-6 * peak) << t;
+      EXPECT_EQ(filter.kernel(-t), filter.kernel(t)) << t;
+    }
+    for (const double beyond : {1.001, 1.2, 10.0}) EXPECT_LT(std::abs(filter.kernel(beyond * filter.reach())), 2e-6 * peak) << beyond;
+  }
+}
+
+// A ramp that jumps back to nothing: its integral with the kernel, to a rule of many more points.
+TEST(RecordingFilter, FiltersASignalThatJumpsAtItsEndsAndReachesBeyondThem) {
+  constexpr double kDuration = 0.6, kCutoff = 10, kRate = 100;
+  constexpr std::size_t kSamples = 121, kMargin = 40;
+  const RecordingFilter filter(kCutoff, kRate);
+  std::vector<double> ramp;
+  for (std::size_t i = 0; i < kSamples; ++i) ramp.push_back(1 + static_cast<double>(i) / (kSamples - 1));
+  const std::vector<double> out = filter.apply(ramp, kDuration, kMargin);
+  ASSERT_EQ(out.size(), kSamples + 2 * kMargin);
+  for (const std::size_t i : {0u, 11u, 40u, 41u, 77u, 150u, 160u, 161u, 200u}) {
+    const double t = (static_cast<double>(i) - kMargin) * kDuration / (kSamples - 1);
+    double sum = 0;
+    constexpr int kParts = 6000;
+    for (int k = 0; k < kParts; ++k) {
+      const double at = (k + 0.5) / kParts;
+      sum += (1 + at) * filter.kernel(t - at * kDuration) * kDuration / kParts;
+    }
+    EXPECT_NEAR(out[i], sum, 1e-5) << i;
+  }
+}
+
+TEST(RecordingFilter, WithoutACutOffLeavesTheSignalAsItIs) {
+  const RecordingFilter none(0, 100);
+  EXPECT_FALSE(none.active());
+  EXPECT_EQ(none.reach(), 0);
+  EXPECT_EQ(none.gain(49), 1);
+  EXPECT_EQ(none.apply(std::vector<double>{2, 3, 5}, 1, 2), (std::vector<double>{0, 0, 2, 3, 5, 0, 0}));
+}
+
+TEST(RecordingFilter, OfASingleInstantIsNothing) {
+  EXPECT_EQ(RecordingFilter(10, 100).apply(std::vector<double>{7}, 1, 1), std::vector<double>(3, 0.0));
+  EXPECT_EQ(RecordingFilter(0, 100).apply(std::vector<double>{7, 8}, 1, 0), (std::vector<double>{7, 8}));
+}
+
+TEST(RecordingFilter, RefusesWhatNoRecordingCanHave) {
+  EXPECT_NO_THROW(RecordingFilter(49.9, 100));
+  for (const auto& [cutoff, rate] : {std::pair{50.0, 100.0}, {-1.0, 100.0}, {10.0, 0.0}, {0.0, -100.0}, {10.0, INFINITY}})
+    EXPECT_THROW(RecordingFilter(cutoff, rate), FaultError) << cutoff << " " << rate;
+  EXPECT_THROW(RecordingFilter(std::nan(""), 100), FaultError);
+  try {
+    RecordingFilter(60, 110);
+    FAIL();
+  } catch (const FaultError& e) {
+    EXPECT_NE(std::string(e.what()).find("is 60 Hz at 110 samples per second"), std::string::npos) << e.what();
+  }
+}
+
+TEST(GregoryWeights, AreOfEighthOrderFromSixteenSamplesOnAndTheTrapezoidsBelow) {
+  EXPECT_TRUE(gregoryWeights(0).empty());
+  EXPECT_EQ(gregoryWeights(1), std::vector<double>{1});
+  EXPECT_EQ(gregoryWeights(2), (std::vector<double>{0.5, 0.5}));
+  std::vector<double> trapezoids(15, 1.0);
+  trapezoids.front() = trapezoids.back() = 0.5;
+  EXPECT_EQ(gregoryWeights(15), trapezoids);
+  const std::vector<double> w = gregoryWeights(16);
+  for (int degree = 0; degree <= 7; ++degree) {
+    double sum = 0;
+    for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * std::pow(static_cast<double>(i) / 15 - 0.3, degree) / 15;
+    EXPECT_NEAR(sum, (std::pow(0.7, degree + 1) - std::pow(-0.3, degree + 1)) / (degree + 1), 1e-13) << degree;
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

@@ -1,0 +1,175 @@
+#include "analysis/measures/smoothness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr double kPublishedDigits = 5e-6;  // the known values are given to five decimals
+
+std::vector<double> gaussian() {  // exp(-5 t^2), t = -1 … 0.99, step 0.01
+  std::vector<double> v;
+  for (int i = 0; i < 200; ++i) v.push_back(std::exp(-5 * std::pow(-1 + 0.01 * i, 2)));
+  return v;
+}
+
+std::vector<double> minimumJerk(double duration, double rate) {  // 0.2 m
+  std::vector<double> v;
+  const int n = static_cast<int>(std::lround(duration * rate));
+  for (int i = 0; i <= n; ++i) {
+    const double s = static_cast<double>(i) / n;
+    v.push_back(30 * 0.2 / duration * s * s * (1 - s) * (1 - s));
+  }
+  return v;
+}
+
+TEST(Sparc, HasItsKnownValues) {
+  EXPECT_NEAR(computeSparc(gaussian(), 100), -1.41403, kPublishedDigits);
+  EXPECT_NEAR(computeSparc(minimumJerk(1.35, 100), 100), -1.40255, kPublishedDigits);
+}
+
+TEST(LogDimensionlessJerk, HasItsKnownValues) {
+  EXPECT_NEAR(computeLogDimensionlessJerk(gaussian(), 100), -5.81636, kPublishedDigits);
+  EXPECT_NEAR(computeLogDimensionlessJerk(minimumJerk(1.35, 100), 100), -5.30722, kPublishedDigits);
+}
+
+TEST(Smoothness, DoesNotDependOnAmplitude) {
+  std::vector<double> v = minimumJerk(1.35, 100);
+  const double sparc = computeSparc(v, 100), ldlj = computeLogDimensionlessJerk(v, 100);
+  for (double& x : v) x *= 3.7;
+  EXPECT_NEAR(computeSparc(v, 100), sparc, 1e-12);
+  EXPECT_NEAR(computeLogDimensionlessJerk(v, 100), ldlj, 1e-12);
+}
+
+TEST(Smoothness, FallsWithEachSubmovement) {
+  double lastSparc = 0, lastJerk = 0;
+  for (int parts = 1; parts <= 4; ++parts) {
+    std::vector<double> v;
+    for (int k = 0; k < parts; ++k) {
+      const std::vector<double> one = minimumJerk(0.6, 100);
+      v.insert(v.end(), one.begin(), one.end());
+    }
+    const double sparc = computeSparc(v, 100), jerk = computeLogDimensionlessJerk(v, 100);
+    if (parts > 1) {
+      EXPECT_LT(sparc, lastSparc);
+      EXPECT_LT(jerk, lastJerk);
+    }
+    EXPECT_EQ(countPeaks(v), static_cast<std::size_t>(parts));
+    lastSparc = sparc;
+    lastJerk = jerk;
+  }
+}
+
+TEST(Smoothness, IsNotANumberWhereItIsNotDefined) {
+  EXPECT_TRUE(std::isnan(computeSparc({}, 100)));
+  EXPECT_TRUE(std::isnan(computeSparc(std::vector<double>(50, 0.0), 100)));
+  EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>(2, 1.0), 100)));
+  EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>(50, 0.0), 100)));
+}
+
+TEST(CountPeaks, NeedsThreeSamplesAndNoMore) {
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1, 0}), 1u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1}), 0u);
+  EXPECT_EQ(countPeaks(std::vector<double>{}), 0u);
+}
+
+TEST(CountPeaks, IgnoresRipplesBelowTheProminence) {
+  std::vector<double> v = minimumJerk(1, 100);
+  EXPECT_EQ(countPeaks(v), 1u);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.001 * std::sin(2.0 * static_cast<double>(i));
+  EXPECT_EQ(countPeaks(v), 1u);
+  EXPECT_GT(countPeaks(v, 0.0), 1u);
+  EXPECT_EQ(countPeaks({}), 0u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1, 1, 1, 0}), 1u);
+}
+
+/// The definition, with every amplitude as the plain sum of its Fourier coefficient.
+double sparcByDefinition(const std::vector<double>& speed, double rate, const SparcOptions& options) {
+  std::size_t bins = 1;
+  while (bins < speed.size()) bins *= 2;
+  for (int i = 0; i < options.padding; ++i) bins *= 2;
+  std::vector<double> f, a;
+  for (std::size_t k = 0; k <= bins / 2; ++k) {
+    std::complex<double> sum = 0;
+    for (std::size_t n = 0; n < speed.size(); ++n)
+      sum += speed[n] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k * n) / static_cast<double>(bins));
+    f.push_back(static_cast<double>(k) * rate / static_cast<double>(bins));
+    a.push_back(std::abs(sum));
+  }
+  const double largest = a.front();
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < f.size() && f[k] <= options.cutoff; ++k)
+    if (a[k] >= options.amplitude * largest) last = k;
+  double length = 0;
+  for (std::size_t k = 1; k <= last; ++k) length += std::hypot((f[k] - f[k - 1]) / f[last], (a[k] - a[k - 1]) / largest);
+  return -length;
+}
+
+TEST(Sparc, IsItsDefinitionForAnySignalAndOption) {
+  const std::vector<double> uneven{0, 1, 4, 2, 0.5, 3, 7, 5, 5, 1, 0.25, 0.5, 2, 0.75, 0.5, 0.25}, odd{0.5, 3, 1, 0, 2, 1, 6}, two{1, 3};
+  for (const std::vector<double>& speed : {uneven, odd, two, minimumJerk(0.7, 100)})
+    for (const double rate : {64.0, 100.0})
+      for (const SparcOptions& options : {SparcOptions{}, SparcOptions{2, 10, 0.01}, SparcOptions{3, 5, 0.2}, SparcOptions{1, 1000, 0.05}})
+        EXPECT_NEAR(computeSparc(speed, rate, options), sparcByDefinition(speed, rate, options), 1e-9)
+            << speed.size() << " samples at " << rate << " Hz, " << options.cutoff;
+}
+
+TEST(Sparc, LooksBelowTenHertzAtFivePercentWithSixteenfoldPadding) {
+  const SparcOptions usual;
+  EXPECT_EQ(usual.padding, 4);
+  EXPECT_EQ(usual.cutoff, 10);
+  EXPECT_EQ(usual.amplitude, 0.05);
+}
+
+TEST(Smoothness, NeedsSamplesARateAndFiniteSpeeds) {
+  const std::vector<double> bell{0, 2, 5, 1}, one{3}, infinite{0, INFINITY, 1};
+  EXPECT_TRUE(std::isnan(computeSparc(one, 100)));
+  EXPECT_TRUE(std::isnan(computeSparc(infinite, 100)));
+  for (const double rate : {0.0, -100.0, std::nan("")}) {
+    EXPECT_TRUE(std::isnan(computeSparc(bell, rate)));
+    EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(bell, rate)));
+  }
+  EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>{1, 2, 3, 4}, 100))) << "no jerk, no logarithm";
+  EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(infinite, 100)));
+}
+
+TEST(LogDimensionlessJerk, IsWorkedOutByHand) {
+  // v = 0 1 4 2 0.5 at 10 Hz: second differences 2, -5, 0.5 times 100; T = 0.5 s, v_max = 4.
+  EXPECT_NEAR(computeLogDimensionlessJerk(std::vector<double>{0, 1, 4, 2, 0.5}, 10), -std::log(0.125 / 16 * 29250), 1e-12);
+  // v = 0 1 0 at 2 Hz: -2 times 4; T = 1.5 s.
+  EXPECT_NEAR(computeLogDimensionlessJerk(std::vector<double>{0, 1, 0}, 2), -std::log(3.375 * 32), 1e-12);
+}
+
+// 6 stands 1 above the higher of the valleys that part it from 10 and 9; mirrored it is the same.
+TEST(CountPeaks, MeasuresAProminenceFromTheHigherValley) {
+  for (const std::vector<double>& v : {std::vector<double>{0, 10, 4, 6, 5, 9, 0}, std::vector<double>{0, 9, 5, 6, 4, 10, 0}}) {
+    EXPECT_EQ(countPeaks(v, 0.1), 3u);
+    EXPECT_EQ(countPeaks(v, 0.1001), 2u);
+    EXPECT_EQ(countPeaks(v, 0.4), 2u);
+    EXPECT_EQ(countPeaks(v, 0.41), 2u) << "9 goes down to 4 before it goes up to 10";
+    EXPECT_EQ(countPeaks(v, 0.51), 1u);
+  }
+}
+
+TEST(CountPeaks, TakesEqualOnesForNeighboursOfTheSameHeight) {
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 3, 1, 3, 0}, 0.9), 2u) << "neither is higher, so both reach down to the ends";
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 3, 3, 1, 3, 3, 0}, 0.9), 2u);
+}
+
+TEST(CountPeaks, LeavesOutShouldersEndsAndWhatIsNotAboveZero) {
+  EXPECT_EQ(countPeaks(std::vector<double>{2, 1, 2}), 0u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1, 1}), 0u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 1, 1, 2, 0}), 1u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 2, 1, 1, 0}), 1u);
+  EXPECT_EQ(countPeaks(std::vector<double>{-2, -1, -2}, 0.0), 0u);
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 20, 18.5, 19, 0}), 1u) << "0.5 is less than 5 % of 20";
+  EXPECT_EQ(countPeaks(std::vector<double>{0, 20, 18, 19.5, 0}), 2u) << "1.5 is more";
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

@@ -1,0 +1,99 @@
+#include "analysis/measures/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace reachlab::analysis {
+namespace {
+
+TEST(BinomialInterval, HasItsTextbookValues) {
+  // Newcombe 1998, table I, Clopper and Pearson: four digits.
+  const struct {
+    std::size_t r, n;
+    double low, high;
+  } cases[] = {{81, 263, 0.2527, 0.3676}, {15, 148, 0.0578, 0.1617}, {0, 20, 0.0000, 0.1684}, {1, 29, 0.0009, 0.1776}};
+  for (const auto& c : cases) {
+    const Interval i = computeBinomialInterval(c.r, c.n);
+    EXPECT_NEAR(i.low, c.low, 5e-5);
+    EXPECT_NEAR(i.high, c.high, 5e-5);
+  }
+}
+
+TEST(BinomialInterval, HoldsTheShareAndStaysInside) {
+  for (std::size_t n = 0; n <= 40; ++n)
+    for (std::size_t k = 0; k <= n; ++k) {
+      const Interval i = computeBinomialInterval(k, n);
+      EXPECT_GE(i.low, 0);
+      EXPECT_LE(i.high, 1);
+      if (n > 0) {
+        EXPECT_LE(i.low, static_cast<double>(k) / static_cast<double>(n));
+        EXPECT_GE(i.high, static_cast<double>(k) / static_cast<double>(n));
+      }
+    }
+}
+
+TEST(MeanSd, LeavesOutWhatWasNotMeasured) {
+  const std::vector<double> v{1, std::nan(""), 3, 5};
+  const MeanSd s = computeMeanSd(v);
+  EXPECT_EQ(s.count, 3u);
+  EXPECT_DOUBLE_EQ(s.mean, 3);
+  EXPECT_DOUBLE_EQ(s.sd, 2);
+  EXPECT_TRUE(std::isnan(computeMeanSd({}).mean));
+  EXPECT_TRUE(std::isnan(computeMeanSd(std::vector<double>{2.0}).sd));
+}
+
+TEST(Quantile, LiesBetweenNeighbours) {
+  const std::vector<double> v{1, 2, 4, 8};
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0), 1);
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0.5), 3);
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 1), 8);
+}
+
+// None or all: (1 - high)^n, or low^n, is what lies outside on that side.
+TEST(BinomialInterval, OfNoneOrAllIsARootOfTheLevel) {
+  for (const double level : {0.95, 0.8})
+    for (const std::size_t n : {1u, 7u, 20u}) {
+      const double root = std::pow((1 - level) / 2, 1.0 / static_cast<double>(n));
+      const Interval none = computeBinomialInterval(0, n, level), all = computeBinomialInterval(n, n, level);
+      EXPECT_EQ(none.low, 0);
+      EXPECT_NEAR(none.high, 1 - root, 1e-12);
+      EXPECT_NEAR(all.low, root, 1e-12);
+      EXPECT_EQ(all.high, 1);
+    }
+  EXPECT_EQ(computeBinomialInterval(0, 0).low, 0);
+  EXPECT_EQ(computeBinomialInterval(0, 0).high, 1);
+}
+
+TEST(BinomialInterval, OfFailuresIsTheMirrorOfSuccesses) {
+  for (std::size_t k = 0; k <= 9; ++k) {
+    const Interval successes = computeBinomialInterval(k, 9), failures = computeBinomialInterval(9 - k, 9);
+    EXPECT_NEAR(successes.low, 1 - failures.high, 1e-12);
+    EXPECT_EQ(computeBinomialInterval(k, 9, 0.95).low, successes.low) << "0.95 is the usual level";
+  }
+}
+
+TEST(MeanSd, OfFewNumbersIsWhatIsKnown) {
+  const MeanSd none = computeMeanSd(std::vector<double>{std::nan(""), INFINITY});
+  EXPECT_TRUE(std::isnan(none.mean) && std::isnan(none.sd));
+  EXPECT_EQ(none.count, 0u);
+  const MeanSd one = computeMeanSd(std::vector<double>{2.5, -INFINITY});
+  EXPECT_EQ(one.mean, 2.5);
+  EXPECT_EQ(one.count, 1u);
+  const MeanSd two = computeMeanSd(std::vector<double>{2, 5});
+  EXPECT_DOUBLE_EQ(two.mean, 3.5);
+  EXPECT_DOUBLE_EQ(two.sd, 3 / std::sqrt(2.0));
+}
+
+TEST(Quantile, IsLinearAndHeldAtTheEnds) {
+  const std::vector<double> v{1, 2, 4, 8};
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0.9), 4 + 0.7 * 4);
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0.25), 1.75);
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, -0.5), 1);
+  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 1.5), 8);
+  EXPECT_DOUBLE_EQ(quantileOfSorted(std::vector<double>{3}, 0.4), 3);
+  EXPECT_TRUE(std::isnan(quantileOfSorted({}, 0.5)));
+}
+
+}  // namespace
+}  // namespace reachlab::analysis

@@ -1,0 +1,65 @@
+#include "sim/record/trial_marks.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "tests/analysis/recorded.h"
+
+namespace reachlab::record {
+namespace {
+
+using analysis::TemporaryFolder;
+
+TEST(TrialMarks, StandBesideTheLogAndReadBackEqual) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/sub-01_ses-01_task-x_run-01_log.reach";
+  EXPECT_EQ(marksPathOf(log), folder.path() + "/sub-01_ses-01_task-x_run-01_marks.json");
+  EXPECT_TRUE(readMarks(log).trials.empty()) << "no file, no marks";
+  RunMarks marks;
+  marks.set({.trial = 7, .flagged = true, .note = "sneezed, \"loudly\""});
+  marks.set({.trial = 2, .excluded = "talked", .onset = 0.1 + 0.2, .offset = 1.25});
+  ASSERT_EQ(marks.trials.front().trial, 2) << "in the order of the trials";
+  writeMarks(log, marks);
+  EXPECT_EQ(readMarks(log), marks);
+  ASSERT_NE(marks.find(7), nullptr);
+  EXPECT_EQ(marks.find(3), nullptr);
+  marks.set({.trial = 7});
+  marks.set({.trial = 2});
+  EXPECT_TRUE(marks.trials.empty()) << "what says nothing is forgotten";
+  writeMarks(log, marks);
+  EXPECT_FALSE(std::filesystem::exists(marksPathOf(log)));
+}
+
+TEST(TrialMarks, AFaultyFileIsToldWithItsPlaces) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/a_log.reach";
+  std::ofstream(marksPathOf(log)) << R"({"schema_version": 1, "trials": [{"trial": 0, "onset_s": 2, "offset_s": 1, "excludde": "x"}]})";
+  try {
+    (void)readMarks(log);
+    FAIL();
+  } catch (const Error& e) {
+    const std::string text = e.what();
+    for (const char* part : {"a_marks.json:1:", "trials[0].trial", "trials[0].offset_s: is not after onset_s", "excludde"})
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  }
+}
+
+TEST(TrialMarks, TimesReachAMillionSecondsAndNoFurther) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/a_log.reach";
+  const auto write = [&](const char* onset) {
+    std::ofstream(marksPathOf(log)) << R"({"schema_version": 1, "trials": [{"trial": 1, "onset_s": )" << onset << "}]}";
+  };
+  write("1000000");
+  EXPECT_EQ(readMarks(log).trials.at(0).onset, 1e6);
+  write("1000001");
+  EXPECT_THROW((void)readMarks(log), Error);
+  write("-1e-9");
+  EXPECT_THROW((void)readMarks(log), Error);
+}
+
+}  // namespace
+}  // namespace reachlab::record
