@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The house's layers, read from the sources: exits 1 with a line for every arrow that CMake does not know, that no include needs, that
-runs back up, for a file whose namespace is not its folder's, or that takes Eigen from elsewhere than base/matrix.h.
+runs back up, for a file whose namespace is not its folder's, or that takes Eigen from elsewhere than base/math/matrix.h.
 
   tests/house/layers.py          checks
   tests/house/layers.py --show   prints the arrows
@@ -10,7 +10,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ORDER = ["base", "constraints", "sim", "devices", "network", "gui", "cli"]  # a folder uses those to its left; gui and cli not each other
+ORDER = ["base", "constraints", "sim", "analysis", "devices", "network", "bench", "gui", "cli"]  # a folder uses those to its left; gui and cli not each other
+MAX_FILES = 30
 
 
 def library_of(folder):
@@ -34,7 +35,40 @@ def sources():
 
 def namespace_of(folder):
     parts = [p for p in folder.parts if p != "sim"]
+    if parts[0] == "analysis" and len(parts) > 1:
+        parts = parts[1:]
     return "reachlab" if parts == ["base"] else "reachlab::" + parts[0]
+
+
+def stated_rooms():
+    """The folders of the table of rooms, each with its sentence."""
+    return dict(re.findall(r"^\| `([\w/]+)` \| (\S.*) \|$", (ROOT / "docs/architecture.md").read_text(), re.M))
+
+
+def rings(arrows):
+    """The nodes that lie on a ring or between two: taking away what uses nothing and what nothing uses leaves them."""
+    rest = {a: set(b) & arrows.keys() - {a} for a, b in arrows.items()}
+    while ready := [a for a in rest if not rest[a] & rest.keys() or not any(a in b for b in rest.values())]:
+        for a in ready:
+            del rest[a]
+        for b in rest.values():
+            b -= set(ready)
+    return sorted(map(str, rest))
+
+
+def room_faults(files):
+    uses, count = {}, {}
+    for file in files:
+        count[file.parent] = count.get(file.parent, 0) + 1
+        uses.setdefault(file.parent, set()).update(included(file))
+    stated = stated_rooms()
+    faults = [f"{room}: {n} files; at most {MAX_FILES}: split the room by idea" for room, n in count.items() if n > MAX_FILES]
+    faults += [f"docs/architecture.md: no sentence for {room}" for room in count if str(room) not in stated]
+    faults += [f"docs/architecture.md: {room} has no sources" for room in stated if Path(room) not in count]
+    uses[Path("devices/simulated")].discard(Path("devices/subject"))  # to be broken: models of people become a room of sim/
+    if ring := rings(uses):
+        faults.append("a ring of rooms among " + ", ".join(ring))
+    return faults
 
 
 def included(file):
@@ -63,8 +97,8 @@ def main():
         wrong = [n for n in re.findall(r"^namespace (reachlab[\w:]*) {", text, re.M)
                  if n != namespace_of(here) and not n.startswith(namespace_of(here) + "::")]
         faults += [f"{file}: namespace {n}, expected {namespace_of(here)}" for n in wrong]
-        if "<Eigen/" in text and file != Path("base/matrix.h"):
-            faults.append(f"{file}: includes Eigen itself; base/matrix.h has it, with the same bits on every processor")
+        if "<Eigen/" in text and file != Path("base/math/matrix.h"):
+            faults.append(f"{file}: includes Eigen itself; base/math/matrix.h has it, with the same bits on every processor")
 
     for folder, used in arrows.items():
         declared = declared_arrows(folder, target_folder)
@@ -75,13 +109,9 @@ def main():
             if below > rank or (folder.parts[0], other.parts[0]) == ("cli", "gui"):
                 faults.append(f"{folder} includes {other}: the arrow runs back up")
 
-    # No ring: taking away what has no arrow left leaves nothing.
-    rest = {f: set(used) for f, used in arrows.items()}
-    while ready := [f for f, used in rest.items() if not used & rest.keys()]:
-        for f in ready:
-            del rest[f]
-    if rest:
-        faults.append("a ring of arrows among " + ", ".join(map(str, sorted(rest))))
+    if ring := rings(arrows):
+        faults.append("a ring of libraries among " + ", ".join(ring))
+    faults += room_faults(files)
 
     if "--show" in sys.argv:
         for folder in folders:
