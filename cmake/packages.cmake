@@ -73,10 +73,10 @@ foreach(program ${programs})
 endforeach()
 
 # The manual as a site.
-file(GLOB_RECURSE manual_sources CONFIGURE_DEPENDS docs/*)
+file(GLOB_RECURSE manual_sources CONFIGURE_DEPENDS docs/* packaging/manual/site/*)
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/manual/index.html
   COMMAND ${packaging}/manual/build ${PROJECT_BINARY_DIR}/manual
-  DEPENDS ${manual_sources} ${PROJECT_SOURCE_DIR}/mkdocs.yml VERBATIM)
+  DEPENDS ${manual_sources} ${packaging}/manual/build ${packaging}/manual/check_site.py VERBATIM)
 add_custom_target(manual ALL DEPENDS ${PROJECT_BINARY_DIR}/manual/index.html)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${share}/doc/reachlab/html COMPONENT doc)
 
