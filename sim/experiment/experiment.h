@@ -64,7 +64,7 @@ struct Task {
   StartRest rest;
 };
 
-/// Two-link planar arm for criterion 2 (criteria.md 6); defaults unverified, after Uno 1989.
+/// Two-link planar arm for criterion 2 (docs/theory/criteria.md, "Minimum torque change"); defaults unverified, after Uno 1989.
 struct Arm {
   std::array<double, 2> length{0.25, 0.35};     // [m]
   std::array<double, 2> centre{0.11, 0.15};     // [m] from the proximal joint

@@ -13,7 +13,8 @@ struct Case {
   const char* arguments;
   double cost, handPeak, handPeakTime, objectPeak;
 };
-// Published digits (criteria.md 9): ten significant figures of J and of the hand's peak, seven of the object's.
+// Published digits (docs/theory/criteria.md, "Numbers to test against"): ten significant figures of J and of the hand's peak, seven of the
+// object's.
 const Case kCases[] = {
     {"dingwell --criterion min-hand-jerk", 16.5196433594, 0.2096247949, 0.444958, 0.3792369},
     {"dingwell --criterion min-crackle", 68220.8533855, 0.2045467535, 0.675, 0.3645833},

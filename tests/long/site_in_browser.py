@@ -63,7 +63,7 @@ def faults(folder):
             yield f"{page}: {seen} px wide in a window of {width} px"
         if state == "dead":
             yield f"{page}: its scripts do not run"
-    for word, page in {"crackle": "predictions.html", "epitrochoid": "constraints.html"}.items():
+    for word, page in {"crackle": "theory/criteria.html", "epitrochoid": "constraints.html"}.items():
         found = chromium((folder / "search.html").as_uri() + f"?q={word}", "--virtual-time-budget=20000", "--dump-dom")
         if not re.search(rf'<li[^>]*>\s*<a href="{re.escape(page)}', found):
             yield f"search.html: {word} does not lead to {page}"

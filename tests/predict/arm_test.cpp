@@ -1,4 +1,5 @@
-// Criterion 2: the cost by differences of the torques as criteria.md 6 prints them, optimality, and convergence.
+// Criterion 2: the cost by differences of the torques as docs/theory/criteria.md, "Minimum torque change" prints them, optimality, and
+// convergence.
 #include <gtest/gtest.h>
 
 #include <cmath>

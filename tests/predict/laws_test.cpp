@@ -1,4 +1,4 @@
-// What the theory says about every prediction, whatever its numbers (criteria.md 3.1, 4, 5).
+// What the theory says about every prediction, whatever its numbers (docs/theory/criteria.md, "Least norm form").
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using enum Criterion;
 
 // Two closed forms of the same number, each right to a few units in the twelfth digit.
 constexpr double kSame = 1e-11;
-// Values that criteria.md prints with five digits, and end jumps with two or three.
+// Values that docs/theory/criteria.md prints with five digits, and end jumps with two or three.
 constexpr double kFiveDigits = 2e-5, kTwoDigits = 0.03;
 
 std::unique_ptr<Prediction> predictWith(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping = 0) {
@@ -207,7 +207,7 @@ TEST(Warnings, NameTravelTimeAndCondition) {
   const auto hurried = predict(makeChain(10, 0.3, 60, 1.35), MinHandJerk);
   ASSERT_EQ(hurried->warnings.size(), 2u);
   EXPECT_NEAR(*hurried->travelTime, 2 * 10 * std::sqrt(0.3 / 60), 1e-12);
-  EXPECT_NEAR(std::abs(hurried->handPeak), 3268, 1);  // criteria.md 5
+  EXPECT_NEAR(std::abs(hurried->handPeak), 3268, 1);  // docs/theory/criteria.md, "When the time is too short"
   EXPECT_TRUE(predict(chainModerate(), MinHandJerk)->warnings.empty());
   EXPECT_NEAR(*predict(chainModerate(), MinHandJerk)->travelTime, 0.316, 0.0005);
   EXPECT_FALSE(predict(parallelPair(), MinHandJerk)->travelTime.has_value());

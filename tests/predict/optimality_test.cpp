@@ -24,7 +24,7 @@ experiment::Experiment damped(experiment::Experiment e) {
   return e;
 }
 
-// The control as a polynomial of D applied to the flat output, and the conditions per end (criteria.md 3).
+// The control as a polynomial of D applied to the flat output, and the conditions per end (docs/theory/criteria.md, "Flat outputs").
 struct Control {
   FlatPolynomial polynomial;
   int conditions = 0;

@@ -60,7 +60,8 @@ TEST(SurfaceJerk, OnAPlaneUnevenlyCoveredIsTheMinimumJerkAlongTheChord) {
   expectMinimumJerk(*p, std::sqrt(x * x + y * y + z * z));
 }
 
-// Cost of an arc length s(t) on a curve of constant curvature and torsion (criteria.md 7), by Gauss-Legendre.
+// Cost of an arc length s(t) on a curve of constant curvature and torsion (docs/theory/criteria.md, "Curves and surfaces"), by
+// Gauss-Legendre.
 struct Motion {
   double rate, acceleration, jerk;
 };
@@ -89,7 +90,8 @@ TEST_P(Helix, CostIsTheFormulaInCurvatureAndTorsionAndNoneIsLower) {
   const auto predicted = [&](double t, double bend, int waves) {
     constexpr double kStep = 1e-3;
     const PredictedHand h = p->handAt(t);
-    // Jerk of the predicted motion by fourth-order differences of its acceleration, one-sided at the ends by symmetry of the stencil's range.
+    // Jerk of the predicted motion by fourth-order differences of its acceleration, one-sided at the ends by symmetry of the stencil's
+    // range.
     const double c = std::clamp(t, 2 * kStep, 1 - 2 * kStep);
     const auto a = [&](double s) { return p->handAt(s).acceleration; };
     double jerk = (8 * (a(c + kStep) - a(c - kStep)) - (a(c + 2 * kStep) - a(c - 2 * kStep))) / (12 * kStep);
@@ -268,8 +270,8 @@ TEST(SurfaceJerk, DoesNotDependOnTheUnitOfTheParameters) {
   }
 }
 
-// The straight start goes over the top, to either side of which it is lower: a way round is looked for also where the parameter across does not
-// change from start to target, and where the formula has no value at other pairs of parameters.
+// The straight start goes over the top, to either side of which it is lower: a way round is looked for also where the parameter across
+// does not change from start to target, and where the formula has no value at other pairs of parameters.
 TEST(SurfaceJerk, GoesRoundAHillHoweverItsParametersCount) {
   const auto cost = [](const std::string& x, double from, double to) {
     return predict(makeSurfaceExperiment({x, "0.05*exp(-(" + x + "^2 + v^2)/(2*0.02^2))", "v"}, {from, 0}, {to, 0}, 1),

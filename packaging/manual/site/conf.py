@@ -30,6 +30,8 @@ html_favicon = str(HERE.parents[2] / "resources/icons/reachlab.svg")
 html_theme_options = {"top_of_page_button": None}
 pygments_style = "friendly"
 html_math_renderer = "mathml"
+# An accented symbol with an index: the converter would put the index below the accent.
+ACCENT = re.compile(r"\\(?:d{0,2}dot|bar|hat|tilde)(?:\{[^{}]*\}|\s*\\[a-z]+\s[A-Za-z]|\s*\\[a-z]+|\s+[A-Za-z])(?=[_^])")
 
 
 def mathml(source, block):
@@ -38,12 +40,18 @@ def mathml(source, block):
     node, source = tree, source.strip()
     if block and ("&" in source or r"\\" in source) and r"\begin" not in source:
         node = latex2mathml.mtd()
-        tree.append(latex2mathml.mtable(latex2mathml.mtr(node), **{"class": "aligned"}))
+        tree.append(latex2mathml.mtable(latex2mathml.mtr(node), **{"class": "aligned", "displaystyle": "true"}))
     try:
-        latex2mathml.parse_latex_math(node, source)
+        latex2mathml.parse_latex_math(node, ACCENT.sub(r"{\g<0>{}}", source))
     except SyntaxError as error:
         raise SphinxError(f"formula {source}: {error}") from error
-    return bold("".join(tree.xml()))
+    return spaced(bold(tree.toprettyxml()))
+
+
+def spaced(markup):
+    """A space after the name of a function, and none about a slash or the bars of an absolute value."""
+    markup = markup.replace("<mo>&ApplyFunction;</mo>", '<mspace width="0.17em"></mspace>')
+    return re.sub(r"<mo( [^>]*)?>([/|])</mo>", r'<mo\1 lspace="0" rspace="0">\2</mo>', markup)
 
 
 def bold(markup):

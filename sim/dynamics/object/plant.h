@@ -28,9 +28,9 @@ struct BodyState {
   Vec3 angularVelocity;
 };
 
-/// A scene compiled for exactly one experiment: dynamics and method together (architecture.md, "Plant"). Not thread-safe; the haptic
-/// loop owns it. None of the noexcept members allocates, locks or throws. A function of its inputs alone: the same calls give the
-/// same bits.
+/// A scene compiled for exactly one experiment: dynamics and method together (docs/adr/0002-a-scene-is-compiled-to-form-and-method.md).
+/// Not thread-safe; the haptic loop owns it. None of the noexcept members allocates, locks or throws. A function of its inputs alone: the
+/// same calls give the same bits.
 class Plant {
  public:
   virtual ~Plant() = default;

@@ -13,9 +13,9 @@ struct ArmTask {
 };
 
 /// Criterion 2: least integral of the squared rates of both joint torques of a planar two-link arm, tau = M(q) q'' + C + B q' (+
-/// J^T f of the object), from rest to rest; model and symbols of criteria.md 6, after Uno, Kawato and Suzuki 1989. The problem is
-/// not convex: the lowest of the minima found from several starts is given. `unknowns` 0: chosen for 1e-8 of the peak. Free arm:
-/// positions are those along the chord from start to target; the masses go with the hand and load nothing.
+/// J^T f of the object), from rest to rest; model and symbols of docs/theory/criteria.md, "Minimum torque change", after Uno, Kawato and
+/// Suzuki 1989. The problem is not convex: the lowest of the minima found from several starts is given. `unknowns` 0: chosen for 1e-8 of
+/// the peak. Free arm: positions are those along the chord from start to target; the masses go with the hand and load nothing.
 std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, const ArmTask& task, int massCount, int unknowns);
 /// Along the straight line of the task with the object (and the hand's own mass and damping); no force across the line. Starts from what is
 /// `near` (PredictOptions::near), where given.

@@ -8,8 +8,8 @@
 namespace reachlab::predict {
 
 /// Chain or parallel object on a curve: node 0 is the hand, nodes 1 … N the masses, all at arc lengths s [m] with speeds v [m/s].
-/// Springs and dampers act along the chords in space and are projected on the tangent (physics.md; Eq. (11) in arc length):
-/// m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity_i v_i.
+/// Springs and dampers act along the chords in space and are projected on the tangent (docs/theory/motion.md, "Chains": Eq. (11) in arc
+/// length): m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity_i v_i.
 struct CurveObject {
   struct Link {
     int inner = 0, outer = 0;  // nodes; the inner one may be the hand

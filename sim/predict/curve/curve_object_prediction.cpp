@@ -29,7 +29,8 @@ constexpr int kFinerIntervals = 4;
 constexpr double kUnknownsPerPhase = 0.45;  // fewer do not follow the fastest mode of the object
 constexpr double kMinBend = 1.0 / 64;       // step of the continuation from the straight line below which it is given up
 
-// What the masses must meet at T, each condition in the same unit: clamped modes and their rates (criteria.md 5).
+// What the masses must meet at T, each condition in the same unit: clamped modes and their rates (docs/theory/criteria.md, "Pontryagin's
+// conditions").
 Matrix makeConditionScale(const LineObject& object) {
   const Modes modes = computeClampedModes(object);
   const int n = object.count();

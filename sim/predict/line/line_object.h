@@ -6,8 +6,8 @@
 
 namespace reachlab::predict {
 
-/// The object on a straight line as the criteria see it (criteria.md 1): a spring network whose node 0 is the hand.
-/// Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the hand.
+/// The object on a straight line as the criteria see it (docs/theory/criteria.md, "The object on a line"): a spring network whose node 0
+/// is the hand. Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the hand.
 struct LineObject {
   bool parallel = false;
   std::vector<double> masses;     // [kg]
@@ -29,7 +29,7 @@ LineObject makeLineObject(const experiment::Experiment& experiment, double handM
 
 /// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand: they become one
 /// mass. What was merged is said in `warnings`. Otherwise frequencies are never merged: the limit is not the merged solution
-/// (criteria.md 5).
+/// (docs/theory/criteria.md, "Equal frequencies").
 LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings);
 
 /// Two-way wave travel time along a chain, 2 sum sqrt(m_i / k_[i-1]) [s]; below it costs and peaks explode.

@@ -8,7 +8,7 @@ namespace reachlab::predict {
 /// Undamped modes of an object on a line, M-orthonormal: node = Z + sum_j shape(node, j) q_j with
 /// q_j'' + frequency_j^2 q_j = -drive_j Z''.
 /// Clamped: Z is the hand, nodes are the masses. Free: Z is the centre of mass, nodes are the masses, before them the hand when
-/// it has mass (criteria.md 1 and 3.2).
+/// it has mass (docs/theory/criteria.md, "The object on a line").
 struct Modes {
   Eigen::VectorXd frequency;  // [rad/s] ascending, rigid mode left out
   Eigen::MatrixXd shape;      // [1/sqrt(kg)]

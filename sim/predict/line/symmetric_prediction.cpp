@@ -166,7 +166,7 @@ class SymmetricPrediction final : public Prediction {
   std::vector<int> source_;
 };
 
-// Coefficients of the modal answer q_j to Z'' (criteria.md 3.2), in the basis above.
+// Coefficients of the modal answer q_j to Z'' (docs/theory/criteria.md, "Masses in closed form"), in the basis above.
 Eigen::MatrixXd computeModalResponse(const RigidMotion& rigid, const Modes& modes, double H) {
   const Eigen::Index n = modes.frequency.size();
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(n, kOddPowers + 2 * n);
