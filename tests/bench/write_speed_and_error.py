@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/speed-and-error.md and docs/images/work-precision.svg from one run of the bench.
+"""Writes docs/benchmarks/speed-and-error.md and docs/images/work-precision.svg from one run of the bench.
 
     cmake --preset release -DREACHLAB_BENCH_PEERS=ON && ninja -C build/release reach limit_bench
     tests/bench/write_speed_and_error.py build/release
@@ -120,7 +120,7 @@ def main():
     for key, text in {"PROCESSOR": processor(), "RATIOS": ratio_table(rows), "OWN": own_table(rows), "LIMITS": limit_table(limits), "HARD": hard_table(table, rows),
                       "SAMPLED": sampled.rstrip(), "TICK": tick.rstrip()}.items():
         page = page.replace(f"@{key}@", text)
-    (ROOT / "docs" / "speed-and-error.md").write_text(page)
+    (ROOT / "docs/benchmarks/speed-and-error.md").write_text(page)
 
 
 if __name__ == "__main__":

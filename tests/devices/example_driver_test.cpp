@@ -21,9 +21,9 @@ std::string textOf(const std::string& file) {
 }
 
 TEST(ExampleDriver, IsTheOneOfTheManualsPage) {
-  const std::string example = textOf("tests/devices/example_driver.h"), page = textOf("docs/devices.md");
+  const std::string example = textOf("tests/devices/example_driver.h"), page = textOf("docs/write-a-driver.md");
   ASSERT_FALSE(example.empty());
-  EXPECT_NE(page.find(example), std::string::npos) << "docs/devices.md shows another text than the one that is tested";
+  EXPECT_NE(page.find(example), std::string::npos) << "docs/write-a-driver.md shows another text than the one that is tested";
 }
 
 TEST(ExampleDriver, GivesPlacesTakesForcesAndSurvivesAPulledCable) {

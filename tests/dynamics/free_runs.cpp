@@ -1,4 +1,4 @@
-// Prints the tables of docs/energy-drift.md: one seeded free run on every definition of the catalogue, `free_runs [SEED]`; an hour of
+// Prints the tables of docs/benchmarks/energy-drift.md: one seeded free run on every definition of the catalogue, `free_runs [SEED]`; an hour of
 // undamped scenes with every method, `free_runs hour`; what their drift comes from, `free_runs causes`.
 #include <fmt/format.h>
 

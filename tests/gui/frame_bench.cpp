@@ -1,6 +1,6 @@
 // Processor time of a picture of every shipped scene while a trial moves, the scene 1200 x 900 and both plots open below it: what one core could
 // draw. Then what an idle window costs, and how soon the first picture is there.
-//   tests/gui/under_xvfb build/dev/tests/gui/frame_bench [EXPERIMENT…]   prints a table for docs/window.md
+//   tests/gui/under_xvfb build/dev/tests/gui/frame_bench [EXPERIMENT…]   prints a table for docs/benchmarks/drawing-speed.md
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QHBoxLayout>

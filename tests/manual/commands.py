@@ -37,6 +37,11 @@ class Block:
     mark: str  # "" without one
 
 
+def manual_pages():
+    """All pages but the decision records and those that are made from schemas."""
+    return [page for page in sorted((ROOT / "docs").rglob("*.md")) if page.parent.name not in ("adr", "reference")]
+
+
 def blocks(page):
     """Fenced and indented blocks with the mark right before them."""
     lines = page.read_text().splitlines()
@@ -182,7 +187,7 @@ def main():
         parser.add_argument(flag, action="store_true")
     given = parser.parse_args()
     reach = given.reach.resolve()
-    pages = [page.resolve() for page in given.pages] or [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+    pages = [page.resolve() for page in given.pages] or [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *manual_pages()]
     if given.list:
         for page in pages:
             for block in blocks(page):

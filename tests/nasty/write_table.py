@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes docs/nasty-formulas.md: what the program does with each formula of tests/nasty/nasty_formulas.tsv.
+"""Writes docs/benchmarks/nasty-formulas.md: what the program does with each formula of tests/nasty/nasty_formulas.tsv.
 
-    python3 tests/nasty/write_table.py build/dev/cli/reach > docs/nasty-formulas.md"""
+    python3 tests/nasty/write_table.py build/dev/cli/reach > docs/benchmarks/nasty-formulas.md"""
 import csv
 import json
 import pathlib
@@ -15,13 +15,13 @@ HEAD = """# Nasty formulas
 <!-- not run: writes this page; `NastyFormulas` of test_cli holds the program to the same table -->
 
     python3 tests/nasty/nasty_formulas.py > tests/nasty/nasty_formulas.tsv
-    python3 tests/nasty/write_table.py build/dev/cli/reach > docs/nasty-formulas.md
+    python3 tests/nasty/write_table.py build/dev/cli/reach > docs/benchmarks/nasty-formulas.md
 
 A mass of 1 kg is let go on each formula, without a hand. *Right*: where it is at the end differs by this much from an independent solution
 (mpmath, 40 digits, or double precision in the second hundred; the formula written as smooth pieces by hand, the motion as arc length over speed;
 closed forms for what swings to and fro, and on surfaces).
 *Stopped* and *refused*: the sentence with which the program says so; where the stop's place is known, it is right to 2e-6 m.
-[Constraints](constraints.md) says what a mass does at each kind of place.
+[Constraints](../constraints.md) says what a mass does at each kind of place.
 
 | | formula | at, rate | s | | |
 |---|---|---|---|---|---|"""

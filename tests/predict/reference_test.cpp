@@ -15,7 +15,7 @@ namespace {
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<160>, boost::multiprecision::et_off>;
 using Row = std::vector<Real>;
 
-// Of the hand's and the masses' largest speed (or of the distance); the costs likewise. The table of docs/predictions.md has 1e-9.
+// Of the hand's and the masses' largest speed (or of the distance); the costs likewise. The table of docs/benchmarks/predictions.md has 1e-9.
 constexpr double kOfThePeak = 1e-11;
 // Below this the sum of Taylor terms no longer changes: e^(2 |A| T) < 1e75 of cancellation leaves 80 of the 160 digits.
 const Real kNegligible("1e-85");
