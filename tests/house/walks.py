@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The walks of docs/architecture.md: which files a reader enters, in order, from one end of a job to the other.
+"""The walks of docs/call-traces.md: which files a reader enters, in order, from one end of a job to the other.
 
   tests/house/walks.py BUILD           records the walks of the programs in BUILD under gdb and rewrites the page's lists and its figure
   tests/house/walks.py BUILD --show    prints them and changes nothing
@@ -19,7 +19,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE, FIGURE = ROOT / "docs/architecture.md", ROOT / "docs/images/walks.svg"
+PAGE, FIGURE = ROOT / "docs/call-traces.md", ROOT / "docs/images/walks.svg"
 sys.path.insert(0, str(Path(__file__).parent))
 import layers  # noqa: E402
 
@@ -126,7 +126,7 @@ def describe(walk, files):
         room = room_of(file)
         text += ("" if previous is None else ", " if room == previous else "\n") + (f"- {room}: " if room != previous else "") + f"`{file}`"
         previous = room
-    return text + f"\n\nBack to a room it has left: {returns(rooms)} times at most.\n"
+    return text + f"\n\nReturns to an earlier module: {returns(rooms)} at most.\n"
 
 
 def page_walks():
@@ -140,7 +140,7 @@ def page_walks():
 
 
 def check(walks):
-    faults = [f"docs/architecture.md: no walk {w}" for w in WALKS if not walks.get(w)]
+    faults = [f"docs/call-traces.md: no walk {w}" for w in WALKS if not walks.get(w)]
     for walk, files in walks.items():
         if not files:
             continue
