@@ -1,6 +1,7 @@
 # One INTERFACE target holds what every target of ours is compiled with.
 add_library(reachlab_warnings INTERFACE)
-target_compile_options(reachlab_warnings INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+target_compile_options(reachlab_warnings INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
   -Wno-maybe-uninitialized)  # g++ 12 reports its own AVX-512 intrinsics (GCC bug 105593)
 # A product and a sum are two roundings wherever the code writes two operations: the compiler fuses none on its own, so that results do not
 # hang on what it found to fuse (docs/adr/0020-fused-operations-are-written-out.md).

@@ -81,7 +81,7 @@ def main():
     parser.add_argument("--json", action="store_true")
     asked = parser.parse_args()
     if missing := [tool for tool in ("Xvfb", "openbox", "xdotool", "setpriv", "prlimit") if not shutil.which(tool)]:
-        sys.exit(f"lateness.py: {', '.join(missing)} missing; packaging/packages-test.txt names the packages")
+        sys.exit(f"lateness.py: {', '.join(missing)} missing; packaging/packages-all.txt names the packages")
     rows = []
     for where, measure in (("headless", headless), ("window", in_the_window)):
         for right, prefix in (("with", list), ("without", without_priority)):
