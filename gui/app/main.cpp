@@ -16,6 +16,7 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
+#include "gui/app/display.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
 #include "gui/scene/picture_sheet.h"
@@ -97,6 +98,9 @@ int run(const Arguments& arguments, int argc, char** argv) {
   if (std::getenv("QT_QPA_PLATFORM") == nullptr) {
     if (std::getenv("DISPLAY") == nullptr)
       throw reachlab::ResourceError("reachlab: there is no display (DISPLAY is not set); `reach run` does without a window");
+    if (!reachlab::gui::app::displayAnswers())
+      throw reachlab::ResourceError("reachlab: the display " + std::string(std::getenv("DISPLAY")) +
+                                    " does not answer. Set DISPLAY to the display of your session, or use `reach run`, which needs no window");
     setenv("QT_QPA_PLATFORM", "xcb", 0);
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
@@ -129,7 +133,7 @@ int run(const Arguments& arguments, int argc, char** argv) {
 // On the terminal, and where there is none (started from a menu) in a box.
 int sayFault(const char* sentence, int status, int argc, char** argv) {
   std::fprintf(stderr, "%s\n", sentence);
-  if (isatty(STDERR_FILENO) == 1 || std::getenv("DISPLAY") == nullptr) return status;
+  if (isatty(STDERR_FILENO) == 1 || !reachlab::gui::app::displayAnswers()) return status;
   std::unique_ptr<QApplication> application;
   if (QCoreApplication::instance() == nullptr) application = std::make_unique<QApplication>(argc, argv);
   QMessageBox(QMessageBox::Critical, QStringLiteral("Reachlab"), QString::fromUtf8(sentence), QMessageBox::Close).exec();
