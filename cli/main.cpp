@@ -7,6 +7,7 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
+#include "cli/commands/adaptation_command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/latency_command.h"
 #include "cli/commands/merge_command.h"
@@ -40,7 +41,7 @@ int run(int argc, char** argv) {
   for (auto* add : {addListCommand,    addValidateCommand,   addRunCommand,      addSimulateCommand, addPredictCommand,
                     addAnalyzeCommand, addShowCommand,       addReplayCommand,   addExportCommand,   addBackupCommand,
                     addRecoverCommand, addConstraintCommand, addBenchCommand,    addStationCommand,  addMergeCommand,
-                    addPeersCommand,   addStabilityCommand,  addVelocityCommand, addLatencyCommand,  addStudyCommand})
+                    addPeersCommand,   addStabilityCommand,  addVelocityCommand, addLatencyCommand,  addStudyCommand,   addAdaptationCommand})
     add(app, exitCode);
   for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
   return exitCodeOf(app, [&] {

@@ -1,0 +1,31 @@
+#include "analysis/adaptation/adaptation_series.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/csv_table.h"
+#include "base/fault.h"
+
+namespace reachlab::analysis {
+
+AdaptationSeries readAdaptationSeries(const std::string& file) {
+  const CsvTable table = readCsvTable(file);
+  const auto columnOf = [&](const char* name) {
+    const auto column = table.find(name);
+    if (!column)
+      throw FaultError(Fault{name, "column is missing", fmt::format("a header with perturbation,response; this one has {}", fmt::join(table.columns, ", ")),
+                             FilePlace{file, 1}});
+    return *column;
+  };
+  const std::size_t perturbation = columnOf("perturbation"), response = columnOf("response");
+  AdaptationSeries series;
+  for (const CsvTable::Row& row : table.rows) {
+    const auto cell = [&](std::size_t column) {
+      return row.cells[column].empty() ? std::nullopt : std::optional(numberIn(table, row, column));
+    };
+    series.push_back({cell(perturbation), cell(response)});
+  }
+  return series;
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,92 @@
+#include "cli/commands/adaptation_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/adaptation/state_space.h"
+
+namespace reachlab::cli {
+namespace {
+
+struct Request {
+  std::string series;
+  int resamples = 400;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+std::string sentenceOf(const analysis::AdaptationFit& fit) {
+  const double gain = fit.one.bic - fit.two.bic;
+  switch (fit.count) {
+    case analysis::StateCount::Two:
+      return fmt::format("Two states describe the series better than one: their BIC is lower by {:.1f}.", gain);
+    case analysis::StateCount::One:
+      return fmt::format("One state is enough: its BIC is lower by {:.1f}. The second state of the fit means nothing.", -gain);
+    case analysis::StateCount::Undecided: break;
+  }
+  return fmt::format("The series cannot tell one state from two: their BIC differ by {:.1f}, and less than 6 is no strong evidence.", std::abs(gain));
+}
+
+nlohmann::ordered_json jsonOf(const analysis::LearningFit& fit, const std::vector<std::string>& endings) {
+  nlohmann::ordered_json object, intervals;
+  for (std::size_t k = 0; k < fit.states.size(); ++k) {
+    object["a" + endings[k]] = fit.states[k].retention;
+    object["b" + endings[k]] = fit.states[k].learningRate;
+    intervals["a" + endings[k]] = {fit.intervals[k][0].low, fit.intervals[k][0].high};
+    intervals["b" + endings[k]] = {fit.intervals[k][1].low, fit.intervals[k][1].high};
+  }
+  object["mse"] = fit.meanSquare;
+  object["bic"] = fit.bic;
+  object["interval_95"] = intervals;
+  return object;
+}
+
+void printStates(const analysis::LearningFit& fit, const std::vector<const char*>& names) {
+  for (std::size_t k = 0; k < fit.states.size(); ++k) {
+    const auto& [retention, rate] = fit.intervals[k];
+    fmt::print("{:<7} retention {:.4f} [{:.4f}, {:.4f}]   learning rate {:.4f} [{:.4f}, {:.4f}]\n", names[k], fit.states[k].retention, retention.low,
+               retention.high, fit.states[k].learningRate, rate.low, rate.high);
+  }
+}
+
+void fitSeries(const Request& r) {
+  const analysis::AdaptationFit fit = analysis::fitAdaptation(analysis::readAdaptationSeries(r.series), r.resamples, r.seed);
+  if (r.json) {
+    nlohmann::ordered_json object;
+    object["two_state"] = jsonOf(fit.two, {"_f", "_s"});
+    object["one_state"] = jsonOf(fit.one, {""});
+    object["states"] = fit.count == analysis::StateCount::Two ? "two" : fit.count == analysis::StateCount::One ? "one" : "undecided";
+    object["sentence"] = sentenceOf(fit);
+    object["responses"] = fit.responses;
+    object["channel_trials"] = fit.channels;
+    fmt::print("{}\n", object.dump(2));
+    return;
+  }
+  fmt::print("{} responses, {} channel trials\n", fit.responses, fit.channels);
+  printStates(fit.two, {"fast", "slow"});
+  printStates(fit.one, {"single"});
+  fmt::print("Root mean square residual: {:.3g} with two states, {:.3g} with one.\n{}\n", std::sqrt(fit.two.meanSquare), std::sqrt(fit.one.meanSquare),
+             sentenceOf(fit));
+}
+
+}  // namespace
+
+void addAdaptationCommand(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("adaptation", "Fits a two-state model of learning to a series of trials");
+  const auto r = std::make_shared<Request>();
+  command->add_option("series", r->series, "CSV file with the columns perturbation (empty in channel trials) and response")->required();
+  command->add_option("--resamples", r->resamples, "Bootstrap series for the intervals [400]")->check(CLI::Range(100, 100000));
+  command->add_option("--seed", r->seed, "Seed of the bootstrap [1]");
+  command->add_flag("--json", r->json, "an object");
+  command->footer(
+      "The model is Smith, Ghazizadeh & Shadmehr (2006): a fast and a slow state learn from each trial's error and forget. The response of a trial\n"
+      "is what the person compensates before that trial's error is learned. Perturbation and response need one common unit.\n\n"
+      "Examples:\n  reach adaptation series.csv\n  reach adaptation series.csv --json");
+  command->callback([r] { fitSeries(*r); });
+}
+
+}  // namespace reachlab::cli
