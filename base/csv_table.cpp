@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/fault.h"
-#include "base/json/json_tree.h"
+#include "base/text_file.h"
 
 namespace reachlab {
 namespace {

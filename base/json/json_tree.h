@@ -27,9 +27,4 @@ const char* nameOf(JsonNode::Kind kind);
 /// Throws FaultError with its place on the first syntax fault, duplicate key or number beyond the range of a double.
 JsonNode parseJson(const std::string& text, const std::string& file);
 
-inline constexpr std::uintmax_t kMostTextBytes = 16u << 20;
-
-/// Reads a whole file of at most `mostBytes`. Throws FaultError naming the file and the operating system's reason.
-std::string readTextFile(const std::string& file, std::uintmax_t mostBytes = kMostTextBytes);
-
 }  // namespace reachlab

@@ -7,6 +7,7 @@
 
 #include "base/fault.h"
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 #include "cli/commands/commands.h"
 #include "constraints/catalogue/definition.h"
 #include "constraints/formula/cpp_writer.h"

@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/text_file.h"
 #include "cli/commands/commands.h"
 #include "cli/output/preflight_output.h"
 #include "cli/output/study_words.h"

@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/text_file.h"
 #include "constraints/catalogue/definition.h"
 
 namespace reachlab::constraints {

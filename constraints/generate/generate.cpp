@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 #include "constraints/catalogue/definition.h"
 #include "constraints/formula/cpp_writer.h"
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 
 namespace reachlab::devices {
 namespace {

@@ -13,6 +13,7 @@
 #include "base/fault.h"
 #include "base/json/json_tree.h"
 #include "base/table_text.h"
+#include "base/text_file.h"
 #include "devices/replay/recorded_reach.h"
 
 namespace reachlab::devices {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 #include "devices/replay/recorded_reach.h"
 
 namespace reachlab::devices {

@@ -11,6 +11,7 @@
 #include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "base/system/helper_program.h"
+#include "base/text_file.h"
 #include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/json/json_reader.h"
+#include "base/text_file.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::session {

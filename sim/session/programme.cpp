@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 
 namespace reachlab::session {
 

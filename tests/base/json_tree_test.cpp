@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/fault.h"
+#include "base/text_file.h"
 
 namespace reachlab {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "base/fault.h"
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
 

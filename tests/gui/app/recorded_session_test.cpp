@@ -18,6 +18,7 @@
 #include "analysis/tables.h"
 #include "base/error.h"
 #include "base/json/json_tree.h"
+#include "base/text_file.h"
 #include "gui/app/main_window.h"
 #include "gui/docks/session_dock.h"
 #include "gui/session/session_controller.h"

@@ -1,0 +1,33 @@
+#include "base/text_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/fault.h"
+
+namespace reachlab {
+
+std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  // A pipe or a device might never end, or never begin.
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
+    throw FaultError(Fault{{}, "is no regular file", "a file on a disk", FilePlace{file}});
+  if (const std::uintmax_t size = fs::file_size(file, error); !error && size > mostBytes)
+    throw FaultError(Fault{{}, fmt::format("has {} bytes", size), fmt::format("up to {}", mostBytes), FilePlace{file}});
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (text.fail()) (void)in.peek();  // nothing was copied: an empty file is at its end, and what is no file (a folder) is bad
+  if (in.bad() || (text.fail() && !in.eof()))
+    throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
+  return std::move(text).str();
+}
+
+}  // namespace reachlab
