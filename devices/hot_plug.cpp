@@ -32,7 +32,7 @@ std::uint64_t pluggedFingerprint() {
 
 std::vector<FoundDevice> findPlugged() {
   std::vector<FoundDevice> found;
-  for (const char* kind : {"hid", "spacemouse", "polhem", "stick", "keyboard", "gamepad", "tablet"}) {
+  for (const char* kind : {"hid", "spacemouse", "polhem", "tablet"}) {
     const DeviceDriver* driver = findDriver(kind);
     if (driver == nullptr) continue;
     for (FoundDevice& device : driver->find(*driver))

@@ -9,7 +9,7 @@ namespace reachlab::devices {
 
 /// Another number when a node has come, gone, or changed its rights. Some microseconds; any thread.
 std::uint64_t pluggedFingerprint();
-/// The devices that are there now and need no vendor's library, which would open them: HID, serial lines, keyboards, gamepads, tablets.
+/// The devices that are there now and need no vendor's library, which would open them: HID, serial lines, tablets.
 std::vector<FoundDevice> findPlugged();
 
 }  // namespace reachlab::devices

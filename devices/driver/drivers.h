@@ -15,9 +15,6 @@ DeviceDriver hidDriver();
 DeviceDriver spaceMouseDriver();
 DeviceDriver haplyDriver();
 DeviceDriver polhemDriver();
-DeviceDriver stickDriver();
-DeviceDriver keyboardDriver();
-DeviceDriver gamepadDriver();
 DeviceDriver tabletDriver();
 
 }  // namespace reachlab::devices

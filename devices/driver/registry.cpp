@@ -9,9 +9,8 @@ namespace reachlab::devices {
 
 std::span<const DeviceDriver> deviceDrivers() {
   static const std::vector<DeviceDriver> drivers{
-      simulatedDriver(), partnerDriver(),        replayDriver(),   mouseDriver(),      virtualDriver(),
-      phantomDriver(),   forceDimensionDriver(), hidDriver(),      spaceMouseDriver(), haplyDriver(),
-      polhemDriver(),    stickDriver(),          keyboardDriver(), gamepadDriver(),    tabletDriver(),
+      simulatedDriver(),      partnerDriver(), replayDriver(),     mouseDriver(), virtualDriver(), phantomDriver(),
+      forceDimensionDriver(), hidDriver(),     spaceMouseDriver(), haplyDriver(), polhemDriver(),  tabletDriver(),
   };
   return drivers;
 }

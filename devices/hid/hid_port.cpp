@@ -34,10 +34,6 @@ class HidApiPort final : public HidPort {
   int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept override {
     return hid_read_timeout(device_, bytes.data(), bytes.size(), milliseconds);
   }
-  bool sendFeature(std::span<const std::uint8_t> bytes) noexcept override {
-    return hid_send_feature_report(device_, bytes.data(), bytes.size()) >= 0;
-  }
-  int getFeature(std::span<std::uint8_t> bytes) noexcept override { return hid_get_feature_report(device_, bytes.data(), bytes.size()); }
   bool write(std::span<const std::uint8_t> bytes) noexcept override { return hid_write(device_, bytes.data(), bytes.size()) >= 0; }
 
  private:

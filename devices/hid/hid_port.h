@@ -30,9 +30,6 @@ class HidPort {
   virtual int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept = 0;
   /// True when it was sent. The first byte is the report's number, 0 where reports have none.
   virtual bool write(std::span<const std::uint8_t> bytes) noexcept = 0;
-  /// Feature reports; the first byte is the report's number, also of what is read. False, or less than 1: it has none such.
-  virtual bool sendFeature(std::span<const std::uint8_t> /*bytes*/) noexcept { return false; }
-  virtual int getFeature(std::span<std::uint8_t> /*bytes*/) noexcept { return -1; }
 };
 
 /// Throws ResourceError in the system's words.

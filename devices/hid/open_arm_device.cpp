@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/fault.h"
 #include "devices/driver/drivers.h"
 #include "devices/driver/options.h"
 #include "devices/hid/report_descriptor.h"
@@ -146,15 +145,10 @@ std::vector<HidInterface> findArms() {
   return found;
 }
 
-// By its report descriptor, so that nothing is opened for it; empty: nothing is wrong, or it is not known.
+// By its report descriptor, so that nothing is opened for it. Empty: nothing is wrong, or the first reports will tell.
 std::string firmwareFaultOf(const HidInterface& arm) {
-  try {
-    const HidLayout layout = parseReportDescriptor(readSystemDescriptor(arm.path));
-    const std::size_t bytes = layout.bytesOf(HidReportKind::Input, 0);
-    return bytes > 0 ? firmwareFault(bytes) : std::string();
-  } catch (const FaultError&) {  // the first reports will tell
-    return {};
-  }
+  const std::size_t bytes = inputReportBytes(readSystemDescriptor(arm.path));
+  return bytes > 0 ? firmwareFault(bytes) : std::string();
 }
 
 HidInterface chooseArm(const std::string& key, const std::string& words) {

@@ -3,17 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "devices/io/rate_hand.h"
-
-/// Keyboards, gamepads and tablets as the kernel shows them (/dev/input/event*, linux/input.h): hands for people without a force device.
+/// Tablets as the kernel shows them (/dev/input/event*, linux/input.h).
 namespace reachlab::devices {
-
-enum class InputKind : std::uint8_t { Keyboard, Gamepad, Tablet };
 
 /// Range of one axis.
 struct InputAxis {
@@ -23,37 +18,36 @@ struct InputAxis {
   double share(std::int32_t value) const noexcept;
 };
 
-struct InputNode {
+struct TabletNode {
   std::string path, name;  // "/dev/input/event3", as the kernel names it
-  InputKind kind = InputKind::Keyboard;
-  std::array<InputAxis, ABS_CNT> axes{};
-  std::string whyNot;  // it cannot be opened; empty: it can
+  InputAxis x, y;
+  std::string whyNot;  // the reason why the node cannot be opened, empty if it can
 };
 
-/// What is there of that kind, in the order of their numbers. A node that may not be read is listed where the system tells its kind.
-std::vector<InputNode> findInputNodes(InputKind kind, const std::string& folder = "/dev/input");
+/// The tablets of the folder in the order of their numbers. A node that cannot be opened is listed too, since its kind is not known.
+std::vector<TabletNode> findTablets(const std::string& folder = "/dev/input");
 
-/// Keeps the state that events tell of. One thread.
-class InputState {
+/// Keeps the state of the pen that events tell of. One thread.
+class PenState {
  public:
-  explicit InputState(const InputNode& node) : node_(node) {}
+  explicit PenState(const TabletNode& node) : x_(node.x), y_(node.y) {}
   /// True at the end of a report (SYN_REPORT).
   bool take(const input_event& event) noexcept;
-  /// Keyboard: arrows are x and y, page up and down z (towards the user is down). Gamepad: left stick x and y, right stick's y is z.
-  Deflection deflection() const noexcept;
-  /// Tablet: the pen's place as shares of the tablet about its middle, x to the right, y up; false while the pen is away.
-  bool pen(double& x, double& y) const noexcept;
-  std::uint32_t buttons() const noexcept { return buttons_; }
+  /// Position as shares of the tablet about its middle, x to the right, y up. False while the pen is away.
+  bool position(double& x, double& y) const noexcept;
+  /// Bit 0: the pen touches the tablet.
+  std::uint32_t buttons() const noexcept { return touching_ ? 1 : 0; }
 
  private:
-  void key(std::uint16_t code, bool down) noexcept;
-
-  InputNode node_;
-  std::array<std::int32_t, ABS_CNT> values_{};
-  std::array<bool, ABS_CNT> told_{};
-  std::array<bool, 6> held_{};  // right, left, up, down, away, towards
-  std::uint32_t buttons_ = 0;
-  bool near_ = false;
+  struct Axis {
+    explicit Axis(const InputAxis& r) : range(r) {}
+    double share() const noexcept { return range.share(value); }
+    InputAxis range;
+    std::int32_t value = 0;
+    bool told = false;
+  };
+  Axis x_, y_;
+  bool near_ = false, touching_ = false;
 };
 
 /// An open node: events with the monotonic clock's times. One thread at a time.

@@ -12,7 +12,6 @@
 #include "devices/haply/haply_device.h"
 #include "devices/hid/open_arm_device.h"
 #include "devices/hid/open_serial_arm.h"
-#include "devices/hid/stick_device.h"
 #include "devices/serial/polhem_device.h"
 #include "devices/serial/polhem_line.h"
 #include "devices/vendor/force_dimension.h"
@@ -246,50 +245,6 @@ class HaplyRig final : public PolledRig {
   }
   double told_ = 0;  // [N]
   bool asked_ = false;
-};
-
-class StickRig final : public PolledRig {
- public:
-  bool knowsOwn(Fault kind) const override {
-    return kind == Fault::Jump || kind == Fault::Garbage || kind == Fault::Unplug || kind == Fault::Refusal;
-  }
-  double told() const override { return told_; }
-  double toldLimit() const override { return 127; }
-
- protected:
-  struct Port final : HidPort {
-    explicit Port(StickRig& r) : rig(r) {}
-    int read(std::span<std::uint8_t> bytes, int) noexcept override {
-      if (rig.has(Fault::Unplug)) return -1;
-      if (!std::exchange(rig.due_, false)) return 0;
-      if (rig.has(Fault::Garbage)) return 1;
-      const auto raw = static_cast<std::int16_t>(std::lround(std::clamp(rig.seen().x / 0.2, -1.0, 1.0) * 32767));
-      bytes[0] = static_cast<std::uint8_t>(raw & 0xFF);
-      bytes[1] = static_cast<std::uint8_t>(raw >> 8 & 0xFF);
-      return 2;
-    }
-    bool write(std::span<const std::uint8_t> bytes) noexcept override {
-      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
-      rig.told_ = bytes[1] == 0x11 ? std::abs(bytes[3] - 0x80) : 0;
-      return true;
-    }
-    StickRig& rig;
-  };
-  std::shared_ptr<Transport> transport() override {
-    const std::vector<std::uint8_t> wheel{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x09, 0x30, 0x16, 0x01, 0x80,
-                                          0x26, 0xFF, 0x7F, 0x75, 0x10, 0x95, 0x01, 0x81, 0x02, 0xC0};
-    return std::make_shared<StickDevice>(StickDevice::Options{0.2, 3, false}, "wheel", parseReportDescriptor(wheel), makeWheelForce(),
-                                         [this]() -> std::unique_ptr<HidPort> {
-                                           if (has(Fault::Unplug)) throw ResourceError("gone");
-                                           return std::make_unique<Port>(*this);
-                                         });
-  }
-  void serve() override {
-    due_ = true;
-    if (has(Fault::Unplug)) told_ = 0;
-  }
-  double told_ = 0;  // of 127
-  bool due_ = false;
 };
 
 class ForceDimensionRig final : public PolledRig {
@@ -548,7 +503,6 @@ void check() {
 TEST(FaultRuns, OpenArm) { check<ArmRig>(); }
 TEST(FaultRuns, Polhem) { check<PolhemRig>(); }
 TEST(FaultRuns, Haply) { check<HaplyRig>(); }
-TEST(FaultRuns, Stick) { check<StickRig>(); }
 TEST(FaultRuns, ForceDimension) { check<ForceDimensionRig>(); }
 TEST(FaultRuns, Phantom) { check<PhantomRig>(); }
 TEST(FaultRuns, Virtual) { check<VirtualRig>(); }

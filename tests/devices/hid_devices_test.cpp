@@ -8,11 +8,11 @@
 #include "devices/driver/registry.h"
 #include "devices/hid/hid_port.h"
 #include "devices/hid/open_serial_arm.h"
+#include "devices/hid/report_descriptor.h"
 #include "devices/hot_plug.h"
 #include "devices/make_device.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_hidapi.h"
-#include "tests/devices/fakes/pid_firmware.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -48,26 +48,6 @@ FakeHid spaceMouse(std::uint16_t vendor = 0x256F, std::uint16_t product = 0xC635
           .serial = L"",
           .title = L"SpaceMouse Compact",
           .steady = {1, 0x5E, 0x01, 0, 0, 0, 0}};  // full push to the right
-}
-FakeHid joystick() {
-  return {.path = "/dev/hidraw6",
-          .vendor = 0x045E,
-          .product = 0x001B,
-          .serial = L"FFB2",
-          .title = L"Sidewinder",
-          .descriptor = test::pidDescriptor(),
-          .steady = {1, 0xFF, 0x7F, 0, 0, 0}};  // at its right end
-}
-// X of 16 bits and nothing else: a wheel or a G940 by its name alone.
-FakeHid plainAxis(std::uint16_t vendor, std::uint16_t product) {
-  return {.path = "/dev/hidraw7",
-          .vendor = vendor,
-          .product = product,
-          .serial = L"W",
-          .title = L"Wheel",
-          .descriptor = {0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x09, 0x30, 0x16, 0x01, 0x80,
-                         0x26, 0xFF, 0x7F, 0x75, 0x10, 0x95, 0x01, 0x81, 0x02, 0xC0},
-          .steady = {0xFF, 0x7F}};
 }
 
 class HidDevices : public ::testing::Test, public DriverAnswers {
@@ -132,15 +112,9 @@ TEST_F(HidDevices, APortIsReadWrittenAndClosed) {
     EXPECT_EQ(report[2], 3);
     EXPECT_EQ(port->read(report, 0), 0);
     EXPECT_TRUE(port->write(Bytes{0, 9}));
-    EXPECT_TRUE(port->sendFeature(Bytes{1, 8}));
-    Bytes feature{2, 0, 0, 0};
-    EXPECT_EQ(port->getFeature(feature), 3);
-    EXPECT_EQ(feature[1], 1);
     fakeHids().list[0].gone = true;
     EXPECT_EQ(port->read(report, 0), -1);
     EXPECT_FALSE(port->write(Bytes{0, 9}));
-    EXPECT_FALSE(port->sendFeature(Bytes{1, 8}));
-    EXPECT_EQ(port->getFeature(feature), -1);
   }
   EXPECT_EQ(fakeHids().list[0].waits, (std::vector<int>{5, 0, 0}));
   EXPECT_EQ(fakeHids().list[0].open, 0);
@@ -178,6 +152,19 @@ TEST_F(HidDevices, AnArmWhoseDescriptorIsNotKnownIsLeftToItsFirstReports) {
   broken.descriptor = {0x05};
   test::resetFakeHids({silent, broken});
   for (const FoundDevice& row : rows("hid")) EXPECT_TRUE(row.present) << row.whyNot;
+}
+
+// A firmware that is too old is told by its descriptor. What cannot be read there is no reason to refuse the arm.
+TEST(ReportDescriptor, TheSizeOfAnInputReportIsTheSumOfItsFieldsInWholeBytes) {
+  const auto bytesOf = [](const Bytes& descriptor) { return inputReportBytes(descriptor); };
+  EXPECT_EQ(bytesOf(vendorPage(64)), 64u);
+  EXPECT_EQ(bytesOf({0x75, 3, 0x95, 2, 0x81, 2, 0x81, 3, 0x91, 2, 0xB1, 2}), 2u) << "12 bits, padding too, output and feature not";
+  EXPECT_EQ(bytesOf({0x76, 8, 0, 0x97, 0, 0, 1, 0, 0x81, 2}), 65536u) << "sizes of two and four bytes";
+  const std::vector<Bytes> notRead{{},     {0x75},        {0x07, 1, 2, 3},    {0xFE, 1, 2},
+                                   {0x85, 1, 0x75, 8, 0x95, 1, 0x81, 2},      {0x75, 8, 0x95, 1, 0xA4, 0x81, 2},
+                                   {0x75, 8, 0x95, 1, 0xB4, 0x81, 2},         {0x77, 0, 0, 0, 0x80, 0x95, 2, 0x81, 2},
+                                   {0x75, 8, 0x97, 1, 0, 1, 0, 0x81, 2}};
+  for (std::size_t i = 0; i < notRead.size(); ++i) EXPECT_EQ(bytesOf(notRead[i]), 0u) << i;
 }
 
 TEST_F(HidDevices, AnArmIsChosenBySerialNumberOrPathOrTheFirst) {
@@ -335,107 +322,13 @@ TEST_F(HidDevices, ASpaceMousesNewestPushCounts) {
   EXPECT_EQ(std::count(waits.begin() + 1, waits.begin() + 201, 0), 200);
 }
 
-TEST_F(HidDevices, SticksAreListedByTheirDescriptorOrTheirName) {
-  EXPECT_EQ(rows("stick").at(0).whyNot, "no force-feedback joystick or wheel (HID PID, Logitech G940, G25, G27, G29, DFGT) is connected");
-  FakeHid noForce = plainAxis(0x045E, 0x0001), noAxis = mbed(), twice = joystick();
-  test::resetFakeHids({noForce, noAxis, twice, twice});
-  const auto found = rows("stick");
-  ASSERT_EQ(found.size(), 1u) << "each interface once, and only what can be felt";
-  EXPECT_EQ(found[0].name, "stick:FFB2");
-  EXPECT_EQ(found[0].description, "Sidewinder (its force needs full-force=N, measured)");
-  EXPECT_EQ(found[0].degreesOfFreedom, 2);
-  EXPECT_TRUE(found[0].present);
-  fakeHids().list[2].closedBy = fakeHids().list[3].closedBy = EACCES;
-  EXPECT_FALSE(rows("stick").at(0).present);
-  EXPECT_NE(rows("stick").at(0).whyNot.find("Permission denied"), std::string::npos);
-  const auto axes = [&](std::uint16_t vendor, std::uint16_t product) {
-    test::resetFakeHids({plainAxis(vendor, product)});
-    return rows("stick").at(0).degreesOfFreedom.value_or(0);
-  };
-  EXPECT_EQ(axes(0x046D, 0xC287), 2) << "G940";
-  for (const int wheel : {0xC24F, 0xC294, 0xC298, 0xC299, 0xC29A, 0xC29B})
-    EXPECT_EQ(axes(0x046D, static_cast<std::uint16_t>(wheel)), 1) << wheel;
-  EXPECT_EQ(axes(0x046D, 0xC29C), 0);
-  EXPECT_EQ(axes(0x046E, 0xC29B), 0);
-  EXPECT_EQ(axes(0x046E, 0xC287), 0);
-}
-
-TEST_F(HidDevices, AStickGivesItsPlaceByItsTravelAndItsForceByWhatWasMeasured) {
-  test::resetFakeHids({plainAxis(0x046D, 0xC29B)});
-  const auto told = [&](const std::string& options) {
-    const auto device = make("stick:W" + options);
-    haptics::DeviceSample sample;
-    until([&] { return (sample = device->read()).position.x > 0; });
-    int level = 0;
-    if (device->info().rendersForce)
-      until([&] {
-        device->write({1, 0, 0});
-        const auto all = written();
-        return !all.empty() && (level = all.back()[3] - 0x80) != 0;
-      });
-    return std::pair{sample.position.x, level};
-  };
-  const auto usual = told("");
-  EXPECT_NEAR(usual.first, 0.05, 1e-15);
-  EXPECT_EQ(usual.second, 0) << "no force that was not measured";
-  EXPECT_TRUE(written().empty());
-  EXPECT_EQ(told(",full-force=2,travel=0.5"), (std::pair{0.5, 64})) << "half of 127, rounded";
-  fakeHids().list[0].written.clear();
-  EXPECT_EQ(told(",full-force=-4").second, -32) << "the other way round";
-  const haptics::DeviceInfo info = make("stick,full-force=-4")->info();
-  EXPECT_EQ(info.maxForce, 4);
-  EXPECT_EQ(info.name, "Wheel");
-  fakeHids().list[0].title.clear();
-  EXPECT_EQ(make("stick:/dev/hidraw7")->info().name, "force-feedback stick");
-}
-
-TEST_F(HidDevices, AStickIsChosenBySerialNumberOrPathAndItsOptionsAreBounded) {
-  FakeHid other = joystick();
-  other.path = "/dev/hidraw9";
-  other.serial = L"SECOND";
-  other.title = L"Other";
-  test::resetFakeHids({joystick(), other});
-  EXPECT_EQ(make("stick")->info().name, "Sidewinder");
-  EXPECT_EQ(make("stick:SECOND")->info().name, "Other");
-  EXPECT_EQ(make("stick:/dev/hidraw9")->info().name, "Other");
-  EXPECT_EQ(refusalOf("stick:third"),
-            "device stick:third: no force-feedback joystick or wheel (HID PID, Logitech G940, G25, G27, G29, DFGT) is connected");
-  for (const char* good : {"travel=0.005", "travel=1", "full-force=50", "full-force=-50"})
-    EXPECT_EQ(refusalOf(std::string("stick,") + good), "made");
-  for (const char* bad : {"travel=0.0049", "travel=1.1", "full-force=51", "full-force=-51", "gain=1"})
-    EXPECT_THROW(make(std::string("stick,") + bad), FaultError) << bad;
-}
-
-TEST_F(HidDevices, AStickThatIsPluggedInElsewhereIsFoundAgainByItsSerialNumber) {
-  FakeHid other = joystick();
-  other.path = "/dev/hidraw2";
-  other.serial = L"OTHER";
-  test::resetFakeHids({joystick(), other});
-  const auto device = make("stick:FFB2");
-  ASSERT_TRUE(until([&] { return device->read().reports > 3; }));
-  {
-    const std::lock_guard lock(fakeHids().mutex);
-    fakeHids().list[0].gone = true;
-  }
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  {
-    const std::lock_guard lock(fakeHids().mutex);
-    FakeHid moved = joystick();
-    moved.path = "/dev/hidraw8";
-    fakeHids().list.push_back(moved);
-  }
-  EXPECT_TRUE(until([&] { return device->read().valid; }));
-  EXPECT_EQ(fakeHids().list[1].opened, 0) << "not the other one";
-  EXPECT_EQ(fakeHids().list[2].opened, 1);
-}
-
 TEST_F(HidDevices, WhatIsPluggedInIsFoundAsFarAsItIsPresent) {
   FakeHid closed = teensy("/dev/hidraw9", L"C");
   closed.closedBy = EACCES;
-  test::resetFakeHids({teensy(), closed, spaceMouse(), joystick()});
+  test::resetFakeHids({teensy(), closed, spaceMouse()});
   std::vector<std::string> names;
   for (const FoundDevice& device : findPlugged()) names.push_back(device.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"hid:A1", "spacemouse:/dev/hidraw5", "stick:FFB2"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"hid:A1", "spacemouse:/dev/hidraw5"}));
 }
 
 }  // namespace

@@ -49,15 +49,15 @@ void require(GError* error) {
 
 }  // namespace
 
-HidrawBed::HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor, Features features)
+HidrawBed::HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor)
     : vendor_(vendor), product_(product), serial_(serial), title_(title),
-      descriptor_(descriptor.empty() ? kVendorPage : std::move(descriptor)), features_(std::move(features)), bed_(umockdev_testbed_new()) {
+      descriptor_(descriptor.empty() ? kVendorPage : std::move(descriptor)), bed_(umockdev_testbed_new()) {
   plug();
 }
 
-// hidapi asks for the descriptor's size and bytes (u32 size, then 4 + 4096 bytes), and for feature reports.
+// hidapi asks for the descriptor's size and bytes (u32 size, then 4 + 4096 bytes).
 gboolean HidrawBed::handleIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-  constexpr unsigned kSize = 1, kDescriptor = 2, kSetFeature = 6, kGetFeature = 7;
+  constexpr unsigned kSize = 1, kDescriptor = 2;
   auto& bed = *static_cast<HidrawBed*>(self);
   const gulong request = umockdev_ioctl_client_get_request(client);
   if (_IOC_TYPE(request) != 'H') return FALSE;
@@ -82,17 +82,6 @@ gboolean HidrawBed::handleIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client,
     if (number == kDescriptor) give(4, bed.descriptor_);
     else ++bed.opened_;
     result = code = 0;
-  } else if (number == kSetFeature || number == kGetFeature) {
-    guint8* bytes = nullptr;
-    gint count = 0;
-    umockdev_ioctl_data_retrieve(data, &bytes, &count);
-    const Bytes report(bytes, bytes + count);
-    const Bytes answer = number == kGetFeature && bed.features_.get ? bed.features_.get(report.at(0)) : Bytes{};
-    if (number == kSetFeature && bed.features_.set && bed.features_.set(report)) result = count;
-    if (!answer.empty()) result = static_cast<glong>(answer.size());
-    give(0, answer);
-    if (result >= 0) code = 0;
-    g_free(bytes);
   }
   umockdev_ioctl_client_complete(client, result, code);
   return TRUE;

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,14 +13,8 @@ namespace reachlab::test {
 class HidrawBed {
  public:
   using Bytes = std::vector<std::uint8_t>;
-  /// What it does with feature reports, each with its number in front; called from a thread of umockdev's. An empty answer, or false: there is
-  /// no such report.
-  struct Features {
-    std::function<bool(const Bytes& report)> set;
-    std::function<Bytes(std::uint8_t number)> get;
-  };
   /// `descriptor`: empty for a vendor's page with 64 bytes in and out.
-  HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor = {}, Features features = {});
+  HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor = {});
   ~HidrawBed();
   HidrawBed(const HidrawBed&) = delete;
   HidrawBed& operator=(const HidrawBed&) = delete;
@@ -38,7 +31,6 @@ class HidrawBed {
   int vendor_, product_;
   std::string serial_, title_;
   Bytes descriptor_;
-  Features features_;
   UMockdevTestbed* bed_;
   int wire_ = -1;
   std::atomic<int> opened_{0};

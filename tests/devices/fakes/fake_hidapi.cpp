@@ -115,18 +115,5 @@ int hid_write(hid_device* device, const unsigned char* data, size_t length) {
   hid.written.emplace_back(data, data + length);
   return static_cast<int>(length);
 }
-int hid_send_feature_report(hid_device* device, const unsigned char* data, size_t length) {
-  const std::lock_guard lock(hids.mutex);
-  if (of(device).gone) return -1;
-  of(device).features.emplace_back(data, data + length);
-  return static_cast<int>(length);
-}
-// The report 2 of a firmware of HID PID: effect 1, loaded. No other.
-int hid_get_feature_report(hid_device* device, unsigned char* data, size_t length) {
-  const std::lock_guard lock(hids.mutex);
-  if (of(device).gone || length < 3 || data[0] != 2) return -1;
-  data[1] = 1, data[2] = 1;
-  return 3;
-}
 const wchar_t* hid_error(hid_device*) { return L"the library\u2019s own words"; }
 }

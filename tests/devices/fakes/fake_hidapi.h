@@ -19,7 +19,7 @@ struct FakeHid {
   int closedBy = 0;                                    // errno of opening it; 0: it can be opened
   bool gone = false;                                   // reading and writing fail
   int open = 0, opened = 0;                            // how often it is open, and was opened
-  std::vector<std::vector<std::uint8_t>> written = {}, features = {};
+  std::vector<std::vector<std::uint8_t>> written = {};
   std::vector<int> waits = {};  // [ms] of each reading
 };
 

@@ -8,13 +8,12 @@
 #include <cstring>
 #include <filesystem>
 
-#define REACHLAB_FIND_NODES "_ZN8reachlab7devices14findInputNodesENS0_9InputKindERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
+#define REACHLAB_FIND_NODES "_ZN8reachlab7devices11findTabletsERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
 
 namespace reachlab::test {
 namespace {
 
-using devices::InputKind;
-using devices::InputNode;
+using devices::TabletNode;
 
 FakeInputs inputs;
 
@@ -52,18 +51,14 @@ int answer(const FakeInput& node, unsigned long request, void* argument) {
 
 FakeInputs& fakeInputs() { return inputs; }
 
-std::vector<InputNode> reallyFind(InputKind kind, const std::string& folder) asm("__real_" REACHLAB_FIND_NODES);
-std::vector<InputNode> findFakes(InputKind kind, const std::string& folder) asm("__wrap_" REACHLAB_FIND_NODES);
-std::vector<InputNode> findFakes(InputKind kind, const std::string& folder) {
+std::vector<TabletNode> reallyFind(const std::string& folder) asm("__real_" REACHLAB_FIND_NODES);
+std::vector<TabletNode> findFakes(const std::string& folder) asm("__wrap_" REACHLAB_FIND_NODES);
+std::vector<TabletNode> findFakes(const std::string& folder) {
   {
     const std::lock_guard lock(inputs.mutex);
-    if (inputs.listed && folder == "/dev/input") {
-      std::vector<InputNode> found = *inputs.listed;
-      std::erase_if(found, [&](const InputNode& node) { return node.kind != kind; });
-      return found;
-    }
+    if (inputs.listed && folder == "/dev/input") return *inputs.listed;
   }
-  return reallyFind(kind, folder);
+  return reallyFind(folder);
 }
 
 }  // namespace reachlab::test

@@ -3,18 +3,14 @@
 #include <memory>
 
 #include "devices/input/event_node.h"
-#include "devices/mouse/mouse_device.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::devices {
 
 using OpenInput = std::function<std::unique_ptr<InputPort>()>;  // throws ResourceError while it is not there
 
-/// Deflections of a keyboard or gamepad, told anew every 8 ms while one is pushed, for RateHand.
-std::shared_ptr<DeflectionSource> makeInputSource(const InputNode& node, OpenInput open);
-
 /// A pen on a tablet: its place on the tablet is the hand's place in the plane of x and y, `halfWidth` [m] from the middle to the right edge,
 /// played back by the events' own times as the mouse's are (mouse_device.h).
-std::unique_ptr<haptics::HapticDevice> makeTabletHand(const InputNode& node, double halfWidth, const Vec3& start, OpenInput open);
+std::unique_ptr<haptics::HapticDevice> makeTabletHand(const TabletNode& node, double halfWidth, const Vec3& start, OpenInput open);
 
 }  // namespace reachlab::devices

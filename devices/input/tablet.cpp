@@ -1,0 +1,163 @@
+#include "devices/input/tablet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+
+#include "base/error.h"
+#include "base/system/os.h"
+#include "devices/driver/drivers.h"
+#include "devices/driver/options.h"
+#include "devices/mouse/mouse_device.h"
+#include "sim/haptics/leavable_thread.h"
+
+namespace reachlab::devices {
+namespace {
+
+constexpr int kWaitMs = 8;
+constexpr std::int64_t kReopenNs = 200'000'000;
+
+haptics::DeviceInfo infoOf(const TabletNode& node) {
+  haptics::DeviceInfo info;
+  info.name = node.name.empty() ? "tablet" : node.name;
+  info.version = "evdev";
+  info.degreesOfFreedom = 2;
+  info.rate = 200;
+  return info;
+}
+
+/// Reads events, and opens the node again after it was lost.
+class InputReader {
+ public:
+  InputReader(const TabletNode& node, OpenInput open) : state_(node), node_(node), open_(std::move(open)), port_(open_()) {}
+
+  /// Calls `each` at the end of every report that came within kWaitMs. False: it is gone.
+  template <typename Each>
+  bool read(Each&& each) {
+    if (!port_ && !reopen()) return false;
+    std::array<input_event, 64> events{};
+    const int got = port_->read(events, kWaitMs);
+    if (got < 0) {
+      port_.reset();
+      state_ = PenState(node_);  // no pen is near a tablet that is gone
+      return false;
+    }
+    for (int i = 0; i < got; ++i) {
+      const input_event& event = events[static_cast<std::size_t>(i)];
+      if (state_.take(event)) each(event.input_event_sec * 1'000'000'000 + event.input_event_usec * 1000);
+    }
+    return true;
+  }
+  const PenState& state() const { return state_; }
+
+ private:
+  bool reopen() {
+    os::sleepUntil(os::now() + kReopenNs);
+    try {
+      port_ = open_();
+      return true;
+    } catch (const ResourceError&) {
+      return false;
+    }
+  }
+  PenState state_;
+  TabletNode node_;
+  OpenInput open_;
+  std::unique_ptr<InputPort> port_;
+};
+
+class TabletHand final : public haptics::HapticDevice {
+ public:
+  TabletHand(const TabletNode& node, double halfWidth, const Vec3& start, OpenInput open)
+      : info_(infoOf(node)), shared_(std::make_shared<Shared>(start)) {
+    auto reader = std::make_shared<InputReader>(node, std::move(open));
+    thread_ = haptics::LeavableThread([shared = shared_, reader, halfWidth, middle = Vec3{0, 0, start.z}] {
+      while (!shared->stopping.load(std::memory_order_acquire)) {
+        const bool there = reader->read([&](std::int64_t ns) {
+          double x = 0, y = 0;
+          if (reader->state().position(x, y)) shared->hand.point(middle + halfWidth * Vec3{x, y, 0}, ns);
+        });
+        shared->buttons.store(reader->state().buttons(), std::memory_order_relaxed);
+        shared->lost.store(!there, std::memory_order_release);
+      }
+    });
+  }
+  ~TabletHand() override {
+    shared_->stopping = true;
+    if (!thread_.join(std::chrono::milliseconds(500))) thread_.leave();
+  }
+  haptics::DeviceInfo info() const override { return info_; }
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample = shared_->hand.read();
+    sample.buttons = shared_->buttons.load(std::memory_order_relaxed);
+    sample.valid = !shared_->lost.load(std::memory_order_acquire);
+    return sample;
+  }
+  void write(const Vec3&) noexcept override {}
+  haptics::DeviceHealth health() const noexcept override {
+    return shared_->lost.load(std::memory_order_acquire) ? haptics::DeviceHealth::Lost : haptics::DeviceHealth::Ready;
+  }
+
+ private:
+  struct Shared {
+    explicit Shared(const Vec3& at) : hand(at) {}
+    MouseDevice hand;
+    std::atomic<bool> stopping{false}, lost{false};
+    std::atomic<std::uint32_t> buttons{0};
+  };
+  haptics::DeviceInfo info_;
+  std::shared_ptr<Shared> shared_;
+  haptics::LeavableThread thread_;
+};
+
+}  // namespace
+
+std::unique_ptr<haptics::HapticDevice> makeTabletHand(const TabletNode& node, double halfWidth, const Vec3& start, OpenInput open) {
+  return std::make_unique<TabletHand>(node, halfWidth, start, std::move(open));
+}
+
+namespace {
+
+constexpr const char* kNone = "no tablet is among /dev/input/event*";
+
+TabletNode chooseTablet(const std::string& path, const std::string& words) {
+  std::string why = kNone;
+  for (const TabletNode& node : findTablets()) {
+    if (!path.empty() && node.path != path) continue;
+    if (node.whyNot.empty()) return node;
+    why = node.whyNot;
+  }
+  throw ResourceError(fmt::format("{}: {}", words, why));
+}
+
+std::unique_ptr<haptics::HapticDevice> makeTablet(const DeviceRequest& request) {
+  DeviceOptions options(request.argument, request.words());
+  const double halfWidth = options.number("half-width", 0.15, 0.01, 2);
+  options.done();
+  const auto choose = [path = options.plain(), words = request.words()] { return chooseTablet(path, words); };
+  return makeTabletHand(choose(), halfWidth, startOf(request.experiment), [choose] { return std::make_unique<InputPort>(choose().path); });
+}
+
+std::vector<FoundDevice> findTabletDevices(const DeviceDriver& self) {
+  std::vector<FoundDevice> found;
+  std::string why = kNone;
+  for (const TabletNode& node : findTablets()) {
+    if (!node.whyNot.empty()) {
+      why = node.whyNot;
+      continue;
+    }
+    found.push_back(presentDevice(self, self.name + ":" + node.path, infoOf(node)));
+  }
+  if (found.empty()) return {absentDevice(self, why)};
+  return found;
+}
+
+}  // namespace
+
+DeviceDriver tabletDriver() {
+  return {"tablet", "tablet[:PATH][,half-width=M]", "the pen's place on a tablet is the hand's", false, findTabletDevices, makeTablet};
+}
+
+}  // namespace reachlab::devices
