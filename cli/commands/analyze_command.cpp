@@ -24,7 +24,7 @@ struct AnalyzeOptions {
   std::string dataset, out, experiment, onset = "percent", duration = "task", masses;
   std::vector<std::string> criteria;
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
-  int resamples = 0, bin = 10, recovery = 0, jobs = 0;
+  int bin = 10, recovery = 0, jobs = 0;
   std::uint64_t seed = 1;
   bool includePractice = false, json = false;
 };
@@ -268,9 +268,6 @@ void run(const AnalyzeOptions& o) {
   const auto progress = [terminal](const char* what, std::size_t done, std::size_t of) {
     if (terminal && of > 0) fmt::print(stderr, "\r{} {} of {} \033[K{}", what, done, of, done == of ? "\n" : "");
   };
-  if (o.resamples > 0)
-    fmt::print(stderr, "note: --resamples has no effect any more: intervals are over people, by t, and nothing is drawn\n");
-  if (o.duration == "auto") fmt::print(stderr, "note: --prediction-duration auto means task now: the fits choose durations of their own\n");
   analysis::StudyBuilder builder(options);
   const analysis::DatasetIndex dataset = analysis::readDataset(
       o.dataset,
@@ -316,8 +313,8 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command
       ->add_option(
           "--prediction-duration", o->duration,
-          "Paper's epsilon: predict for the task's T, or for the mean duration moved (auto: the task's). The fits choose their own")
-      ->check(CLI::IsMember({"auto", "task", "mean"}))
+          "Paper's epsilon: predict for the task's T, or for the mean duration moved. The fits choose their own")
+      ->check(CLI::IsMember({"task", "mean"}))
       ->capture_default_str();
   command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")
       ->check(CLI::IsMember({"percent", "absolute", "task"}))
@@ -330,7 +327,6 @@ void addAnalyzeCommand(CLI::App& app, int&) {
                    "Simulate that many studies of this very design for each truth, and say how often each is named (all processors)")
       ->check(CLI::Range(1, 100000));
   command->add_option("--jobs", o->jobs, "Threads of the recovery (default: one a processor)")->check(CLI::PositiveNumber);
-  command->add_option("--resamples", o->resamples, "Has no effect any more: nothing is resampled");
   command->add_option("--seed", o->seed, "Seed of the recovery")->capture_default_str();
   command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
   command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");
