@@ -73,31 +73,6 @@ def check_mat5(path, samples, trials):
     return list(events["time_s"].ravel()), kinds
 
 
-def mat73_text(file, item):
-    if item.attrs.get("MATLAB_empty", 0):
-        return ""
-    assert item.attrs["MATLAB_class"] == b"char", item.attrs["MATLAB_class"]
-    return item[()].astype("<u2").T.tobytes().decode("utf-16-le")
-
-
-def check_mat73(path, samples, trials):
-    with open(path, "rb") as file:
-        assert file.read(6) == b"MATLAB"
-    with h5py.File(path, "r") as file:
-        for name in samples[0]:
-            assert file[name].attrs["MATLAB_class"] == b"double"
-            equal(file[name][()], column_of(samples, name), ("mat73", name))
-            assert file[name].shape == (1, len(samples)), "a column in MATLAB, whose order is the other way round"
-
-        def column(name):
-            item = file["trials"][name]
-            if item.attrs["MATLAB_class"] == b"cell":
-                return [mat73_text(file, file[ref]) for ref in item[()].ravel()]
-            return item[()]
-        same_trials(trials, column, "mat73")
-        assert "clock" in mat73_text(file, file["clock"])
-
-
 def check_hdf5(path, samples, trials):
     with h5py.File(path, "r") as file:
         frame = pandas.DataFrame({name: item[()] for name, item in file["samples"].items()})
@@ -151,7 +126,7 @@ def main():
         for experiment in ("chain-moderate", "torus"):
             run("run", experiment, "--device", "simulated", "--trials", "3", "--seed", "1", "--fast", "--data", data, "--notes", NOTE, "--age", "30.5")
         written = {}
-        for form in ("csv", "mat", "mat73", "hdf5", "c3d"):
+        for form in ("csv", "mat", "hdf5", "c3d"):
             written[form] = run("export", data, "--format", form).split("\n")
             description = json.loads((data / "derivatives" / form / "dataset_description.json").read_text())
             assert description["DatasetType"] == "derivative" and description["GeneratedBy"][0]["Name"] == "reachlab", description
@@ -164,11 +139,10 @@ def main():
             trials = [row for row in all_trials if name.endswith(f"run-{int(row['run']):02}")]
             assert len(trials) == 3 and trials[0]["notes"] == NOTE
             times = check_mat5(data / "derivatives/mat" / (name + ".mat"), samples, trials)
-            check_mat73(data / "derivatives/mat73" / (name + ".mat"), samples, trials)
             assert check_hdf5(data / "derivatives/hdf5" / (name + ".h5"), samples, trials) == times
             for trial in trials:
                 check_c3d(data / "derivatives/c3d" / f"{name}_trial-{int(trial['trial']):03}.c3d", samples, trial)
-            print(f"{name}: {len(samples)} rows of {len(samples[0])} columns and 3 trials read the same from mat, mat73, hdf5 and c3d")
+            print(f"{name}: {len(samples)} rows of {len(samples[0])} columns and 3 trials read the same from mat, hdf5 and c3d")
 
 
 if __name__ == "__main__":

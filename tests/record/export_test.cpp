@@ -248,7 +248,7 @@ TEST_F(Exported, ARunOfNoTrialHasTablesWithoutRows) {
   writeMadeRun(empty, 0, configuration_);
   std::vector<RunLog> runs;
   runs.push_back(RunLog::open(empty));
-  for (const auto& write : {writeHdf5, writeMatlab5, writeMatlab73}) EXPECT_EQ(write(runs, folder_ / "").size(), 1u);
+  for (const auto& write : {writeHdf5, writeMatlab}) EXPECT_EQ(write(runs, folder_ / "").size(), 1u);
 }
 
 // A disk that takes no more than so many bytes of a file: nothing is left that looks like an export.
@@ -260,7 +260,7 @@ TEST_F(Exported, AMatlabFileThatDoesNotReadBackIsGivenUp) {
   runs.push_back(RunLog::open(path_));
   const rlimit small{8192, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  EXPECT_THROW((void)writeMatlab5(runs, folder_ / ""), ResourceError);
+  EXPECT_THROW((void)writeMatlab(runs, folder_ / ""), ResourceError);
   ::setrlimit(RLIMIT_FSIZE, &before);
   ::signal(SIGXFSZ, signal);
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "")) EXPECT_NE(entry.path().extension(), ".mat") << entry.path();

@@ -13,8 +13,7 @@ const std::vector<Exporter>& exporters() {
   static const std::vector<Exporter> all{
       {"bids", "the dataset's motion, channels and events files", "", true, writeBids},
       {"csv", "trials.csv and samples", "derivatives/csv", false, writeTidyCsv},
-      {"mat", "MATLAB, a file a run", "derivatives/mat", false, writeMatlab5},
-      {"mat73", "MATLAB 7.3, for runs beyond 2 GB", "derivatives/mat73", false, writeMatlab73},
+      {"mat", "MATLAB, a file a run", "derivatives/mat", false, writeMatlab},
       {"hdf5", "HDF5, a file a run", "derivatives/hdf5", false, writeHdf5},
       {"c3d", "C3D, a file a trial", "derivatives/c3d", false, writeC3d},
   };

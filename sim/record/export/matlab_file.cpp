@@ -4,6 +4,7 @@
 #include <matio.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -39,17 +40,16 @@ Variable numbers(const char* name, std::span<const double> values) {
   return owned(Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), const_cast<void*>(data), 0));
 }
 
-// `pairs`: utf16Of's.
-Variable text(const char* name, const std::string& utf8, bool pairs) {
-  std::u16string characters = utf16Of(utf8, pairs);
+Variable text(const char* name, const std::string& utf8) {
+  std::u16string characters = utf16Of(utf8);
   std::array<std::size_t, 2> size{characters.empty() ? std::size_t{0} : 1, characters.size()};
   return owned(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF16, 2, size.data(), characters.data(), 0));
 }
 
-Variable cells(const std::vector<std::string>& texts, bool pairs) {
+Variable cells(const std::vector<std::string>& texts) {
   std::array<std::size_t, 2> size{texts.size(), 1};
   Variable all = owned(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, size.data(), nullptr, 0));
-  for (std::size_t i = 0; i < texts.size(); ++i) Mat_VarSetCell(all.get(), static_cast<int>(i), text(nullptr, texts[i], pairs).release());
+  for (std::size_t i = 0; i < texts.size(); ++i) Mat_VarSetCell(all.get(), static_cast<int>(i), text(nullptr, texts[i]).release());
   return all;
 }
 
@@ -61,13 +61,13 @@ Variable structure(const char* name, const std::vector<std::string>& fields) {
 }
 void setField(Variable& whole, std::size_t field, Variable value) { Mat_VarSetStructFieldByIndex(whole.get(), field, 0, value.release()); }
 
-Variable tableOf(const char* name, const ColumnTable& table, bool pairs) {
+Variable tableOf(const char* name, const ColumnTable& table) {
   std::vector<std::string> names;
   for (const ColumnTable::Column& column : table.columns()) names.push_back(column.name);
   Variable whole = structure(name, names);
   for (std::size_t i = 0; i < table.columns().size(); ++i) {
     const ColumnTable::Column& column = table.columns()[i];
-    setField(whole, i, column.isText ? cells(column.texts, pairs) : numbers(nullptr, column.numbers));
+    setField(whole, i, column.isText ? cells(column.texts) : numbers(nullptr, column.numbers));
   }
   return whole;
 }
@@ -77,7 +77,7 @@ Variable textsOf(const char* name, const ChannelTable& table, const std::functio
   std::vector<std::string> columns;
   for (const Channel& channel : table.channels) columns.push_back(channel.column);
   Variable whole = structure(name, columns);
-  for (std::size_t i = 0; i < columns.size(); ++i) setField(whole, i, text(nullptr, textOf(table.channels[i]), false));
+  for (std::size_t i = 0; i < columns.size(); ++i) setField(whole, i, text(nullptr, textOf(table.channels[i])));
   return whole;
 }
 
@@ -100,16 +100,15 @@ void put(mat_t* file, const Variable& variable, std::vector<Written>& written, c
 
 std::vector<Written> writeRun(mat_t* file, const RunLog& run) {
   const RunConfiguration& c = run.configuration();
-  const bool pairs = Mat_GetVersion(file) == MAT_FT_MAT73;
   std::vector<Written> written;
   const auto whole = [&](const char* name, const Variable& variable) { put(file, variable, written, {name}); };
-  whole("clock", text("clock", clockStatement(c), pairs));
-  whole("software", text("software", c.softwareVersion, pairs));
-  whole("experiment_json", text("experiment_json", c.experimentText, pairs));
+  whole("clock", text("clock", clockStatement(c)));
+  whole("software", text("software", c.softwareVersion));
+  whole("experiment_json", text("experiment_json", c.experimentText));
   whole("units", textsOf("units", c.table, [](const Channel& channel) { return channel.units == "n/a" ? "" : channel.units; }));
   whole("descriptions", textsOf("descriptions", c.table, [](const Channel& channel) { return channel.description; }));
-  whole("trials", tableOf("trials", trialTable(run), pairs));
-  whole("events", tableOf("events", eventTable(run), pairs));
+  whole("trials", tableOf("trials", trialTable(run)));
+  whole("events", tableOf("events", eventTable(run)));
   eachSampleColumn(run, [&](std::size_t channel, std::span<const double> values) {
     const std::string& name = c.table.channels[channel].column;
     put(file, numbers(name.c_str(), values), written, {name, values.size(), checksum(values.data(), values.size_bytes()), true});
@@ -131,13 +130,15 @@ bool readsBack(const std::string& path, const std::vector<Written>& written) {
   return true;
 }
 
-std::vector<std::string> write(const std::vector<RunLog>& runs, const std::string& folder, mat_ft version) {
+}  // namespace
+
+std::vector<std::string> writeMatlab(const std::vector<RunLog>& runs, const std::string& folder) {
   std::vector<std::string> written;
   for (const RunLog& run : runs) {
     const std::string path = folder + "/" + runName(run.configuration()) + ".mat";
     ForeignFile out(path);
     try {
-      File file(Mat_CreateVer(out.temporary().c_str(), "MATLAB MAT-file, written by reachlab", version));
+      File file(Mat_CreateVer(out.temporary().c_str(), "MATLAB MAT-file, written by reachlab", MAT_FT_MAT5));
       if (!file) throw MatlabFault{};
       const std::vector<Written> expected = writeRun(file.get(), run);
       if (Mat_Close(file.release()) != 0 || !readsBack(out.temporary(), expected)) throw MatlabFault{};
@@ -150,16 +151,7 @@ std::vector<std::string> write(const std::vector<RunLog>& runs, const std::strin
   return written;
 }
 
-}  // namespace
-
-std::vector<std::string> writeMatlab5(const std::vector<RunLog>& runs, const std::string& folder) {
-  return write(runs, folder, MAT_FT_MAT5);
-}
-std::vector<std::string> writeMatlab73(const std::vector<RunLog>& runs, const std::string& folder) {
-  return write(runs, folder, MAT_FT_MAT73);
-}
-
-std::u16string utf16Of(const std::string& text, bool pairs) {
+std::u16string utf16Of(const std::string& text) {
   constexpr char32_t kUnknown = 0xfffd;
   std::u16string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -176,15 +168,8 @@ std::u16string utf16Of(const std::string& text, bool pairs) {
       if (right) code = (code << 6) | (static_cast<unsigned char>(text[at++]) & 0x3fu);
     }
     constexpr std::array<char32_t, 4> kLeast{0, 0x80, 0x800, 0x10000};
-    if (!right || code < kLeast[static_cast<std::size_t>(more)] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ||
-        (!pairs && code >= 0x10000))
-      code = kUnknown;
-    if (code >= 0x10000) {
-      out += static_cast<char16_t>(0xd800 + ((code - 0x10000) >> 10));
-      out += static_cast<char16_t>(0xdc00 + (code & 0x3ff));
-    } else {
-      out += static_cast<char16_t>(code);
-    }
+    const bool fits = code >= kLeast[static_cast<std::size_t>(std::max(more, 0))] && code < 0x10000 && (code < 0xd800 || code >= 0xe000);
+    out += static_cast<char16_t>(right && fits ? code : kUnknown);
   }
   return out;
 }
