@@ -7,7 +7,8 @@ namespace reachlab::devices {
 
 std::size_t inputReportBytes(std::span<const std::uint8_t> descriptor) noexcept {
   // Items without their size in bytes, which the two lowest bits tell.
-  constexpr std::uint8_t kSizes = 3, kInput = 0x80, kReportSize = 0x74, kReportCount = 0x94, kReportNumber = 0x84, kPush = 0xA4, kPop = 0xB4;
+  constexpr std::uint8_t kSizes = 3, kInput = 0x80, kReportSize = 0x74, kReportCount = 0x94, kReportNumber = 0x84, kPush = 0xA4,
+                         kPop = 0xB4;
   constexpr std::uint64_t kMostBits = 64 * 1024 * 8;
   std::uint64_t bits = 0, size = 0, count = 0;
   while (!descriptor.empty()) {

@@ -160,9 +160,14 @@ TEST(ReportDescriptor, TheSizeOfAnInputReportIsTheSumOfItsFieldsInWholeBytes) {
   EXPECT_EQ(bytesOf(vendorPage(64)), 64u);
   EXPECT_EQ(bytesOf({0x75, 3, 0x95, 2, 0x81, 2, 0x81, 3, 0x91, 2, 0xB1, 2}), 2u) << "12 bits, padding too, output and feature not";
   EXPECT_EQ(bytesOf({0x76, 8, 0, 0x97, 0, 0, 1, 0, 0x81, 2}), 65536u) << "sizes of two and four bytes";
-  const std::vector<Bytes> notRead{{},     {0x75},        {0x07, 1, 2, 3},    {0xFE, 1, 2},
-                                   {0x85, 1, 0x75, 8, 0x95, 1, 0x81, 2},      {0x75, 8, 0x95, 1, 0xA4, 0x81, 2},
-                                   {0x75, 8, 0x95, 1, 0xB4, 0x81, 2},         {0x77, 0, 0, 0, 0x80, 0x95, 2, 0x81, 2},
+  const std::vector<Bytes> notRead{{},
+                                   {0x75},
+                                   {0x07, 1, 2, 3},
+                                   {0xFE, 1, 2},
+                                   {0x85, 1, 0x75, 8, 0x95, 1, 0x81, 2},
+                                   {0x75, 8, 0x95, 1, 0xA4, 0x81, 2},
+                                   {0x75, 8, 0x95, 1, 0xB4, 0x81, 2},
+                                   {0x77, 0, 0, 0, 0x80, 0x95, 2, 0x81, 2},
                                    {0x75, 8, 0x97, 1, 0, 1, 0, 0x81, 2}};
   for (std::size_t i = 0; i < notRead.size(); ++i) EXPECT_EQ(bytesOf(notRead[i]), 0u) << i;
 }
