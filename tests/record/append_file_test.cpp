@@ -1,7 +1,9 @@
 #include "sim/record/log/append_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -21,6 +23,9 @@ namespace reachlab::record {
 namespace {
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+
+const std::string kTooLarge =
+    "its disk or a limit of this process (ulimit -f) allows no larger file: choose another disk or raise the limit";
 
 template <typename Work>
 std::string refusalOf(const Work& work) {
@@ -99,14 +104,32 @@ TEST(AppendFile, WhatTheDiskTakesOnlyInPartIsTakenBack) {
   file.append(bytesOf(std::string(60, 'a')));
   {
     const FileLimit limit(100);
-    EXPECT_EQ(refusalOf([&] { file.append(bytesOf(std::string(60, 'b'))); }),
-              path + ": cannot be written: File too large; check the folder and its permissions");
+    EXPECT_EQ(refusalOf([&] { file.append(bytesOf(std::string(60, 'b'))); }), path + ": cannot be written: File too large; " + kTooLarge);
     EXPECT_EQ(file.size(), 60u);
     EXPECT_EQ(std::filesystem::file_size(path), 60u);
     EXPECT_NO_THROW(file.append(bytesOf(std::string(40, 'c')))) << "what fits goes in";
   }
   file.append(bytesOf("d"));
   EXPECT_EQ(readWholeFile(path), std::string(60, 'a') + std::string(40, 'c') + "d");
+}
+
+// A file in memory that nothing makes shorter again.
+TEST(AppendFile, WhatCannotBeTakenBackIsKnownAndNothingIsWrittenBehindIt) {
+  const int memory = ::memfd_create("log", MFD_ALLOW_SEALING | MFD_CLOEXEC);
+  ASSERT_GE(memory, 0);
+  const std::string path = "/proc/self/fd/" + std::to_string(memory), good(60, 'a'), part(40, 'b');
+  ASSERT_EQ(::write(memory, good.data(), good.size()), 60);
+  ASSERT_EQ(::fcntl(memory, F_ADD_SEALS, F_SEAL_SHRINK), 0);
+  {
+    AppendFile file = AppendFile::openAt(path, 60);
+    const FileLimit limit(100);
+    for (const char* words : {"cannot be written: File too large", "cannot be cut to its good part: Operation not permitted"}) {
+      EXPECT_NE(refusalOf([&] { file.append(bytesOf(std::string(60, 'b'))); }).find(words), std::string::npos) << words;
+      EXPECT_EQ(file.size(), 60u) << "the good part stays, whatever follows";
+      EXPECT_EQ(readWholeFile(path), good + part);
+    }
+  }
+  ::close(memory);
 }
 
 TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
@@ -196,7 +219,7 @@ TEST(AtomicFile, OneThatCannotBeWrittenLeavesTheOldOne) {
   {
     const FileLimit limit(1000);
     EXPECT_EQ(refusalOf([&] { writeFileAtomically(path, std::string(1001, 'n')); }),
-              path + ": cannot be written: File too large; check the folder and its permissions");
+              path + ": cannot be written: File too large; " + kTooLarge);
     EXPECT_EQ(readWholeFile(path), "old");
     EXPECT_EQ(countFiles(folder / ""), 1u);
     writeFileAtomically(path, std::string(1000, 'n'));

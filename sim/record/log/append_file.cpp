@@ -26,6 +26,8 @@ namespace {
 [[noreturn]] void fail(std::string_view what, const std::string& path) {
   const int fault = errno;
   std::string_view remedy = "check the folder and its permissions";
+  if (fault == EFBIG)
+    remedy = "its disk or a limit of this process (ulimit -f) allows no larger file: choose another disk or raise the limit";
   if (fault == ENOSPC || fault == EDQUOT) remedy = "free space on the disk or choose another folder";
   if (fault == EROFS || fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written";
   if (fault == EEXIST) remedy = "nothing is overwritten: choose another name";
@@ -104,19 +106,22 @@ AppendFile::~AppendFile() {
 }
 
 AppendFile::AppendFile(AppendFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), size_(other.size_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), size_(other.size_), torn_(other.torn_) {}
 
 AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   std::swap(path_, other.path_);
   std::swap(size_, other.size_);
+  std::swap(torn_, other.torn_);
   return *this;
 }
 
 void AppendFile::append(std::span<const std::uint8_t> bytes) {
+  if (torn_ && ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) fail("cannot be cut to its good part", path_);
+  torn_ = false;
   if (!writeAll(descriptor_, bytes.data(), bytes.size())) {
     const int fault = errno;
-    if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) size_ = 0;  // the torn record is then found by its CRC
+    torn_ = ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0;
     errno = fault;
     fail("cannot be written", path_);
   }

@@ -19,11 +19,13 @@ class AppendFile {
   AppendFile(AppendFile&& other) noexcept;
   AppendFile& operator=(AppendFile&& other) noexcept;
 
-  /// All or nothing: what a full disk lets through only in part is cut off again.
+  /// All or nothing: what a full disk lets through only in part is cut off again. Where it cannot be cut off, nothing is written behind it
+  /// until it can, since reading ends at a record that is not whole.
   void append(std::span<const std::uint8_t> bytes);
   /// Returns when everything appended is on the disk (fdatasync) and the file is still found under its name: a folder that was
   /// unmounted or deleted under an open file takes writes without a word.
   void sync();
+  /// Of what was appended whole.
   std::uint64_t size() const { return size_; }
   const std::string& path() const { return path_; }
 
@@ -31,7 +33,8 @@ class AppendFile {
   AppendFile(int descriptor, std::string path, std::uint64_t size) : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
   int descriptor_ = -1;
   std::string path_;
-  std::uint64_t size_ = 0;
+  std::uint64_t size_ = 0;  // of the good part
+  bool torn_ = false;       // a part of a record stands behind the good part
 };
 
 /// Takes a long text piece by piece.
