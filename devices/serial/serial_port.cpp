@@ -8,8 +8,10 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <new>
 
 #include "base/error.h"
 
@@ -33,7 +35,11 @@ class SerialPort final : public MessageLink {
     ::cfmakeraw(&line);
     ::cfsetspeed(&line, B115200);
     line.c_cflag |= CLOCAL | CREAD;
-    ::tcsetattr(file_, TCSANOW, &line);
+    if (::tcsetattr(file_, TCSANOW, &line) != 0) {
+      const int error = errno;
+      ::close(file_);
+      throw ResourceError(fmt::format("{}: cannot be set to 115200 baud, raw: {}", path, std::strerror(error)));
+    }
     ::tcflush(file_, TCIOFLUSH);
     serial_struct driver{};  // some drivers gather bytes for 16 ms unless told otherwise; one that does not know the wish needs none
     if (::ioctl(file_, TIOCGSERIAL, &driver) == 0) {
@@ -62,23 +68,26 @@ class SerialPort final : public MessageLink {
     return true;
   }
 
-  Got receive(std::string& line, int milliseconds) noexcept override {
+  Got receive(std::string& line, int milliseconds) noexcept override try {
     for (bool waited = false;; waited = true) {
-      if (const std::size_t end = waiting_.find('\n'); end != std::string::npos) {
-        line.assign(waiting_, 0, end);
-        waiting_.erase(0, end + 1);
+      const std::string_view waiting(waiting_.data(), count_);
+      if (const std::size_t end = waiting.find('\n'); end != std::string_view::npos) {
+        line.assign(waiting, 0, end);
+        count_ -= end + 1;
+        std::memmove(waiting_.data(), waiting_.data() + end + 1, count_);
         return Got::Message;
       }
-      if (waiting_.size() > kLongestLine) waiting_.clear();
+      if (count_ > kLongestLine) count_ = 0;
       pollfd at{file_, POLLIN, 0};
       const int ready = ::poll(&at, 1, waited ? 1 : milliseconds);
       if (ready < 0 && errno != EINTR) return gone(errno);
       if (ready <= 0) return Got::Nothing;
-      char bytes[kLongestLine];
-      const ssize_t got = ::read(file_, bytes, sizeof bytes);
-      if (got > 0) waiting_.append(bytes, static_cast<std::size_t>(got));
+      const ssize_t got = ::read(file_, waiting_.data() + count_, kLongestLine);
+      if (got > 0) count_ += static_cast<std::size_t>(got);
       else if (got == 0 || (errno != EAGAIN && errno != EINTR)) return gone(got == 0 ? EIO : errno);
     }
+  } catch (const std::bad_alloc&) {  // `line` has no room, and there is none
+    return gone(ENOMEM);
   }
 
   std::string fault() const override { return std::strerror(fault_); }
@@ -94,7 +103,8 @@ class SerialPort final : public MessageLink {
   }
 
   int file_, fault_ = 0;
-  std::string waiting_;
+  std::array<char, 2 * kLongestLine> waiting_{};
+  std::size_t count_ = 0;  // of the bytes that wait
 };
 
 }  // namespace

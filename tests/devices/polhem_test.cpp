@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -16,11 +18,24 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cli/bench/allocation_count.h"
 #include "devices/make_device.h"
 #include "devices/serial/polhem_line.h"
 #include "devices/serial/serial_port.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
+
+namespace {
+int settingFault = 0;  // errno of every tcsetattr; 0: the system answers
+}
+extern "C" {
+int __real_tcsetattr(int file, int when, const termios* settings);
+int __wrap_tcsetattr(int file, int when, const termios* settings) {
+  if (settingFault == 0) return __real_tcsetattr(file, when, settings);
+  errno = settingFault;
+  return -1;
+}
+}
 
 namespace reachlab::devices {
 namespace {
@@ -304,6 +319,32 @@ TEST_F(SerialLine, WhatIsLongerThanALineCanBeIsThrownAway) {
   EXPECT_EQ(next(0), "nothing");
   put("after\n");
   EXPECT_EQ(next(), "after");
+}
+
+// It runs beside the tick, and what it is declared not to throw it could not tell.
+TEST_F(SerialLine, IsReadWithoutAskingForMemory) {
+  std::string message(2 * kLongestLine, ' ');
+  for (int i = 0; i < 100; ++i) {
+    put(std::string(200, 'a') + "\n" + std::string(50, 'b') + "\n");
+    const std::uint64_t before = cli::countAllocations();
+    EXPECT_EQ(line->receive(message, 1000), MessageLink::Got::Message);
+    EXPECT_EQ(line->receive(message, 1000), MessageLink::Got::Message);
+    EXPECT_EQ(cli::countAllocations(), before);
+    EXPECT_EQ(message, std::string(50, 'b'));
+  }
+}
+
+TEST_F(SerialLine, OneThatCannotBeSetUpIsRefused) {
+  char name[128] = {};
+  ASSERT_EQ(::ttyname_r(slave, name, sizeof name), 0);
+  settingFault = EIO;
+  try {
+    openSerial(name);
+    ADD_FAILURE() << "opened with another speed, and lines that are changed on their way";
+  } catch (const ResourceError& error) {
+    EXPECT_EQ(error.what(), name + std::string(": cannot be set to 115200 baud, raw: Input/output error"));
+  }
+  settingFault = 0;
 }
 
 TEST_F(SerialLine, SendsAsItIsAndIsGoneWithItsOtherEnd) {
