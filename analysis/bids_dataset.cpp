@@ -104,15 +104,7 @@ trial::Outcome outcomeFrom(const std::string& text) {
 trial::Reason reasonFrom(const std::string& text) {
   for (int i = 0; i < 64; ++i)  // names of reasons that there are none of are empty
     if (!text.empty() && nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
-  return text == "false_start" ? trial::Reason::Early : trial::Reason::None;  // its name before 2026-11-22
-}
-
-/// When the trial was armed is no column of events.tsv: it is the first of the rows before its end in which the phase says so.
-std::uint64_t armedTickOf(const record::SampleRows& rows, const record::ChannelTable& table, int trial) {
-  const std::size_t trialColumn = table.indexOf("trial"), phase = table.indexOf("phase");
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows.at(row, trialColumn) == trial && rows.at(row, phase) >= 2 && rows.at(row, phase) <= 3) return rows.ticks[row];
-  return 0;
+  return trial::Reason::None;
 }
 
 RunSource readRun(const fs::path& motion) {
@@ -146,15 +138,12 @@ RunSource readRun(const fs::path& motion) {
 
   const fs::path eventsFile = sibling("events.tsv");
   const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
-  const auto has = [&](const char* key) { return std::find(events.columns.begin(), events.columns.end(), key) != events.columns.end(); };
   const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
   // Asked for before the first row too: what is no table of events at all would else be a run of no trials.
   for (const char* key : {"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by",
-                          "movement_time", "go", "peak_force"})
+                          "movement_time", "armed", "go", "peak_force", "mean_force", "day"})
     column(key);
-  // Events count from the first row, as BIDS asks; those written before arming was a column count from the run's own clock.
-  run.armedFromRows = !has("armed");
-  const double begin = run.armedFromRows || rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());
+  const double begin = rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());  // events count from the first row, as BIDS asks
   for (const auto& row : events.rows) {
     const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
     const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };
@@ -170,12 +159,12 @@ RunSource readRun(const fs::path& motion) {
     trial.result.onsetTick = std::isfinite(movement) ? tick("onset") : 0;
     trial.result.endTick = tickOf(number("onset") + number("duration") + begin);
     trial.goTick = tick("go");
-    trial.armedTick = run.armedFromRows ? armedTickOf(*rows, c.table, trial.trial) : tick("armed");
+    trial.armedTick = tick("armed");
     trial.startTick = trial.armedTick;
     trial.lastTick = trial.result.endTick;
     trial.peakForce = number("peak_force");
-    trial.meanForce = has("mean_force") ? number("mean_force") : kNotMeasured;
-    if (has("day")) c.day = countOf(row.at(column("day")));
+    trial.meanForce = number("mean_force");
+    c.day = countOf(row.at(column("day")));
     c.block = countOf(row.at(column("block")));
     c.practice = row.at(column("phase")) == "practice";
     c.condition = row.at(column("condition"));

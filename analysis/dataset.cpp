@@ -186,7 +186,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(logs[i]);
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, marks},
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks},
                 known->second);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
@@ -200,7 +200,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
     }
   }
   if (logs.empty()) {
-    bool foreign = false, old = false;  // an experiment that may not be the recorded one; events written before arming was
+    bool foreign = false;  // an experiment that may not be the recorded one
     const std::vector<std::string> runs = findBidsRuns(folder);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (progress) progress(i, runs.size(), runs[i]);
@@ -209,7 +209,6 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
       std::error_code error;
       const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
       if (!hasOwn) foreign = true;
-      if (run.armedFromRows) old = true;
       addRun(run,
              hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
                     : experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
@@ -218,10 +217,6 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
     }
     dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
                             (foreign ? "as they are shipped or given now" : "in code/experiments/"));
-    if (old)
-      dataset.notes.push_back(
-          "events.tsv of an older version does not say when trials were armed: the first row of the armed phase is taken, up to one sample "
-          "later, so that onset_s and offset_s are that much too small");
   }
   if (dataset.runs.empty()) {
     std::vector<Fault> why{{{}, "nothing to analyse", {}, FilePlace{folder}}};

@@ -56,7 +56,6 @@ struct RunSource {
   record::RunConfiguration configuration;
   std::vector<record::RecordedTrial> trials;
   std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
-  bool armedFromRows = false;  // the file does not say when trials were armed
   record::RunMarks marks;      // what was said of the trials afterwards
 };
 /// Hands on the run's trials; the day of a run without one is 0.

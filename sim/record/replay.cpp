@@ -17,8 +17,7 @@ constexpr std::size_t kMeasuredTime = 1;  // the one column that is the computer
 bool sameBits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
-  const bool lost = a.reason == trial::Reason::DeviceLost;  // aborted in older logs
-  return (a.outcome == b.outcome || lost) && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) &&
+  return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && sameBits(a.by, b.by) &&
          sameBits(a.movementTime, b.movementTime) && a.onsetTick == b.onsetTick && a.endTick == b.endTick;
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-const std::string kRecorded = REACHLAB_SOURCE_DIR "/tests/record/golden_runs/run-version-2_log.reach";
+const std::string kRecorded = REACHLAB_SOURCE_DIR "/tests/record/golden/0.2.0/run_log.reach";
 
 // A copy of the recorded run, whose records `edit` may change, or leave out by false.
 template <typename Edit>

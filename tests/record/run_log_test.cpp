@@ -403,25 +403,28 @@ TEST(LogWriter, RefusesToOverwrite) {
   EXPECT_EQ(bytesOf(path), before);
 }
 
-TEST(LogReader, RefusesANewerSchemaAndSaysWhatToDo) {
-  const TemporaryFolder folder("newer");
+TEST(LogReader, RefusesAnotherSchemaAndNamesTheOneThatItReads) {
+  const TemporaryFolder folder("schema");
   const std::string path = folder / "a_log.reach";
-  // Schema version 3 with a CRC of its own that is right: "REACHLOG", 3, crc32 of the twelve bytes.
-  const unsigned char newer[16] = {'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G', 3, 0, 0, 0, 0, 0, 0, 0};
-  std::string bytes(reinterpret_cast<const char*>(newer), sizeof newer);
-  std::uint32_t crc = 0xffffffffu;  // CRC-32 by its definition, so that the library is held against something
-  for (std::size_t i = 0; i < 12; ++i) {
-    crc ^= static_cast<unsigned char>(bytes[i]);
-    for (int k = 0; k < 8; ++k) crc = crc & 1 ? (crc >> 1) ^ 0xedb88320u : crc >> 1;
-  }
-  crc = ~crc;
-  std::memcpy(bytes.data() + 12, &crc, 4);
-  writeBytes(path, bytes);
-  try {
-    const LogReader reader(path);
-    FAIL() << "opened";
-  } catch (const FaultError& error) {
-    EXPECT_NE(std::string(error.what()).find("schema version 3"), std::string::npos) << error.what();
+  for (const int version : {1, 3}) {
+    // Another schema version with a CRC of its own that is right: "REACHLOG", the version, crc32 of the twelve bytes.
+    const unsigned char other[16] = {'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G', static_cast<unsigned char>(version), 0, 0, 0, 0, 0, 0, 0};
+    std::string bytes(reinterpret_cast<const char*>(other), sizeof other);
+    std::uint32_t crc = 0xffffffffu;  // CRC-32 by its definition, so that the library is held against something
+    for (std::size_t i = 0; i < 12; ++i) {
+      crc ^= static_cast<unsigned char>(bytes[i]);
+      for (int k = 0; k < 8; ++k) crc = crc & 1 ? (crc >> 1) ^ 0xedb88320u : crc >> 1;
+    }
+    crc = ~crc;
+    std::memcpy(bytes.data() + 12, &crc, 4);
+    writeBytes(path, bytes);
+    try {
+      const LogReader reader(path);
+      FAIL() << "opened";
+    } catch (const FaultError& error) {
+      EXPECT_EQ(std::string(error.what()),
+                path + ": error: log of schema version " + std::to_string(version) + "; allowed: 2, the version that this program reads");
+    }
   }
 }
 

@@ -105,21 +105,6 @@ TEST_F(InRealTime, TheExperimentSaysHowMuchAMovementMayMiss) {
   EXPECT_EQ(reasons, (std::vector{trial::Reason::None, trial::Reason::None, trial::Reason::Timing}));
 }
 
-TEST_F(InRealTime, WhatWasRecordedBeforeThereWereLimitsIsReplayedWithoutThem) {
-  {
-    RecordedRun run(block(), goodHand(), Recorded::options());
-    run.finish();
-  }
-  const record::RunConfiguration now = logs().at(0).configuration();
-  EXPECT_EQ(record::recordedExperiment(now).experiment().timing.maxMissedTicks, 5);
-  std::string text = record::toJson(now);
-  const std::size_t key = text.find("\"timing\""), end = text.find("},", key);
-  text.erase(key, end + 2 - key);
-  const record::RunConfiguration before = record::configurationFromJson(text, "a log of before");
-  EXPECT_EQ(record::recordedExperiment(before).experiment().timing.maxMissedTicks, experiment::kNoTimingLimits.maxMissedTicks);
-  EXPECT_EQ(record::recordedExperiment(before).experiment().timing.maxGap, experiment::kNoTimingLimits.maxGap);
-}
-
 TEST_F(InRealTime, TheTimingIsCheckedBeforeTheFirstTrialAndTheVerdictIsKept) {
   for (const bool steady : {true, false}) {
     request_.run = steady ? 1 : 2;

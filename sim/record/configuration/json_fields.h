@@ -17,7 +17,6 @@ namespace reachlab::record {
 struct Field {
   const char* key;
   double least = 0, most = 0;  // bounds of a number, most elements of a list
-  bool mayMiss = false;        // recordings of earlier versions do not have it: the member's default holds
 };
 
 template <class T>
@@ -87,12 +86,10 @@ nlohmann::json memberToJson(const std::vector<T>& member) {
 
 }  // namespace fieldsDetail
 
-/// Throws FaultError `KEY: …` for what is missing, of another kind, or out of its bounds.
+/// Throws FaultError `KEY: …` for what is missing, of another kind, or out of its bounds. A std::optional may be missing.
 template <class T>
 void readFields(const nlohmann::json& object, T& value) {
-  visitFields(value, [&](const Field& field, auto& member) {
-    if (!field.mayMiss || object.contains(field.key)) fieldsDetail::readMember(object, field, member);
-  });
+  visitFields(value, [&](const Field& field, auto& member) { fieldsDetail::readMember(object, field, member); });
 }
 
 template <class T>

@@ -29,8 +29,8 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   try {
     const json j = json::parse(text, nullptr, false);
     if (!j.is_object()) throw FaultError(Fault{.what = "is no JSON object"});
-    if (const auto version = j.find("schema_version"); version != j.end() && *version != kSchemaVersion)
-      throw FaultError(Fault{"schema_version", fmt::format("is {}", version->dump().substr(0, 40)),
+    if (const json& version = memberOf(j, "schema_version"); version != kSchemaVersion)
+      throw FaultError(Fault{"schema_version", fmt::format("is {}", version.dump().substr(0, 40)),
                              fmt::format("{}; a newer reachlab reads newer recordings", kSchemaVersion)});
     RunConfiguration c;
     readFields(j, c);

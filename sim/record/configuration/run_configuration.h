@@ -55,13 +55,13 @@ struct RunConfiguration {
   std::string deviceName, deviceVersion;
   double deviceMaxForce = 0;         // [N]
   bool virtualHand = false;          // DeviceInfo::virtualHand
-  bool rendersForce = false;         // DeviceInfo::rendersForce; this and the next two are not in logs of 0.1.0
+  bool rendersForce = false;         // DeviceInfo::rendersForce
   double deviceContinuousForce = 0;  // [N] 0: no budget was kept
   double deviceThermalSeconds = 10;  // [s]
-  experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by; logs before 2026-11-22 had none
+  experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by
   haptics::GuardSettings guards;                                  // wall, compensation, passivity control
   std::string deviceMapping;                                      // DeviceInfo::mapping
-  experiment::StartRest rest = experiment::kNoStartRest;  // that a trial asked for before it was armed; logs before 2026-11-22 had none
+  experiment::StartRest rest = experiment::kNoStartRest;  // that a trial asked for before it was armed
   std::string instruments;                                // InstrumentLink::names; empty: none
   std::string method, methodReason;                       // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;

@@ -5,14 +5,13 @@
 #include "sim/record/configuration/run_configuration.h"
 
 /// What a run's configuration holds, as its JSON has it: the one list for reading, writing and comparing. A new field is one member in
-/// run_configuration.h and one line here (`mayMiss`, since earlier recordings do not have it).
+/// run_configuration.h and one line here. The member is a std::optional, since recordings of 0.2.0 do not have it.
 namespace reachlab::record {
 
 template <class T, class Of>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
 inline constexpr double kMaxRuns = 9999, kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6;
-inline constexpr bool kMayMiss = true;
 
 template <MaybeConst<Channel> T, class Visit>
 void visitFields(T& c, const Visit& visit) {
@@ -30,8 +29,8 @@ void visitFields(T& t, const Visit& visit) {
   visit(Field{"mass_count", 1, experiment::kMaxMasses}, t.massCount);
   visit(Field{"parameter_count", 0, 3}, t.parameterCount);
   visit(Field{"body"}, t.body);
-  visit(Field{.key = "port_energy", .mayMiss = true}, t.portEnergy);
-  visit(Field{"hands", 1, experiment::kMaxHands, kMayMiss}, t.hands);
+  visit(Field{"port_energy"}, t.portEnergy);
+  visit(Field{"hands", 1, experiment::kMaxHands}, t.hands);
   visit(Field{.key = "channels", .most = kMaxChannels}, t.channels);
 }
 
@@ -45,8 +44,8 @@ void visitFields(T& t, const Visit& visit) {
 template <MaybeConst<Participant> T, class Visit>
 void visitFields(T& p, const Visit& visit) {
   visit(Field{"age_years", 0, kMaxAge}, p.age);
-  visit(Field{.key = "sex", .mayMiss = true}, p.sex);
-  visit(Field{.key = "handedness", .mayMiss = true}, p.handedness);
+  visit(Field{"sex"}, p.sex);
+  visit(Field{"handedness"}, p.handedness);
 }
 
 template <MaybeConst<experiment::TimingLimits> T, class Visit>
@@ -100,7 +99,7 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"repeat_aborted"}, c.repeatAborted);
   visit(Field{"experiment_name"}, c.experimentName);
   visit(Field{"experiment_text"}, c.experimentText);
-  visit(Field{.key = "definition_text", .mayMiss = true}, c.definitionText);
+  visit(Field{"definition_text"}, c.definitionText);
   visit(Field{"plan_name"}, c.planName);
   visit(Field{"plan_text"}, c.planText);
   visit(Field{"seed"}, c.seed);
@@ -112,10 +111,10 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"device_version"}, c.deviceVersion);
   visit(Field{"device_max_force_n", 0, kMaxNewtons}, c.deviceMaxForce);
   visit(Field{"virtual_hand"}, c.virtualHand);
-  visit(Field{.key = "device_renders_force", .mayMiss = true}, c.rendersForce);
-  visit(Field{"device_continuous_force_n", 0, kMaxNewtons, kMayMiss}, c.deviceContinuousForce);
-  visit(Field{"device_thermal_s", 1e-3, 1e6, kMayMiss}, c.deviceThermalSeconds);
-  visit(Field{.key = "instruments", .mayMiss = true}, c.instruments);
+  visit(Field{"device_renders_force"}, c.rendersForce);
+  visit(Field{"device_continuous_force_n", 0, kMaxNewtons}, c.deviceContinuousForce);
+  visit(Field{"device_thermal_s", 1e-3, 1e6}, c.deviceThermalSeconds);
+  visit(Field{"instruments"}, c.instruments);
   visit(Field{"method"}, c.method);
   visit(Field{"method_reason"}, c.methodReason);
   visit(Field{"software_version"}, c.softwareVersion);
@@ -125,13 +124,13 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"clock"}, c.clock);
   visit(Field{"sampling_hz", 1e-3, 1e6}, c.samplingHz);
   visit(Field{"sample_every_ticks", 1, 1e6}, c.sampleEveryTicks);
-  visit(Field{.key = "timing", .mayMiss = true}, c.timing);
-  visit(Field{.key = "start_rest", .mayMiss = true}, c.rest);
-  visit(Field{.key = "guards", .mayMiss = true}, c.guards);
-  visit(Field{.key = "device_mapping", .mayMiss = true}, c.deviceMapping);
+  visit(Field{"timing"}, c.timing);
+  visit(Field{"start_rest"}, c.rest);
+  visit(Field{"guards"}, c.guards);
+  visit(Field{"device_mapping"}, c.deviceMapping);
   visit(Field{"participant"}, c.participant);
   visit(Field{"notes"}, c.notes);
-  visit(Field{.key = "other_hands", .most = experiment::kMaxHands, .mayMiss = true}, c.otherHands);
+  visit(Field{.key = "other_hands", .most = experiment::kMaxHands}, c.otherHands);
   visit(Field{"table"}, c.table);
 }
 

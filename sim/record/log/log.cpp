@@ -123,13 +123,11 @@ LogReader::LogReader(const std::string& path) : path_(path) {
     const bool signature = !header.empty() && std::memcmp(header.data(), kSignature.data(), kSignature.size()) == 0 &&
                            checksum(header.data(), 12) == load<std::uint32_t>(header.data() + 12);
     if (!signature) throw FaultError(Fault{{}, "not a log of reachlab, or its first 16 bytes are damaged", {}, FilePlace{path}});
-    version_ = load<std::uint32_t>(header.data() + 8);
-    if (version_ > kLogSchemaVersion)
-      throw FaultError(
-          Fault{{},
-                fmt::format("log of schema version {}; this program reads up to {}: use a newer one", version_, kLogSchemaVersion),
-                {},
-                FilePlace{path}});
+    if (const auto version = load<std::uint32_t>(header.data() + 8); version != kLogSchemaVersion)
+      throw FaultError(Fault{{},
+                             fmt::format("log of schema version {}", version),
+                             fmt::format("{}, the version that this program reads", kLogSchemaVersion),
+                             FilePlace{path}});
   } catch (...) {
     ::close(descriptor_);
     throw;
@@ -142,8 +140,8 @@ LogReader::~LogReader() {
 
 LogReader::LogReader(LogReader&& other) noexcept
     : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_),
-      window_(std::move(other.window_)), windowBegin_(other.windowBegin_), ahead_(other.ahead_), at_(other.at_), sequence_(other.sequence_),
-      version_(other.version_) {}
+      window_(std::move(other.window_)), windowBegin_(other.windowBegin_), ahead_(other.ahead_), at_(other.at_),
+      sequence_(other.sequence_) {}
 
 LogReader& LogReader::operator=(LogReader&& other) noexcept {
   std::swap(path_, other.path_);
@@ -154,7 +152,6 @@ LogReader& LogReader::operator=(LogReader&& other) noexcept {
   std::swap(ahead_, other.ahead_);
   std::swap(at_, other.at_);
   std::swap(sequence_, other.sequence_);
-  std::swap(version_, other.version_);
   return *this;
 }
 

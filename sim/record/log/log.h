@@ -142,7 +142,6 @@ class LogReader {
   std::uint64_t goodEnd() const { return at_; }
   std::uint32_t nextSequence() const { return sequence_; }
   std::uint64_t fileSize() const { return size_; }
-  std::uint32_t schemaVersion() const { return version_; }
   const std::string& path() const { return path_; }
 
  private:
@@ -155,7 +154,7 @@ class LogReader {
   std::uint64_t windowBegin_ = 0;        // and where it begins
   std::size_t ahead_ = kLogHeaderBytes;  // how much to read at a time: more while reading on, little after a seek
   std::uint64_t at_ = kLogHeaderBytes;
-  std::uint32_t sequence_ = 0, version_ = 0;
+  std::uint32_t sequence_ = 0;
 };
 
 }  // namespace reachlab::record

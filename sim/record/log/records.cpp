@@ -269,10 +269,8 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   t.sequence = in.get<std::uint32_t>();
   previous.offset = in.get<std::uint64_t>();
   previous.sequence = in.get<std::uint32_t>();
-  if (in.left() > 0) {  // since schema version 2
-    t.elapsed = in.get<double>();
-    t.droppedTicks = in.get<std::uint64_t>();
-  }
+  t.elapsed = in.get<double>();
+  t.droppedTicks = in.get<std::uint64_t>();
   requireWhole(in, "trial");
   return t;
 }

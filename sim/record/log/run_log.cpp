@@ -60,16 +60,15 @@ bool readAt(LogReader& reader, std::uint64_t offset, std::uint32_t sequence, Rec
   return reader.next(record) && record.type == type;
 }
 
-std::size_t trialPayloadBytes(std::uint32_t schemaVersion) {
-  constexpr std::size_t kSinceVersion2 = sizeof(double) + sizeof(std::uint64_t);
+std::size_t trialPayloadBytes() {
   ByteWriter bytes;
   encode(RecordedTrial{}, TrialLink{}, bytes);
-  return bytes.size() - (schemaVersion < 2 ? kSinceVersion2 : 0);
+  return bytes.size();
 }
 
 // Looks backwards from the end of a log that was not closed for its last trial record.
 bool findLastTrial(LogReader& reader, TrialLink& link) {
-  const std::size_t length = trialPayloadBytes(reader.schemaVersion());
+  const std::size_t length = trialPayloadBytes();
   const std::uint64_t whole = kRecordFrameBytes + length;
   RecordView record;
   for (std::uint64_t end = reader.fileSize(); end >= kLogHeaderBytes + whole; --end) {

@@ -68,8 +68,8 @@ struct RecordedTrial {
   double peakForce = 0;                                    // [N] largest coupling force
   double meanForce = 0;                                    // [N]
   std::uint64_t clampedTicks = 0, missedTicks = 0;
-  std::uint64_t droppedTicks = 0;  // that the recorder lost because the disk was too slow; not in logs of schema version 1
-  double elapsed = std::numeric_limits<double>::quiet_NaN();  // [s] from go to the end by the computer's clock; NaN: no go, or version 1
+  std::uint64_t droppedTicks = 0;  // that the recorder lost because the disk was too slow
+  double elapsed = std::numeric_limits<double>::quiet_NaN();  // [s] from go to the end by the computer's clock; NaN: no go
   bool complete = true;                                       // false: the log broke off in this trial
   std::uint64_t offset = 0;                                   // where in the log reading of this trial starts,
   std::uint32_t sequence = 0;                                 // and the number of the record there
