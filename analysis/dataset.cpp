@@ -186,8 +186,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(logs[i]);
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks},
-                known->second);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, known->second);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
@@ -225,24 +224,6 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
     throw FaultError(std::move(why));
   }
   noteMixedDevices(dataset);
-  return dataset;
-}
-
-Dataset openDataset(const std::string& folder, const std::string& experimentFile, const DatasetProgress& progress) {
-  Dataset dataset;
-  StudyInput input;
-  static_cast<DatasetIndex&>(dataset) = readDataset(folder,
-                                                    {[&](TrialData&& trial, std::size_t condition) {
-                                                       input.trials.push_back(std::move(trial));
-                                                       input.conditionOf.push_back(condition);
-                                                     },
-                                                     [&](std::size_t count) {
-                                                       input.trials.resize(input.trials.size() - count);
-                                                       input.conditionOf.resize(input.trials.size());
-                                                     }},
-                                                    experimentFile, progress);
-  input.conditions = dataset.conditions;
-  dataset.input = std::move(input);
   return dataset;
 }
 

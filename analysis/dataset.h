@@ -29,10 +29,6 @@ struct DatasetIndex {
   std::vector<std::string> notes;       // what was left out or mended, one sentence each
   std::vector<std::string> unreadable;  // of those the runs that the disk did not give
 };
-/// A dataset read into memory.
-struct Dataset : DatasetIndex {
-  StudyInput input;
-};
 
 /// Takes the trials run by run, so that none need stay in memory.
 struct TrialSink {
@@ -48,15 +44,13 @@ using DatasetProgress = std::function<void(std::size_t done, std::size_t of, con
 /// when there is nothing to read.
 DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile = "",
                          const DatasetProgress& progress = {});
-/// The same with every trial kept.
-Dataset openDataset(const std::string& folder, const std::string& experimentFile = "", const DatasetProgress& progress = {});
 
 /// What a run's rows are turned into; `rowsOf` gives the rows between two ticks. Shared by both ways of reading.
 struct RunSource {
   record::RunConfiguration configuration;
   std::vector<record::RecordedTrial> trials;
   std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
-  record::RunMarks marks;      // what was said of the trials afterwards
+  record::RunMarks marks;  // what was said of the trials afterwards
 };
 /// Hands on the run's trials; the day of a run without one is 0.
 void addRun(const RunSource& run, const experiment::CompiledExperiment& experiment, DatasetIndex& index, const TrialSink& sink);

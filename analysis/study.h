@@ -40,7 +40,7 @@ struct StudyCondition {
   const experiment::Experiment& experiment() const { return compiled.experiment(); }
 };
 
-/// A recorded study: trials in any order, each of a condition (index). Filled by openDataset or by a test.
+/// A recorded study: trials in any order, each of a condition (index). of a whole dataset or of those that somebody chose.
 struct StudyInput {
   std::vector<StudyCondition> conditions;
   std::vector<TrialData> trials;

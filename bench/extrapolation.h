@@ -37,7 +37,6 @@ class Extrapolation {
       if (!last || h == step_) step_ = used <= columns_ - 3 ? h * T(1.5) : h;
     }
   }
-  double smallestAcceptedStep() const { return smallest_; }
 
  private:
   // Number of columns used, 0 if even all of them were not enough.
@@ -61,7 +60,6 @@ class Extrapolation {
       if (!finite) return 0;
       if (change <= tolerance_ * std::max(scale_, 1e-3)) {
         result_ = table_[0];
-        smallest_ = std::min(smallest_, static_cast<double>(h));
         return j + 1;
       }
     }
@@ -85,7 +83,7 @@ class Extrapolation {
 
   Rate rate_;
   int size_, columns_;
-  double tolerance_, scale_ = 0, smallest_ = 1e300;
+  double tolerance_, scale_ = 0;
   T step_ = 0;
   std::vector<T> slope_, previous_, current_, inner_;
   std::vector<std::vector<T>> table_;

@@ -194,24 +194,4 @@ Reference exponentialReference(const BenchScene& scene) {
   });
 }
 
-ExactStep computeExactStep(const BenchScene& scene, double dt) {
-  return visitSystem(scene, [&]<class System>(const System& system) -> ExactStep {
-    if constexpr (requires { system.x0; } && System::kCoordinates <= 10) {
-      const Matrix step = stateAndHandStep(system, Quad(dt));
-      ExactStep out;
-      out.states = 2 * System::kCoordinates;
-      for (int i = 0; i < out.states; ++i) {
-        for (int j = 0; j < out.states; ++j) out.matrix.push_back(static_cast<double>(step(i, j)));
-        Quad scale = 1;  // k-th derivative = k!/dt^k times the k-th coefficient
-        for (int k = 0; k < kHandTerms; ++k) {
-          out.matrix.push_back(static_cast<double>(step(i, out.states + k) * scale));
-          scale *= (k + 1) / Quad(dt);
-        }
-      }
-      return out;
-    }
-    throw FaultError(Fault{"scene", "is " + scene.name + ", which has no small matrix"});
-  });
-}
-
 }  // namespace reachlab::bench

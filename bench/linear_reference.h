@@ -14,12 +14,4 @@ Reference modalChainReference(const BenchScene& scene);
 /// scaled and squared, in 113 bits.
 Reference exponentialReference(const BenchScene& scene);
 
-/// The exact step of a small linear scene, rounded once to double: y(t + dt) = P (y(t), c), where c are the six coefficients of the hand's
-/// displacement in powers of s = t/dt [m]. Row-major, states x (states + 6).
-struct ExactStep {
-  int states = 0;
-  std::vector<double> matrix;
-};
-ExactStep computeExactStep(const BenchScene& scene, double dt);
-
 }  // namespace reachlab::bench

@@ -87,7 +87,6 @@ struct Panel {
   std::vector<Rule> rules;
   std::vector<Word> words;                 // on top of everything
   LegendPlace legend = LegendPlace::Auto;  // Auto: the corner with the fewest data
-  bool equalScale = false;                 // one metre along x is as long as one along y
 };
 
 /// Panels in rows of `columns` (an empty one leaves its place white), each `panelWidth` by `panelHeight` of plotting area.

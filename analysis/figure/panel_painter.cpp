@@ -62,18 +62,6 @@ void PanelPainter::chooseRanges() {
   if (markers) x.pad(panel_.x.scale), y.pad(panel_.y.scale);
   x_ = chooseTicks(panel_.x, x.low, x.high, width_);
   y_ = chooseTicks(panel_.y, y.low, y.high, height_);
-  if (!panel_.equalScale) return;
-  // The axis with room to spare is widened about its middle.
-  const double perPointX = (x_.to - x_.from) / width_, perPointY = (y_.to - y_.from) / height_;
-  const auto widen = [](const Axis& axis, AxisTicks& ticks, double span, double length) {
-    const double middle = (ticks.from + ticks.to) / 2;
-    Axis fixed = axis;
-    fixed.from = middle - span / 2;
-    fixed.to = middle + span / 2;
-    ticks = chooseTicks(fixed, *fixed.from, *fixed.to, length);
-  };
-  if (perPointX > perPointY) widen(panel_.y, y_, perPointX * height_, height_);
-  else widen(panel_.x, x_, perPointY * width_, width_);
 }
 
 void PanelPainter::chooseLegend() {

@@ -49,7 +49,6 @@ Movement findMovement(std::span<const double> speed, double rate, const OnsetOpt
   while (speed[before] < hump) ++before;
   while (before > 0 && speed[before - 1] >= threshold) --before;
   movement.found = true;
-  movement.cutAtStart = before == 0;
   movement.onset = before == 0 ? 0 : crossing(before - 1);
   for (std::size_t i = before; i < n;) {
     if (speed[i] < threshold) {
@@ -58,10 +57,8 @@ Movement findMovement(std::span<const double> speed, double rate, const OnsetOpt
     }
     std::size_t end = i;  // one past the stretch above the threshold
     while (end < n && speed[end] >= threshold) ++end;
-    if (static_cast<double>(end - i) >= shortest || i == before) {
-      movement.cutAtEnd = end == n;
+    if (static_cast<double>(end - i) >= shortest || i == before)
       movement.offset = end == n ? static_cast<double>(n - 1) / rate : crossing(end - 1);
-    }
     i = end;
   }
   return movement;

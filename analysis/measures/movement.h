@@ -24,10 +24,9 @@ struct OnsetOptions {
 /// A movement inside a sampled signal, on the signal's own clock: sample i is at i / rate.
 struct Movement {
   bool found = false;
-  double onset = 0, offset = 0;               // [s] crossings, interpolated between samples
-  double peak = 0;                            // [unit of the signal] largest value
-  double peakTime = 0;                        // [s] of the largest sample, refined by the parabola through its neighbours
-  bool cutAtStart = false, cutAtEnd = false;  // already under way at the first sample, still at the last
+  double onset = 0, offset = 0;  // [s] crossings, interpolated between samples
+  double peak = 0;               // [unit of the signal] largest value
+  double peakTime = 0;           // [s] of the largest sample, refined by the parabola through its neighbours
   double duration() const { return offset - onset; }
 };
 

@@ -30,12 +30,4 @@ Interval computeBinomialInterval(std::size_t successes, std::size_t trials, doub
           successes == trials ? 1 : Binomial::find_upper_bound_on_p(n, s, outside)};
 }
 
-double quantileOfSorted(std::span<const double> sorted, double share) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(at);
-  if (i + 1 >= sorted.size()) return sorted.back();
-  return sorted[i] + (at - static_cast<double>(i)) * (sorted[i + 1] - sorted[i]);
-}
-
 }  // namespace reachlab::analysis

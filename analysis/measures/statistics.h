@@ -20,7 +20,4 @@ struct Interval {
 /// Clopper and Pearson's exact interval of a binomial share (1934): covers at least `level` whatever the share. [0, 1] for no trials.
 Interval computeBinomialInterval(std::size_t successes, std::size_t trials, double level = 0.95);
 
-/// Quantile of sorted values, linear between them (Hyndman and Fan's type 7). NaN for none.
-double quantileOfSorted(std::span<const double> sorted, double share);
-
 }  // namespace reachlab::analysis

@@ -148,8 +148,6 @@ std::string conditionOf(const session::PlanBlock& block) {
   return block.condition.empty() ? fs::path(block.experiment).stem().string() : block.condition;
 }
 
-bool isStudy(const std::string& text, const std::string& file) { return parseJson(text, file).find("subjects") != nullptr; }
-
 Design parseDesign(const std::string& text, const std::string& file, const std::optional<NamedTexts>& named) {
   const JsonNode root = parseJson(text, file);
   FaultList faults(file);

@@ -56,7 +56,5 @@ Design readDesign(const std::string& file);
 /// The name that a block's experiment has in Design::experimentTexts, whatever folder it lay in; and the block's condition.
 std::string experimentNameOf(const session::PlanBlock& block);
 std::string conditionOf(const session::PlanBlock& block);
-/// True when the text is a study: an object with a member `subjects`.
-bool isStudy(const std::string& text, const std::string& file);
 
 }  // namespace reachlab::study

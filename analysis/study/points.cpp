@@ -157,13 +157,6 @@ std::string describe(const Point& point) {
   return text;
 }
 
-std::int64_t trialsOfSubject(const PointTask& task, const std::string& subject) {
-  std::int64_t trials = 0;
-  for (const int day : task.days)
-    for (const int block : session::blockOrder(task.plan, subject, day)) trials += task.plan.blocks[static_cast<std::size_t>(block)].trials;
-  return trials;
-}
-
 std::int64_t mostTrialsOfSubject(const Design& design) {
   if (!design.planText.empty()) {
     const session::Plan plan = session::parsePlan(design.planText, design.plan);

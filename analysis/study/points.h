@@ -35,8 +35,6 @@ Point pointAt(const Design& design, std::int64_t index);
 PointTask taskOf(const Design& design, const Point& point);
 /// "coupling.stiffness_n_per_m=300, subject.noise=1"; empty where nothing is varied.
 std::string describe(const Point& point);
-/// Trials of one subject at a point, all sessions together.
-std::int64_t trialsOfSubject(const PointTask& task, const std::string& subject);
 /// The most that any point asks of a subject, without working the points out.
 std::int64_t mostTrialsOfSubject(const Design& design);
 

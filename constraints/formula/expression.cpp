@@ -32,8 +32,6 @@ bool commutes(Op op) { return op == Op::Add || op == Op::Mul; }
 }  // namespace
 
 const char* nameOf(Op op) { return kOpNames[static_cast<int>(op)]; }
-bool isFunction(Op op) { return op >= Op::Sin; }
-
 int operandCount(Op op) {
   switch (op) {
     case Op::Constant:

@@ -34,7 +34,6 @@ enum class Op : std::uint8_t {
   Sign
 };
 const char* nameOf(Op op);
-bool isFunction(Op op);
 /// Number of operands that are nodes (PowInt has one: its exponent is a number).
 int operandCount(Op op);
 

@@ -95,10 +95,9 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
     if (!(speed >= slowest)) slowest = speed, stillAt = phi;
     fastest = std::max(fastest, speed);
   }
-  unevenness_ = fastest / slowest;
   fastest_ = fastest;
   refuseAtPlaces(curve, start, target);
-  if (!(unevenness_ < kCusp)) refuse({stillAt, kCuspWords});
+  if (!(fastest / slowest < kCusp)) refuse({stillAt, kCuspWords});
   for (int i = 0; i < kFirstPieces; ++i)
     if (!append(start + way_ * i / kFirstPieces, start + way_ * (i + 1) / kFirstPieces, 0)) refuse(break_);
   length_ = pieces_.back().to;

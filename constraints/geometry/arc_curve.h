@@ -35,8 +35,6 @@ class ArcCurve {
   ArcCurve magnified(double part) const;
 
   double length() const { return length_; }
-  /// Largest |r_phi| between start and target, of the smallest.
-  double unevenness() const { return unevenness_; }
   double lowest() const { return pieces_.front().from; }
   double highest() const { return pieces_.back().to; }
 
@@ -70,7 +68,7 @@ class ArcCurve {
   CurveBreak break_;
   std::vector<Piece> pieces_;
   double length_ = 0;
-  double unevenness_ = 1, part_ = 1;
+  double part_ = 1;
 };
 
 }  // namespace reachlab::constraints

@@ -10,8 +10,6 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kStill = 1e-9;  // of the largest |r_phi|: what rounding leaves of a cusp is far below, a near cusp far above
-
 double speedAt(const Constraint& c, double phi) { return norm(evaluate(c.curve, phi).rPhi); }
 // Half the slope of |r_phi|^2: changes sign at a minimum, sharply also at a cusp.
 double slopeAt(const Constraint& c, double phi) {
@@ -29,30 +27,6 @@ double bisectSlope(const Constraint& c, double lo, double hi) {
     (slopeAt(c, middle) < 0 ? lo : hi) = middle;
   }
   return speedAt(c, lo) < speedAt(c, hi) ? lo : hi;
-}
-
-// All local minima of |r_phi| in [lo, hi], ends included, and the largest |r_phi| seen.
-std::vector<SlowPlace> localMinima(const Constraint& c, double lo, double hi, double& largest) {
-  std::vector<SlowPlace> minima;
-  const int n = sampleCount(lo, hi);
-  largest = 0;
-  double previous = lo, previousSlope = slopeAt(c, lo);
-  minima.push_back({lo, speedAt(c, lo)});
-  for (int i = 1; i <= n; ++i) {
-    const double phi = i == n ? hi : lo + (hi - lo) * i / n;
-    const double slope = slopeAt(c, phi);
-    largest = std::max(largest, speedAt(c, phi));
-    if (previousSlope < 0 && slope > 0) {
-      const double at = bisectSlope(c, previous, phi);
-      minima.push_back({at, speedAt(c, at)});
-    } else if (slope == 0 && i < n) {
-      minima.push_back({phi, speedAt(c, phi)});
-    }
-    previous = phi;
-    previousSlope = slope;
-  }
-  minima.push_back({hi, speedAt(c, hi)});
-  return minima;
 }
 
 void requireCurve(const Constraint& c) {
@@ -89,21 +63,25 @@ std::vector<Vec3> computeDerivatives(const Constraint& c, double phi, int order)
   return result;
 }
 
-std::vector<double> findCusps(const Constraint& c, double lo, double hi) {
-  std::vector<double> cusps;
-  if (c.kind != ConstraintKind::Curve || c.straight || !(lo < hi)) return cusps;
-  double largest = 0;
-  const double apart = 1e-9 * (hi - lo);
-  for (const SlowPlace& place : localMinima(c, lo, hi, largest))
-    if (place.speed <= kStill * largest && (cusps.empty() || place.phi - cusps.back() > apart)) cusps.push_back(place.phi);
-  return cusps;
-}
-
-SlowPlace findMinSpeed(const Constraint& c, double lo, double hi) {
+SlowPlace findMinSpeed(const Constraint& c, double from, double to) {
   requireCurve(c);
-  double largest = 0;
-  const std::vector<SlowPlace> minima = localMinima(c, std::min(lo, hi), std::max(lo, hi), largest);
-  return *std::min_element(minima.begin(), minima.end(), [](const SlowPlace& a, const SlowPlace& b) { return a.speed < b.speed; });
+  const double lo = std::min(from, to), hi = std::max(from, to);
+  SlowPlace slowest{lo, speedAt(c, lo)};
+  const auto look = [&](double phi) {
+    if (const double speed = speedAt(c, phi); speed < slowest.speed) slowest = {phi, speed};
+  };
+  const int n = sampleCount(lo, hi);
+  double previous = lo, previousSlope = slopeAt(c, lo);
+  for (int i = 1; i <= n; ++i) {
+    const double phi = i == n ? hi : lo + (hi - lo) * i / n;
+    const double slope = slopeAt(c, phi);
+    if (previousSlope < 0 && slope > 0) look(bisectSlope(c, previous, phi));
+    else if (slope == 0 && i < n) look(phi);
+    previous = phi;
+    previousSlope = slope;
+  }
+  look(hi);
+  return slowest;
 }
 
 double computeAngleSine(const SurfacePoint& p) noexcept {

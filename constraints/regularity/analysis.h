@@ -17,10 +17,6 @@ std::array<Domain, 2> boundedDomain(const Constraint& constraint);
 /// Throws RefusedError on a constraint that is no curve, or a formula too large for this order.
 std::vector<Vec3> computeDerivatives(const Constraint& curve, double phi, int order);
 
-/// Places in [lo, hi] where |r_phi| vanishes (cusps, and points where the parametrisation stands still), in order. A place counts when
-/// the smallest |r_phi| near it is below 1e-9 of the largest in the range. Empty for a surface or a free object.
-std::vector<double> findCusps(const Constraint& curve, double lo, double hi);
-
 struct SlowPlace {
   double phi = 0;
   double speed = 0;  // [m] |r_phi|

@@ -72,7 +72,6 @@ int OpenArm::readNewest() {
     if (got < 0) return -1;
     if (got == 0) break;
     if (static_cast<std::size_t>(got) != options_.reportBytes) {
-      ++garbled_;
       shortReport_ = static_cast<std::size_t>(got);
       continue;
     }

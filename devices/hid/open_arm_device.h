@@ -37,7 +37,6 @@ class OpenArm final : public Transport {
   std::string lossText() const override;
 
   /// Reports that were too short, so far.
-  std::uint64_t garbled() const { return garbled_; }
 
  private:
   int readNewest();
@@ -51,7 +50,6 @@ class OpenArm final : public Transport {
   std::array<UnwrappedCount, 3> counts_;
   std::array<std::uint8_t, 64> bytes_{};
   std::array<double, 3> angles_{};
-  std::uint64_t garbled_ = 0;
   std::size_t shortReport_ = 0;  // [bytes] of the last that was not whole
   bool whole_ = false;           // one was
 };

@@ -16,7 +16,6 @@ constexpr ArmModel kModels[] = {
      {.0259, .0259, .0259},
      2000,
      5,
-     1000,
      {0, 0, 6000},
      {false, false, false}},
     {"woodenhaptics_v2019",
@@ -27,7 +26,6 @@ constexpr ArmModel kModels[] = {
      {.321, .0603, .0603},
      2000,
      5,
-     1000,
      {0, 0, 6000},
      {false, false, false}},
     {"default_woody",
@@ -38,7 +36,6 @@ constexpr ArmModel kModels[] = {
      {.0259, .0259, .0259},
      2000,
      5,
-     1000,
      {0, 0, 0},
      {false, true, false}},
     {"polhem_v1",
@@ -49,7 +46,6 @@ constexpr ArmModel kModels[] = {
      {.0538, .0538, .0538},
      2000,
      5,
-     800,
      {0, 0, -5000},
      {true, true, true}},
     {"aluhaptics_v2",
@@ -60,7 +56,6 @@ constexpr ArmModel kModels[] = {
      {.0259, .0259, .0259},
      2000,
      5,
-     1000,
      {0, 0, 0},
      {false, false, false}},
     {"vintage",
@@ -71,7 +66,6 @@ constexpr ArmModel kModels[] = {
      {.0163, .0163, .0163},
      4000,
      5,
-     800,
      {0, 0, 0},
      {false, false, false}},
 };
@@ -94,29 +88,10 @@ std::array<double, 3> jointAngles(const ArmModel& m, const std::array<double, 3>
   return angles;
 }
 
-std::array<double, 3> encoderCounts(const ArmModel& m, const std::array<double, 3>& angles) noexcept {
-  std::array<double, 3> counts{};
-  for (int i = 0; i < 3; ++i) counts[i] = sign(m, i) * angles[i] * reduction(m, i) * m.countsPerTurn / (2 * std::numbers::pi);
-  return counts;
-}
-
 Vec3 handlePlace(const ArmModel& m, const std::array<double, 3>& th) noexcept {
   const double out = m.length[1] * std::sin(th[1]) + m.length[2] * std::sin(th[2]);
   return Vec3{std::cos(th[0]) * out, std::sin(th[0]) * out, m.length[0] + m.length[1] * std::cos(th[1]) - m.length[2] * std::cos(th[2])} -
          m.origin;
-}
-
-// In the arm's plane: lb (sin thB, cos thB) + lc (sin thC, -cos thC) = (out, up). With thC' = pi - thC it is a plain two-link chain of
-// angles from the vertical; the elbow lies towards the user's side of the line when thB < thC'.
-std::array<double, 3> anglesAt(const ArmModel& m, const Vec3& place) noexcept {
-  const Vec3 p = place + m.origin;
-  const double out = std::hypot(p.x, p.y), up = p.z - m.length[0], reach2 = out * out + up * up;
-  const double lb = m.length[1], lc = m.length[2];
-  const double towards = std::atan2(out, up);  // from the vertical
-  const double spread = std::acos((reach2 + lb * lb - lc * lc) / (2 * lb * std::sqrt(reach2)));
-  const double thB = towards - spread;
-  const double lowerOut = out - lb * std::sin(thB), lowerUp = up - lb * std::cos(thB);
-  return {std::atan2(p.y, p.x), thB, std::atan2(lowerOut, -lowerUp)};
 }
 
 std::array<Vec3, 3> jacobianRows(const ArmModel& m, const std::array<double, 3>& th) noexcept {

@@ -23,7 +23,6 @@ struct ArmModel {
   std::array<double, 3> torqueConstant;  // [Nm/A]
   double countsPerTurn;
   double maxForce;                       // [N] data sheet
-  double maxStiffness;                   // [N/m]
   std::array<int, 3> calibrationCounts;  // encoders in the calibration pose
   std::array<bool, 3> aligned;           // motor and body turn alike
 };
@@ -33,13 +32,10 @@ std::span<const ArmModel> armModels();
 /// Null when there is none of that name.
 const ArmModel* findArmModel(std::string_view name);
 
-/// Joint angles [rad] of encoder counts, and back (not rounded).
+/// Joint angles [rad] of encoder counts.
 std::array<double, 3> jointAngles(const ArmModel& model, const std::array<double, 3>& counts) noexcept;
-std::array<double, 3> encoderCounts(const ArmModel& model, const std::array<double, 3>& angles) noexcept;
 /// The handle [m], frame of the arm.
 Vec3 handlePlace(const ArmModel& model, const std::array<double, 3>& angles) noexcept;
-/// The angles that bring the handle to `place`, elbow as in the workspace; not a number where the arm does not reach.
-std::array<double, 3> anglesAt(const ArmModel& model, const Vec3& place) noexcept;
 /// d(x, y, z)/d(angles), rows x, y, z.
 std::array<Vec3, 3> jacobianRows(const ArmModel& model, const std::array<double, 3>& angles) noexcept;
 /// Torques of the joints for a force at the handle [N m].

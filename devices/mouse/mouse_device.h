@@ -25,8 +25,6 @@ class MouseDevice final : public haptics::HapticDevice {
   /// Window's thread, wait-free: the pointer was there [m, world frame] when its own clock, whatever that began with, said `eventNs`. Not
   /// finite, or more than 1024 that were not read: ignored.
   void point(const Vec3& place, std::int64_t eventNs) noexcept;
-  /// The same for events that know no time.
-  void setTarget(const Vec3& target) noexcept { point(target, now_()); }
   /// Any thread: from the pointer to the hand at present [s].
   double delay() const noexcept { return playback_.load(std::memory_order_relaxed) + 2 * kSmoothing; }
 

@@ -208,12 +208,6 @@ void ConstraintChooser::filter(const QString& words) {
   }
 }
 
-int ConstraintChooser::shownCount() const {
-  int count = 0;
-  for (int i = 0; i < list_->count(); ++i) count += list_->item(i)->isHidden() ? 0 : 1;
-  return count;
-}
-
 void ConstraintChooser::answer(const QStringList& faults) {
   refusal_->setText(faults.join(QLatin1Char('\n')));
   refusal_->setVisible(!faults.isEmpty());

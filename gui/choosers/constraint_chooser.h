@@ -44,7 +44,6 @@ class ConstraintChooser : public QDialog {
   /// What would be used now; nullopt while it cannot be.
   std::optional<ConstraintChoice> choice() const { return choice_; }
   scene::SceneView* preview() { return preview_; }
-  int shownCount() const;
 
  Q_SIGNALS:
   void used(const reachlab::gui::docks::ConstraintChoice& choice);

@@ -147,14 +147,4 @@ std::vector<predict::Criterion> PredictionDock::chosen() const {
   return criteria;
 }
 
-void PredictionDock::setChosen(const std::vector<predict::Criterion>& criteria) {
-  {
-    const QSignalBlocker quiet(table_);
-    for (int i = 0; i < predict::kCriterionCount; ++i)
-      table_->item(i, kName)->setCheckState(
-          std::find(criteria.begin(), criteria.end(), static_cast<predict::Criterion>(i)) != criteria.end() ? Qt::Checked : Qt::Unchecked);
-  }
-  Q_EMIT chosenChanged();
-}
-
 }  // namespace reachlab::gui::docks

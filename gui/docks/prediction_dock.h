@@ -24,7 +24,6 @@ class PredictionDock : public Dock {
   void setFitted(const std::vector<std::optional<double>>& fitted);
   void clearErrors();
   std::vector<predict::Criterion> chosen() const;
-  void setChosen(const std::vector<predict::Criterion>& criteria);
 
  Q_SIGNALS:
   void chosenChanged();

@@ -272,6 +272,4 @@ void SessionDock::beginNote(const QString& words) {
   note_->setCursorPosition(static_cast<int>(words.size()));
 }
 
-QString SessionDock::tallyText() const { return tally_->text(); }
-
 }  // namespace reachlab::gui::docks

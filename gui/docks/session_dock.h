@@ -43,7 +43,6 @@ class SessionDock : public Dock {
   void showRun(const record::RunConfiguration& run);
   void clearTally();
   void count(const trial::TrialResult& result);
-  QString tallyText() const;
   /// Puts the cursor into the line for notes, behind these words.
   void beginNote(const QString& words);
 

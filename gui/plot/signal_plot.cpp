@@ -123,7 +123,6 @@ void SignalPlot::setMasses(int count) {
 
 int SignalPlot::watched() const { return impl_->watched->currentIndex() - 1; }
 SignalPlot::Quantity SignalPlot::quantity() const { return static_cast<Quantity>(impl_->quantity->currentIndex()); }
-void SignalPlot::setQuantity(Quantity quantity) { impl_->quantity->setCurrentIndex(static_cast<int>(quantity)); }
 int SignalPlot::pointCount() const { return impl_->count; }
 bool SignalPlot::frozen() const { return impl_->freeze->isChecked(); }
 

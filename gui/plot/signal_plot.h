@@ -29,7 +29,6 @@ class SignalPlot : public QWidget {
   /// -1: the hand, else a mass from 0.
   int watched() const;
   Quantity quantity() const;
-  void setQuantity(Quantity quantity);
   void add(const Point& point);
   /// Draws what was added; nothing while it is frozen or not seen.
   void refresh();

@@ -357,10 +357,7 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
     case QEvent::MouseButtonRelease:
-      if (d.reaching && static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
-        d.reaching = false;
-        Q_EMIT handReleased();
-      }
+      if (static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) d.reaching = false;
       return true;
     case QEvent::MouseButtonDblClick: return true;
     case QEvent::Wheel:

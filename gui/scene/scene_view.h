@@ -59,7 +59,6 @@ class SceneView : public QWidget {
   /// The pointer with the left button down: where the hand is asked to be [m], in the plane through the hand that faces the viewer.
   /// `eventMs`: when, by the window system's own clock.
   void handDragged(double x, double y, double z, qint64 eventMs);
-  void handReleased();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -54,6 +54,4 @@ void SoundCues::setVolume(double volume) {
     if (effect) effect->setVolume(amplitude);
 }
 
-bool SoundCues::canBeHeard() const { return impl_->effects.front() != nullptr; }
-
 }  // namespace reachlab::gui::app

@@ -12,7 +12,6 @@ class SoundCues {
   ~SoundCues();
   void play(Cue cue);
   /// Whether there is anything to hear them with.
-  bool canBeHeard() const;
   void setMuted(bool muted) { muted_ = muted; }
   /// 0 to 1, as it is heard (not as amplitude); remembered (QSettings).
   void setVolume(double volume);

@@ -41,13 +41,4 @@ Programme checkedProgramme(const std::string& file) {
   return programme;
 }
 
-std::vector<Fault> planProblems(const std::string& file) {
-  try {
-    (void)checkedProgramme(file);
-    return {};
-  } catch (const FaultError& error) {
-    return error.faults;
-  }
-}
-
 }  // namespace reachlab::session

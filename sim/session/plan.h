@@ -54,8 +54,6 @@ Plan readPlan(const std::string& file);
 std::string toJson(const Plan& plan);
 /// Every fault of a plan as a value, each under its key; empty when fine.
 std::vector<Fault> problems(const Plan& plan);
-/// Every fault of a plan file and of the experiments it names, each at its place; empty when fine.
-std::vector<Fault> planProblems(const std::string& file);
 
 /// The blocks of `day` (every block when 0) in the order that this subject does them: indices into plan.blocks. A function of the
 /// plan and the subject's label alone.

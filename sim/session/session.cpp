@@ -207,7 +207,6 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     block.logPath = logPath(request.place, block.configuration.task, run);
     session.blocks.push_back(std::move(block));
   }
-  for (std::size_t k = 0; k < session.blocks.size(); ++k) session.blocks[k].blocksAfter = static_cast<int>(session.blocks.size() - k - 1);
   session.notice.unfinished = !request.resume && std::any_of(recorded.begin(), recorded.end(),
                                                              [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
   return session;

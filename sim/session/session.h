@@ -43,7 +43,6 @@ struct BlockToRun {
   record::RunConfiguration configuration;
   std::string logPath;
   std::vector<trial::PlannedTrial> trials;  // still to be done, in order; numbered from configuration.firstTrial
-  int blocksAfter = 0;                      // of the same session
   double restSeconds = 0;                   // [s] before it, at least, once the block before is done
   std::string instructions = {};            // of the plan, to be read before it begins
 };

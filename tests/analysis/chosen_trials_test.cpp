@@ -7,6 +7,7 @@
 #include "analysis/dataset.h"
 #include "sim/record/trial_marks.h"
 #include "tests/analysis/recorded.h"
+#include "tests/analysis/whole_dataset.h"
 
 namespace reachlab::analysis {
 namespace {

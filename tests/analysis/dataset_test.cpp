@@ -19,6 +19,7 @@
 #include "sim/record/log/append_file.h"
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
+#include "tests/analysis/whole_dataset.h"
 
 namespace reachlab::analysis {
 namespace {

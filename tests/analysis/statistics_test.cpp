@@ -43,13 +43,6 @@ TEST(MeanSd, LeavesOutWhatWasNotMeasured) {
   EXPECT_TRUE(std::isnan(computeMeanSd(std::vector<double>{2.0}).sd));
 }
 
-TEST(Quantile, LiesBetweenNeighbours) {
-  const std::vector<double> v{1, 2, 4, 8};
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0), 1);
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0.5), 3);
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 1), 8);
-}
-
 // None or all: (1 - high)^n, or low^n, is what lies outside on that side.
 TEST(BinomialInterval, OfNoneOrAllIsARootOfTheLevel) {
   for (const double level : {0.95, 0.8})
@@ -83,16 +76,6 @@ TEST(MeanSd, OfFewNumbersIsWhatIsKnown) {
   const MeanSd two = computeMeanSd(std::vector<double>{2, 5});
   EXPECT_DOUBLE_EQ(two.mean, 3.5);
   EXPECT_DOUBLE_EQ(two.sd, 3 / std::sqrt(2.0));
-}
-
-TEST(Quantile, IsLinearAndHeldAtTheEnds) {
-  const std::vector<double> v{1, 2, 4, 8};
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0.9), 4 + 0.7 * 4);
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 0.25), 1.75);
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, -0.5), 1);
-  EXPECT_DOUBLE_EQ(quantileOfSorted(v, 1.5), 8);
-  EXPECT_DOUBLE_EQ(quantileOfSorted(std::vector<double>{3}, 0.4), 3);
-  EXPECT_TRUE(std::isnan(quantileOfSorted({}, 0.5)));
 }
 
 }  // namespace

@@ -228,8 +228,6 @@ TEST(Extrapolation, FollowsAnEquationWhoseSolutionIsKnown) {
       EXPECT_NEAR(y[1], 0.5 * std::cos(2 * (t - 0.5)) + 0.5 * std::sin(2 * (t - 0.5)), 1e-12);
       EXPECT_NEAR(y[2], std::cos(2 * (t - 0.5)) - std::sin(2 * (t - 0.5)), 1e-12);
     }
-    EXPECT_GT(integrator.smallestAcceptedStep(), 0.01);
-    EXPECT_LE(integrator.smallestAcceptedStep(), 2.25);
   }
 }
 
@@ -248,14 +246,11 @@ TEST(Extrapolation, GivesUpWhereNoStepIsShortEnough) {
 
 TEST(Reference, MatricesAreForSmallLinearScenesAlone) {
   for (const char* name : {"S2a", "S1b50"}) {
-    for (const bool step : {false, true}) {
-      try {
-        if (step) (void)computeExactStep(benchScene(name), kTickSeconds);
-        else (void)exponentialReference(benchScene(name));
-        ADD_FAILURE() << name;
-      } catch (const Error& refusal) {
-        EXPECT_NE(std::string(refusal.what()).find(std::string(name) + ", which has no small matrix"), std::string::npos) << refusal.what();
-      }
+    try {
+      (void)exponentialReference(benchScene(name));
+      ADD_FAILURE() << name;
+    } catch (const Error& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find(std::string(name) + ", which has no small matrix"), std::string::npos) << refusal.what();
     }
   }
 }

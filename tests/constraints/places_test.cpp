@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -97,6 +98,24 @@ TEST(Places, EveryCurveOfTheCatalogueIsSmoothButForStillPlaces) {
     for (const Place& place : r.places)
       EXPECT_TRUE(place.kind == PlaceKind::Cusp || place.kind == PlaceKind::Fold) << d.name << ": " << describe(place, c.kind);
   }
+}
+
+TEST(Places, CuspsOfTheCatalogueAreWhereItsCurvesTurnBack) {
+  const auto expect = [](const std::string& name, const std::map<std::string, double>& shape, const std::vector<double>& places) {
+    const Constraint c = makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = shape});
+    std::vector<double> found;
+    for (const Place& place : computeRegularity(c, 0.4).places)
+      if (place.kind == PlaceKind::Cusp && place.at > -0.01 && place.at < 2 * kPi - 0.01) found.push_back(place.at);
+    ASSERT_EQ(found.size(), places.size()) << name;
+    for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(found[i], places[i], 1e-9) << name;
+  };
+  expect("astroid", {}, {0, kPi / 2, kPi, 3 * kPi / 2});
+  expect("cardioid", {}, {0});
+  expect("nephroid", {}, {0, kPi});
+  expect("deltoid", {}, {0, 2 * kPi / 3, 4 * kPi / 3});
+  expect("epicycloid", {{"cusps", 5}}, {0, 2 * kPi / 5, 4 * kPi / 5, 6 * kPi / 5, 8 * kPi / 5});
+  expect("epitrochoid", {{"d_m", 0.02}, {"a_m", 0.08}}, {0, 2 * kPi / 3, 4 * kPi / 3});
+  expect("ellipse", {}, {});
 }
 
 // What is shown is true of every point of the range, and of a range that holds an apex, a fold or a ridge nothing is shown.

@@ -21,6 +21,7 @@
 #include "sim/haptics/force_safety.h"
 #include "sim/haptics/loop_core.h"
 #include "sim/haptics/watchdog.h"
+#include "tests/devices/arm_poses.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
 

@@ -26,7 +26,7 @@ TEST(MouseDevice, StaysWhereItIsUntilThePointerMoves) {
 TEST(MouseDevice, IgnoresWhatIsNotAPlace) {
   clockNs = 1'000'000'000;
   MouseDevice mouse({}, now);
-  mouse.setTarget({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  mouse.point({std::numeric_limits<double>::quiet_NaN(), 0, 0}, now());
   for (int i = 0; i < 100; ++i, clockNs += 1'000'000) EXPECT_EQ(mouse.read().position, Vec3{});
 }
 
@@ -34,7 +34,7 @@ TEST(MouseDevice, ArrivesWhereThePointerStopped) {
   clockNs = 1'000'000'000;
   MouseDevice mouse({}, now);
   for (int i = 0; i < 50; ++i) {
-    mouse.setTarget({0.001 * i, 0, 0});
+    mouse.point({0.001 * i, 0, 0}, now());
     for (int k = 0; k < 8; ++k, clockNs += 1'000'000) mouse.read();
   }
   for (int i = 0; i < 300; ++i, clockNs += 1'000'000) mouse.read();
@@ -44,7 +44,7 @@ TEST(MouseDevice, ArrivesWhereThePointerStopped) {
 TEST(MouseDevice, TakesPlacesFromAnotherThreadWhole) {
   MouseDevice mouse({});
   std::jthread window([&] {
-    for (int i = 1; i <= 20'000; ++i) mouse.setTarget({1.0 * i, 1.0 * i, 1.0 * i});
+    for (int i = 1; i <= 20'000; ++i) mouse.point({1.0 * i, 1.0 * i, 1.0 * i}, os::now());
   });
   for (int i = 0; i < 20'000; ++i) {
     const haptics::DeviceSample sample = mouse.read();
@@ -157,7 +157,7 @@ TEST(MouseDevice, AJumpIsTakenAsACriticallyDampedSystemDoes) {
   clockNs = 3'000'000'000;
   MouseDevice mouse({}, now);
   for (int i = 0; i < 200; ++i, clockNs += 1'000'000) mouse.read();
-  mouse.setTarget({0.1, 0, 0});
+  mouse.point({0.1, 0, 0}, now());
   std::vector<double> moved;
   for (int i = 0; i < 200; ++i, clockNs += 1'000'000) moved.push_back(mouse.read().position.x / 0.1);
   const auto begin = static_cast<std::size_t>(std::find_if(moved.begin(), moved.end(), [](double x) { return x > 0; }) - moved.begin());

@@ -10,6 +10,7 @@
 
 #include "devices/hid/arm_report.h"
 #include "devices/hid/space_mouse_report.h"
+#include "tests/devices/arm_poses.h"
 
 namespace reachlab::devices {
 namespace {
@@ -58,7 +59,6 @@ TEST(OpenSerialArm, EveryModelsNumbersAreThePublishedOnes) {
     EXPECT_LT(norm(m.origin - 1e-3 * Vec3{p.origin[0], p.origin[1], p.origin[2]}), 1e-15) << p.name;
     EXPECT_EQ(m.countsPerTurn, p.counts) << p.name;
     EXPECT_EQ(m.maxForce, p.force) << p.name;
-    EXPECT_EQ(m.maxStiffness, p.stiffness) << p.name;
   }
   EXPECT_EQ(findArmModel("polhem_v9"), nullptr);
 }

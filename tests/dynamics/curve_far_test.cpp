@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/dynamics/make_experiment.h"
+#include "tests/dynamics/held_segment.h"
 
 namespace reachlab::dynamics {
 namespace {

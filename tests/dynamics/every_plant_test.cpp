@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "tests/dynamics/make_experiment.h"
+#include "tests/dynamics/held_segment.h"
 
 namespace reachlab::dynamics {
 namespace {

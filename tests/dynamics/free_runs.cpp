@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "tests/dynamics/free_run.h"
+#include "tests/dynamics/held_segment.h"
 
 namespace reachlab::dynamics {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/dynamics/hand/hand_function.h"
+#include "tests/dynamics/held_segment.h"
 
 namespace reachlab::dynamics {
 namespace {

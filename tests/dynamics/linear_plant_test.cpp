@@ -4,6 +4,7 @@
 
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/hand/hand_path.h"
+#include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -497,30 +497,6 @@ TEST(Picture, OfAMarkedSeriesLeavesRoomForItsMarkers) {
   EXPECT_NEAR(shareOf(panel), 1, 0.015);
 }
 
-TEST(Picture, OfEqualScalesHasOneLengthForAMetre) {
-  Panel panel;
-  panel.x.from = 0.0, panel.x.to = 2.0, panel.y.from = 0.0, panel.y.to = 4.0;
-  panel.equalScale = true;
-  panel.series = {points({0.5, 1.5}, {1, 2}, kRed)};
-  Box box = Picture(figureOf(panel)).find(kRed);
-  EXPECT_NEAR(box.width(), kHigh / 4 + 0.88 * 6, 2 * kNear);
-  EXPECT_NEAR(box.height(), kHigh / 4 + 0.88 * 6, 2 * kNear);
-  panel.x.to = 40.0;
-  panel.series = {points({5, 15}, {1, 3}, kRed)};
-  const Picture wide(figureOf(panel));
-  box = wide.find(kRed);
-  EXPECT_NEAR(box.width(), kWide / 4 + 0.88 * 6, 2 * kNear);
-  EXPECT_NEAR(box.height(), kWide / 20 + 0.88 * 6, 2 * kNear);
-  // About the middle: 2 of y stays half-way up.
-  Panel plainly = panel;
-  plainly.series = {points({20}, {2}, kRed)};
-  plainly.x.ticks = {{0, "I"}};
-  const Picture middle(figureOf(plainly));
-  const auto axis = middle.along(false, middle.find(kRed).x(), kInk, 0, 1e6);
-  ASSERT_FALSE(axis.empty());
-  EXPECT_NEAR((axis.back().first + axis.back().second) / 2 - middle.find(kRed).y(), kHigh / 2, kNear);
-}
-
 // Two columns: margins of a column and of a row are shared, 10 pt lie between.
 TEST(Picture, OfPanelsStandsInRowsAndColumns) {
   Panel panels[3] = {plain(), plain(), plain()};
@@ -620,7 +596,7 @@ TEST(Figure, HasItsUsualLooks) {
   const Band band;
   EXPECT_TRUE(band.color.red == 0.45 && band.color.green == 0.45 && band.color.blue == 0.45 && band.color.alpha == 0.25);
   const Panel panel;
-  EXPECT_TRUE(panel.legend == LegendPlace::Auto && !panel.equalScale && panel.x.scale == Scale::Linear);
+  EXPECT_TRUE(panel.legend == LegendPlace::Auto && panel.x.scale == Scale::Linear);
   const Color color;
   EXPECT_TRUE(color.red == 0 && color.green == 0 && color.blue == 0 && color.alpha == 1);
 }

@@ -14,6 +14,7 @@
 #include "base/system/os.h"
 #include "devices/hid/arm_report.h"
 #include "devices/hid/open_serial_arm.h"
+#include "tests/devices/arm_poses.h"
 
 namespace reachlab::devices {
 

@@ -4,6 +4,7 @@
 
 #include "base/fault.h"
 #include "sim/record/configuration/run_fields.h"
+#include "tests/record/differing_keys.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {
@@ -23,15 +24,12 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Fields, OneThatIsAddedToTheListIsReadWrittenAndCompared) {
+TEST(Fields, OneThatIsAddedToTheListIsReadAndWritten) {
   const Example written{3, 7.25};
   EXPECT_EQ(writeFields(written), (json{{"old", 3}, {"added_m", 7.25}}));
   Example read;
   readFields(json{{"old", 3}, {"added_m", 7.25}}, read);
   EXPECT_EQ(read.added, 7.25);
-  EXPECT_TRUE(differingFields(written, read).empty());
-  read.added = 8;
-  EXPECT_EQ(differingFields(written, read), std::vector<std::string>{"added_m"});
   Example earlier;
   readFields(json{{"old", 3}}, earlier);
   EXPECT_FALSE(earlier.added) << "recordings of earlier versions do not have it";
@@ -103,8 +101,8 @@ TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
     }
     ++number;
     const RunConfiguration read = configurationFromJson(toJson(changed), "changed");
-    EXPECT_TRUE(differingFields(changed, read).empty()) << field.key;
-    EXPECT_EQ(differingFields(original, read), expected);
+    EXPECT_TRUE(differingKeys(changed, read).empty()) << field.key;
+    EXPECT_EQ(differingKeys(original, read), expected);
   });
   EXPECT_GT(number, 40u);
 }

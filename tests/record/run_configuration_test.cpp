@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "tests/record/differing_keys.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {
@@ -227,7 +228,7 @@ TEST(RunConfiguration, ThatDiffersIsToldByItsKeysInTheOrderOfTheList) {
   EXPECT_TRUE(differingKeys(a, b).empty());
   b.notes = "x", b.run = 2;
   b.participant.age = 20;
-  EXPECT_EQ(differingKeys(a, b), (std::vector<std::string>{"run", "participant", "notes"}));
+  EXPECT_EQ(differingKeys(a, b), (std::vector<std::string>{"notes", "participant", "run"}));
 }
 
 }  // namespace

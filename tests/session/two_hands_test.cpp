@@ -10,6 +10,7 @@
 #include "sim/record/export/bids.h"
 #include "sim/record/replay.h"
 #include "sim/session/recorded_session.h"
+#include "tests/analysis/whole_dataset.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/record/made_run.h"
 

@@ -106,11 +106,6 @@ TEST(StudyDesign, HasUpToAHundredMillionPoints) {
   expectIn(refusalOf(R"(, "vary": { "a": )" + thousands + R"(, "b": )" + thousands + R"(, "c": [1, 2] })"), "makes 200000000 points");
 }
 
-TEST(StudyDesign, IsAFileWithSubjects) {
-  EXPECT_TRUE(isStudy(R"({ "subjects": 3 })", "x"));
-  EXPECT_FALSE(isStudy(R"({ "blocks": [] })", "x"));
-}
-
 TEST(StudyPoints, RunTheLastAxisOfTheGridFastestWithTheSamplesInside) {
   const Design d = designOf(R"(, "vary": { "a": [1, 2], "u": { "uniform": [10, 20], "n": 2 }, "b": ["x", "y", "z"] })");
   EXPECT_EQ(pointCount(d), 12);
@@ -164,7 +159,6 @@ TEST(StudyPoints, BecomeADeviceAnExperimentAndABlock) {
   ASSERT_EQ(task.plan.blocks.size(), 1u);
   EXPECT_EQ(task.plan.blocks[0].trials, 7);
   EXPECT_EQ(task.days, std::vector<int>{0});
-  EXPECT_EQ(trialsOfSubject(task, "01"), 7);
   EXPECT_EQ(mostTrialsOfSubject(d), 1000000);
   EXPECT_EQ(taskOf(d, pointAt(d, 1)).plan.blocks[0].trials, 1000000);
   const Design plain = designOf("");
@@ -203,7 +197,6 @@ TEST(StudyPoints, OfAPlanHaveItsBlocksAndDays) {
   EXPECT_EQ(task.experiments.size(), task.plan.blocks.size());
   EXPECT_GT(task.days.size(), 1u);
   EXPECT_GT(task.days.front(), 0);
-  EXPECT_GE(mostTrialsOfSubject(d), trialsOfSubject(task, "01"));
   std::int64_t all = 0;
   for (const session::PlanBlock& block : task.plan.blocks)
     for (const int day : task.days) all += block.day == 0 || block.day == day ? block.trials : 0;

@@ -57,10 +57,4 @@ HandSegment makeSegment(const HandFunction& hand, double t0, double dt) {
   return segment;
 }
 
-HandSegment heldSegment(const Vec3& position) noexcept {
-  HandSegment segment;
-  segment.position[0] = position;
-  return segment;
-}
-
 }  // namespace reachlab::dynamics

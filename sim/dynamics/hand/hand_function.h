@@ -12,7 +12,4 @@ using HandFunction = std::function<HandSample(double time)>;
 /// that is smooth on the tick the error is below rounding at 1 ms. Not for the haptic thread.
 HandSegment makeSegment(const HandFunction& hand, double t0, double dt);
 
-/// The hand at rest at `position`.
-HandSegment heldSegment(const Vec3& position) noexcept;
-
 }  // namespace reachlab::dynamics

@@ -56,14 +56,6 @@ double findRk4StepLimit(const std::vector<std::complex<double>>& eigenvalues) {
   return stable;
 }
 
-double findRk4Limit(const std::function<ObjectModel(double)>& model, double step, double stable, double unstable) {
-  for (int round = 0; round < 100 && std::abs(unstable - stable) > 1e-9 * std::abs(stable); ++round) {
-    const double middle = 0.5 * (stable + unstable);
-    (isRk4Stable(computeEigenvalues(model(middle)), step) ? stable : unstable) = middle;
-  }
-  return stable;
-}
-
 double predictRk4Error(const std::vector<std::complex<double>>& eigenvalues, double step, double length, double duration) {
   double error = 0;
   for (const auto& value : eigenvalues) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <complex>
-#include <functional>
 #include <vector>
 
 #include "sim/dynamics/object/object_model.h"
@@ -20,8 +19,6 @@ double rk4Amplification(std::complex<double> z);
 bool isRk4Stable(const std::vector<std::complex<double>>& eigenvalues, double step);
 /// The longest stable step [s].
 double findRk4StepLimit(const std::vector<std::complex<double>>& eigenvalues);
-/// Where, between `stable` and `unstable` values of some parameter, RK4 with `step` begins to grow; to 1e-9 of the value.
-double findRk4Limit(const std::function<ObjectModel(double)>& model, double step, double stable, double unstable);
 
 /// Error of RK4 over one reach of `length` [m] in `duration` [s], a position: phase errors |z|^5/120 a step of every mode, whose amplitude
 /// under a minimum-jerk hand is at most 60 length / (w T)^3 (the jump of its jerk).

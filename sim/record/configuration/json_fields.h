@@ -105,15 +105,4 @@ nlohmann::json writeFields(const T& value) {
   return object;
 }
 
-/// Keys of the fields that differ, in the list's order.
-template <class T>
-std::vector<std::string> differingFields(const T& a, const T& b) {
-  const nlohmann::json first = writeFields(a), second = writeFields(b);
-  std::vector<std::string> keys;
-  visitFields(a, [&](const Field& field, const auto&) {
-    if (first.value(field.key, nlohmann::json()) != second.value(field.key, nlohmann::json())) keys.emplace_back(field.key);
-  });
-  return keys;
-}
-
 }  // namespace reachlab::record

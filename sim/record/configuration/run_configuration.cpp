@@ -41,8 +41,6 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   }
 }
 
-std::vector<std::string> differingKeys(const RunConfiguration& a, const RunConfiguration& b) { return differingFields(a, b); }
-
 experiment::Experiment recordedValues(const RunConfiguration& c) {
   return experiment::readUnchecked(c.experimentText, c.experimentName, c.definitionText);
 }

@@ -53,17 +53,17 @@ struct RunConfiguration {
   std::vector<trial::PlannedTrial> trials;
   std::string device;  // as asked for: "simulated:noise=0"; several hands' as "A + B"
   std::string deviceName, deviceVersion;
-  double deviceMaxForce = 0;         // [N]
-  bool virtualHand = false;          // DeviceInfo::virtualHand
-  bool rendersForce = false;         // DeviceInfo::rendersForce
-  double deviceContinuousForce = 0;  // [N] 0: no budget was kept
-  double deviceThermalSeconds = 10;  // [s]
+  double deviceMaxForce = 0;                                      // [N]
+  bool virtualHand = false;                                       // DeviceInfo::virtualHand
+  bool rendersForce = false;                                      // DeviceInfo::rendersForce
+  double deviceContinuousForce = 0;                               // [N] 0: no budget was kept
+  double deviceThermalSeconds = 10;                               // [s]
   experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by
   haptics::GuardSettings guards;                                  // wall, compensation, passivity control
   std::string deviceMapping;                                      // DeviceInfo::mapping
-  experiment::StartRest rest = experiment::kNoStartRest;  // that a trial asked for before it was armed
-  std::string instruments;                                // InstrumentLink::names; empty: none
-  std::string method, methodReason;                       // what the scene was compiled to
+  experiment::StartRest rest = experiment::kNoStartRest;          // that a trial asked for before it was armed
+  std::string instruments;                                        // InstrumentLink::names; empty: none
+  std::string method, methodReason;                               // what the scene was compiled to
   std::string softwareVersion, buildDescription, computer;
   std::string startedUtc;        // ISO 8601 with milliseconds
   std::string clock = "steady";  // or virtual: as fast as the processor allows
@@ -78,9 +78,6 @@ struct RunConfiguration {
 std::string toJson(const RunConfiguration& configuration);
 /// Throws FaultError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
-
-/// Keys of the fields in which two configurations differ.
-std::vector<std::string> differingKeys(const RunConfiguration& a, const RunConfiguration& b);
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws FaultError when its text cannot be understood.

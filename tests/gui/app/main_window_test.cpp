@@ -108,7 +108,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
   EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
   EXPECT_GT(window.plot().pointCount(), 20u);
-  EXPECT_TRUE(window.sessionDock().tallyText().contains(QStringLiteral("1 of 1")));
+  EXPECT_TRUE(window.sessionDock().findChild<QLabel*>(QStringLiteral("tally"))->text().contains(QStringLiteral("1 of 1")));
 
   // What the screen shows is what the record holds.
   const std::string log = window.session().run()->logPath();
@@ -168,7 +168,7 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   result.outcome = trial::Outcome::Failure;
   result.reason = trial::Reason::TimeShort;
   free.sessionDock().count(result);
-  EXPECT_TRUE(free.sessionDock().tallyText().contains(QStringLiteral("1 × too fast")));
+  EXPECT_TRUE(free.sessionDock().findChild<QLabel*>(QStringLiteral("tally"))->text().contains(QStringLiteral("1 × too fast")));
 }
 
 TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
@@ -360,7 +360,13 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   request_.device = "simulated:noise=0";
   MainWindow& window = open();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 20000));
-  window.predictions().setChosen({predict::Criterion::MinHandJerk, predict::Criterion::MinHandForceChange});
+  auto* criteria = window.predictions().findChild<QTableWidget*>(QStringLiteral("criteria"));
+  ASSERT_NE(criteria, nullptr);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
+    const bool wanted = criterion == predict::Criterion::MinHandJerk || criterion == predict::Criterion::MinHandForceChange;
+    criteria->item(i, 0)->setCheckState(wanted ? Qt::Checked : Qt::Unchecked);
+  }
   window.nextTrial();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
   EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Success);

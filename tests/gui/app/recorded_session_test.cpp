@@ -25,8 +25,10 @@
 #include "gui/session/session_overlay.h"
 #include "sim/record/log/run_log.h"
 #include "test_paths.h"
+#include "tests/analysis/whole_dataset.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
+#include "tests/record/differing_keys.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -250,7 +252,7 @@ void expectSameBytes(const std::string& a, const std::string& b) {
 }
 
 void expectSameRun(const record::RunLog& a, const record::RunLog& b) {
-  for (const std::string& key : differingKeys(a.configuration(), b.configuration())) EXPECT_EQ(key, "started_utc");
+  for (const std::string& key : record::differingKeys(a.configuration(), b.configuration())) EXPECT_EQ(key, "started_utc");
   const record::SampleRows rowsA = a.allRows(), rowsB = b.allRows();
   EXPECT_EQ(rowsA.ticks, rowsB.ticks);
   EXPECT_EQ(rowsA.values, rowsB.values);

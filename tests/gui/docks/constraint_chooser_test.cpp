@@ -52,11 +52,16 @@ TEST_F(Chooser, ListsTheCatalogueWithThumbnailsAndFindsByName) {
   auto* list = find<QListWidget>("definitions");
   ASSERT_GE(list->count(), static_cast<int>(constraints::catalogue().size()));
   for (int i = 0; i < list->count(); ++i) EXPECT_FALSE(list->item(i)->icon().isNull()) << list->item(i)->text().toStdString();
+  const auto shown = [&] {
+    int count = 0;
+    for (int i = 0; i < list->count(); ++i) count += list->item(i)->isHidden() ? 0 : 1;
+    return count;
+  };
   type("search", "line");
-  EXPECT_GE(chooser_.shownCount(), 1);
-  EXPECT_LT(chooser_.shownCount(), std::max(2, list->count()));
+  EXPECT_GE(shown(), 1);
+  EXPECT_LT(shown(), std::max(2, list->count()));
   type("search", "no such thing");
-  EXPECT_EQ(chooser_.shownCount(), 0);
+  EXPECT_EQ(shown(), 0);
 }
 
 TEST_F(Chooser, AFormulasFaultIsToldAtItsCharacter) {

@@ -29,6 +29,7 @@
 #include "sim/experiment/scene_look.h"
 #include "sim/record/log/append_file.h"
 #include "tests/analysis/recorded.h"
+#include "tests/analysis/whole_dataset.h"
 
 namespace reachlab::gui::inspector {
 namespace {

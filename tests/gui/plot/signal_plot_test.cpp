@@ -63,7 +63,7 @@ TEST(SignalPlot, IsExportedAsItIsDrawn) {
   SignalPlot plot;
   plot.resize(600, 300);
   for (int i = 0; i < 400; ++i) plot.add(pointAt(0.005 * i));
-  plot.setQuantity(SignalPlot::Quantity::PhasePlane);
+  plot.findChild<QComboBox*>(QStringLiteral("signalQuantity"))->setCurrentIndex(static_cast<int>(SignalPlot::Quantity::PhasePlane));
   const QTemporaryDir folder;
   for (const char* ending : {"svg", "pdf"}) {
     const QString file = folder.filePath(QStringLiteral("signal.") + QLatin1String(ending));

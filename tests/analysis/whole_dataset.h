@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <utility>
+
+#include "analysis/dataset.h"
+
+namespace reachlab::analysis {
+
+/// A dataset with every trial kept in memory.
+struct Dataset : DatasetIndex {
+  StudyInput input;
+};
+
+inline Dataset openDataset(const std::string& folder, const std::string& experimentFile = "") {
+  Dataset dataset;
+  StudyInput& input = dataset.input;
+  static_cast<DatasetIndex&>(dataset) = readDataset(folder,
+                                                    {[&](TrialData&& trial, std::size_t condition) {
+                                                       input.trials.push_back(std::move(trial));
+                                                       input.conditionOf.push_back(condition);
+                                                     },
+                                                     [&](std::size_t count) {
+                                                       input.trials.resize(input.trials.size() - count);
+                                                       input.conditionOf.resize(input.trials.size());
+                                                     }},
+                                                    experimentFile);
+  input.conditions = dataset.conditions;
+  return dataset;
+}
+
+}  // namespace reachlab::analysis
