@@ -20,11 +20,8 @@ Vec3 axes(std::span<const std::uint8_t> report, std::size_t at) noexcept {
 
 bool takeOne(std::span<const std::uint8_t> report, SpaceMouseState& state) noexcept {
   switch (report[0]) {
-    case 1:
-      state.push = axes(report, 1);
-      if (report.size() == kSixAxes) state.twist = axes(report, 7);
-      return true;
-    case 2: state.twist = axes(report, 1); return true;
+    case 1: state.push = axes(report, 1); return true;
+    case 2: return true;  // a twist, which steers nothing
     default: {
       std::uint32_t buttons = 0;
       for (std::size_t i = 1; i < std::min<std::size_t>(report.size(), 5); ++i) buttons |= std::uint32_t{report[i]} << 8 * (i - 1);

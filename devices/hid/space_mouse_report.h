@@ -11,8 +11,7 @@
 namespace reachlab::devices {
 
 struct SpaceMouseState {
-  Vec3 push;   // -1 … 1, world frame
-  Vec3 twist;  // -1 … 1, world frame
+  Vec3 push;  // -1 … 1, world frame
   std::uint32_t buttons = 0;
 };
 

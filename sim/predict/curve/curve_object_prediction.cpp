@@ -64,7 +64,6 @@ struct Optimum {
   RestToRestBasis basis;
   Vector unknowns, multiplier;
   double cost = 0, condition = 0;
-  int iterations = 0;
 };
 
 class Search {
@@ -112,7 +111,6 @@ Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Ve
   Matrix hessian;
   double size = 0, miss = 0;
   for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
-    found.iterations = iteration;
     problem_.work->spend(stepped);
     found.cost = cost.expand(found.unknowns, gradient, hessian);
     const Vector off = scale_ * (motion.end() - target_);
