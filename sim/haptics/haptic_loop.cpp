@@ -59,9 +59,6 @@ void watchLoop(LoopCore& core) {
 HapticLoop::HapticLoop(std::unique_ptr<TickEngine> engine, std::shared_ptr<HapticDevice> device, RunSink* sink, const LoopOptions& options)
     : options_(options), core_(std::make_shared<LoopCore>(std::move(engine), std::move(device), sink)) {}
 
-HapticLoop::HapticLoop(std::unique_ptr<TickEngine> engine, HapticDevice& device, RunSink* sink, const LoopOptions& options)
-    : HapticLoop(std::move(engine), std::shared_ptr<HapticDevice>(std::shared_ptr<HapticDevice>(), &device), sink, options) {}
-
 HapticLoop::~HapticLoop() { stop(); }
 
 void HapticLoop::start() {

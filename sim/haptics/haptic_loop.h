@@ -23,8 +23,6 @@ class HapticLoop {
  public:
   /// The sink (may be null) outlives the loop.
   HapticLoop(std::unique_ptr<TickEngine> engine, std::shared_ptr<HapticDevice> device, RunSink* sink, const LoopOptions& options = {});
-  /// The same on a device that outlives the loop.
-  HapticLoop(std::unique_ptr<TickEngine> engine, HapticDevice& device, RunSink* sink, const LoopOptions& options = {});
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;

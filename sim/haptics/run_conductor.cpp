@@ -25,10 +25,6 @@ RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
     : RunConductor(makeEngine(experiment, *device), std::move(device), std::move(trials), options) {}
 
-RunConductor::RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device,
-                           std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(*device)), std::move(device), std::move(trials), options) {}
-
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();
 }

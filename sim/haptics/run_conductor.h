@@ -29,9 +29,6 @@ class RunConductor {
   /// Compiles the scene. Throws FaultError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
   RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
-  /// The same, of a value that nobody has validated.
-  RunConductor(const experiment::Experiment& experiment, std::unique_ptr<HapticDevice> device, std::vector<trial::PlannedTrial> trials,
-               const LoopOptions& options = {});
   /// The same of an engine that was made elsewhere, for this device.
   RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device, std::vector<trial::PlannedTrial> trials,
                const LoopOptions& options);

@@ -7,6 +7,7 @@
 
 #include "constraints/constraint.h"
 #include "devices/make_device.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/record/log/recorder.h"
 #include "sim/session/session_folder.h"
@@ -66,7 +67,8 @@ inline std::string recordRun(const std::string& folder, const RunToRecord& what)
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   haptics::LoopOptions options;
   options.virtualClock = true;
-  haptics::RunConductor run(experiment, devices::makeDevice(what.device, experiment, what.seed), c.trials, options);
+  haptics::RunConductor run(experiment::CompiledExperiment(experiment), devices::makeDevice(what.device, experiment, what.seed), c.trials,
+                            options);
   record::RecorderOptions recording;
   recording.threaded = false;
   record::Recorder recorder(path, c, recording);

@@ -10,6 +10,7 @@
 #include "devices/make_device.h"
 #include "devices/simulated/played_hand.h"
 #include "devices/simulated/sampled_plan.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_conductor.h"
 
 namespace reachlab::devices {
@@ -21,7 +22,7 @@ std::vector<haptics::ConductedTrial> conduct(const experiment::Experiment& exper
   options.virtualClock = true;
   std::vector<trial::PlannedTrial> planned;
   for (int i = 0; i < trials; ++i) planned.push_back({first + i});
-  haptics::RunConductor run(experiment, makeDevice(device, experiment, seed), planned, options);
+  haptics::RunConductor run(experiment::CompiledExperiment(experiment), makeDevice(device, experiment, seed), planned, options);
   run.start(nullptr);
   const std::atomic<bool> stop{false};
   std::vector<haptics::ConductedTrial> results;

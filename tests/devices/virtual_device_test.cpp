@@ -12,6 +12,7 @@
 #include "devices/make_device.h"
 #include "devices/virtual/loop_stability.h"
 #include "devices/virtual/stability_map.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_conductor.h"
 
 namespace reachlab::devices {
@@ -112,7 +113,8 @@ TEST(VirtualDevice, AWholeRunIsTheSameTwiceAndWithinTheDevicesForce) {
   const auto run = [&] {
     haptics::LoopOptions options;
     options.virtualClock = true;
-    haptics::RunConductor conductor(experiment, makeDevice("virtual:premium15", experiment, 3), {trial::PlannedTrial{0}}, options);
+    haptics::RunConductor conductor(experiment::CompiledExperiment(experiment), makeDevice("virtual:premium15", experiment, 3),
+                                    {trial::PlannedTrial{0}}, options);
     conductor.start(nullptr);
     return conductor.runTrial(std::atomic<bool>{false})->result;
   };

@@ -10,8 +10,10 @@
 #include <thread>
 #include <utility>
 
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_conductor.h"
 #include "tests/haptics/armed_at_once.h"
+#include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/haptics/set_device.h"
 
@@ -38,7 +40,7 @@ TEST(HapticLoop, RealTimeGivesTheBitsOfTheVirtualClock) {
   const auto run = [&](bool virtualClock, MemorySink& sink) {
     LoopOptions options;
     options.virtualClock = virtualClock;
-    RunConductor conductor(experiment, makeReach(), {trial::PlannedTrial{}}, options);
+    RunConductor conductor(experiment::CompiledExperiment(experiment), makeReach(), {trial::PlannedTrial{}}, options);
     conductor.start(&sink);
     const std::atomic<bool> stop{false};
     const auto trial = conductor.runTrial(stop);
@@ -71,7 +73,7 @@ TEST(HapticLoop, RealTimeGivesTheBitsOfTheVirtualClock) {
 TEST(HapticLoop, TheLoggedInputsReproduceARealTimeRun) {
   const experiment::Experiment experiment = shortTask();
   auto sink = std::make_unique<MemorySink>(3000);
-  RunConductor conductor(experiment, makeReach(), {trial::PlannedTrial{}});
+  RunConductor conductor(experiment::CompiledExperiment(experiment), makeReach(), {trial::PlannedTrial{}});
   conductor.start(sink.get());
   conductor.runTrial(std::atomic<bool>{false});
   conductor.finish();
@@ -88,7 +90,7 @@ TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
   const experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   ScriptedDevice device(-0.1, 0.1, 300);
   {
-    HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), device, nullptr);
+    HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), test::borrowed(device), nullptr);
     loop.start();
     loop.tryCommand(trial::Command::NextTrial);
     while (loop.report().ticks < 200) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -99,7 +101,7 @@ TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
 
 TEST(HapticLoop, ReportsWhatItAchieved) {
   ScriptedDevice device(-0.1, 0.1, 300);
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, nullptr);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), test::borrowed(device), nullptr);
   loop.start();
   while (loop.report().ticks < 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   loop.stop();
@@ -118,7 +120,7 @@ TEST(HapticLoop, CountsTicksThatTheRecorderCouldNotTake) {
   MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), &sink, options);
   for (int i = 0; i < 25; ++i) loop.advance();
   EXPECT_EQ(loop.engine().state().faults.droppedRecords, 15u);
   EXPECT_EQ(loop.report().faults.droppedRecords, 15u);
@@ -128,7 +130,8 @@ TEST(RunConductor, ConductsEveryTrialOnceAndWaitsForItsRecord) {
   MemorySink sink(1);
   LoopOptions options;
   options.virtualClock = true;
-  RunConductor conductor(shortTask(), makeReach(), {trial::PlannedTrial{4}, trial::PlannedTrial{7}}, options);
+  RunConductor conductor(experiment::CompiledExperiment(shortTask()), makeReach(), {trial::PlannedTrial{4}, trial::PlannedTrial{7}},
+                         options);
   conductor.start(&sink);
   const std::atomic<bool> stop{false};
   std::vector<int> indices;
@@ -144,7 +147,7 @@ TEST(RunConductor, InterruptsTheTrialUnderWayWhenAskedToStop) {
   for (const bool virtualClock : {true, false}) {
     LoopOptions options;
     options.virtualClock = virtualClock;
-    RunConductor conductor(test::armedAtOnce("chain-slow"), makeReach(), {trial::PlannedTrial{}}, options);
+    RunConductor conductor(experiment::CompiledExperiment(test::armedAtOnce("chain-slow")), makeReach(), {trial::PlannedTrial{}}, options);
     conductor.start(nullptr);
     const std::atomic<bool> stop{true};
     const auto trial = conductor.runTrial(stop);
@@ -155,7 +158,7 @@ TEST(RunConductor, InterruptsTheTrialUnderWayWhenAskedToStop) {
 }
 
 TEST(RunConductor, CanBePolledLikeTheWindowDoes) {
-  RunConductor conductor(shortTask(), makeReach(), {trial::PlannedTrial{}});
+  RunConductor conductor(experiment::CompiledExperiment(shortTask()), makeReach(), {trial::PlannedTrial{}});
   conductor.start(nullptr);
   ASSERT_TRUE(conductor.putUpNext());
   EXPECT_FALSE(conductor.putUpNext()) << "one trial at a time";
@@ -195,7 +198,8 @@ TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
   const auto clock =
       std::make_shared<MadeClock>(std::map<int, std::int64_t>{{10, 430'000}, {20, 3'430'000}, {30, 7'530'000}, {40, 1'080'000}});
   options.clock = clock;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), test::borrowed(device), &sink,
+                  options);
   loop.start();
   loop.start();  // once is enough
   while (loop.report().ticks < 60) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -244,7 +248,7 @@ TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
   LoopOptions options;
   options.priority = 7;
   options.clock = std::make_shared<MadeClock>(std::map<int, std::int64_t>{});
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, nullptr, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), nullptr, options);
   loop.start();
   loop.stop();
   loop.stop();
@@ -261,7 +265,7 @@ TEST(HapticLoop, TheVirtualClockStartsAtNoughtAndGoesByTicks) {
   MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), &sink, options);
   loop.start();  // nothing runs by itself
   EXPECT_EQ(loop.report().ticks, 0u);
   for (int i = 0; i < 3; ++i) loop.advance();
@@ -282,7 +286,7 @@ TEST(HapticLoop, TakesSixteenCommandsAtMostBeforeATick) {
   MemorySink sink(100);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), &sink, options);
   for (int i = 0; i < 16; ++i) EXPECT_TRUE(loop.tryCommand(i % 2 == 0 ? trial::Command::NextTrial : trial::Command::Abort));
   EXPECT_FALSE(loop.tryCommand(trial::Command::Abort));
   for (int i = 0; i < 17; ++i) loop.advance();
@@ -300,7 +304,7 @@ class Conducted : public ::testing::Test {
     device = own.get();
     own->about.virtualHand = true;
     if (!experiment.hands.empty()) own->others = {&second};
-    conductor = std::make_unique<RunConductor>(experiment, std::move(own), std::move(trials), options);
+    conductor = std::make_unique<RunConductor>(experiment::CompiledExperiment(experiment), std::move(own), std::move(trials), options);
     return *conductor;
   }
   LoopOptions options;
@@ -430,7 +434,7 @@ TEST_F(Conducted, ASentenceSaysAtWhichHandAFaultWasFound) {
     own->about.rendersForce = second.about.rendersForce = true;
     SetDevice& broken = hand == 0 ? *own : second;
     own->is = second.is = DeviceHealth::Ready;
-    RunConductor run(experiment, std::move(own), {{}}, options);
+    RunConductor run(experiment::CompiledExperiment(experiment), std::move(own), {{}}, options);
     run.start(nullptr);
     broken.is = DeviceHealth::Failed;
     ASSERT_TRUE(run.putUpNext());

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/system/os.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/haptic_loop.h"
 #include "sim/haptics/loop_core.h"
 #include "sim/haptics/run_conductor.h"
@@ -201,7 +202,8 @@ TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsWithASentence) {
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   auto hanging = std::make_unique<FailingDevice>(engine->protocol().start);
   FailingDevice* const seen = hanging.get();
-  auto run = std::make_unique<RunConductor>(experiment, std::move(hanging), std::vector<trial::PlannedTrial>{{}});
+  auto run =
+      std::make_unique<RunConductor>(experiment::CompiledExperiment(experiment), std::move(hanging), std::vector<trial::PlannedTrial>{{}});
   run->start(nullptr);
   std::jthread breaker([&] {
     until([&] { return seen->lastForce > 1.2; });

@@ -4,6 +4,7 @@
 #include "network/line/station_line.h"
 #include "sim/haptics/haptic_loop.h"
 #include "sim/record/log/recorder.h"
+#include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/record/made_run.h"
 
@@ -56,7 +57,7 @@ Asked askedByAStation(const std::string& name) {
 
   haptics::LoopOptions options;
   options.virtualClock = true;
-  haptics::HapticLoop loop(std::move(engine), device, &sink, options);
+  haptics::HapticLoop loop(std::move(engine), haptics::test::borrowed(device), &sink, options);
   Asked asked;
   OwnState sent;
   HeardState heard;
