@@ -1,6 +1,5 @@
 #include "gui/subject/subject_window.h"
 
-#include <QCloseEvent>
 #include <QGuiApplication>
 #include <QScreen>
 #include <QSettings>
@@ -75,11 +74,6 @@ void SubjectWindow::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   square_->setGeometry(0, height() - kPatchSide, kPatchSide, kPatchSide);
   square_->raise();
-}
-
-void SubjectWindow::closeEvent(QCloseEvent* event) {
-  QWidget::closeEvent(event);
-  Q_EMIT closed();
 }
 
 }  // namespace reachlab::gui::subject

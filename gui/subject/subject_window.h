@@ -22,11 +22,7 @@ class SubjectWindow : public QWidget {
   void setPatch(Patch patch);
   Patch patch() const { return patch_; }
 
- Q_SIGNALS:
-  void closed();
-
  protected:
-  void closeEvent(QCloseEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
