@@ -68,6 +68,7 @@ struct Domain {
   double hi = std::numeric_limits<double>::infinity();
   bool periodic = false;
   AtEnd atEnd = AtEnd::Stop;
+  bool operator==(const Domain&) const = default;
 };
 
 /// What an experiment says of its constraint: a name of the catalogue ("free" for none) or the formula itself, and the shape.
@@ -81,6 +82,7 @@ struct ConstraintSpec {
   std::optional<std::array<Domain, 2>> inUse = std::nullopt;
   /// The text of the named definition where it is not to be looked up: a recorded run brings its own. Empty: looked up.
   std::string definition = {};
+  bool operator==(const ConstraintSpec&) const = default;
 };
 
 /// A constraint ready to be computed with: a value, cheap to copy; the owner keeps a typed formula's program alive.

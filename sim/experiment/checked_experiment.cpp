@@ -4,8 +4,7 @@
 
 #include "base/fault.h"
 #include "base/number_range.h"
-#include "base/ticks.h"
-#include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment_keys.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -25,9 +24,29 @@ void checkInertia(const Object& object, std::vector<Fault>& faults) {
                       "an inertia tensor: [Ix, Iy, Iz] above 0 kg m^2, or a symmetric positive 3 x 3 matrix"});
 }
 
-void checkVector(const std::string& key, const Vec3& v, std::vector<Fault>& faults) {
-  checkNumbers(key, {v.x, v.y, v.z}, 3, anyNumber(), faults);
-}
+/// Each number in its range and each name among those that there are, under its key. How many elements a list has is asked elsewhere.
+struct KeyCheck {
+  std::string group;
+  std::vector<Fault>& faults;
+
+  void operator()(const Key& key, double value) const { checkNumber(keyIn(group, key.name), value, key.range, faults); }
+  void operator()(const Key& key, int value) const { checkNumber(keyIn(group, key.name), value, key.range, faults); }
+  void operator()(const Key& key, const std::string& value) const {
+    if (key.names != nullptr) checkChoice(keyIn(group, key.name), value, *key.names, faults);
+  }
+  void operator()(const Key& key, const std::array<double, 2>& v) const {
+    checkNumbers(keyIn(group, key.name), {v[0], v[1]}, 2, key.range, faults);
+  }
+  void operator()(const Key& key, const Vec3& v) const { checkNumbers(keyIn(group, key.name), {v.x, v.y, v.z}, 3, key.range, faults); }
+  template <class T>
+  void operator()(const Key& key, const std::optional<T>& value) const {
+    if (value) (*this)(key, *value);
+  }
+  template <class T>
+  void operator()(const Key& key, const T& value) const {
+    if constexpr (requires { visitKeys(value, *this); }) visitKeys(value, KeyCheck{keyIn(group, key.name), faults});
+  }
+};
 
 void checkObject(const Object& object, std::vector<Fault>& faults) {
   const bool one = object.kind == ObjectKind::Point || object.kind == ObjectKind::Body;
@@ -38,15 +57,11 @@ void checkObject(const Object& object, std::vector<Fault>& faults) {
   else checkNumbers("object.masses_kg", object.masses, -1, positive("kg"), faults);
   const bool countIsRight = faults.size() == before || (count >= 1 && faults.back().key != "object.masses_kg");
   if (countIsRight) {
-    const int springs = static_cast<int>(count) - (object.kind == ObjectKind::Parallel ? 0 : 1);
+    const int springs = static_cast<int>(springCount(object));
     checkNumbers("object.stiffness_n_per_m", object.stiffness, springs, atLeastZero("N/m"), faults);
     checkNumbers("object.damping_n_s_per_m", object.damping, springs, atLeastZero("N s/m"), faults);
   }
-  checkNumber("object.viscosity_n_s_per_m", object.viscosity, atLeastZero("N s/m"), faults);
-  checkVector("object.gravity_m_per_s2", object.gravity, faults);
-  if (object.kind != ObjectKind::Body) return;
-  checkInertia(object, faults);
-  checkVector("object.fp_offset_m", object.fpOffset, faults);
+  if (object.kind == ObjectKind::Body) checkInertia(object, faults);
 }
 
 void checkCoupling(const Experiment& e, std::vector<Fault>& faults) {
@@ -54,10 +69,7 @@ void checkCoupling(const Experiment& e, std::vector<Fault>& faults) {
   if (parallel && e.coupling)
     return faults.push_back({"coupling", "stands beside a parallel object, whose own springs are the hand's", "no coupling"});
   if (!parallel && !e.coupling)
-    return faults.push_back({"coupling", "is missing", "{ \"stiffness_n_per_m\": …, \"damping_n_s_per_m\": … }"});
-  if (!e.coupling) return;
-  checkNumber("coupling.stiffness_n_per_m", e.coupling->stiffness, atLeastZero("N/m"), faults);
-  checkNumber("coupling.damping_n_s_per_m", e.coupling->damping, atLeastZero("N s/m"), faults);
+    faults.push_back({"coupling", "is missing", "{ \"stiffness_n_per_m\": …, \"damping_n_s_per_m\": … }"});
 }
 
 void checkHands(const Experiment& e, std::vector<Fault>& faults) {
@@ -72,7 +84,7 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
     const int springs = hand.mass == 0 ? masses : 1;
     checkNumbers(key + ".stiffness_n_per_m", hand.stiffness, springs, atLeastZero("N/m"), faults);
     checkNumbers(key + ".damping_n_s_per_m", hand.damping, springs, atLeastZero("N s/m"), faults);
-    checkVector(key + ".fp_offset_m", hand.fpOffset, faults);
+    KeyCheck{key, faults}(Key{"fp_offset_m"}, hand.fpOffset);
     const bool holds = std::any_of(hand.stiffness.begin(), hand.stiffness.end(), [](double k) { return k > 0; });
     if (!hand.stiffness.empty() && !holds)
       faults.push_back({key + ".stiffness_n_per_m", "is 0 throughout: this hand holds nothing", "a stiffness above 0 N/m"});
@@ -80,39 +92,11 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
 }
 
 /// `coordinates` < 0: the constraint is at fault itself, and how many there are is not known.
-void checkTask(const Task& task, int coordinates, std::vector<Fault>& faults) {
+void checkPlaces(const Task& task, int coordinates, std::vector<Fault>& faults) {
   for (const auto& [key, place] : {std::pair{"task.start", &task.start}, std::pair{"task.target", &task.target}}) {
     if (place->empty()) faults.push_back({key, "is missing", "constraint parameters, or three metres when free"});
     else checkNumbers(key, *place, coordinates, anyNumber(), faults);
   }
-  checkNumber("task.duration_s", task.duration, positiveUpTo(kMaxDuration, "s"), faults);
-  checkNumber("task.tolerance.position_m", task.tolerance.position, positive("m"), faults);
-  checkNumber("task.tolerance.velocity_m_per_s", task.tolerance.velocity, positive("m/s"), faults);
-  checkNumber("task.tolerance.time_s", task.tolerance.time, positiveUpTo(kMaxDuration, "s"), faults);
-  checkNumber("task.onset_m", task.onset, positive("m"), faults);
-  checkNumber("task.arm_radius_m", task.armRadius, positive("m"), faults);
-  checkNumber("task.timeout_s", task.timeout, positiveUpTo(kMaxTimeout, "s"), faults);
-  checkNumber("task.rest_s", task.rest.seconds, {0, kMaxRestDuration, true, fmt::format("0 to {:.0f} s", kMaxRestDuration)}, faults);
-  checkNumber("task.rest_speed_m_per_s", task.rest.speed, positive("m/s"), faults);
-}
-
-void checkTiming(const TimingLimits& timing, std::vector<Fault>& faults) {
-  checkNumber("timing.max_missed_ticks", timing.maxMissedTicks, wholeNumber(0, kNoTimingLimits.maxMissedTicks), faults);
-  // A gap between two ticks is never shorter than one.
-  const std::string allowed = fmt::format("{} s to {:.0f} s", kTickSeconds, kNoTimingLimits.maxGap);
-  checkNumber("timing.max_gap_s", timing.maxGap, {kTickSeconds, kNoTimingLimits.maxGap, true, allowed}, faults);
-}
-
-void checkArm(const Arm& arm, std::vector<Fault>& faults) {
-  const auto pair = [&](const char* key, const std::array<double, 2>& value, const NumberRange& range) {
-    checkNumbers(fmt::format("arm.{}", key), {value[0], value[1]}, 2, range, faults);
-  };
-  pair("link_length_m", arm.length, positive("m"));
-  pair("link_centre_m", arm.centre, positive("m"));
-  pair("link_mass_kg", arm.mass, positive("kg"));
-  pair("link_inertia_kg_m2", arm.inertia, positive("kg m^2"));
-  pair("joint_damping_n_m_s_per_rad", arm.damping, atLeastZero("N m s/rad"));
-  pair("shoulder_m", arm.shoulder, anyNumber());
 }
 
 void checkShape(const constraints::ConstraintSpec& spec, std::vector<Fault>& faults) {
@@ -163,8 +147,6 @@ std::optional<std::array<constraints::Domain, 2>> placesInUse(const std::optiona
 CheckedExperiment check(const Experiment& experiment, const constraints::Constraint* compiled) {
   CheckedExperiment checked;
   std::vector<Fault>& faults = checked.faults;
-  if (experiment.schemaVersion != 1)
-    faults.push_back({"schema_version", fmt::format("is {}", experiment.schemaVersion), "1, the version that this program reads"});
   checkShape(experiment.constraint, faults);
   if (compiled != nullptr) {
     checked.constraint = *compiled;
@@ -177,24 +159,15 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
       faults.insert(faults.end(), error.faults.begin(), error.faults.end());
     }
   }
+  visitKeys(experiment, KeyCheck{{}, faults});
   checkObject(experiment.object, faults);
   checkCoupling(experiment, faults);
   checkHands(experiment, faults);
   if (experiment.task) {
     const auto& constraint = checked.constraint;
-    checkTask(*experiment.task,
-              !constraint                                             ? -1
-              : constraint->kind == constraints::ConstraintKind::Free ? 3
-                                                                      : constraint->parameterCount(),
-              faults);
+    const bool free = constraint && constraint->kind == constraints::ConstraintKind::Free;
+    checkPlaces(*experiment.task, !constraint ? -1 : free ? 3 : constraint->parameterCount(), faults);
   }
-  checkChoice("method", experiment.method, methodNames(), faults);
-  checkNumber("hand_mass_kg", experiment.handMass, atLeastZero("kg"), faults);
-  if (experiment.forceLimit) checkNumber("force_limit_n", *experiment.forceLimit, positive("N"), faults);
-  checkTiming(experiment.timing, faults);
-  checkChoice("velocity_estimator.kind", experiment.velocityEstimator.kind, velocityEstimatorNames(), faults);
-  checkNumber("velocity_estimator.cutoff_hz", experiment.velocityEstimator.cutoff, positiveUpTo(400, "Hz"), faults);
-  checkArm(experiment.arm, faults);
   if (checked.constraint && faults.empty()) checkObjectOnConstraint(experiment, *checked.constraint, faults);
   return checked;
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "sim/experiment/equality.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::experiment {
 

@@ -26,12 +26,20 @@ struct Object {
   Vec3 gravity;                                    // [m/s^2]
   std::array<std::array<double, 3>, 3> inertia{};  // [kg m^2] body frame, body only
   Vec3 fpOffset;                                   // [m] body frame, body only
+  bool operator==(const Object&) const = default;
 };
+
+/// How many springs the object has for its masses.
+inline std::size_t springCount(const Object& object) {
+  const bool parallel = object.kind == ObjectKind::Parallel;
+  return object.masses.empty() ? 0 : object.masses.size() - (parallel ? 0 : 1);
+}
 
 /// Spring-damper between HIP and FP, Eq. (8).
 struct Coupling {
   double stiffness = 0;  // [N/m]
   double damping = 0;    // [N s/m]
+  bool operator==(const Coupling&) const = default;
 };
 
 /// One of several hands on one object, each coupled by Eq. (8) for itself: to one mass, or to every mass by a spring of its own.
@@ -39,18 +47,21 @@ struct Hand {
   int mass = 1;                            // from 1; 0: to all, and both lists have a number for each
   std::vector<double> stiffness, damping;  // [N/m], [N s/m]; one number where one mass is held
   Vec3 fpOffset;                           // [m] where it holds a body, body frame
+  bool operator==(const Hand&) const = default;
 };
 
 struct Tolerance {
   double position = 0.012;  // [m]
   double velocity = 0.012;  // [m/s]
   double time = 0.5;        // [s]
+  bool operator==(const Tolerance&) const = default;
 };
 
 /// What waiting at the start asks of the hand before a trial is armed: to stay there for so long, and slower than that.
 struct StartRest {
   double seconds = 0.3;  // [s]
   double speed = 0.02;   // [m/s]
+  bool operator==(const StartRest&) const = default;
 };
 inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start
 
@@ -62,6 +73,7 @@ struct Task {
   double armRadius = 0.01;  // [m]
   double timeout = 10;      // [s] no onset by then: aborted
   StartRest rest;
+  bool operator==(const Task&) const = default;
 };
 
 /// Two-link planar arm for criterion 2 (docs/theory/criteria.md, "Minimum torque change"); defaults unverified, after Uno 1989.
@@ -73,18 +85,21 @@ struct Arm {
   std::array<double, 2> damping{0.08, 0.08};    // [N m s/rad]
   std::array<double, 2> shoulder{0.0, -0.45};   // [m] of the shoulder in the task plane: along the line, across it (chest side negative)
   bool elbowLeft = false;                       // which of the two postures
+  bool operator==(const Arm&) const = default;
 };
 
 /// How v_HIP is estimated from device samples.
 struct VelocityEstimatorSpec {
   std::string kind = "auto";  // auto | difference | butterworth | device
   double cutoff = 40;         // [Hz] butterworth
+  bool operator==(const VelocityEstimatorSpec&) const = default;
 };
 
 /// How much time a movement may miss before its trial does not count (trial/protocol.h). The haptic loop counts in whole ticks of 1 ms.
 struct TimingLimits {
   int maxMissedTicks = 5;
   double maxGap = 0.02;  // [s] between two ticks
+  bool operator==(const TimingLimits&) const = default;
 };
 inline constexpr TimingLimits kNoTimingLimits{10'000'000, 7200};  // longer than any task may last
 
@@ -106,6 +121,7 @@ struct Experiment {
   Arm arm;
   SubjectScreen subjectScreen;
   std::string text;  // the file as read: goes into the recording unchanged
+  bool operator==(const Experiment&) const = default;
 };
 
 /// Reads an experiment file, or a shipped one by name. Throws FaultError with every fault, one a line,

@@ -1,103 +1,49 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "constraints/catalogue/definition.h"
-#include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment_keys.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::experiment {
 namespace {
 
-const std::vector<std::string> kObjectKinds{"point", "chain", "parallel", "body"};
-
-Vec3 vec3(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
-
-void readConstraint(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.required("constraint", "a name of the catalogue, or a curve or surface formula");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, root.keyPath("constraint"));
-  constraints::ConstraintSpec& spec = experiment.constraint;
+void readConstraint(ObjectReader& reader, constraints::ConstraintSpec& spec) {
   spec.name.clear();
   const JsonNode* curve = reader.optional("curve");
   const JsonNode* surface = reader.optional("surface");
   const JsonNode* name = reader.optional("name");
   if ((name != nullptr) + (curve != nullptr) + (surface != nullptr) != 1)
-    root.faults().add(*node, "constraint", "needs exactly one of name, curve and surface", "one of the three");
+    reader.faults().add(reader.node(), "constraint", "needs exactly one of name, curve and surface", "one of the three");
   reader.text("name", spec.name);
   if (curve != nullptr) reader.strings(*curve, "curve", 3, spec.curve);
   if (surface != nullptr) reader.strings(*surface, "surface", 3, spec.surface);
   if (const JsonNode* shape = reader.optional("shape")) {
-    ObjectReader shapeReader(root.faults(), *shape, reader.keyPath("shape"));
+    ObjectReader shapeReader(reader.faults(), *shape, reader.keyPath("shape"));
     for (const auto& [key, value] : shape->members) shapeReader.number(key, anyNumber(), spec.shape[key]);
   }
-  reader.finish();
 }
 
-void readInertia(ObjectReader& reader, Object& object) {
-  const JsonNode* node = reader.required("inertia_kg_m2", "[Ix, Iy, Iz] or a symmetric positive 3 x 3 matrix");
-  if (node == nullptr) return;
-  const bool isMatrix = node->kind == JsonNode::Kind::Array && !node->items.empty() && node->items[0].kind == JsonNode::Kind::Array;
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+void readMatrix(ObjectReader& reader, const JsonNode& node, const std::string& key, Matrix& matrix) {
+  const bool isMatrix = node.kind == JsonNode::Kind::Array && !node.items.empty() && node.items[0].kind == JsonNode::Kind::Array;
   std::vector<double> row;
   if (!isMatrix) {
-    if (!reader.numbers(*node, "inertia_kg_m2", 3, anyNumber(), row)) return;
-    for (std::size_t i = 0; i < 3; ++i) object.inertia[i][i] = row[i];
+    if (!reader.numbers(node, key, 3, anyNumber(), row)) return;
+    for (std::size_t i = 0; i < 3; ++i) matrix[i][i] = row[i];
     return;
   }
-  if (node->items.size() != 3) {
-    reader.faults().add(*node, reader.keyPath("inertia_kg_m2"), fmt::format("has {} rows", node->items.size()), "3 rows");
-    return;
-  }
+  if (node.items.size() != 3) return reader.faults().add(node, reader.keyPath(key), fmt::format("has {} rows", node.items.size()), "3 rows");
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!reader.numbers(node->items[i], fmt::format("inertia_kg_m2[{}]", i), 3, anyNumber(), row)) return;
-    for (std::size_t j = 0; j < 3; ++j) object.inertia[i][j] = row[j];
+    if (!reader.numbers(node.items[i], fmt::format("{}[{}]", key, i), 3, anyNumber(), row)) return;
+    for (std::size_t j = 0; j < 3; ++j) matrix[i][j] = row[j];
   }
-}
-
-void readObject(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.required("object", "{ kind, masses_kg, … }");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, "object");
-  Object& object = experiment.object;
-  std::string kind;
-  const bool hasKind = reader.choice("kind", kObjectKinds, kind, true);
-  if (hasKind)
-    object.kind = kind == "chain"      ? ObjectKind::Chain
-                  : kind == "parallel" ? ObjectKind::Parallel
-                  : kind == "body"     ? ObjectKind::Body
-                                       : ObjectKind::Point;
-  const auto list = [&](const char* key, std::vector<double>& values) {
-    const JsonNode* numbers = reader.optional(key);
-    return numbers != nullptr && reader.numbers(*numbers, key, -1, anyNumber(), values);
-  };
-  list("masses_kg", object.masses);
-  list("stiffness_n_per_m", object.stiffness);
-  const std::size_t springs = object.masses.empty() ? 0 : object.masses.size() - (object.kind == ObjectKind::Parallel ? 0 : 1);
-  if (!list("damping_n_s_per_m", object.damping)) object.damping.assign(springs, 0.0);
-  reader.number("viscosity_n_s_per_m", anyNumber(), object.viscosity);
-  std::vector<double> triple;
-  if (const JsonNode* gravity = reader.optional("gravity_m_per_s2"))
-    if (reader.numbers(*gravity, "gravity_m_per_s2", 3, anyNumber(), triple)) object.gravity = vec3(triple);
-  if (object.kind == ObjectKind::Body && hasKind) {
-    readInertia(reader, object);
-    if (const JsonNode* offset = reader.optional("fp_offset_m"))
-      if (reader.numbers(*offset, "fp_offset_m", 3, anyNumber(), triple)) object.fpOffset = vec3(triple);
-  }
-  reader.finish();
-}
-
-void readCoupling(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.optional("coupling");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, "coupling");
-  Coupling coupling;
-  reader.requiredNumber("stiffness_n_per_m", anyNumber(), coupling.stiffness);
-  reader.number("damping_n_s_per_m", anyNumber(), coupling.damping);
-  reader.finish();
-  experiment.coupling = coupling;
 }
 
 // What a hand's springs are where they are not given: those that a single hand would have.
@@ -133,17 +79,15 @@ void readHand(ObjectReader& reader, const Experiment& experiment, Hand& hand) {
   if (object.kind != ObjectKind::Body) return;
   std::vector<double> triple;
   if (const JsonNode* offset = reader.optional("fp_offset_m"))
-    if (reader.numbers(*offset, "fp_offset_m", 3, anyNumber(), triple)) hand.fpOffset = vec3(triple);
+    if (reader.numbers(*offset, "fp_offset_m", 3, anyNumber(), triple)) hand.fpOffset = {triple[0], triple[1], triple[2]};
 }
 
-void readHands(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.optional("hands");
-  if (node == nullptr) return;
-  if (node->kind != JsonNode::Kind::Array || node->items.empty())
-    return root.faults().add(*node, "hands", "is no list of hands", "[ { \"mass\": 1 }, { \"mass\": 5 } ], one for each hand");
-  for (std::size_t i = 0; i < node->items.size(); ++i) {
-    ObjectReader reader(root.faults(), node->items[i], fmt::format("hands[{}]", i));
-    readHand(reader, experiment, experiment.hands.emplace_back());
+void readHands(FaultList& faults, const JsonNode& node, const Experiment& experiment, std::vector<Hand>& hands) {
+  if (node.kind != JsonNode::Kind::Array || node.items.empty())
+    return faults.add(node, "hands", "is no list of hands", "[ { \"mass\": 1 }, { \"mass\": 5 } ], one for each hand");
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    ObjectReader reader(faults, node.items[i], fmt::format("hands[{}]", i));
+    readHand(reader, experiment, hands.emplace_back());
     reader.finish();
   }
 }
@@ -165,81 +109,76 @@ JsonNode withConstants(ObjectReader& reader, JsonNode numbers, const std::string
   return numbers;
 }
 
-void readTask(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.optional("task");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, "task");
-  Task task;
-  for (auto [key, values] : {std::pair{"start", &task.start}, std::pair{"target", &task.target}})
-    if (const JsonNode* place = reader.optional(key)) reader.numbers(withConstants(reader, *place, key), key, -1, anyNumber(), *values);
-  reader.requiredNumber("duration_s", anyNumber(), task.duration);
-  if (const JsonNode* tolerance = reader.required("tolerance", "{ position_m, velocity_m_per_s, time_s }")) {
-    ObjectReader inner(root.faults(), *tolerance, "task.tolerance");
-    inner.requiredNumber("position_m", anyNumber(), task.tolerance.position);
-    inner.requiredNumber("velocity_m_per_s", anyNumber(), task.tolerance.velocity);
-    inner.requiredNumber("time_s", anyNumber(), task.tolerance.time);
+/// Reads each key into its member. What depends on another key of the experiment finds it already read.
+struct KeyReader {
+  ObjectReader& in;
+  const Experiment& experiment;
+
+  void operator()(const Key& key, double& value) const {
+    if (key.required) in.requiredNumber(key.name, anyNumber(), value);
+    else in.number(key.name, anyNumber(), value);
+  }
+  void operator()(const Key& key, int& value) const {
+    double read = value;
+    if (key.required) in.requiredNumber(key.name, key.range, read);
+    else in.number(key.name, key.range, read);
+    if (isWithin(key.range, read)) value = static_cast<int>(read);
+  }
+  void operator()(const Key& key, bool& value) const { in.boolean(key.name, value); }
+  void operator()(const Key& key, std::string& value) const {
+    if (!key.required || in.required(key.name, listOf(*key.names)) != nullptr) in.text(key.name, value);
+  }
+  void operator()(const Key& key, ObjectKind& value) const {
+    std::string name;
+    if (!in.choice(key.name, *key.names, name, key.required)) return;
+    value = static_cast<ObjectKind>(std::find(key.names->begin(), key.names->end(), name) - key.names->begin());
+  }
+  void operator()(const Key& key, std::vector<double>& values) const {
+    const JsonNode* node = in.optional(key.name);
+    if (node == nullptr) return;
+    in.numbers(key.constants ? withConstants(in, *node, key.name) : *node, key.name, -1, anyNumber(), values);
+  }
+  void operator()(const Key& key, std::array<double, 2>& pair) const {
+    if (const auto read = numbers(key, 2); !read.empty()) pair = {read[0], read[1]};
+  }
+  void operator()(const Key& key, Vec3& v) const {
+    if (const auto read = numbers(key, 3); !read.empty()) v = {read[0], read[1], read[2]};
+  }
+  void operator()(const Key& key, Matrix& matrix) const {
+    if (const JsonNode* node = find(key)) readMatrix(in, *node, key.name, matrix);
+  }
+  void operator()(const Key& key, std::vector<Hand>& hands) const {
+    if (const JsonNode* node = find(key)) readHands(in.faults(), *node, experiment, hands);
+  }
+  template <class T>
+  void operator()(const Key& key, std::optional<T>& value) const {
+    Key given = key;
+    given.required = true;  // an object of this key brings its number
+    if (find(key) != nullptr) (*this)(given, value.emplace());
+  }
+  template <class T>
+  void operator()(const Key& key, T& value) const {
+    const JsonNode* node = find(key);
+    if (node == nullptr) return;
+    if constexpr (std::same_as<T, VelocityEstimatorSpec>)
+      if (node->kind == JsonNode::Kind::String) return in.text(key.name, value.kind);
+    ObjectReader inner(in.faults(), *node, in.keyPath(key.name));
+    if constexpr (std::same_as<T, constraints::ConstraintSpec>) readConstraint(inner, value);
+    else visitKeys(value, KeyReader{inner, experiment});
+    if constexpr (std::same_as<T, Object>)
+      if (node->find("damping_n_s_per_m") == nullptr) value.damping.assign(springCount(value), 0.0);
     inner.finish();
   }
-  reader.number("onset_m", anyNumber(), task.onset);
-  reader.number("arm_radius_m", anyNumber(), task.armRadius);
-  reader.number("timeout_s", anyNumber(), task.timeout);
-  reader.number("rest_s", anyNumber(), task.rest.seconds);
-  reader.number("rest_speed_m_per_s", anyNumber(), task.rest.speed);
-  reader.finish();
-  experiment.task = std::move(task);
-}
 
-void readArm(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.optional("arm");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, "arm");
-  Arm& arm = experiment.arm;
-  const auto pair = [&](const std::string& key, std::array<double, 2>& value) {
+ private:
+  const JsonNode* find(const Key& key) const { return key.required ? in.required(key.name, key.shape) : in.optional(key.name); }
+  std::vector<double> numbers(const Key& key, int count) const {
     std::vector<double> read;
-    if (const JsonNode* values = reader.optional(key))
-      if (reader.numbers(*values, key, 2, anyNumber(), read)) value = {read[0], read[1]};
-  };
-  pair("link_length_m", arm.length);
-  pair("link_centre_m", arm.centre);
-  pair("link_mass_kg", arm.mass);
-  pair("link_inertia_kg_m2", arm.inertia);
-  pair("joint_damping_n_m_s_per_rad", arm.damping);
-  pair("shoulder_m", arm.shoulder);
-  reader.boolean("elbow_left", arm.elbowLeft);
-  reader.finish();
-}
-
-void readTiming(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.optional("timing");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, "timing");
-  reader.integer("max_missed_ticks", 0, kNoTimingLimits.maxMissedTicks, experiment.timing.maxMissedTicks);
-  reader.number("max_gap_s", anyNumber(), experiment.timing.maxGap);
-  reader.finish();
-}
-
-void readVelocityEstimator(ObjectReader& root, Experiment& experiment) {
-  const JsonNode* node = root.optional("velocity_estimator");
-  if (node == nullptr) return;
-  if (node->kind == JsonNode::Kind::String) return root.text("velocity_estimator", experiment.velocityEstimator.kind);
-  ObjectReader reader(root.faults(), *node, "velocity_estimator");
-  if (reader.required("kind", listOf(velocityEstimatorNames())) != nullptr) reader.text("kind", experiment.velocityEstimator.kind);
-  reader.number("cutoff_hz", anyNumber(), experiment.velocityEstimator.cutoff);
-  reader.finish();
-}
-
-void readSubjectScreen(ObjectReader& root, SubjectScreen& screen) {
-  const JsonNode* node = root.optional("subject_screen");
-  if (node == nullptr) return;
-  ObjectReader reader(root.faults(), *node, "subject_screen");
-  reader.boolean("semaphore", screen.semaphore);
-  reader.boolean("target", screen.target);
-  reader.boolean("masses", screen.masses);
-  reader.boolean("words", screen.words);
-  reader.boolean("score", screen.score);
-  reader.boolean("photodiode", screen.photodiode);
-  reader.finish();
-}
+    const JsonNode* node = in.optional(key.name);
+    if (node == nullptr || !in.numbers(*node, key.name, count, anyNumber(), read)) return {};
+    return read;
+  }
+};
 
 /// What cannot be judged because of what the file does not say: a count of springs where the masses are unreadable, say.
 bool hangsOn(const FaultList& file, const Fault& fault) {
@@ -264,29 +203,11 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   experiment.text = text;
   experiment.name = std::filesystem::path(file).stem().string();
 
-  double version = 1;
-  root.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
-  root.text("name", experiment.name);
+  experiment.constraint.definition = definition;
+  visitKeys(experiment, KeyReader{root, experiment});
   std::string description;
   root.text("description", description);
-  experiment.constraint.definition = definition;
-  readConstraint(root, experiment);
-  readObject(root, experiment);
-  readCoupling(root, experiment);
-  readHands(root, experiment);
-  readTask(root, experiment);
-  root.text("method", experiment.method);
-  root.number("hand_mass_kg", anyNumber(), experiment.handMass);
-  if (root.optional("force_limit_n") != nullptr) {
-    double limit = 0;
-    if (root.requiredNumber("force_limit_n", anyNumber(), limit)) experiment.forceLimit = limit;
-  }
-  root.boolean("force_limit_ends_trial", experiment.forceLimitEndsTrial);
-  readTiming(root, experiment);
-  readVelocityEstimator(root, experiment);
-  readSubjectScreen(root, experiment.subjectScreen);
   if (const JsonNode* look = root.optional("look")) (void)readLook(root.faults(), *look);  // its value stands in the text
-  readArm(root, experiment);
   root.finish();
 
   experiment.constraint.inUse = placesInUse(experiment.task);
@@ -328,7 +249,7 @@ Experiment knowingItsPlaces(Experiment experiment) {
 }
 
 std::shared_ptr<const constraints::Constraint> constraintOf(const Experiment& experiment, const CompiledExperiment* origin) {
-  const bool same = origin != nullptr && isSameConstraint(experiment.constraint, origin->experiment().constraint);
+  const bool same = origin != nullptr && experiment.constraint == origin->experiment().constraint;
   CheckedExperiment checked = check(experiment, same ? &origin->constraint() : nullptr);
   if (!checked.faults.empty()) throw FaultError(std::move(checked.faults));
   return std::make_shared<const constraints::Constraint>(std::move(*checked.constraint));

@@ -1,24 +1,13 @@
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "constraints/catalogue/definition.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_keys.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::experiment {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* nameOf(ObjectKind kind) {
-  switch (kind) {
-    case ObjectKind::Point: return "point";
-    case ObjectKind::Chain: return "chain";
-    case ObjectKind::Parallel: return "parallel";
-    case ObjectKind::Body: return "body";
-  }
-  return "";
-}
 
 Json toArray(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
@@ -32,21 +21,6 @@ Json constraintJson(const constraints::ConstraintSpec& spec) {
     json["name"] = spec.name;
   }
   if (!spec.shape.empty()) json["shape"] = spec.shape;
-  return json;
-}
-
-Json objectJson(const Object& object) {
-  Json json = Json::object();
-  json["kind"] = nameOf(object.kind);
-  json["masses_kg"] = object.masses;
-  json["stiffness_n_per_m"] = object.stiffness;
-  json["damping_n_s_per_m"] = object.damping;
-  json["viscosity_n_s_per_m"] = object.viscosity;
-  json["gravity_m_per_s2"] = toArray(object.gravity);
-  if (object.kind == ObjectKind::Body) {
-    json["inertia_kg_m2"] = object.inertia;
-    json["fp_offset_m"] = toArray(object.fpOffset);
-  }
   return json;
 }
 
@@ -64,49 +38,36 @@ Json handJson(const Hand& hand, bool body) {
   return json;
 }
 
-Json taskJson(const Task& task) {
-  return {{"start", task.start},
-          {"target", task.target},
-          {"duration_s", task.duration},
-          {"tolerance",
-           {{"position_m", task.tolerance.position}, {"velocity_m_per_s", task.tolerance.velocity}, {"time_s", task.tolerance.time}}},
-          {"onset_m", task.onset},
-          {"arm_radius_m", task.armRadius},
-          {"timeout_s", task.timeout},
-          {"rest_s", task.rest.seconds},
-          {"rest_speed_m_per_s", task.rest.speed}};
-}
+/// Writes each key from its member, what is not there excepted.
+struct KeyWriter {
+  Json& out;
+  const Experiment& experiment;
+
+  template <class T>
+  void operator()(const Key& key, const T& value) const {
+    if constexpr (std::same_as<T, ObjectKind>) out[key.name] = key.names->at(static_cast<std::size_t>(value));
+    else if constexpr (std::same_as<T, Vec3>) out[key.name] = toArray(value);
+    else if constexpr (std::same_as<T, constraints::ConstraintSpec>) out[key.name] = constraintJson(value);
+    else if constexpr (std::is_class_v<T> && !requires { value.begin(); }) visitKeys(value, KeyWriter{out[key.name] = Json::object(), experiment});
+    else out[key.name] = value;
+  }
+  template <class T>
+  void operator()(const Key& key, const std::optional<T>& value) const {
+    if (value) (*this)(key, *value);
+  }
+  void operator()(const Key& key, const std::vector<Hand>& hands) const {
+    for (const Hand& hand : hands) out[key.name].push_back(handJson(hand, experiment.object.kind == ObjectKind::Body));
+  }
+  void operator()(const Key& key, const SubjectScreen& screen) const {
+    if (!(screen == SubjectScreen{})) visitKeys(screen, KeyWriter{out[key.name] = Json::object(), experiment});
+  }
+};
 
 }  // namespace
 
 std::string toJson(const Experiment& experiment) {
   Json json = Json::object();
-  json["schema_version"] = experiment.schemaVersion;
-  json["name"] = experiment.name;
-  json["constraint"] = constraintJson(experiment.constraint);
-  json["object"] = objectJson(experiment.object);
-  if (experiment.coupling)
-    json["coupling"] = {{"stiffness_n_per_m", experiment.coupling->stiffness}, {"damping_n_s_per_m", experiment.coupling->damping}};
-  if (!experiment.hands.empty()) json["hands"] = Json::array();
-  for (const Hand& hand : experiment.hands) json["hands"].push_back(handJson(hand, experiment.object.kind == ObjectKind::Body));
-  if (experiment.task) json["task"] = taskJson(*experiment.task);
-  json["method"] = experiment.method;
-  json["hand_mass_kg"] = experiment.handMass;
-  if (experiment.forceLimit) json["force_limit_n"] = *experiment.forceLimit;
-  json["force_limit_ends_trial"] = experiment.forceLimitEndsTrial;
-  json["timing"] = {{"max_missed_ticks", experiment.timing.maxMissedTicks}, {"max_gap_s", experiment.timing.maxGap}};
-  json["velocity_estimator"] = {{"kind", experiment.velocityEstimator.kind}, {"cutoff_hz", experiment.velocityEstimator.cutoff}};
-  const Arm& arm = experiment.arm;
-  json["arm"] = {{"link_length_m", arm.length},
-                 {"link_centre_m", arm.centre},
-                 {"link_mass_kg", arm.mass},
-                 {"link_inertia_kg_m2", arm.inertia},
-                 {"joint_damping_n_m_s_per_rad", arm.damping},
-                 {"shoulder_m", arm.shoulder},
-                 {"elbow_left", arm.elbowLeft}};
-  if (const SubjectScreen& screen = experiment.subjectScreen; !(screen == SubjectScreen{}))
-    json["subject_screen"] = {{"semaphore", screen.semaphore}, {"target", screen.target}, {"masses", screen.masses},
-                              {"words", screen.words},         {"score", screen.score},   {"photodiode", screen.photodiode}};
+  visitKeys(experiment, KeyWriter{json, experiment});
   if (!(lookOf(experiment) == SceneLook{})) json["look"] = Json::parse(experiment.text, nullptr, true, true)["look"];
   return json.dump(2) + "\n";
 }

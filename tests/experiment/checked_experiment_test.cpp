@@ -29,11 +29,7 @@ struct Edit {
 std::vector<Edit> edits() {
   return {
       {"mass", "object.masses_kg[1]", [](Experiment& e) { e.object.masses[1] = -1; }},
-      {"no masses", "object.masses_kg", [](Experiment& e) { e.object.masses.clear(); }},
-      {"a spring too many", "object.stiffness_n_per_m", [](Experiment& e) { e.object.stiffness.push_back(600); }},
       {"spring", "object.stiffness_n_per_m[0]", [](Experiment& e) { e.object.stiffness[0] = -600; }},
-      {"damper", "object.damping_n_s_per_m[0]", [](Experiment& e) { e.object.damping[0] = -1; }},
-      {"viscosity", "object.viscosity_n_s_per_m", [](Experiment& e) { e.object.viscosity = -1; }},
       {"coupling", "coupling.stiffness_n_per_m", [](Experiment& e) { e.coupling->stiffness = -5; }},
       {"coupling beside parallel", "coupling",
        [](Experiment& e) {
@@ -47,15 +43,6 @@ std::vector<Edit> edits() {
          e.object.kind = ObjectKind::Body;
          e.object.masses = {1};
          for (std::size_t i = 0; i < 3; ++i) e.object.inertia[i][i] = 0.01;
-       }},
-      {"inertia", "object.inertia_kg_m2",
-       [](Experiment& e) {
-         e.object = {};
-         e.object.kind = ObjectKind::Body;
-         e.object.masses = {1};
-         e.constraint.name = "free";
-         e.constraint.shape.clear();
-         e.task.reset();
        }},
       {"inertia with too great products", "object.inertia_kg_m2",  // its first two minors are positive, its determinant is not
        [](Experiment& e) {
@@ -72,16 +59,7 @@ std::vector<Edit> edits() {
        [](Experiment& e) {
          e.task->start = {0, 1};
        }},
-      {"duration", "task.duration_s", [](Experiment& e) { e.task->duration = 0; }},
-      {"tolerance", "task.tolerance.position_m", [](Experiment& e) { e.task->tolerance.position = -0.1; }},
-      {"timeout", "task.timeout_s", [](Experiment& e) { e.task->timeout = 1e6; }},
       {"method", "method", [](Experiment& e) { e.method = "euler"; }},
-      {"hand mass", "hand_mass_kg", [](Experiment& e) { e.handMass = -1; }},
-      {"force limit", "force_limit_n", [](Experiment& e) { e.forceLimit = 0; }},
-      {"missed ticks", "timing.max_missed_ticks", [](Experiment& e) { e.timing.maxMissedTicks = -1; }},
-      {"gap", "timing.max_gap_s", [](Experiment& e) { e.timing.maxGap = 1e6; }},
-      {"estimator", "velocity_estimator.kind", [](Experiment& e) { e.velocityEstimator.kind = "guess"; }},
-      {"cutoff", "velocity_estimator.cutoff_hz", [](Experiment& e) { e.velocityEstimator.cutoff = 500; }},
       {"arm", "arm.link_mass_kg[1]", [](Experiment& e) { e.arm.mass[1] = 0; }},
       {"shape", "constraint.shape.length_m", [](Experiment& e) { e.constraint.shape["length_m"] = -1; }},
       {"unknown shape", "constraint.shape.lenght_m", [](Experiment& e) { e.constraint.shape["lenght_m"] = 1; }},

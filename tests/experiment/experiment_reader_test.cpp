@@ -61,20 +61,6 @@ TEST(ExperimentReader, ReadsAGoodFile) {
   EXPECT_EQ(e.task->onset, 0.001);
 }
 
-TEST(ExperimentReader, ReadsHowMuchTimeAMovementMayMiss) {
-  EXPECT_EQ(parseExperiment(kGood, "x.json").timing.maxMissedTicks, 5);
-  EXPECT_EQ(parseExperiment(kGood, "x.json").timing.maxGap, 0.02);
-  const auto with = [](const std::string& timing) { return replaced(kGood, "\"coupling\":", "\"timing\": " + timing + ", \"coupling\":"); };
-  const Experiment e = parseExperiment(with(R"({ "max_missed_ticks": 0, "max_gap_s": 0.005 })"), "x.json");
-  EXPECT_EQ(e.timing.maxMissedTicks, 0);
-  EXPECT_EQ(e.timing.maxGap, 0.005);
-  EXPECT_EQ(parseExperiment(toJson(e), "x.json").timing.maxGap, 0.005);
-  EXPECT_EQ(parseExperiment(with(R"({ "max_gap_s": 0.01 })"), "x.json").timing.maxMissedTicks, 5);
-  EXPECT_NE(faultOf(with(R"({ "max_missed_ticks": 2.5 })")).find("timing.max_missed_ticks"), std::string::npos);
-  EXPECT_NE(faultOf(with(R"({ "max_gap_s": 0.0005 })")).find("timing.max_gap_s: is 0.0005; allowed: 0.001 s to 7200 s"), std::string::npos)
-      << faultOf(with(R"({ "max_gap_s": 0.0005 })"));
-}
-
 TEST(ExperimentReader, EveryShippedExperimentReadsAndWritesBackEqual) {
   for (const std::string& name : shippedExperiments()) {
     const Experiment e = readExperiment(name);

@@ -1,0 +1,123 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <concepts>
+
+#include "base/number_range.h"
+#include "base/ticks.h"
+#include "sim/experiment/checked_experiment.h"
+
+/// The keys of an experiment's file with their ranges, in its order: the one list for reading, writing and checking. A new key is one
+/// member in experiment.h, one line here and its entry in resources/schemas/experiment.schema.json. Reader, writer and check have a
+/// function of their own only for what depends on another key: the constraint, the hands, how many springs there are.
+namespace reachlab::experiment {
+
+struct Key {
+  const char* name;
+  NumberRange range = anyNumber();                  // of a number, or of each of a fixed count of numbers
+  bool required = false;                            // in a file
+  const std::vector<std::string>* names = nullptr;  // a text is one of these
+  const char* shape = "";                           // how an object that is required looks
+  bool constants = false;                           // numbers may be written as constants ("2*pi")
+};
+
+template <class T, class Of>
+concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
+
+/// In the order of ObjectKind.
+inline const std::vector<std::string> kObjectKindNames{"point", "chain", "parallel", "body"};
+
+template <MaybeConst<Object> T, class Visit>
+void visitKeys(T& o, const Visit& visit) {
+  visit(Key{.name = "kind", .required = true, .names = &kObjectKindNames}, o.kind);
+  visit(Key{"masses_kg"}, o.masses);
+  visit(Key{"stiffness_n_per_m"}, o.stiffness);
+  visit(Key{"damping_n_s_per_m"}, o.damping);
+  visit(Key{"viscosity_n_s_per_m", atLeastZero("N s/m")}, o.viscosity);
+  visit(Key{"gravity_m_per_s2"}, o.gravity);
+  if (o.kind != ObjectKind::Body) return;
+  visit(Key{.name = "inertia_kg_m2", .required = true, .shape = "[Ix, Iy, Iz] or a symmetric positive 3 x 3 matrix"}, o.inertia);
+  visit(Key{"fp_offset_m"}, o.fpOffset);
+}
+
+template <MaybeConst<Coupling> T, class Visit>
+void visitKeys(T& c, const Visit& visit) {
+  visit(Key{"stiffness_n_per_m", atLeastZero("N/m"), true}, c.stiffness);
+  visit(Key{"damping_n_s_per_m", atLeastZero("N s/m")}, c.damping);
+}
+
+template <MaybeConst<Tolerance> T, class Visit>
+void visitKeys(T& t, const Visit& visit) {
+  visit(Key{"position_m", positive("m"), true}, t.position);
+  visit(Key{"velocity_m_per_s", positive("m/s"), true}, t.velocity);
+  visit(Key{"time_s", positiveUpTo(kMaxDuration, "s"), true}, t.time);
+}
+
+template <MaybeConst<Task> T, class Visit>
+void visitKeys(T& t, const Visit& visit) {
+  visit(Key{.name = "start", .constants = true}, t.start);
+  visit(Key{.name = "target", .constants = true}, t.target);
+  visit(Key{"duration_s", positiveUpTo(kMaxDuration, "s"), true}, t.duration);
+  visit(Key{.name = "tolerance", .required = true, .shape = "{ position_m, velocity_m_per_s, time_s }"}, t.tolerance);
+  visit(Key{"onset_m", positive("m")}, t.onset);
+  visit(Key{"arm_radius_m", positive("m")}, t.armRadius);
+  visit(Key{"timeout_s", positiveUpTo(kMaxTimeout, "s")}, t.timeout);
+  visit(Key{"rest_s", {0, kMaxRestDuration, true, fmt::format("0 to {:.0f} s", kMaxRestDuration)}}, t.rest.seconds);
+  visit(Key{"rest_speed_m_per_s", positive("m/s")}, t.rest.speed);
+}
+
+template <MaybeConst<TimingLimits> T, class Visit>
+void visitKeys(T& t, const Visit& visit) {
+  visit(Key{"max_missed_ticks", wholeNumber(0, kNoTimingLimits.maxMissedTicks)}, t.maxMissedTicks);
+  // A gap between two ticks is never shorter than one.
+  const std::string allowed = fmt::format("{} s to {:.0f} s", kTickSeconds, kNoTimingLimits.maxGap);
+  visit(Key{"max_gap_s", {kTickSeconds, kNoTimingLimits.maxGap, true, allowed}}, t.maxGap);
+}
+
+template <MaybeConst<VelocityEstimatorSpec> T, class Visit>
+void visitKeys(T& v, const Visit& visit) {
+  visit(Key{.name = "kind", .required = true, .names = &velocityEstimatorNames()}, v.kind);
+  visit(Key{"cutoff_hz", positiveUpTo(400, "Hz")}, v.cutoff);
+}
+
+template <MaybeConst<Arm> T, class Visit>
+void visitKeys(T& a, const Visit& visit) {
+  visit(Key{"link_length_m", positive("m")}, a.length);
+  visit(Key{"link_centre_m", positive("m")}, a.centre);
+  visit(Key{"link_mass_kg", positive("kg")}, a.mass);
+  visit(Key{"link_inertia_kg_m2", positive("kg m^2")}, a.inertia);
+  visit(Key{"joint_damping_n_m_s_per_rad", atLeastZero("N m s/rad")}, a.damping);
+  visit(Key{"shoulder_m"}, a.shoulder);
+  visit(Key{"elbow_left"}, a.elbowLeft);
+}
+
+template <MaybeConst<SubjectScreen> T, class Visit>
+void visitKeys(T& s, const Visit& visit) {
+  visit(Key{"semaphore"}, s.semaphore);
+  visit(Key{"target"}, s.target);
+  visit(Key{"masses"}, s.masses);
+  visit(Key{"words"}, s.words);
+  visit(Key{"score"}, s.score);
+  visit(Key{"photodiode"}, s.photodiode);
+}
+
+template <MaybeConst<Experiment> T, class Visit>
+void visitKeys(T& e, const Visit& visit) {
+  visit(Key{"schema_version", {1, 1, true, "1, the version that this program reads"}, true}, e.schemaVersion);
+  visit(Key{"name"}, e.name);
+  visit(Key{.name = "constraint", .required = true, .shape = "a name of the catalogue, or a curve or surface formula"}, e.constraint);
+  visit(Key{.name = "object", .required = true, .shape = "{ kind, masses_kg, … }"}, e.object);
+  visit(Key{"coupling"}, e.coupling);
+  visit(Key{"hands"}, e.hands);
+  visit(Key{"task"}, e.task);
+  visit(Key{.name = "method", .names = &methodNames()}, e.method);
+  visit(Key{"hand_mass_kg", atLeastZero("kg")}, e.handMass);
+  visit(Key{"force_limit_n", positive("N")}, e.forceLimit);
+  visit(Key{"force_limit_ends_trial"}, e.forceLimitEndsTrial);
+  visit(Key{"timing"}, e.timing);
+  visit(Key{"velocity_estimator"}, e.velocityEstimator);
+  visit(Key{"arm"}, e.arm);
+  visit(Key{"subject_screen"}, e.subjectScreen);
+}
+
+}  // namespace reachlab::experiment
