@@ -16,6 +16,7 @@
 #include "analysis/trials/run_trials.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/log/append_file.h"
 

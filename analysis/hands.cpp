@@ -8,6 +8,7 @@
 
 #include "base/table_text.h"
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/append_file.h"
 

@@ -13,6 +13,7 @@
 #include "analysis/epsilon_table.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::analysis {
 namespace {

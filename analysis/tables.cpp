@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/table_text.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::analysis {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 namespace {

@@ -8,6 +8,7 @@
 #include "analysis/conclusions/near_predictions.h"
 #include "base/error.h"
 #include "base/math/minimum_jerk.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::analysis {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "analysis/study/gzip.h"
 #include "base/table_text.h"
+#include "sim/experiment/experiment.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"
 

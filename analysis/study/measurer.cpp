@@ -5,6 +5,7 @@
 #include "analysis/conclusions/fit_window.h"
 #include "analysis/conclusions/person_fit.h"
 #include "base/error.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::study {
 

@@ -8,7 +8,6 @@
 
 #include "base/math/philox.h"
 #include "base/math/seeded.h"
-#include "sim/experiment/experiment.h"
 
 namespace reachlab::study {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/unit_ending.h"
 
 namespace reachlab::analysis {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::analysis {
 

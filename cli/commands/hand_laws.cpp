@@ -14,6 +14,7 @@
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
 #include "devices/replay/recorded_reach.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::cli {
 namespace {

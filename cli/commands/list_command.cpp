@@ -10,6 +10,7 @@
 #include "devices/driver/registry.h"
 #include "sim/experiment/describe.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/predict/predict.h"
 #include "sim/session/plan.h"
 

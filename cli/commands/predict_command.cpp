@@ -14,6 +14,7 @@
 #include "cli/output/predict_output.h"
 #include "cli/terminal/criterion_option.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::cli {
 namespace {

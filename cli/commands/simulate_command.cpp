@@ -11,6 +11,7 @@
 #include "cli/commands/hand_laws.h"
 #include "cli/terminal/standard_streams.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::cli {
 namespace {

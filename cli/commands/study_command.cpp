@@ -12,6 +12,7 @@
 #include "cli/output/study_words.h"
 #include "cli/terminal/at_option.h"
 #include "devices/subject/subject_parameters.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
 
 namespace reachlab::cli {

@@ -13,6 +13,7 @@
 #include "constraints/catalogue/definition.h"
 #include "devices/make_device.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/session/checked_programme.h"
 #include "sim/trial/task_check.h"

@@ -5,7 +5,7 @@
 
 #include "cli/commands/commands.h"
 #include "devices/replay/velocity_table.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::cli {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::cli {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "devices/driver/drivers.h"
+#include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {

@@ -10,6 +10,7 @@
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 namespace {

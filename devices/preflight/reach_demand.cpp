@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "devices/simulated/simulated_hand.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 
 namespace reachlab::devices {

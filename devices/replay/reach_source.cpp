@@ -5,7 +5,7 @@
 
 #include "base/fault.h"
 #include "devices/driver/options.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::devices {
 namespace {

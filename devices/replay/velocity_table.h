@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 

@@ -11,6 +11,7 @@
 #include "devices/driver/drivers.h"
 #include "devices/driver/options.h"
 #include "devices/simulated/simulated_hand.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 namespace {

@@ -11,6 +11,7 @@
 #include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
 #include "constraints/geometry/curve_way.h"
+#include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {

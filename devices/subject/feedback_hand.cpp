@@ -8,6 +8,7 @@
 
 #include "base/math/elementary.h"
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 
 namespace reachlab::devices {

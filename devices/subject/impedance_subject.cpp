@@ -16,6 +16,7 @@
 #include "devices/subject/subject_parameters.h"
 #include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/hand/hand_path.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/blind_hand.h"
 #include "sim/trial/protocol.h"
 

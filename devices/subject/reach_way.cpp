@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "constraints/geometry/task_path.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 namespace {

@@ -4,7 +4,7 @@
 #include "base/ticks.h"
 #include "devices/virtual/device_model.h"
 #include "devices/virtual/virtual_device.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/velocity_estimator_spec.h"
 
 namespace reachlab::devices {
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "gui/session/session_controller.h"
 #include "gui/widgets/fault_words.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {
 namespace {

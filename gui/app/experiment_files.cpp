@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::gui::app {
 namespace {

@@ -24,6 +24,7 @@
 #include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
 #include "network/station/station_options.h"
+#include "sim/experiment/resources.h"
 
 namespace {
 

@@ -44,6 +44,7 @@
 #include "gui/widgets/message_bar.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {
 namespace {

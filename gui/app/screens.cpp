@@ -6,6 +6,7 @@
 
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::app {

@@ -12,6 +12,7 @@
 #include "gui/app/main_window.h"
 #include "gui/subject/subject_window.h"
 #include "gui/subject/subject_words.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {
 namespace {

@@ -14,6 +14,8 @@
 #include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_view.h"
 #include "gui/session/session_controller.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::gui::app {
 namespace {

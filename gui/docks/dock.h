@@ -3,6 +3,7 @@
 #include <QStringList>
 
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::widgets {
 class FaultLabel;

@@ -8,6 +8,7 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {
 namespace {

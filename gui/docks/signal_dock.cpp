@@ -1,5 +1,7 @@
 #include "gui/docks/signal_dock.h"
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::gui::docks {
 
 SignalDock::SignalDock(QWidget* parent)

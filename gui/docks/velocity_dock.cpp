@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::gui::docks {
 
 VelocityDock::VelocityDock(QWidget* parent)

@@ -16,6 +16,7 @@
 
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::inspector {

@@ -24,7 +24,7 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/unit_spin_box.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/record/log/append_file.h"
 
 namespace reachlab::gui::plan {

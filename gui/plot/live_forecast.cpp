@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "gui/plot/criterion_style.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::plot {
 

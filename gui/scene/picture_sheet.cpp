@@ -9,6 +9,7 @@
 #include "constraints/catalogue/definition.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::scene {
 namespace {

@@ -1,5 +1,7 @@
 #include "gui/scene/trial_texts.h"
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::gui::scene {
 namespace {
 

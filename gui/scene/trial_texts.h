@@ -1,6 +1,6 @@
 #pragma once
 #include "gui/scene/scene_overlay.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
 #include "sim/haptics/tick_state.h"
 
 namespace reachlab::gui::scene {

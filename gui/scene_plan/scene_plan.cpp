@@ -7,6 +7,7 @@
 #include "gui/scene_plan/hand_colours.h"
 #include "gui/scene_plan/part_names.h"
 #include "gui/widgets/themes.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::scene {

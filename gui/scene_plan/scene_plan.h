@@ -6,7 +6,7 @@
 #include "gui/scene_plan/constraint_mesh.h"
 #include "gui/scene_plan/place_marks.h"
 #include "gui/widgets/colours.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
 #include "sim/haptics/tick_state.h"
 
 /// What is to be drawn of an experiment, as plain data: sizes, places, colours' roles. Known to no graphics library.

@@ -14,6 +14,7 @@
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
 #include "devices/preflight/preflight.h"
+#include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::gui::app {

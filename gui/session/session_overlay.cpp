@@ -5,6 +5,7 @@
 #include "gui/scene/trial_texts.h"
 #include "gui/session/session_controller.h"
 #include "gui/subject/subject_words.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {
 namespace {

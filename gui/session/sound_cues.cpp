@@ -9,7 +9,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::gui::app {
 namespace {

@@ -13,6 +13,7 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "network/line/station_line.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/recorder.h"
 
 namespace reachlab::network {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/system/os.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 namespace {

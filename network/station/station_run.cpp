@@ -10,6 +10,7 @@
 #include "base/fault.h"
 #include "base/math/seeded.h"
 #include "base/system/os.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 namespace {

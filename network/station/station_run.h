@@ -10,6 +10,7 @@
 
 #include "network/line/station_line.h"
 #include "network/study/line_check.h"
+#include "sim/experiment/experiment.h"
 #include "sim/session/recorded_run.h"
 
 namespace reachlab::network {

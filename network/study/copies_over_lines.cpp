@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 

@@ -10,6 +10,7 @@
 #include "network/study/copies_over_lines.h"
 #include "network/study/growth.h"
 #include "network/study/two_hands.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/ticks.h"
 #include "network/study/copies_over_lines.h"
 #include "network/study/growth.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "network/coupled_copy.h"
 #include "network/simulated_line.h"
+#include "sim/experiment/experiment.h"
 
 /// Two simulated people who move one object over a simulated line, along one axis: what a way of coupling their stations does to the object
 /// and to them. The numeric study that the design was chosen by.

@@ -15,6 +15,7 @@
 #include "sim/dynamics/rk4_error.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/dynamics/systems/curve_places.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
 

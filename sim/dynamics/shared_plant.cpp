@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "sim/dynamics/systems/body_system.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
 namespace {

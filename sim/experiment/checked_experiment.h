@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "sim/experiment/experiment.h"
+#include "constraints/constraint.h"
+#include "sim/experiment/experiment_fwd.h"
+#include "sim/experiment/task.h"
 
 namespace reachlab::experiment {
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <memory>
+#include <string>
 
-#include "sim/experiment/experiment.h"
+#include "constraints/constraint.h"
+#include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::experiment {
 
@@ -18,8 +20,7 @@ class CompiledExperiment {
   const constraints::Constraint& constraint() const { return *constraint_; }
 
  private:
-  CompiledExperiment(Experiment experiment, std::shared_ptr<const constraints::Constraint> constraint)
-      : experiment_(std::make_shared<const Experiment>(std::move(experiment))), constraint_(std::move(constraint)) {}
+  CompiledExperiment(Experiment experiment, std::shared_ptr<const constraints::Constraint> constraint);
   friend CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition);
 
   std::shared_ptr<const Experiment> experiment_;

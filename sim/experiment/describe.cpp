@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "constraints/catalogue/definition.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::experiment {
 namespace {

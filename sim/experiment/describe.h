@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::experiment {
 

@@ -6,75 +6,12 @@
 
 #include "base/fault.h"
 #include "constraints/constraint.h"
+#include "sim/experiment/object.h"
 #include "sim/experiment/subject_screen.h"
+#include "sim/experiment/task.h"
+#include "sim/experiment/velocity_estimator_spec.h"
 
 namespace reachlab::experiment {
-
-inline constexpr int kMaxMasses = 512;
-inline constexpr int kMaxHands = 8;  // on one object
-
-enum class ObjectKind { Point, Chain, Parallel, Body };
-
-/// The simulated object (paper sec. 3-5). Chain: N masses, N-1 springs, the hand drives mass 1. Parallel: N masses, each tied to the
-/// hand by its own spring. Body: one mass with inertia, driven at an offset from its centre.
-struct Object {
-  ObjectKind kind = ObjectKind::Point;
-  std::vector<double> masses;                      // [kg]
-  std::vector<double> stiffness;                   // [N/m]
-  std::vector<double> damping;                     // [N s/m], as many as stiffness
-  double viscosity = 0;                            // [N s/m] lambda of Eq. (9), on every mass
-  Vec3 gravity;                                    // [m/s^2]
-  std::array<std::array<double, 3>, 3> inertia{};  // [kg m^2] body frame, body only
-  Vec3 fpOffset;                                   // [m] body frame, body only
-  bool operator==(const Object&) const = default;
-};
-
-/// How many springs the object has for its masses.
-inline std::size_t springCount(const Object& object) {
-  const bool parallel = object.kind == ObjectKind::Parallel;
-  return object.masses.empty() ? 0 : object.masses.size() - (parallel ? 0 : 1);
-}
-
-/// Spring-damper between HIP and FP, Eq. (8).
-struct Coupling {
-  double stiffness = 0;  // [N/m]
-  double damping = 0;    // [N s/m]
-  bool operator==(const Coupling&) const = default;
-};
-
-/// One of several hands on one object, each coupled by Eq. (8) for itself: to one mass, or to every mass by a spring of its own.
-struct Hand {
-  int mass = 1;                            // from 1; 0: to all, and both lists have a number for each
-  std::vector<double> stiffness, damping;  // [N/m], [N s/m]; one number where one mass is held
-  Vec3 fpOffset;                           // [m] where it holds a body, body frame
-  bool operator==(const Hand&) const = default;
-};
-
-struct Tolerance {
-  double position = 0.012;  // [m]
-  double velocity = 0.012;  // [m/s]
-  double time = 0.5;        // [s]
-  bool operator==(const Tolerance&) const = default;
-};
-
-/// What waiting at the start asks of the hand before a trial is armed: to stay there for so long, and slower than that.
-struct StartRest {
-  double seconds = 0.3;  // [s]
-  double speed = 0.02;   // [m/s]
-  bool operator==(const StartRest&) const = default;
-};
-inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start
-
-struct Task {
-  std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object
-  double duration = 1.35;             // [s] T
-  Tolerance tolerance;
-  double onset = 0.001;     // [m] t = 0 is when the HIP has moved this far
-  double armRadius = 0.01;  // [m]
-  double timeout = 10;      // [s] no onset by then: aborted
-  StartRest rest;
-  bool operator==(const Task&) const = default;
-};
 
 /// Two-link planar arm for criterion 2 (docs/theory/criteria.md, "Minimum torque change"); defaults unverified, after Uno 1989.
 struct Arm {
@@ -87,21 +24,6 @@ struct Arm {
   bool elbowLeft = false;                       // which of the two postures
   bool operator==(const Arm&) const = default;
 };
-
-/// How v_HIP is estimated from device samples.
-struct VelocityEstimatorSpec {
-  std::string kind = "auto";  // auto | difference | butterworth | device
-  double cutoff = 40;         // [Hz] butterworth
-  bool operator==(const VelocityEstimatorSpec&) const = default;
-};
-
-/// How much time a movement may miss before its trial does not count (trial/protocol.h). The haptic loop counts in whole ticks of 1 ms.
-struct TimingLimits {
-  int maxMissedTicks = 5;
-  double maxGap = 0.02;  // [s] between two ticks
-  bool operator==(const TimingLimits&) const = default;
-};
-inline constexpr TimingLimits kNoTimingLimits{10'000'000, 7200};  // longer than any task may last
 
 /// One experiment file, validated: what the subject holds, on what, and what is asked. SI units throughout.
 struct Experiment {
@@ -137,11 +59,5 @@ std::string definitionTextOf(const Experiment& experiment);
 std::string toJson(const Experiment& experiment);
 /// Every fault of the value, each under its key as in the files; empty when fine. The reader adds the places.
 std::vector<Fault> problems(const Experiment& experiment);
-
-/// Names of the shipped experiments, sorted: those that one hand does with one device, and those for two.
-std::vector<std::string> shippedExperiments();
-std::vector<std::string> shippedForTwoHands();
-/// Folder of resources: $REACHLAB_RESOURCES, else beside the source or installed. Throws ResourceError when there is none.
-std::string resourceFolder();
 
 }  // namespace reachlab::experiment

@@ -6,6 +6,7 @@
 #include "base/number_range.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 
 /// The keys of an experiment's file with their ranges, in its order: the one list for reading, writing and checking. A new key is one
 /// member in experiment.h, one line here and its entry in resources/schemas/experiment.schema.json. Reader, writer and check have a

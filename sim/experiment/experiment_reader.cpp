@@ -257,6 +257,9 @@ std::shared_ptr<const constraints::Constraint> constraintOf(const Experiment& ex
 
 }  // namespace
 
+CompiledExperiment::CompiledExperiment(Experiment experiment, std::shared_ptr<const constraints::Constraint> constraint)
+    : experiment_(std::make_shared<const Experiment>(std::move(experiment))), constraint_(std::move(constraint)) {}
+
 CompiledExperiment::CompiledExperiment(const Experiment& experiment)
     : CompiledExperiment(knowingItsPlaces(experiment), constraintOf(experiment, nullptr)) {}
 

@@ -8,6 +8,7 @@
 #include "base/json/json_reader.h"
 #include "base/text_file.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::experiment {

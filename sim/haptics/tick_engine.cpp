@@ -10,6 +10,7 @@
 #include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::haptics {
 namespace {

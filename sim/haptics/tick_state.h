@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "sim/dynamics/object/plant.h"
+#include "sim/experiment/object.h"
 #include "sim/haptics/device.h"
 #include "sim/trial/command.h"
 #include "sim/trial/outcome.h"

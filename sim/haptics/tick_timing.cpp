@@ -9,6 +9,7 @@
 #include "base/system/os.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::haptics {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "base/math/butterworth.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/velocity_estimator_spec.h"
 #include "sim/haptics/device.h"
 
 namespace reachlab::haptics {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "sim/predict/arm/arm_prediction.h"
 #include "sim/predict/curve/curve_object_prediction.h"
 #include "sim/predict/curve/curve_prediction.h"

@@ -4,6 +4,7 @@
 
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::session {
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
 #include "sim/session/progress.h"
 #include "sim/session/trial_order.h"

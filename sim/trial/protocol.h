@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <span>
 
+#include "constraints/constraint.h"
 #include "sim/dynamics/object/plant.h"
+#include "sim/experiment/experiment_fwd.h"
+#include "sim/experiment/object.h"
 #include "sim/trial/command.h"
 #include "sim/trial/outcome.h"
 #include "sim/trial/planned_trial.h"

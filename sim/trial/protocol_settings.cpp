@@ -4,6 +4,7 @@
 #include "base/ticks.h"
 #include "constraints/geometry/task_path.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::trial {

@@ -6,6 +6,7 @@
 #include "base/json/json_reader.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
+#include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::trial {

@@ -7,6 +7,7 @@
 
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_branches.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::trial {
 namespace {

@@ -14,6 +14,8 @@
 #include "analysis/tables.h"
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/append_file.h"

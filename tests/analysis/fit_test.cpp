@@ -7,6 +7,7 @@
 #include "analysis/conclusions/near_predictions.h"
 #include "analysis/conclusions/person_fit.h"
 #include "analysis/measures/filter.h"
+#include "sim/experiment/experiment.h"
 #include "tests/analysis/synthetic.h"
 
 namespace reachlab::analysis {

@@ -10,6 +10,7 @@
 #include "analysis/recovery.h"
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "tests/analysis/made_study.h"
 
 // What a study is made of, each by itself: counts, options, differences, candidates, signals of predictions, recovery.

@@ -9,6 +9,7 @@
 #include "analysis/report/wording.h"
 #include "analysis/tables.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "tests/analysis/synthetic.h"
 
 namespace reachlab::analysis {

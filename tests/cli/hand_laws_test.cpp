@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "tests/cli/program.h"
 
 namespace reachlab::cli {

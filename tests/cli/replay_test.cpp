@@ -8,6 +8,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/record/log/log.h"
 #include "sim/session/session_folder.h"
 #include "test_paths.h"

@@ -18,6 +18,7 @@
 #include "devices/vendor/phantom_device.h"
 #include "devices/virtual/device_model.h"
 #include "devices/virtual/virtual_device.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/force_safety.h"
 #include "sim/haptics/loop_core.h"
 #include "sim/haptics/watchdog.h"

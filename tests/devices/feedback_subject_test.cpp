@@ -9,6 +9,7 @@
 #include "devices/subject/feedback_hand.h"
 #include "devices/subject/subject_kinds.h"
 #include "devices/subject/subject_parameters.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/predict/predict.h"
 

@@ -11,6 +11,7 @@
 #include "devices/driver/registry.h"
 #include "devices/make_device.h"
 #include "devices/vendor/force_dimension.h"
+#include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/until.h"
 

@@ -12,6 +12,7 @@
 #include "devices/haply/web_socket_link.h"
 #include "devices/live_device.h"
 #include "devices/make_device.h"
+#include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_haply.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/until.h"
 

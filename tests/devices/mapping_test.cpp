@@ -15,6 +15,7 @@
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
 #include "devices/mapping/guarded_device.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 namespace {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 
 namespace reachlab::devices {

@@ -18,6 +18,7 @@
 #include "devices/driver/registry.h"
 #include "devices/vendor/clock_timing.h"
 #include "devices/vendor/shared_library.h"
+#include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_hd.h"
 
 namespace reachlab::devices {

@@ -22,6 +22,7 @@
 #include "devices/make_device.h"
 #include "devices/serial/polhem_line.h"
 #include "devices/serial/serial_port.h"
+#include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
 

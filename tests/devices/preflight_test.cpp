@@ -8,6 +8,8 @@
 #include "devices/make_device.h"
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::devices {
 namespace {
 

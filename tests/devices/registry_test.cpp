@@ -11,6 +11,8 @@
 #include "devices/driver/options.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
 

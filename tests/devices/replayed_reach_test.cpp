@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "test_paths.h"
 
 namespace reachlab::devices {

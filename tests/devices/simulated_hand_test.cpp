@@ -11,6 +11,8 @@
 #include "devices/simulated/played_hand.h"
 #include "devices/simulated/sampled_plan.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/haptics/run_conductor.h"
 
 namespace reachlab::devices {

@@ -18,6 +18,7 @@
 #include "devices/subject/feedback_hand.h"
 #include "devices/subject/impedance_subject.h"
 #include "devices/subject/subject_parameters.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/predict/predict.h"
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::devices {
 namespace {

@@ -13,6 +13,7 @@
 #include "devices/virtual/loop_stability.h"
 #include "devices/virtual/stability_map.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
 
 namespace reachlab::devices {

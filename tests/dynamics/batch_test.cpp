@@ -5,6 +5,7 @@
 #include "base/math/minimum_jerk.h"
 #include "sim/dynamics/systems/batch_system.h"
 #include "sim/dynamics/systems/curve_system.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -1,6 +1,7 @@
 // Curves where phi grows large, and those whose formula is smooth by pieces.
 #include <gtest/gtest.h>
 
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 #include "tests/dynamics/held_segment.h"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 #include "tests/dynamics/held_segment.h"
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/dynamics/hand/hand_path.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
 

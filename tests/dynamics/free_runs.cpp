@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/free_run.h"
 #include "tests/dynamics/held_segment.h"
 

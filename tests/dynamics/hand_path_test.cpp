@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

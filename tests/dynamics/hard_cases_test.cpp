@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/math/minimum_jerk.h"
 #include "sim/dynamics/hand/hand_path.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "sim/dynamics/shared_plant.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
 

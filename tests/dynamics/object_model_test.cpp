@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/dynamics/object/forces.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "tests/dynamics/make_experiment.h"
 

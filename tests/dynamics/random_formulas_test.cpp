@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_branches.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

@@ -4,6 +4,7 @@
 
 #include "sim/dynamics/object/stability.h"
 #include "sim/dynamics/shared_plant.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

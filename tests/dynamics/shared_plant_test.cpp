@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
 namespace {

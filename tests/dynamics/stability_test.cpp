@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "sim/dynamics/compile.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
 

@@ -2,6 +2,7 @@
 
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/rk4_error.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {

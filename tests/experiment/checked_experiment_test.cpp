@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::experiment {
 namespace {

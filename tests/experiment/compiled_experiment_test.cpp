@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::experiment {
 namespace {

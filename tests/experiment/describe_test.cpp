@@ -8,6 +8,7 @@
 #include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::experiment {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 using namespace reachlab;
 using namespace reachlab::experiment;

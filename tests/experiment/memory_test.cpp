@@ -8,6 +8,7 @@
 #include "base/system/ending.h"
 #include "constraints/catalogue/definition.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 
 namespace {
 thread_local long allocationsLeft = -1;  // until one fails, and no more than one; below zero: none does

@@ -13,6 +13,7 @@
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/experiment_keys.h"
+#include "sim/experiment/resources.h"
 #include "sim/experiment/scene_look.h"
 
 using namespace reachlab;

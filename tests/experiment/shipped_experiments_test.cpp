@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::experiment {
 namespace {

@@ -19,6 +19,8 @@
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace {
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "cli/bench/allocation_count.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/haptics/haptic_loop.h"
 #include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"

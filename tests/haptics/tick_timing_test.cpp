@@ -4,6 +4,7 @@
 
 #include "base/fault.h"
 #include "base/system/os.h"
+#include "sim/experiment/resources.h"
 #include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {

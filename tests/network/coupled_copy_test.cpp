@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/ticks.h"
 #include "network/study/two_hands.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
 namespace {

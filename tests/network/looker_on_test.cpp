@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
 #include "tests/record/made_run.h"
 

@@ -8,6 +8,8 @@
 #include <regex>
 #include <set>
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::network {
 namespace {
 

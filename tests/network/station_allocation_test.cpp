@@ -2,6 +2,8 @@
 
 #include "cli/bench/allocation_count.h"
 #include "network/line/station_line.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/haptics/haptic_loop.h"
 #include "sim/record/log/recorder.h"
 #include "tests/haptics/borrowed.h"

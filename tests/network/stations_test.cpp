@@ -18,6 +18,7 @@
 #include "base/ticks.h"
 #include "network/line/station_line.h"
 #include "network/merge/station_merge.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/recorder.h"
 #include "tests/record/made_run.h"
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::network {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::record {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "base/table_text.h"
 #include "sim/experiment/describe.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/hdf5_file.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/records.h"
 #include "tests/record/made_run.h"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/records.h"
 #include "tests/record/made_run.h"
 

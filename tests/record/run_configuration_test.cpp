@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "tests/record/differing_keys.h"
 #include "tests/record/made_run.h"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/table_text.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/c3d_export.h"
 #include "sim/record/export/column_dictionary.h"

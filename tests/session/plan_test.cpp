@@ -9,6 +9,7 @@
 
 #include "sim/session/checked_programme.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "sim/session/programme.h"
 #include "sim/session/trial_order.h"
 #include "test_paths.h"

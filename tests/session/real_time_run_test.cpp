@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/replay.h"
 #include "sim/session/progress.h"
 #include "tests/session/recorded_runs.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 #include "tests/session/recorded_runs.h"
 
 // A session's runs, one after the other, with what is said and waited for between them.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::trial {
 namespace {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::trial {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::trial {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/experiment/experiment.h"
+
 namespace reachlab::dynamics {
 
 std::vector<HandSprings> handSpringsOf(const experiment::Experiment& experiment) {

@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "base/math/vec3.h"
+#include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::dynamics {
 

@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "base/math/lanes.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/object.h"
 
 namespace reachlab::dynamics {
 

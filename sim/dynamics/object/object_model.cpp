@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "sim/dynamics/object/hand_springs.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
 namespace {

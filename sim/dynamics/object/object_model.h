@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
+#include "sim/experiment/object.h"
 
 namespace reachlab::dynamics {
 

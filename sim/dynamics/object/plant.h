@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "constraints/constraint.h"
 #include "sim/dynamics/hand/hand_segment.h"
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::dynamics {
 

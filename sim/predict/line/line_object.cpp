@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::predict {
 namespace {

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::predict {
 namespace {

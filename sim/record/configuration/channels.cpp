@@ -7,6 +7,7 @@
 
 #include "base/fault.h"
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::record {
 namespace {

@@ -2,7 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/experiment/experiment.h"
+#include "sim/experiment/experiment_fwd.h"
+#include "sim/experiment/object.h"
 #include "sim/haptics/tick_state.h"
 
 namespace reachlab::record {

@@ -7,6 +7,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/configuration/run_fields.h"
 
 namespace reachlab::record {

@@ -7,6 +7,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/task.h"
 #include "sim/record/configuration/channels.h"
 #include "sim/trial/planned_trial.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/describe.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/tidy_csv.h"
 

@@ -24,6 +24,7 @@
 #include "gui/scene/scene_view.h"
 #include "gui/scene/trial_texts.h"
 #include "gui/subject/subject_window.h"
+#include "sim/experiment/experiment.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"

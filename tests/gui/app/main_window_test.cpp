@@ -30,6 +30,7 @@
 #include "gui/scene/scene_view.h"
 #include "gui/scene/trial_texts.h"
 #include "gui/session/session_controller.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/run_log.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"

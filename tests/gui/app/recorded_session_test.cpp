@@ -23,6 +23,8 @@
 #include "gui/docks/session_dock.h"
 #include "gui/session/session_controller.h"
 #include "gui/session/session_overlay.h"
+#include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 #include "sim/record/log/run_log.h"
 #include "test_paths.h"
 #include "tests/analysis/whole_dataset.h"

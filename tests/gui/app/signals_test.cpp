@@ -12,6 +12,7 @@
 
 #include "base/system/stop_signals.h"
 #include "gui/app/main_window.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "test_paths.h"

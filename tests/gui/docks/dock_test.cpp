@@ -10,6 +10,7 @@
 #include "gui/docks/object_dock.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/number_list_edit.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {
 namespace {

@@ -11,6 +11,7 @@
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/resources.h"
 #include "tests/gui/eyes.h"
 
 namespace reachlab::gui::scene {

@@ -9,6 +9,7 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/number_list_edit.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::scene {
 namespace {

@@ -9,6 +9,7 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
+#include "sim/experiment/experiment.h"
 #include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::subject {

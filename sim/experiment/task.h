@@ -1,0 +1,40 @@
+#pragma once
+#include <vector>
+
+namespace reachlab::experiment {
+
+struct Tolerance {
+  double position = 0.012;  // [m]
+  double velocity = 0.012;  // [m/s]
+  double time = 0.5;        // [s]
+  bool operator==(const Tolerance&) const = default;
+};
+
+/// What waiting at the start asks of the hand before a trial is armed: to stay there for so long, and slower than that.
+struct StartRest {
+  double seconds = 0.3;  // [s]
+  double speed = 0.02;   // [m/s]
+  bool operator==(const StartRest&) const = default;
+};
+inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start, as before 2026-11-22
+
+struct Task {
+  std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object
+  double duration = 1.35;             // [s] T
+  Tolerance tolerance;
+  double onset = 0.001;     // [m] t = 0 is when the HIP has moved this far
+  double armRadius = 0.01;  // [m]
+  double timeout = 10;      // [s] no onset by then: aborted
+  StartRest rest;
+  bool operator==(const Task&) const = default;
+};
+
+/// How much time a movement may miss before its trial does not count (trial/protocol.h). The haptic loop counts in whole ticks of 1 ms.
+struct TimingLimits {
+  int maxMissedTicks = 5;
+  double maxGap = 0.02;  // [s] between two ticks
+  bool operator==(const TimingLimits&) const = default;
+};
+inline constexpr TimingLimits kNoTimingLimits{10'000'000, 7200};  // longer than any task may last
+
+}  // namespace reachlab::experiment
