@@ -84,6 +84,8 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     const std::size_t end = offset();
     std::string what = e.what();
     if (e.id == 406) throw FaultError(Fault{{}, "this number is beyond the range of a double", "finite numbers", place(tokenStart())});
+    if (const std::size_t comma = trailingComma(end); comma != std::string::npos)
+      throw FaultError(Fault{{}, "this comma has nothing behind it", "a further element, or no comma after the last one", place(comma)});
     if (const auto at = what.find("column "); at != std::string::npos)
       if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
     throw FaultError(Fault{{}, what, {}, place(end > 0 ? end - 1 : 0)});
@@ -92,6 +94,12 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
  private:
   std::size_t offset() const { return static_cast<std::size_t>(*furthest_ - text_.data()); }
 
+  // Where the bracket that ends at `end` closes behind a comma: that comma.
+  std::size_t trailingComma(std::size_t end) const {
+    if (end < 2 || (text_[end - 1] != ']' && text_[end - 1] != '}')) return std::string::npos;
+    const std::size_t before = text_.find_last_not_of(" \t\r\n", end - 2);
+    return before != std::string::npos && text_[before] == ',' ? before : std::string::npos;
+  }
   FilePlace place(std::size_t at) {
     const auto [line, column] = lineAndColumn(at);
     return {file_, line, column};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "constraints/constraint.h"
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double kLongTask = 60;    // [s]
 constexpr double kHeavyMass = 100;  // [kg]
+constexpr double kManyTurns = 1.5;  // a full lap is a reach, and may end a little behind its start
 
 // Along the curve, so that a full lap is a way; the chord elsewhere. [m]
 double wayOf(const constraints::Constraint& constraint, const experiment::Task& task, const ProtocolSettings& place) {
@@ -56,6 +59,13 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
   const experiment::Task& task = *experiment.task;
   if (task.duration > kLongTask)
     found.push_back({"task.duration_s", fmt::format("is {} s; more than {} s is hardly meant", task.duration, kLongTask)});
+  for (std::size_t i = 0; i < task.target.size() && i < 2; ++i) {
+    const constraints::Domain& domain = compiled.constraint().domain[i];
+    const double turns = std::abs(task.target[i] - task.start[i]) / (domain.hi - domain.lo);
+    if (domain.periodic && turns > kManyTurns)
+      found.push_back(
+          {fmt::format("task.target[{}]", i), fmt::format("is {:.3g} turns from the start; more than one turn is hardly meant", turns)});
+  }
   const double way = wayOf(compiled.constraint(), task, makeProtocolSettings(experiment, compiled.constraint()));
   if (task.tolerance.position > way)
     found.push_back({"task.tolerance.position_m",

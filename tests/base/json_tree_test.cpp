@@ -74,6 +74,16 @@ TEST(JsonTree, TellsWhereASentenceOfItsSyntaxBreaks) {
   EXPECT_EQ(faultOf("x").place, (FilePlace{"made.json", 1, 1}));
 }
 
+TEST(JsonTree, NamesACommaBehindTheLastElement) {
+  for (const char* text : {"[1,\n  2 ,\n]", "{\"a\": [1],\n  \"\": 2 ,  }"}) {
+    const Fault fault = faultOf(text);
+    EXPECT_EQ(fault.what, "this comma has nothing behind it") << text;
+    EXPECT_EQ(fault.place->line, 2) << text;
+    EXPECT_EQ(text[std::string(text).find('\n') + static_cast<std::size_t>(fault.place->column)], ',') << text;
+  }
+  EXPECT_TRUE(faultOf("[1, 2}").what.starts_with("syntax error")) << "another bracket is another fault";
+}
+
 TEST(JsonTree, RefusesANumberThatNoDoubleHolds) {
   EXPECT_EQ(toText(faultOf("[1,\n 22, 1e999]")), "made.json:2:6: this number is beyond the range of a double; allowed: finite numbers");
   EXPECT_EQ(parseJson("1.7976931348623157e308", "made.json").number, std::numeric_limits<double>::max());

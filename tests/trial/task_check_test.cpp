@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+
 #include <functional>
-#include <numbers>
 
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
@@ -30,6 +30,11 @@ TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
   ASSERT_EQ(slow.size(), 1u);
   EXPECT_EQ(slow[0].key, "task.duration_s");
   EXPECT_EQ(slow[0].what, "is 60.5 s; more than 60 s is hardly meant");
+  EXPECT_TRUE(implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] + 2 * std::numbers::pi; }).empty()) << "a lap";
+  const auto turns = implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] - 12 * std::numbers::pi; });
+  ASSERT_EQ(turns.size(), 1u);
+  EXPECT_EQ(turns[0].key, "task.target[0]");
+  EXPECT_EQ(turns[0].what, "is 6 turns from the start; more than one turn is hardly meant");
   EXPECT_EQ(implausibleWith("chain-moderate", [](auto& e) { e.task.reset(), e.object.masses[0] = 101; }).size(), 1u)
       << "a task is not needed";
 }
