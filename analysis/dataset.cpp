@@ -62,7 +62,7 @@ RunProvenance provenanceOf(const record::RunConfiguration& c, std::size_t trials
   RunProvenance p;
   p.subject = c.subject;
   p.session = c.session;
-  p.condition = c.condition.empty() ? c.experimentName : c.condition;
+  p.condition = record::conditionOf(c);
   p.experiment = c.experimentName;
   p.device = c.device;
   p.method = c.method;

@@ -5,6 +5,7 @@
 
 #include "analysis/measures/filter.h"
 #include "analysis/measures/movement.h"
+#include "sim/experiment/task.h"
 
 namespace reachlab::analysis {
 

@@ -144,9 +144,6 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
 
 std::string experimentNameOf(const session::PlanBlock& block) { return fs::path(block.experiment).filename().string(); }
 
-std::string conditionOf(const session::PlanBlock& block) {
-  return block.condition.empty() ? fs::path(block.experiment).stem().string() : block.condition;
-}
 
 Design parseDesign(const std::string& text, const std::string& file, const std::optional<NamedTexts>& named) {
   const JsonNode root = parseJson(text, file);

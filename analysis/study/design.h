@@ -53,8 +53,7 @@ struct NamedTexts {
 Design parseDesign(const std::string& text, const std::string& file, const std::optional<NamedTexts>& named = {});
 /// Reads a study file.
 Design readDesign(const std::string& file);
-/// The name that a block's experiment has in Design::experimentTexts, whatever folder it lay in; and the block's condition.
+/// The name that a block's experiment has in Design::experimentTexts, whatever folder it lay in.
 std::string experimentNameOf(const session::PlanBlock& block);
-std::string conditionOf(const session::PlanBlock& block);
 
 }  // namespace reachlab::study

@@ -30,8 +30,8 @@ struct Model {
   int type;
   double maxForce, radius;
 };
-constexpr Model kModels[] = {{63, 20, 0.15},  {33, 12, 0.075},  {34, 12, 0.075},  {36, 12, 0.075}, {35, 12, 0.075},
-                             {37, 12, 0.075}, {104, 12, 0.075}, {105, 12, 0.075}, {60, 8, 0.04}};
+constexpr Model omega(int type) { return {type, kOmegaForce, kOmegaRadius}; }
+constexpr Model kModels[] = {{63, 20, 0.15}, omega(33), omega(34), omega(36), omega(35), omega(37), omega(104), omega(105), {60, 8, 0.04}};
 constexpr double kUnknownForce = 8, kUnknownRadius = 0.04;  // of the others, whatever they are: the least of these
 
 class ForceDimension final : public Transport {

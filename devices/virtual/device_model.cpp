@@ -14,7 +14,8 @@ constexpr DeviceModel kModels[] = {
     {"premium60", "PHANToM Premium 1.5/6DOF", 0.136, 0.04, 0, 0.03e-3, 8.5, 1.4, 0.12,
      "peak force and workspace: CHAI3D; the rest assumed"},
     {"highforce", "PHANToM Premium 1.5 High Force", 0.150, 0.20, 0, 0.007e-3, 37.5, 6.2, 0.12, "assumed; the paper says 37 N"},
-    {"omega3", "Force Dimension omega.3", 0.22, 0.10, 0, 0.01e-3, 12, 12, 0.075, "peak force and workspace: CHAI3D; the rest assumed"},
+    {"omega3", "Force Dimension omega.3", 0.22, 0.10, 0, 0.01e-3, kOmegaForce, kOmegaForce, kOmegaRadius,
+     "peak force and workspace: CHAI3D; the rest assumed"},
     {"inverse3", "Haply Inverse3", 0.20, 0.10, 0, 0.01e-3, 10, 2.5, 0.17, "assumed"},
 };
 

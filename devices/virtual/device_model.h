@@ -17,6 +17,9 @@ struct DeviceModel {
   std::string_view source;
 };
 
+/// Of every omega, as CHAI3D drives it (chai3d/chai3d:src/devices/CDeltaDevices.cpp, read): peak force [N] and radius of the workspace [m].
+inline constexpr double kOmegaForce = 12, kOmegaRadius = 0.075;
+
 std::span<const DeviceModel> deviceModels();
 /// Null when there is none of that name.
 const DeviceModel* findDeviceModel(std::string_view name);

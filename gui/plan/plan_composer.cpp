@@ -34,9 +34,7 @@ enum Column { kPlace, kExperiment, kCondition, kTrials, kDay, kKind, kColumns };
 
 QString from(const std::string& text) { return QString::fromStdString(text); }
 
-QString conditionOf(const session::PlanBlock& block) {
-  return from(block.condition.empty() ? QFileInfo(from(block.experiment)).completeBaseName().toStdString() : block.condition);
-}
+QString conditionOf(const session::PlanBlock& block) { return from(session::conditionOf(block)); }
 
 QString kindOf(const session::PlanBlock& block) {
   QStringList kinds;

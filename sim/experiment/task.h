@@ -16,7 +16,7 @@ struct StartRest {
   double speed = 0.02;   // [m/s]
   bool operator==(const StartRest&) const = default;
 };
-inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start, as before 2026-11-22
+inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start
 
 struct Task {
   std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/ticks.h"
+#include "sim/dynamics/hand/hand_path.h"
 
 namespace reachlab::haptics {
 
@@ -86,7 +87,7 @@ DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& c
   reports_ = sample.reports;
   last_ = sample.position;
   const double speed = std::max(speedOver(sample.position, context.nowNs), sample.hasVelocity ? norm(sample.velocity) : 0);
-  const bool jumped = step > kJumpMetres + speedLimit_ * passed * kTickSeconds;
+  const bool jumped = step > dynamics::kLargestJump + speedLimit_ * passed * kTickSeconds;
   if (!context.engaged && jumped) seen_ = 0;  // carried to the next start: what it did before says nothing of its speed from there
   if (!context.engaged || first) return DeviceFault::None;
   if (jumped) return DeviceFault::Jump;

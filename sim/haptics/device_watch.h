@@ -12,7 +12,7 @@ namespace reachlab::haptics {
 enum class DeviceFault : std::uint8_t {
   None,
   Silent,     // no new report for the device's bound while a trial is armed or moving, whatever the force
-  Jump,       // farther than kJump in one tick
+  Jump,       // farther than dynamics::kLargestJump in one tick
   Speed,      // the hand is faster than the device's limit
   NotFinite,  // the object's force is not a number
   Stalled,    // no tick was completed for kStallNs while force was on: told by the watchdog
@@ -37,8 +37,6 @@ struct WatchContext {
 /// Haptic thread; neither allocates nor throws.
 class DeviceWatch {
  public:
-  static constexpr double kJumpMetres = 0.02;  // [m] in a tick
-
   explicit DeviceWatch(const DeviceInfo& info) noexcept;
 
   /// Returns the sample as it may be believed.

@@ -15,8 +15,6 @@
 namespace reachlab::haptics {
 namespace {
 
-constexpr double kJump = 0.02;  // [m] in one tick: 20 m/s, no hand does that; the device has jumped
-
 // 1 at x = 0, 0 at x = 1, at rest at both ends (1 minus the minimum-jerk law), and its derivative.
 struct Blend {
   double value, rate;
@@ -59,7 +57,7 @@ TickEngine::TickEngine(const experiment::CompiledExperiment& experiment, const E
                  options) {}
 
 TickEngine::Port::Port(const experiment::Experiment& experiment, const EngineOptions& options)
-    : virtualHand(options.virtualHand), estimator(experiment.velocityEstimator), path(4, kJump), safety(limitsFor(experiment, options)),
+    : virtualHand(options.virtualHand), estimator(experiment.velocityEstimator), path(4), safety(limitsFor(experiment, options)),
       guards(options.guards), fpInBody(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
@@ -110,7 +108,7 @@ dynamics::HandSample TickEngine::takeHand(Port& port, const DeviceSample& device
     return hand;
   }
   const bool anew = port.lost || (missedTicks > kGapTicks && !port.virtualHand);
-  if (anew || norm(device.position - port.lastRaw) > kJump) port.estimator.reset();
+  if (anew || norm(device.position - port.lastRaw) > dynamics::kLargestJump) port.estimator.reset();
   port.lastRaw = device.position;
   Vec3 place = device.position - port.fpOffset;
   hand.velocity = port.estimator.estimate(device);

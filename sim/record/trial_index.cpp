@@ -130,7 +130,7 @@ IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
   run.changedNs = stamp.changedNs;
   run.subject = c.subject;
   run.session = c.session;
-  run.condition = c.condition.empty() ? c.experimentName : c.condition;
+  run.condition = conditionOf(c);
   run.experiment = c.experimentName;
   run.device = c.device;
   run.startedUtc = c.startedUtc;

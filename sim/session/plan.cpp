@@ -98,6 +98,10 @@ void addProblems(const JsonNode& root, const Plan& plan, FaultList& faults) {
 
 }  // namespace
 
+std::string conditionOf(const PlanBlock& block) {
+  return block.condition.empty() ? std::filesystem::path(block.experiment).stem().string() : block.condition;
+}
+
 experiment::CompiledExperiment openExperimentOf(const PlanBlock& block) {
   experiment::CompiledExperiment plain = experiment::openExperiment(block.experiment);
   if (block.changes.empty()) return plain;

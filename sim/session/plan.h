@@ -38,6 +38,8 @@ struct Plan {
   std::vector<PlanBlock> blocks;
 };
 
+/// The condition's name, where it is not given that of the experiment's file.
+std::string conditionOf(const PlanBlock& block);
 /// The block's experiment with its changes. Throws FaultError; what is wrong with a change is told under `change.KEY`.
 experiment::CompiledExperiment openExperimentOf(const PlanBlock& block);
 

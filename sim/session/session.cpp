@@ -72,11 +72,12 @@ record::RunConfiguration freshConfiguration(const SessionRequest& request, const
   c.session = request.place.session;
   c.task = labelOf(experiment.name);
   c.practice = block.practice;
-  c.condition = block.condition.empty() ? experiment.name : block.condition;
+  c.condition = block.condition;
   c.day = block.day;
   c.pauseSeconds = block.pauseSeconds;
   c.repeatAborted = block.repeatAborted;
   c.experimentName = experiment.name;
+  c.condition = record::conditionOf(c);
   c.experimentText = experiment.text;
   c.definitionText = experiment::definitionTextOf(experiment);
   c.planName = plan.text.empty() ? "" : plan.name;

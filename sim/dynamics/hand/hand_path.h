@@ -5,6 +5,9 @@
 
 namespace reachlab::dynamics {
 
+/// Farther than that in one tick, 20 m/s, no hand moves: the device has jumped.
+inline constexpr double kLargestJump = 0.02;  // [m]
+
 /// The last device samples, and the polynomial that the hand follows over the tick that ends at the newest. One sample: held; two: a
 /// straight line; three: a parabola; four: a cubic. Position and velocity are interpolated alike, each through its own samples.
 /// Measured on the chain of five at 1 ms against the true hand: held 2e-4 m, line 1e-7, parabola 5e-10, cubic 4e-11.
@@ -12,7 +15,7 @@ namespace reachlab::dynamics {
 class HandPath {
  public:
   /// `mostSamples` 1 … 4 bounds the degree; `jump` [m] is how far a hand can move in one tick: beyond it the path is broken.
-  explicit HandPath(int mostSamples = 4, double jump = 0.02) noexcept : most_(mostSamples), jump_(jump) {}
+  explicit HandPath(int mostSamples = 4, double jump = kLargestJump) noexcept : most_(mostSamples), jump_(jump) {}
 
   /// Forgets everything; the next sample is held.
   void reset() noexcept { count_ = 0; }

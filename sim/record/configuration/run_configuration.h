@@ -76,6 +76,9 @@ struct RunConfiguration {
   ChannelTable table;
 };
 
+/// The condition of its trials: the plan's, else the experiment's name.
+inline const std::string& conditionOf(const RunConfiguration& c) { return c.condition.empty() ? c.experimentName : c.condition; }
+
 std::string toJson(const RunConfiguration& configuration);
 /// Throws FaultError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
