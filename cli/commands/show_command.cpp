@@ -24,8 +24,6 @@ struct Options {
   bool json = false;
 };
 
-std::string conditionOf(const record::RunConfiguration& c) { return c.condition.empty() ? c.experimentName : c.condition; }
-
 int countOf(const record::RunLog& log, trial::Outcome outcome) {
   return static_cast<int>(
       std::count_if(log.trials().begin(), log.trials().end(), [&](const auto& trial) { return trial.result.outcome == outcome; }));
@@ -62,7 +60,7 @@ std::string runsTable(const std::vector<record::RunLog>& logs) {
                                               "aborted", "interrupted", "device", "started_utc", "log"}};
   for (const record::RunLog& log : logs) {
     const record::RunConfiguration& c = log.configuration();
-    rows.push_back({c.subject, c.session, std::to_string(c.run), std::to_string(c.block), conditionOf(c),
+    rows.push_back({c.subject, c.session, std::to_string(c.run), std::to_string(c.block), record::conditionOf(c),
                     c.practice ? "practice" : "recorded", std::to_string(log.trials().size()),
                     std::to_string(countOf(log, trial::Outcome::Success)), std::to_string(countOf(log, trial::Outcome::Failure)),
                     std::to_string(countOf(log, trial::Outcome::Aborted)), std::to_string(countOf(log, trial::Outcome::Interrupted)),
@@ -119,7 +117,7 @@ Json runJson(const record::RunLog& log) {
           {"session", c.session},
           {"run", c.run},
           {"block", c.block},
-          {"condition", conditionOf(c)},
+          {"condition", record::conditionOf(c)},
           {"practice", c.practice},
           {"experiment", c.experimentName},
           {"device", c.device},

@@ -10,7 +10,7 @@
 
 #include "base/fault.h"
 #include "base/system/os.h"
-#include "devices/simulated/simulated_hand.h"
+#include "devices/subject/subject_kinds.h"
 
 namespace reachlab::cli {
 namespace {

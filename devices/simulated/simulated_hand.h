@@ -29,8 +29,6 @@ using MakeSubject = std::function<std::unique_ptr<haptics::HapticDevice>(std::ui
 /// What all subjects of that kind share, the plan first of all, is made here, once; any thread may then make hands, several at a time.
 /// Throws FaultError, RefusedError from the plan.
 MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject);
-/// The same for a device as it is asked for, `simulated:KEY=VALUE,…`.
-MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device);
 
 /// Throws FaultError, RefusedError from the plan. Trial i is a function of (seed, i) alone.
 std::unique_ptr<haptics::HapticDevice> makeSimulatedHand(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject,

@@ -5,6 +5,8 @@
 
 namespace reachlab::devices {
 
+/// prepareSubjects for a device as it is asked for, `simulated:KEY=VALUE,…`: of whatever kind that names.
+MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device);
 /// Subjects of `kind=ofc` and of `kind=impedance`, by their options as text (feedback_subject.h, impedance_subject.h). Throw FaultError,
 /// RefusedError.
 MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);

@@ -12,6 +12,7 @@
 #include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
 #include "devices/vendor/force_dimension_api.h"
+#include "devices/virtual/device_model.h"
 
 /// omega, delta, sigma, lambda and the Falcon by the vendor's library. Its calls may wait, so an I/O thread makes them, at most 2 kHz.
 namespace reachlab::devices {

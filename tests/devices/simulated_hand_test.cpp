@@ -10,6 +10,7 @@
 #include "devices/make_device.h"
 #include "devices/simulated/played_hand.h"
 #include "devices/simulated/sampled_plan.h"
+#include "devices/subject/subject_kinds.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"

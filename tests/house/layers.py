@@ -65,7 +65,6 @@ def room_faults(files):
     faults = [f"{room}: {n} files; at most {MAX_FILES}: split the room by idea" for room, n in count.items() if n > MAX_FILES]
     faults += [f"docs/architecture.md: no sentence for {room}" for room in count if str(room) not in stated]
     faults += [f"docs/architecture.md: {room} has no sources" for room in stated if Path(room) not in count]
-    uses[Path("devices/simulated")].discard(Path("devices/subject"))  # to be broken: models of people become a room of sim/
     if ring := rings(uses):
         faults.append("a ring of rooms among " + ", ".join(ring))
     return faults
