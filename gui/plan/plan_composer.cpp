@@ -34,8 +34,6 @@ enum Column { kPlace, kExperiment, kCondition, kTrials, kDay, kKind, kColumns };
 
 QString from(const std::string& text) { return QString::fromStdString(text); }
 
-QString conditionOf(const session::PlanBlock& block) { return from(session::conditionOf(block)); }
-
 QString kindOf(const session::PlanBlock& block) {
   QStringList kinds;
   if (block.practice) kinds << PlanComposer::tr("practice");
@@ -56,7 +54,7 @@ QString orderPreview(const session::Plan& plan, int subjects) {
       const QString label = QStringLiteral("%1").arg(s, 2, 10, QLatin1Char('0'));
       QStringList names;
       for (const int k : session::blockOrder(plan, label.toStdString(), day))
-        names << conditionOf(plan.blocks[static_cast<std::size_t>(k)]).toHtmlEscaped();
+        names << from(conditionOf(plan.blocks[static_cast<std::size_t>(k)])).toHtmlEscaped();
       QString who = plan.counterbalance == session::Counterbalance::None ? PlanComposer::tr("every subject")
                                                                          : PlanComposer::tr("subject %1").arg(label);
       if (day != 0) who += PlanComposer::tr(", day %1").arg(day);
@@ -269,7 +267,7 @@ void PlanComposer::showList(int select) {
   list_->setRowCount(static_cast<int>(plan_.blocks.size()));
   for (int i = 0; i < list_->rowCount(); ++i) {
     const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(i)];
-    const QString texts[] = {QString::number(i + 1),        QFileInfo(from(block.experiment)).completeBaseName(),      conditionOf(block),
+    const QString texts[] = {QString::number(i + 1),        QFileInfo(from(block.experiment)).completeBaseName(),      from(conditionOf(block)),
                              QString::number(block.trials), block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
     for (int column = 0; column < kColumns; ++column) {
       if (list_->item(i, column) == nullptr) list_->setItem(i, column, new QTableWidgetItem);
@@ -322,7 +320,7 @@ void PlanComposer::take() {
   block.foreperiodMax = foreperiodMax_->value();
   block.catchShare = catchShare_->value();
   block.instructions = instructions_->toPlainText().toStdString();
-  const QString texts[] = {QFileInfo(from(block.experiment)).completeBaseName(), conditionOf(block), QString::number(block.trials),
+  const QString texts[] = {QFileInfo(from(block.experiment)).completeBaseName(), from(conditionOf(block)), QString::number(block.trials),
                            block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
   for (int column = 1; column < kColumns; ++column) list_->item(at, column)->setText(texts[column - 1]);
   changed();
