@@ -131,12 +131,8 @@ dynamics::StepStatus stepInHalves(dynamics::Plant& plant, const HandLaw& law, do
   return status;
 }
 
-void simulate(const Request& request) {
-  const experiment::CompiledExperiment compiled = experiment::openExperiment(request.experiment);
-  if (compiled.experiment().hands.size() > 1)
-    throw FaultError(Fault{"hands", fmt::format("are {}, and simulate moves one", compiled.experiment().hands.size()),
-                           fmt::format("one hand; or record it: reach run {} --device A --device B", request.experiment)});
-  experiment::Experiment experiment = compiled.experiment();
+/// The end of the simulation [s].
+double checkedEnd(const Request& request, const experiment::Experiment& experiment) {
   const auto positive = [](double value, const char* option) {
     if (!(value > 0) || !std::isfinite(value))
       throw FaultError(Fault{option, fmt::format("is {} s", value), "a positive number of seconds"});
@@ -150,6 +146,77 @@ void simulate(const Request& request) {
   if (until / request.every > kMostRows || until / request.step > kMaxSteps)
     throw FaultError(Fault{"--until", fmt::format("{} s are too many rows or steps", until),
                            fmt::format("up to {:.0e} rows of --every and {:.0e} steps of --step", kMostRows, kMaxSteps)});
+  return until;
+}
+
+void checkVectors(const Request& request, const std::vector<double>& at, const std::vector<double>& rate, std::size_t coordinates, bool body) {
+  const auto requireCount = [&](const std::vector<double>& values, const char* option) {
+    if (values.size() != coordinates)
+      throw FaultError(
+          Fault{option, fmt::format("has {} numbers", values.size()), fmt::format("{} here, separated by commas", coordinates)});
+  };
+  requireCount(at, "--at");
+  requireCount(rate, "--rate");
+  if (!request.force.empty() && request.force.size() != 3)
+    throw FaultError(Fault{"--force", fmt::format("has {} numbers", request.force.size()), "three, X,Y,Z in N"});
+  if (!request.angularRate.empty() && !body)
+    throw FaultError(Fault{"--angular-rate", "the object does not turn", "for object.kind body only"});
+  if (!request.angularRate.empty() && request.angularRate.size() != 3)
+    throw FaultError(Fault{"--angular-rate", fmt::format("has {} numbers", request.angularRate.size()), "three, X,Y,Z in rad/s"});
+}
+
+struct Simulation {
+  dynamics::Scene& scene;
+  const HandLaw& law;
+  double step;  // [s]
+  bool coupled;
+  int parameters;
+  bool body;
+};
+
+/// Steps from row to row and writes them, until the end or a constraint's end.
+void writeRows(const Request& request, double until, const Simulation& s) {
+  dynamics::Plant& plant = *s.scene.plant;
+  Table table(request.out);
+  writeHeader(table, plant.massCount(), s.parameters, s.body);
+  const auto row = [&](double t) { writeRow(table, plant, t, s.law.function(t), s.coupled, s.parameters, s.body); };
+  row(0);
+  double now = 0;
+  for (const auto [stop, isRow] : makeSchedule(request, until, s.law.breaks)) {
+    if (table.nobodyReads()) return;
+    const double steps = std::max(1.0, std::ceil((stop - now) / s.step * (1 - 1e-9)));
+    double dt = (stop - now) / steps;
+    if (std::abs(dt - s.step) < 1e-9 * s.step) dt = s.step;  // the compiled step, not its rounding
+    const double begin = now;
+    for (double k = 0; k < steps; ++k) {
+      const double t = begin + (stop - begin) * (k / steps);
+      double last = t;
+      const dynamics::StepStatus status = stepInHalves(plant, s.law, t, dt, kMostHalvings, last);
+      if (status == dynamics::StepStatus::Ok) continue;
+      const std::string reason = plant.stopReason();
+      if (status == dynamics::StepStatus::AtEnd || status == dynamics::StepStatus::NoContinuation) {
+        if (last > now) row(last);
+        table.close();
+        std::cerr << fmt::format("stopped at {:.9g} s: {}\n", last, reason.empty() ? std::string(dynamics::describe(status)) : reason);
+        return;
+      }
+      table.close();
+      throw RefusedError(fmt::format("at {:.9g} s the step failed ({}{}{}); try a smaller --step, or --method adaptive", t,
+                                     describe(status), reason.empty() ? "" : ": ", reason));
+    }
+    now = stop;
+    if (isRow) row(stop);
+  }
+  table.close();
+}
+
+void simulate(const Request& request) {
+  const experiment::CompiledExperiment compiled = experiment::openExperiment(request.experiment);
+  if (compiled.experiment().hands.size() > 1)
+    throw FaultError(Fault{"hands", fmt::format("are {}, and simulate moves one", compiled.experiment().hands.size()),
+                           fmt::format("one hand; or record it: reach run {} --device A --device B", request.experiment)});
+  experiment::Experiment experiment = compiled.experiment();
+  const double until = checkedEnd(request, experiment);
   if (!request.method.empty()) experiment.method = request.method;
 
   const constraints::Constraint& constraint = compiled.constraint();
@@ -160,20 +227,8 @@ void simulate(const Request& request) {
   const std::vector<double> at = request.at.empty() ? experiment.task->start : request.at;
   std::vector<double> rate = request.rate;
   if (rate.empty()) rate.assign(coordinates, 0.0);
-  const auto requireCount = [&](const std::vector<double>& values, const char* option) {
-    if (values.size() != coordinates)
-      throw FaultError(
-          Fault{option, fmt::format("has {} numbers", values.size()), fmt::format("{} here, separated by commas", coordinates)});
-  };
-  requireCount(at, "--at");
-  requireCount(rate, "--rate");
-  if (!request.force.empty() && request.force.size() != 3)
-    throw FaultError(Fault{"--force", fmt::format("has {} numbers", request.force.size()), "three, X,Y,Z in N"});
   const bool body = experiment.object.kind == experiment::ObjectKind::Body;
-  if (!request.angularRate.empty() && !body)
-    throw FaultError(Fault{"--angular-rate", "the object does not turn", "for object.kind body only"});
-  if (!request.angularRate.empty() && request.angularRate.size() != 3)
-    throw FaultError(Fault{"--angular-rate", fmt::format("has {} numbers", request.angularRate.size()), "three, X,Y,Z in rad/s"});
+  checkVectors(request, at, rate, coordinates, body);
   if (!experiment.task) experiment.task = experiment::Task{};
   experiment.task->start = at;
   if (experiment.task->target.empty()) experiment.task->target = at;
@@ -189,37 +244,7 @@ void simulate(const Request& request) {
   plant.place(at, rate);
   if (!request.angularRate.empty()) plant.setAngularVelocity({request.angularRate[0], request.angularRate[1], request.angularRate[2]});
   for (const std::string& warning : scene.choice.warnings) std::cerr << "warning: " << warning << '\n';
-
-  Table table(request.out);
-  writeHeader(table, plant.massCount(), parameters, body);
-  writeRow(table, plant, 0, law.function(0), coupled, parameters, body);
-  double now = 0;
-  for (const auto [stop, isRow] : makeSchedule(request, until, law.breaks)) {
-    if (table.nobodyReads()) return;
-    const double steps = std::max(1.0, std::ceil((stop - now) / step * (1 - 1e-9)));
-    double dt = (stop - now) / steps;
-    if (std::abs(dt - step) < 1e-9 * step) dt = step;  // the compiled step, not its rounding
-    const double begin = now;
-    for (double k = 0; k < steps; ++k) {
-      const double t = begin + (stop - begin) * (k / steps);
-      double last = t;
-      const dynamics::StepStatus status = stepInHalves(plant, law, t, dt, kMostHalvings, last);
-      if (status == dynamics::StepStatus::Ok) continue;
-      const std::string reason = plant.stopReason();
-      if (status == dynamics::StepStatus::AtEnd || status == dynamics::StepStatus::NoContinuation) {
-        if (last > now) writeRow(table, plant, last, law.function(last), coupled, parameters, body);
-        table.close();
-        std::cerr << fmt::format("stopped at {:.9g} s: {}\n", last, reason.empty() ? std::string(dynamics::describe(status)) : reason);
-        return;
-      }
-      table.close();
-      throw RefusedError(fmt::format("at {:.9g} s the step failed ({}{}{}); try a smaller --step, or --method adaptive", t,
-                                     describe(status), reason.empty() ? "" : ": ", reason));
-    }
-    now = stop;
-    if (isRow) writeRow(table, plant, stop, law.function(stop), coupled, parameters, body);
-  }
-  table.close();
+  writeRows(request, until, {scene, law, step, coupled, parameters, body});
 }
 
 }  // namespace

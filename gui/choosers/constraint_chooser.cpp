@@ -71,7 +71,17 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   setObjectName(QStringLiteral("constraintChooser"));
   resize(1240, 780);
   auto* columns = new QHBoxLayout(this);
+  columns->addLayout(makeList());
+  columns->addLayout(makePicture(), 1);
+  columns->addWidget(makeSide());
+  wire();
+  fillList();
+  if (!definitions_.empty()) list_->setCurrentRow(0);
+}
 
+ConstraintChooser::~ConstraintChooser() = default;
+
+QVBoxLayout* ConstraintChooser::makeList() {
   auto* left = new QVBoxLayout;
   search_ = new QLineEdit;
   search_->setObjectName(QStringLiteral("search"));
@@ -84,8 +94,10 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   list_->setMinimumWidth(320);
   left->addWidget(search_);
   left->addWidget(list_, 1);
-  columns->addLayout(left);
+  return left;
+}
 
+QVBoxLayout* ConstraintChooser::makePicture() {
   auto* middle = new QVBoxLayout;
   title_ = new QLabel;
   QFont font = title_->font();
@@ -104,9 +116,10 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   middle->addWidget(title_);
   middle->addWidget(sentence_);
   middle->addWidget(preview_, 1);
-  columns->addLayout(middle, 1);
+  return middle;
+}
 
-  auto* right = new QVBoxLayout;
+QWidget* ConstraintChooser::makeSide() {
   auto* side = new QWidget;
   side->setFixedWidth(350);
   auto* sideLayout = new QVBoxLayout(side);
@@ -150,9 +163,10 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   usePoint_->hide();
   sideLayout->addWidget(refusal_);
   sideLayout->addWidget(usePoint_);
-  right->addWidget(side);
-  columns->addLayout(right);
+  return side;
+}
 
+void ConstraintChooser::wire() {
   connect(search_, &QLineEdit::textChanged, this, &ConstraintChooser::filter);
   connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {
     if (row >= 0 && static_cast<std::size_t>(row) < definitions_.size()) show(definitions_[static_cast<std::size_t>(row)], {});
@@ -169,11 +183,7 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
     onePoint.withPoint = true;
     Q_EMIT used(onePoint);
   });
-  fillList();
-  if (!definitions_.empty()) list_->setCurrentRow(0);
 }
-
-ConstraintChooser::~ConstraintChooser() = default;
 
 void ConstraintChooser::fillList() {
   const QSignalBlocker quiet(list_);

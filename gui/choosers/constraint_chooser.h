@@ -10,6 +10,7 @@ class QLabel;
 class QLineEdit;
 class QListWidget;
 class QPushButton;
+class QVBoxLayout;
 
 namespace reachlab::gui::scene {
 class SceneView;
@@ -49,6 +50,10 @@ class ConstraintChooser : public QDialog {
   void used(const reachlab::gui::docks::ConstraintChoice& choice);
 
  private:
+  QVBoxLayout* makeList();
+  QVBoxLayout* makePicture();
+  QWidget* makeSide();
+  void wire();
   void fillList();
   void filter(const QString& words);
   void show(const constraints::Definition& definition, const std::map<std::string, double>& shape);

@@ -28,7 +28,18 @@ namespace reachlab::gui::docks {
 SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStringLiteral("sessionDock"), parent) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
+  layout->addWidget(makeWho());
+  faults()->setObjectName(QStringLiteral("sessionFaults"));
+  layout->addWidget(faults());
+  addRun(*layout);
+  layout->addStretch();
+  setBody(body);
+  wire();
+  clearTally();
+  setStage(Stage::Closed);
+}
 
+QWidget* SessionDock::makeWho() {
   who_ = new QWidget;
   auto* form = new QFormLayout(who_);
   form->setContentsMargins(0, 0, 0, 0);
@@ -59,6 +70,14 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   person->addWidget(sex_);
   person->addWidget(hand_);
   form->addRow(QStringLiteral("person"), person);
+  form->addRow(QStringLiteral("device"), makeDeviceRow());
+  data_ = new QLineEdit;
+  data_->setObjectName(QStringLiteral("data"));
+  form->addRow(QStringLiteral("data in"), data_);
+  return who_;
+}
+
+QHBoxLayout* SessionDock::makeDeviceRow() {
   device_ = new QComboBox;
   device_->setObjectName(QStringLiteral("device"));
   device_->setEditable(true);
@@ -79,21 +98,17 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   hands->addWidget(devices);
   hands->addWidget(new QLabel(QStringLiteral("trials")));
   hands->addWidget(trials_);
-  form->addRow(QStringLiteral("device"), hands);
-  data_ = new QLineEdit;
-  data_->setObjectName(QStringLiteral("data"));
-  form->addRow(QStringLiteral("data in"), data_);
   QString usage;
   for (const devices::DeviceDriver& d : devices::deviceDrivers()) usage += QString::fromStdString(d.usage + ": " + d.description + "\n");
   device_->setToolTip(usage.trimmed());
-  layout->addWidget(who_);
-  faults()->setObjectName(QStringLiteral("sessionFaults"));
-  layout->addWidget(faults());
+  return hands;
+}
 
+void SessionDock::addRun(QVBoxLayout& layout) {
   run_ = new QLabel;
   run_->setProperty("role", "quiet");
   run_->setWordWrap(true);
-  layout->addWidget(run_);
+  layout.addWidget(run_);
 
   next_ = new QPushButton(QStringLiteral("Start  (Space)"));
   next_->setObjectName(QStringLiteral("next"));
@@ -110,7 +125,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   buttons->addWidget(abort_, 0, 1);
   buttons->addWidget(repeat_, 1, 0);
   buttons->addWidget(end_, 1, 1);
-  layout->addLayout(buttons);
+  layout.addLayout(buttons);
   for (auto* button : {next_, abort_, repeat_, end_}) button->setFocusPolicy(Qt::NoFocus);
 
   automatic_ = new QCheckBox(QStringLiteral("next trial by itself after"));
@@ -120,19 +135,19 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   pausing->addWidget(automatic_);
   pausing->addWidget(pause_);
   pausing->addStretch();
-  layout->addLayout(pausing);
+  layout.addLayout(pausing);
 
   tally_ = new QLabel;
   tally_->setObjectName(QStringLiteral("tally"));
   tally_->setWordWrap(true);
-  layout->addWidget(tally_);
+  layout.addWidget(tally_);
   note_ = new QLineEdit;
   note_->setObjectName(QStringLiteral("note"));
   note_->setPlaceholderText(QStringLiteral("note for the record, Enter to keep it"));
-  layout->addWidget(note_);
-  layout->addStretch();
-  setBody(body);
+  layout.addWidget(note_);
+}
 
+void SessionDock::wire() {
   connect(next_, &QPushButton::clicked, this, &SessionDock::nextRequested);
   connect(abort_, &QPushButton::clicked, this, &SessionDock::abortRequested);
   connect(repeat_, &QPushButton::clicked, this, &SessionDock::repeatRequested);
@@ -144,8 +159,6 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
     note_->clear();
   });
   for (QLineEdit* field : {subject_, session_, age_, data_}) connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
-  clearTally();
-  setStage(Stage::Closed);
 }
 
 // What was plugged in or out is offered or not any more; what is typed stays.

@@ -8,11 +8,12 @@
 
 class QCheckBox;
 class QComboBox;
+class QHBoxLayout;
 class QLabel;
 class QLineEdit;
-class QPlainTextEdit;
 class QPushButton;
 class QSpinBox;
+class QVBoxLayout;
 
 namespace reachlab::gui::widgets {
 class UnitSpinBox;
@@ -61,6 +62,10 @@ class SessionDock : public Dock {
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;
 
  private:
+  QWidget* makeWho();
+  QHBoxLayout* makeDeviceRow();
+  void addRun(QVBoxLayout& layout);
+  void wire();
   void check();
   void offerPlugged();
 

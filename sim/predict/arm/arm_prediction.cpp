@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "sim/experiment/experiment.h"
 #include "sim/predict/line/flat_output.h"
 #include "sim/predict/numerics/hyper_dual.h"
 #include "sim/predict/transcription/transcription.h"

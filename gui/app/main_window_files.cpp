@@ -1,0 +1,171 @@
+#include <QCloseEvent>
+#include <QDesktopServices>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMimeData>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include "base/error.h"
+#include "gui/app/main_window.h"
+#include "gui/app/questions.h"
+#include "gui/app/screens.h"
+#include "gui/app/window_layout.h"
+#include "gui/docks/dock.h"
+#include "gui/inspector/inspector.h"
+#include "gui/scene/scene_view.h"
+#include "gui/widgets/message_bar.h"
+#include "sim/dynamics/compiled_scene.h"
+#include "sim/experiment/experiment.h"
+
+// What the window opens, saves and edits.
+namespace reachlab::gui::app {
+
+void MainWindow::openExperiment(const QString& what) {
+  if (isRecorded(what)) return inspect(what);
+  if (!mayEndRun(QStringLiteral("Opening another experiment")) || !mayBeLeft()) return;
+  try {
+    screens_->lookIn(QFileInfo(what).path());
+    const session::Programme opened = session::readProgramme(what.toStdString());
+    for (const experiment::CompiledExperiment& experiment : opened.experiments) (void)dynamics::compileScene(experiment);
+    edits_.open(opened, QStringLiteral("open %1").arg(what));
+    edits_.stack().setClean();
+    file_ = QFileInfo::exists(what) ? what : QString();
+    if (!file_.isEmpty()) rememberFile(file_);
+    message_->say({});
+  } catch (const Error& e) {
+    message_->say(QString::fromUtf8(e.what()));
+  }
+}
+
+inspector::InspectorPage& MainWindow::inspector() {
+  if (inspector_ == nullptr) {
+    inspector_ = new inspector::InspectorPage;
+    pages_->widget(1)->layout()->addWidget(inspector_);
+    connect(inspector_, &inspector::InspectorPage::reported, this,
+            [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
+    connect(inspector_, &inspector::InspectorPage::said, this, [this](const QString& words) { message_->say(words); });
+    connect(inspector_, &inspector::InspectorPage::told, this, [this](const QString& words) { message_->tell(words); });
+  }
+  return *inspector_;
+}
+
+void MainWindow::inspect(const QString& path) {
+  inspector().open(path);
+  if (!inspecting()) switchLayout(WindowLayout::Inspect);
+}
+
+void MainWindow::openFile() {
+  const QString chosen = QFileDialog::getOpenFileName(this, tr("Open experiment, plan or recording"), {},
+                                                      tr("Experiments and plans (*.json);;Recordings (*.reach)"));
+  if (!chosen.isEmpty()) openExperiment(chosen);
+}
+
+void MainWindow::beginNew(const Template& from) {
+  if (!mayEndRun(QStringLiteral("A new experiment")) || !mayBeLeft()) return;
+  file_.clear();
+  edits_.open(session::programmeOf(newExperiment(from)), QStringLiteral("new experiment"));
+}
+
+bool MainWindow::saveExperiment() { return file_.isEmpty() ? saveExperimentAs() : saveTo(file_, session_.experiment()); }
+
+bool MainWindow::saveExperimentAs() {
+  const QString proposed = file_.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : file_;
+  QString file = QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), proposed, QStringLiteral("Experiments (*.json)"));
+  if (file.isEmpty()) return false;
+  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
+  experiment::Experiment named = session_.experiment();
+  named.name = QFileInfo(file).completeBaseName().toStdString();  // or two experiments would be recorded under one name
+  return saveTo(file, named);
+}
+
+bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
+  if (session_.isPlan()) return message_->say(QStringLiteral("A plan is composed and saved by Session plan… (Ctrl+P).")), false;
+  try {
+    writeExperiment(experiment, file);
+    if (experiment.name != session_.experiment().name && session_.run() == nullptr)
+      edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()));
+    file_ = file;
+    rememberFile(file);
+    edits_.stack().setClean();
+    return true;
+  } catch (const Error& e) {
+    message_->say(QString::fromUtf8(e.what()));
+    return false;
+  }
+}
+
+void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what) {
+  experiment::Experiment same = changed;
+  same.text = session_.experiment().text;
+  if (!(same == session_.experiment()) && !mayEndRun(QStringLiteral("A change")))
+    return dock.showExperiment(session_.compiled(), !session_.isPlan());
+  dock.showFaults(edits_.tryEdit(changed, what));
+}
+
+bool MainWindow::mayEndRun(const QString& doing) {
+  session::RecordedRun* run = session_.run();
+  if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;
+  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount());
+}
+
+bool MainWindow::mayBeLeft() {
+  if (edits_.stack().isClean()) return true;
+  switch (askAboutUnsaved(*this, QString::fromStdString(session_.experiment().name))) {
+    case Unsaved::Save: return saveExperiment();
+    case Unsaved::Discard: return true;
+    case Unsaved::Cancel: break;
+  }
+  return false;
+}
+
+void MainWindow::savePicture() {
+  const QImage picture = view_->grabScene();
+  QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), QStringLiteral("scene.png"), tr("PNG (*.png)"));
+  if (file.isEmpty()) return;
+  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
+  if (picture.save(file)) message_->tell(tr("Written: %1").arg(file));
+  else message_->say(tr("%1 cannot be written.").arg(file));
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  event->acceptProposedAction();
+  openExperiment(event->mimeData()->urls().front().toLocalFile());
+}
+
+void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
+  experiment::Experiment changed = session_.experiment();
+  changed.subjectScreen = screen;
+  if (!mayEndRun(tr("Another picture for the subject"))) return;
+  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty())
+    message_->say(faults.join(QLatin1Char('\n')));
+}
+
+void MainWindow::setLook(const experiment::SceneLook& look) {
+  if (look == this->look() || !mayEndRun(tr("Another look of the scene"))) return;
+  const QStringList faults = edits_.tryEdit(experiment::withLook(session_.experiment(), look), tr("look of the scene"));
+  if (!faults.isEmpty()) message_->say(faults.join(QLatin1Char('\n')));
+}
+
+void MainWindow::rememberView(const QString& name) {
+  const scene::Camera& c = view_->camera();
+  experiment::SceneLook changed = look();
+  std::erase_if(changed.cameras, [&](const experiment::NamedCamera& known) { return known.name == name.toStdString(); });
+  changed.cameras.push_back({name.toStdString(), c.position, c.focus, c.up, c.angle, c.parallel});
+  setLook(changed);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!mayEndRun(QStringLiteral("Closing the window")) || !mayBeLeft()) return event->ignore();
+  rememberLayout(*this, layout_);
+  session_.endRun();  // an unfinished trial is kept as interrupted
+  screens_->closeSubject();
+  QMainWindow::closeEvent(event);
+}
+
+}  // namespace reachlab::gui::app
