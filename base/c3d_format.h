@@ -1,0 +1,13 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+/// What writer and reader of C3D files agree on.
+namespace reachlab::c3d {
+
+inline constexpr std::size_t kBlock = 512;
+inline constexpr std::size_t kMostLabels = 255;  // of one parameter: its dimensions are bytes
+inline constexpr std::uint16_t kEventKey = 12345;
+inline constexpr unsigned char kMagic = 0x50, kIntel = 84, kDec = 85, kMips = 86;
+
+}  // namespace reachlab::c3d

@@ -1,0 +1,221 @@
+#include "base/c3d_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "base/c3d_format.h"
+#include "base/fault.h"
+
+namespace reachlab {
+
+using namespace c3d;
+
+namespace {
+
+void put16(std::string& out, std::size_t value) {
+  out += static_cast<char>(value & 0xff);
+  out += static_cast<char>((value >> 8) & 0xff);
+}
+void putFloat(std::string& out, float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>((bits >> shift) & 0xff);
+}
+
+// The parameter section: groups, each followed by its parameters.
+class Parameters {
+ public:
+  void group(const std::string& name, const std::string& description) {
+    ++group_;
+    begin(name, -group_, 2 + 1 + description.size());
+    tail(description);
+  }
+  void word(const std::string& name, std::size_t value) {
+    open(name, 2, {}, 2, "");
+    put16(text_, value);
+    tail("");
+  }
+  void words(const std::string& name, const std::vector<std::size_t>& values, const std::string& description = "") {
+    open(name, 2, {values.size()}, 2 * values.size(), description);
+    for (const std::size_t value : values) put16(text_, value);
+    tail(description);
+  }
+  void floats(const std::string& name, const std::vector<float>& values, const std::vector<std::size_t>& dimensions,
+              const std::string& description = "") {
+    open(name, 4, dimensions, 4 * values.size(), description);
+    for (const float value : values) putFloat(text_, value);
+    tail(description);
+  }
+  void text(const std::string& name, const std::string& value) {
+    const std::string cut = value.empty() ? " " : value.substr(0, kMostLabels);
+    open(name, -1, {cut.size()}, cut.size(), "");
+    text_ += cut;
+    tail("");
+  }
+  // Texts of equal length, padded; beyond 255 of them in NAME2, NAME3 …
+  void texts(const std::string& name, const std::vector<std::string>& values) {
+    std::size_t width = 1;
+    for (const std::string& value : values) width = std::max(width, std::min<std::size_t>(value.size(), 127));
+    std::size_t first = 0, part = 1;
+    do {
+      const std::size_t count = std::min(values.size() - first, kMostLabels);
+      open(part == 1 ? name : name + std::to_string(part), -1, {width, count}, width * count, "");
+      for (std::size_t i = 0; i < count; ++i) {
+        std::string value = values[first + i].substr(0, width);
+        value.resize(width, ' ');
+        text_ += value;
+      }
+      tail("");
+      first += count;
+      ++part;
+    } while (first < values.size());
+  }
+  // Whole blocks with their header; the record without a name ends them.
+  std::string section() {
+    std::string whole{1, kMagic, 0, static_cast<char>(kIntel)};
+    whole += text_;
+    whole += std::string(2, '\0');
+    whole.resize((whole.size() + kBlock - 1) / kBlock * kBlock, '\0');
+    if (whole.size() / kBlock > 255) throw FaultError(Fault{.what = "a C3D file cannot hold the names of so many points and channels"});
+    whole[2] = static_cast<char>(whole.size() / kBlock);
+    return whole;
+  }
+
+ private:
+  // `follows`: bytes from the offset, itself included, to the next record.
+  void begin(const std::string& name, int id, std::size_t follows) {
+    text_ += static_cast<char>(name.size());
+    text_ += static_cast<char>(id);
+    text_ += name;
+    put16(text_, follows);
+  }
+  void open(const std::string& name, int type, const std::vector<std::size_t>& dimensions, std::size_t bytes,
+            const std::string& description) {
+    begin(name, group_, 2 + 1 + 1 + dimensions.size() + bytes + 1 + description.size());
+    text_ += static_cast<char>(type);
+    text_ += static_cast<char>(dimensions.size());
+    for (const std::size_t size : dimensions) text_ += static_cast<char>(size);
+  }
+  void tail(const std::string& description) {
+    text_ += static_cast<char>(description.size());
+    text_ += description;
+  }
+  std::string text_;
+  int group_ = 0;
+};
+
+std::vector<std::string> each(const std::vector<C3dLabel>& labels, std::string C3dLabel::*member) {
+  std::vector<std::string> values;
+  for (const C3dLabel& label : labels) values.push_back(label.*member);
+  return values;
+}
+
+std::string parametersOf(const C3dFile& file, std::size_t dataBlock) {
+  Parameters p;
+  const std::vector<std::size_t> last{file.frames & 0xffff, file.frames >> 16};
+  const auto rate = static_cast<float>(file.rate);
+  p.group("POINT", "3D points");
+  p.word("USED", file.points.size());
+  p.floats("SCALE", {-1}, {}, "negative: floating point");
+  p.floats("RATE", {rate}, {}, "frames a second");
+  p.word("DATA_START", dataBlock);
+  p.word("FRAMES", std::min<std::size_t>(file.frames, 0xffff));
+  p.texts("LABELS", each(file.points, &C3dLabel::name));
+  p.texts("DESCRIPTIONS", each(file.points, &C3dLabel::description));
+  p.texts("UNITS", {file.pointUnit});
+  p.text("X_SCREEN", "+X");
+  p.text("Y_SCREEN", "+Y");
+  p.group("ANALOG", "signals");
+  p.word("USED", file.analogs.size());
+  p.texts("LABELS", each(file.analogs, &C3dLabel::name));
+  p.texts("DESCRIPTIONS", each(file.analogs, &C3dLabel::description));
+  p.texts("UNITS", each(file.analogs, &C3dLabel::unit));
+  p.floats("GEN_SCALE", {1}, {});
+  // A scale and an offset a channel, in parts as the labels are.
+  std::size_t first = 0, part = 1;
+  do {
+    const std::size_t count = std::min(file.analogs.size() - first, kMostLabels);
+    const std::string number = part == 1 ? "" : std::to_string(part);
+    p.floats("SCALE" + number, std::vector<float>(count, 1.0f), {count});
+    p.words("OFFSET" + number, std::vector<std::size_t>(count, 0));
+    first += count;
+    ++part;
+  } while (first < file.analogs.size());
+  p.floats("RATE", {rate}, {}, "samples a second");
+  p.group("FORCE_PLATFORM", "none");
+  p.word("USED", 0);
+  p.group("TRIAL", "what the header cannot count");
+  p.words("ACTUAL_START_FIELD", {1, 0}, "first frame: low, high word");
+  p.words("ACTUAL_END_FIELD", last, "last frame: low, high word");
+  p.group("EVENT", "");
+  p.word("USED", file.events.size());
+  if (!file.events.empty()) {
+    std::vector<std::string> labels;
+    std::vector<float> times;
+    for (const C3dEvent& event : file.events) {
+      labels.push_back(event.label);
+      const double minutes = std::floor(event.time / 60);
+      times.push_back(static_cast<float>(minutes));
+      times.push_back(static_cast<float>(event.time - 60 * minutes));
+    }
+    p.texts("CONTEXTS", std::vector<std::string>(file.events.size(), "General"));
+    p.texts("LABELS", labels);
+    p.floats("TIMES", times, {2, file.events.size()}, "minutes, seconds");
+  }
+  p.group("REACHLAB", "what was recorded");
+  for (const auto& [name, value] : file.notes) p.text(name, value);
+  return p.section();
+}
+
+std::string headerOf(const C3dFile& file, std::size_t dataBlock) {
+  std::string h;
+  h += '\x02';
+  h += static_cast<char>(kMagic);
+  put16(h, file.points.size());
+  put16(h, file.analogs.size());
+  put16(h, 1);
+  put16(h, std::min<std::size_t>(file.frames, 0xffff));
+  put16(h, 0);
+  putFloat(h, -1);
+  put16(h, dataBlock);
+  put16(h, file.analogs.empty() ? 0 : 1);
+  putFloat(h, static_cast<float>(file.rate));
+  h.resize(2 * 149, '\0');
+  put16(h, kEventKey);
+  const std::size_t events = std::min<std::size_t>(file.events.size(), 18);
+  put16(h, events);
+  put16(h, 0);
+  for (std::size_t i = 0; i < 18; ++i) putFloat(h, i < events ? static_cast<float>(file.events[i].time) : 0);
+  for (std::size_t i = 0; i < 18; ++i) h += i < events ? '\x01' : '\0';  // shown
+  put16(h, 0);
+  for (std::size_t i = 0; i < 18; ++i) {
+    std::string label = i < events ? file.events[i].label.substr(0, 4) : "";
+    label.resize(4, ' ');
+    h += label;
+  }
+  h.resize(kBlock, '\0');
+  return h;
+}
+
+}  // namespace
+
+std::string c3dBytes(const C3dFile& file) {
+  if (file.points.size() > 0xffff || file.analogs.size() > 0xffff || file.frames > 0x7fffffff)
+    throw FaultError(Fault{.what = "a C3D file holds 65535 points and channels, and 2147483647 frames at most"});
+  // The parameters say where the data begin, which hangs on their own length: that of a word does not.
+  const std::size_t dataBlock = 2 + parametersOf(file, 0).size() / kBlock;
+  std::string out = headerOf(file, dataBlock) + parametersOf(file, dataBlock);
+  out.reserve(out.size() + file.frames * 4 * (4 * file.points.size() + file.analogs.size()) + kBlock);
+  for (std::size_t frame = 0; frame < file.frames; ++frame) {
+    for (std::size_t i = frame * file.points.size(); i < (frame + 1) * file.points.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) putFloat(out, file.seen[i] != 0 ? file.places[3 * i + k] : 0);
+      putFloat(out, file.seen[i] != 0 ? 0 : -1);  // residual and cameras: nobody measured them
+    }
+    for (std::size_t i = frame * file.analogs.size(); i < (frame + 1) * file.analogs.size(); ++i) putFloat(out, file.signals[i]);
+  }
+  out.resize((out.size() + kBlock - 1) / kBlock * kBlock, '\0');
+  return out;
+}
+
+}  // namespace reachlab
