@@ -8,6 +8,7 @@
 #include "constraints/constraint.h"
 #include "devices/make_device.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/record/log/recorder.h"
 #include "sim/session/session_folder.h"

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analysis/study.h"
+#include "sim/experiment/experiment.h"
 
 /// Trials made of a prediction with the usual human scatter, so that the truth is known.
 namespace reachlab::analysis {

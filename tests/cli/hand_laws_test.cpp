@@ -12,6 +12,7 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "tests/cli/program.h"
+#include "tests/refusal.h"
 
 namespace reachlab::cli {
 namespace {
@@ -31,12 +32,7 @@ HandLaw lawOf(const std::string& name, const experiment::CompiledExperiment& e) 
 }
 
 std::string refusalOf(const std::string& name, const experiment::CompiledExperiment& e) {
-  try {
-    (void)lawOf(name, e);
-    return "made";
-  } catch (const Error& refusal) {
-    return refusal.what();
-  }
+  return reachlab::refusalOf([&] { (void)lawOf(name, e); });
 }
 
 double minimumJerkAt(double s) { return s * s * s * (10 - 15 * s + 6 * s * s); }
@@ -104,13 +100,13 @@ TEST(HandLaw, SaysWhatItsTaskLacks) {
             "--hand min-jerk-along: start and target are the same place on the curve");
   EXPECT_EQ(refusalOf("min-jerk-along", experiment::openExperiment("torus")),
             "--hand min-jerk-along follows a curve; on a surface use min-jerk");
-  EXPECT_EQ(refusalOf("min-jerk", experiment::openExperiment("torus")), "made");
+  EXPECT_EQ(refusalOf("min-jerk", experiment::openExperiment("torus")), "");
   experiment::Experiment without = experiment::readExperiment("chain-moderate");
   without.task.reset();
   for (const char* name : {"hold", "min-jerk", "min-jerk-along"})
     EXPECT_EQ(refusalOf(name, experiment::CompiledExperiment(without)),
               "--hand " + std::string(name) + " needs the experiment's task (start, target, duration_s)");
-  EXPECT_EQ(refusalOf("none", experiment::CompiledExperiment(without)), "made");
+  EXPECT_EQ(refusalOf("none", experiment::CompiledExperiment(without)), "");
   EXPECT_EQ(refusalOf("fly", pointOn(kLine, "[0]", "[1]")),
             "--hand: fly cannot be read; allowed: none, hold, min-jerk, min-jerk-along, or a CSV file");
 }

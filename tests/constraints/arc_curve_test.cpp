@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "constraints/geometry/arc_length.h"
+#include "tests/refusal.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -22,12 +23,7 @@ Constraint typed(const std::string& x, const std::string& y, const std::string& 
 Constraint named(const std::string& name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); }
 
 std::string refusal(const Constraint& curve, double start, double target, Along along = Along::ArcLength) {
-  try {
-    (void)ArcCurve(curve, start, target, along);
-  } catch (const RefusedError& error) {
-    return error.what();
-  }
-  return "";
+  return reachlab::refusalOf([&] { (void)ArcCurve(curve, start, target, along); });
 }
 std::string refusedFor(const std::string& what, const std::string& phi) {
   return "the curve has " + what + " at phi = " + phi +

@@ -11,6 +11,7 @@
 
 #include "base/fault.h"
 #include "constraints/regularity/analysis.h"
+#include "tests/refusal.h"
 
 /// What a definition may hold, and the words that refuse it.
 namespace reachlab::constraints {
@@ -35,12 +36,7 @@ const std::string kSurface = R"j({"schema_version": 1, "name": "own-tube", "kind
 "start": [7, 0.5], "target": [1, 2], "sentence": "A tube.", "source": "by hand"})j";
 
 std::string refusal(const std::string& text) {
-  try {
-    (void)parseDefinition(text, "d");
-  } catch (const FaultError& error) {
-    return error.what();
-  }
-  return "";
+  return reachlab::refusalOf([&] { (void)parseDefinition(text, "d"); });
 }
 std::string curveWith(const std::string& from, const std::string& to) { return refusal(replaced(kCurve, from, to)); }
 std::string surfaceWith(const std::string& from, const std::string& to) { return refusal(replaced(kSurface, from, to)); }
@@ -258,12 +254,7 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
 }
 
 std::string refusalOf(const ConstraintSpec& spec) {
-  try {
-    (void)makeConstraint(spec, "c");
-  } catch (const FaultError& error) {
-    return error.what();
-  }
-  return "";
+  return reachlab::refusalOf([&] { (void)makeConstraint(spec, "c"); });
 }
 ConstraintSpec typed(const std::vector<std::string>& curve, const std::map<std::string, double>& shape = {}) {
   return {.name = {}, .curve = curve, .surface = {}, .shape = shape};

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "devices/driver/registry.h"
 #include "devices/make_device.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::devices {
 

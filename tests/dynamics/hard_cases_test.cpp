@@ -8,6 +8,7 @@
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::dynamics {
 namespace {
@@ -93,12 +94,7 @@ TEST(HardCases, WhatHasNoMotionIsRefusedInWords) {
 }
 
 std::string refusalOf(const experiment::Experiment& e) {
-  try {
-    (void)compileScene(e);
-  } catch (const RefusedError& refused) {
-    return refused.what();
-  }
-  return "";
+  return reachlab::refusalOf([&] { (void)compileScene(e); });
 }
 
 TEST(HardCases, ALineThatHasNoPlaceAtTheStartIsRefused) {

@@ -18,6 +18,7 @@
 #include "base/fault.h"
 #include "sim/record/log/foreign_file.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -26,16 +27,6 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinter
 
 const std::string kTooLarge =
     "its disk or a limit of this process (ulimit -f) allows no larger file: choose another disk or raise the limit";
-
-template <typename Work>
-std::string refusalOf(const Work& work) {
-  try {
-    work();
-    return "done";
-  } catch (const Error& refusal) {
-    return refusal.what();
-  }
-}
 
 // As long as it is there, no file of this program grows beyond so many bytes.
 class FileLimit {

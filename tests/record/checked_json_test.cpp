@@ -6,21 +6,13 @@
 #include <string>
 
 #include "base/fault.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
 
 using nlohmann::json;
 
-template <typename Read>
-std::string refusalOf(const Read& read) {
-  try {
-    read();
-    return "read";
-  } catch (const FaultError& refusal) {
-    return refusal.what();
-  }
-}
 
 TEST(CheckedJson, AMemberMustBeThereInAnObject) {
   EXPECT_EQ(memberOf(json{{"a", 5}}, "a"), 5);
@@ -43,7 +35,7 @@ TEST(CheckedJson, AWholeNumberMayBeTheLargestThereIs) {
   const json largest{{"n", std::int64_t{INT64_MAX}}}, larger{{"n", std::uint64_t{INT64_MAX} + 1}};
   EXPECT_EQ(wholeOf(largest, "n", INT64_MIN, INT64_MAX), INT64_MAX);
   EXPECT_EQ(wholeOf(json{{"n", std::uint64_t{INT64_MAX}}}, "n", INT64_MIN, INT64_MAX), INT64_MAX);
-  EXPECT_NE(refusalOf([&] { wholeOf(larger, "n", INT64_MIN, INT64_MAX); }), "read") << "not as a number below 0";
+  EXPECT_NE(refusalOf([&] { wholeOf(larger, "n", INT64_MIN, INT64_MAX); }), "") << "not as a number below 0";
 }
 
 TEST(CheckedJson, ASeedIsAnyNumberOf64Bits) {

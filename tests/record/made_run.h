@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/log.h"
 #include "sim/record/log/recorder.h"
 #include "sim/record/log/run_log.h"

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/table_text.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/trial_row.h"
 #include "sim/record/log/append_file.h"
