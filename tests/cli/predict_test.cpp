@@ -40,27 +40,38 @@ TEST(Predict, GivesThePublishedNumbers) {
 }
 
 TEST(Predict, WritesEquallySpacedRowsFromRestToRest) {
-  const Ended ended = reach("predict chain-moderate --criterion min-hand-jerk");
+  const Ended ended = reach("predict parallel --criterion min-hand-jerk");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("time_s,hand_m,hand_m_per_s,hand_m_per_s2,mass1_m,mass1_m_per_s,mass2_m,mass2_m_per_s\n"));
   const Table table = parseCsv(ended.out);
   ASSERT_EQ(table.rows.size(), 201u);
-  EXPECT_EQ(table.header[0], "time_s");
-  EXPECT_EQ(table.header[1], "hand_m");
-  EXPECT_EQ(table.header[4], "mass1_m");
+  for (std::size_t i = 0; i < 201; ++i) EXPECT_NEAR(table.at(i, "time_s"), 2.5 / 200 * static_cast<double>(i), 1e-12) << i;
   EXPECT_NEAR(table.at(0, "hand_m"), 0, 1e-12);
   EXPECT_NEAR(table.at(200, "hand_m"), 0.2, 1e-12);
-  EXPECT_NEAR(table.at(200, "mass5_m"), 0.2, 1e-12);
-  EXPECT_NEAR(table.at(200, "time_s"), 1.35, 1e-15);
+  EXPECT_NEAR(table.at(200, "mass2_m"), 0.2, 1e-12);
 }
 
-TEST(Predict, TravelTimeIsNullForParallel) {
-  EXPECT_TRUE(Json::parse(reach("predict parallel --criterion min-hand-jerk --json").out).at("travel_time_s").is_null());
-  EXPECT_NEAR(Json::parse(reach("predict chain-fast --criterion min-hand-jerk --json").out).at("travel_time_s").get<double>(),
-              2 * 5 * std::sqrt(0.6 / 600), 1e-12);
+TEST(Predict, SaysNullWhereAPulseOrAParallelObjectLeavesNoNumber) {
+  const auto numbers = [](const std::string& what) { return Json::parse(reach("predict " + what + " --json").out); };
+  const Json pulse = numbers("dingwell --criterion min-hand-force");
+  EXPECT_TRUE(pulse.at("hand_jump_m_per_s").is_null());
+  EXPECT_GT(pulse.at("hand_jump_m").get<double>(), 0.016);
+  EXPECT_TRUE(numbers("parallel --criterion min-hand-jerk").at("travel_time_s").is_null());
+  EXPECT_NEAR(numbers("chain-fast --criterion min-hand-jerk").at("travel_time_s").get<double>(), 2 * 5 * std::sqrt(0.6 / 600), 1e-12);
 }
 
-TEST(Predict, SweepsOneKey) {
-  const Ended ended = reach("predict chain-moderate --criterion min-hand-jerk --sweep duration_s=0.5:1.5:0.25");
+TEST(Predict, SweepsAFamily) {
+  const Ended ended = reach("predict dingwell --criterion min-hand-jerk --sweep duration_s=0.5:3:0.5");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  EXPECT_EQ(parseCsv(ended.out).rows.size(), 5u);
+  const Table table = parseCsv(ended.out);
+  ASSERT_EQ(table.rows.size(), 6u);
+  EXPECT_TRUE(ended.out.starts_with("duration_s,cost,hand_peak_m_p"));
+  EXPECT_EQ(table.at(5, "duration_s"), 3);
+}
+
+TEST(Predict, RefusesWithTheAgreedNumbers) {
+  EXPECT_EQ(reach("predict chain-moderate --criterion min-effort").exitCode, 2);
+  EXPECT_EQ(reach("predict nowhere --criterion min-hand-jerk").exitCode, 2);
+  EXPECT_EQ(reach("predict chain-moderate --criterion min-hand-jerk --duration 0.02").exitCode, 4);
+  EXPECT_EQ(reach("predict chain-moderate --criterion min-hand-jerk --sweep nothing=1:2:1").exitCode, 2);
 }

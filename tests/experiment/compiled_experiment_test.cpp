@@ -45,30 +45,5 @@ TEST(CompiledExperiment, ACopySharesBothParts) {
   EXPECT_EQ(&one.constraint(), &other.constraint());
 }
 
-TEST(Experiment, IsEqualToItselfAndToNothingThatDiffersInOneKey) {
-  const Experiment e = readExperiment("chain-moderate");
-  EXPECT_EQ(e, readExperiment("chain-moderate"));
-  const auto differs = [&](auto change) {
-    Experiment other = e;
-    change(other);
-    return other != e;
-  };
-  EXPECT_TRUE(differs([](Experiment& o) { o.name = "x"; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.object.masses[4] = 0.7; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.object.gravity.y = -9.81; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.coupling.reset(); }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.coupling->damping = 1; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.task->tolerance.time = 0.4; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.task->target[0] = 6; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.constraint.shape["length_m"] = 0.3; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.arm.elbowLeft = true; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.forceLimit = 3; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.method = "rk4"; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.timing.maxMissedTicks = 6; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.timing.maxGap = 0.03; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.velocityEstimator.cutoff = 41; }));
-  EXPECT_TRUE(differs([](Experiment& o) { o.text += " "; }));
-}
-
 }  // namespace
 }  // namespace reachlab::experiment
