@@ -5,9 +5,7 @@
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
-#include <qwt_plot_grid.h>
 #include <qwt_plot_intervalcurve.h>
-#include <qwt_plot_layout.h>
 #include <qwt_plot_magnifier.h>
 #include <qwt_plot_marker.h>
 #include <qwt_plot_panner.h>
@@ -59,7 +57,6 @@ std::unique_ptr<QwtPlotMarker> makeMark(QwtPlot& plot, const QColor& colour, Qt:
 
 struct ProfilePlot::Impl {
   QwtPlot* plot = nullptr;
-  std::unique_ptr<QwtPlotGrid> grid;
   std::unique_ptr<QwtPlotIntervalCurve> band;
   std::unique_ptr<QwtPlotCurve> mean, picked;
   std::unique_ptr<QwtPlotMarker> cursor, onset, end;
@@ -97,23 +94,13 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
   layout->setContentsMargins(4, 2, 4, 2);
   auto* plot = impl_->plot = new QwtPlot(this);
   layout->addWidget(plot);
-  auto* canvas = new QwtPlotCanvas(plot);
-  canvas->setFrameStyle(QFrame::NoFrame);
-  canvas->setAutoFillBackground(true);
-  QPalette palette = canvas->palette();
-  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
-  canvas->setPalette(palette);
+  auto* canvas = gui::plot::dress(*plot);
   canvas->installEventFilter(this);
-  plot->setCanvas(canvas);
-  plot->plotLayout()->setAlignCanvasToScales(true);
   for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) {
     QFont font;
     font.setPointSizeF(9.5);
     plot->setAxisFont(axis, font);
   }
-  impl_->grid = std::make_unique<QwtPlotGrid>();
-  impl_->grid->setPen(QPen(widgets::ink(26), 0));
-  impl_->grid->attach(plot);
   impl_->band = std::make_unique<QwtPlotIntervalCurve>(tr("± SD"));
   impl_->band->setBrush(widgets::ink(34));
   impl_->band->setPen(QPen(Qt::NoPen));

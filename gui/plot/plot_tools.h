@@ -2,6 +2,9 @@
 // What every plot of the window can do. For files that are compiled with Qwt's headers (gui/CMakeLists.txt).
 #include <qwt_global.h>
 #include <qwt_plot.h>
+#include <qwt_plot_canvas.h>
+#include <qwt_plot_grid.h>
+#include <qwt_plot_layout.h>
 #include <qwt_plot_renderer.h>
 #include <qwt_plot_zoomer.h>
 #include <qwt_text.h>
@@ -24,6 +27,22 @@ inline QwtText axisTitle(const QString& text) {
   title.setFont(font);
   title.setColor(widgets::toQColor(widgets::colours::kFaintText));
   return title;
+}
+
+/// The canvas and the grid of a plot, in the theme's colours; both go with the plot.
+inline QwtPlotCanvas* dress(QwtPlot& plot) {
+  auto* canvas = new QwtPlotCanvas(&plot);
+  canvas->setFrameStyle(QFrame::NoFrame);
+  canvas->setAutoFillBackground(true);
+  QPalette palette = canvas->palette();
+  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
+  canvas->setPalette(palette);
+  plot.setCanvas(canvas);
+  plot.plotLayout()->setAlignCanvasToScales(true);
+  auto* grid = new QwtPlotGrid;
+  grid->setPen(QPen(widgets::ink(26), 0));
+  grid->attach(&plot);
+  return canvas;
 }
 
 /// A drag zooms in, a right click back; the pointer's place in the axes' units stands beside it.

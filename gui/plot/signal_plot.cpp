@@ -5,8 +5,6 @@
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
-#include <qwt_plot_grid.h>
-#include <qwt_plot_layout.h>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -37,7 +35,6 @@ struct SignalPlot::Impl {
   int head = 0, count = 0;  // where the next point goes, how many there are
   bool changed = false;
   QwtPlot* plot = nullptr;
-  std::unique_ptr<QwtPlotGrid> grid;
   std::array<std::unique_ptr<QwtPlotCurve>, kLines> curves;
   Zoomer* zoomer = nullptr;
   QComboBox *quantity = nullptr, *watched = nullptr;
@@ -69,17 +66,7 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   layout->addLayout(row);
   auto* plot = d.plot = new QwtPlot;
   layout->addWidget(plot, 1);
-  auto* canvas = new QwtPlotCanvas(plot);
-  canvas->setFrameStyle(QFrame::NoFrame);
-  canvas->setAutoFillBackground(true);
-  QPalette palette = canvas->palette();
-  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
-  canvas->setPalette(palette);
-  plot->setCanvas(canvas);
-  plot->plotLayout()->setAlignCanvasToScales(true);
-  d.grid = std::make_unique<QwtPlotGrid>();
-  d.grid->setPen(QPen(widgets::ink(26), 0));
-  d.grid->attach(plot);
+  auto* canvas = dress(*plot);
   for (int i = 0; i < kLines; ++i) {
     auto& curve = d.curves[static_cast<std::size_t>(i)];
     curve = std::make_unique<QwtPlotCurve>();

@@ -5,8 +5,6 @@
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
-#include <qwt_plot_grid.h>
-#include <qwt_plot_layout.h>
 #include <qwt_plot_marker.h>
 #include <qwt_plot_zoneitem.h>
 #include <qwt_scale_widget.h>
@@ -45,7 +43,6 @@ struct VelocityPlot::Impl {
   QwtPlot* plot = nullptr;
   std::unique_ptr<QwtPlotZoneItem> band;
   std::unique_ptr<QwtPlotMarker> goal;
-  std::unique_ptr<QwtPlotGrid> grid;
   std::unique_ptr<QwtPlotCurve> hand, last, handBefore, lastBefore;
   std::vector<std::unique_ptr<QwtPlotCurve>> predictions;
   Zoomer* zoomer = nullptr;
@@ -124,14 +121,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   layout->addLayout(row);
   auto* plot = impl_->plot = new QwtPlot(this);
   layout->addWidget(plot, 1);
-  auto* canvas = new QwtPlotCanvas(plot);
-  canvas->setFrameStyle(QFrame::NoFrame);
-  canvas->setAutoFillBackground(true);
-  QPalette palette = canvas->palette();
-  palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
-  canvas->setPalette(palette);
-  plot->setCanvas(canvas);
-  plot->plotLayout()->setAlignCanvasToScales(true);
+  auto* canvas = dress(*plot);
   plot->setAxisTitle(QwtPlot::xBottom, axisTitle(QStringLiteral("time since onset [s]")));
   plot->setAxisTitle(QwtPlot::yLeft, axisTitle(QStringLiteral("velocity [m/s]")));
   for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) {
@@ -139,9 +129,6 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
     font.setPointSizeF(9.5);
     plot->setAxisFont(axis, font);
   }
-  impl_->grid = std::make_unique<QwtPlotGrid>();
-  impl_->grid->setPen(QPen(widgets::ink(26), 0));
-  impl_->grid->attach(plot);
   impl_->band = std::make_unique<QwtPlotZoneItem>();
   impl_->band->setOrientation(Qt::Vertical);
   QColor green = widgets::toQColor(widgets::colours::kGreen);
