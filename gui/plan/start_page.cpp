@@ -16,7 +16,7 @@ namespace {
 enum Column { kPlace, kCondition, kTrials, kState, kColumns };
 constexpr int kMostRows = 9;
 
-QString stateOf(const session::BlockStanding& block) {
+QString stateOf(const session::BlockProgress& block) {
   QString text = block.complete() ? StartPage::tr("✓ done") : block.begun() ? StartPage::tr("broken off") : StartPage::tr("to do");
   if (block.practice) text += StartPage::tr(", practice");
   if (block.restSeconds > 0 && !block.complete()) text += StartPage::tr(", after %1 s of rest").arg(block.restSeconds);
@@ -94,18 +94,18 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
 }
 
 void StartPage::show(const Shown& shown) {
-  const session::SessionStanding& standing = shown.standing;
+  const session::SessionProgress& progress = shown.progress;
   title_->setText(tr("Session plan: %1").arg(shown.plan));
   if (!subject_->hasFocus()) subject_->setText(shown.subject);
   if (!session_->hasFocus()) session_->setText(shown.session);
-  resumes_ = shown.fault.isEmpty() && standing.begun() && !standing.complete();
-  QString summary = tr("%1 of %2 blocks done").arg(standing.blocksDone()).arg(standing.blocks.size());
+  resumes_ = shown.fault.isEmpty() && progress.begun() && !progress.complete();
+  QString summary = tr("%1 of %2 blocks done").arg(progress.blocksDone()).arg(progress.blocks.size());
   if (shown.day > 0) summary = tr("day %1   ").arg(shown.day) + summary;
   summary_->setText(shown.fault.isEmpty() ? summary : QString());
-  blocks_->setRowCount(static_cast<int>(standing.blocks.size()));
-  const session::BlockStanding* next = nullptr;
+  blocks_->setRowCount(static_cast<int>(progress.blocks.size()));
+  const session::BlockProgress* next = nullptr;
   for (int i = 0; i < blocks_->rowCount(); ++i) {
-    const session::BlockStanding& block = standing.blocks[static_cast<std::size_t>(i)];
+    const session::BlockProgress& block = progress.blocks[static_cast<std::size_t>(i)];
     if (next == nullptr && !block.complete()) next = &block;
     const QString texts[] = {QString::number(block.block), QString::fromStdString(block.condition),
                              QStringLiteral("%1 / %2").arg(block.done).arg(block.trials), stateOf(block)};

@@ -1,7 +1,7 @@
 #pragma once
 #include <QFrame>
 
-#include "sim/session/standing.h"
+#include "sim/session/session_progress.h"
 
 class QLabel;
 class QLineEdit;
@@ -11,7 +11,7 @@ class QTableWidget;
 namespace reachlab::gui::plan {
 
 /// What stands over the scene before a session's run is opened: who, which day, which blocks are done and which are to do, and how it goes
-/// on. Knows a standing, not the session.
+/// on. Knows the progress, not the session.
 class StartPage : public QFrame {
   Q_OBJECT
  public:
@@ -19,7 +19,7 @@ class StartPage : public QFrame {
   struct Shown {
     QString plan, subject, session;
     int day = 0;  // 0: the plan has none
-    session::SessionStanding standing;
+    session::SessionProgress progress;
     QString fault;  // why nothing can be begun; empty: it can
   };
   void show(const Shown& shown);

@@ -50,7 +50,7 @@ void PlanPages::refresh() {
   what.subject = QString::fromStdString(request.place.subject);
   what.session = QString::fromStdString(request.place.session);
   try {
-    what.standing = session::standingOf(request, session_.programme());
+    what.progress = session::progressOf(request, session_.programme());
     for (const session::PlanBlock& block : plan.blocks)
       if (block.day != 0) what.day = session::sessionDay(request, plan);
   } catch (const std::exception& e) {

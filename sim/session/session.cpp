@@ -9,7 +9,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
-#include "sim/session/progress.h"
+#include "sim/session/recorded_blocks.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"
 
@@ -28,10 +28,10 @@ bool isOf(const record::RunConfiguration& c, const experiment::Experiment& exper
   return c.experimentText == experiment.text && (c.definitionText.empty() || c.definitionText == experiment::definitionTextOf(experiment));
 }
 
-const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, const Plan& plan, int number,
+const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks, const Plan& plan, int number,
                                   const experiment::Experiment& experiment) {
-  const BlockProgress* found = nullptr;
-  for (const BlockProgress& block : progress) {
+  const RecordedBlock* found = nullptr;
+  for (const RecordedBlock& block : blocks) {
     const record::RunConfiguration& c = block.configuration;
     const bool same = plan.text.empty() ? c.planText.empty() && isOf(c, experiment) : c.planText == plan.text && c.block == number;
     if (same) found = &block;
@@ -45,15 +45,15 @@ const BlockProgress* findProgress(const std::vector<BlockProgress>& progress, co
 }
 
 // A changed file under the name of a recorded one is no longer the same block.
-void refuseChanged(const std::vector<BlockProgress>& progress, const Plan& plan, const experiment::Experiment& experiment) {
-  for (const BlockProgress& block : progress) {
+void refuseChanged(const std::vector<RecordedBlock>& blocks, const Plan& plan, const experiment::Experiment& experiment) {
+  for (const RecordedBlock& block : blocks) {
     const record::RunConfiguration& c = block.configuration;
     const bool sameName = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name : c.planName == plan.name;
     if (sameName && !block.complete()) refuseToResume(plan.text.empty() ? experiment.name : plan.name, c.run);
   }
 }
 
-void checkSameWishes(const SessionRequest& request, const BlockProgress& block) {
+void checkSameWishes(const SessionRequest& request, const RecordedBlock& block) {
   const auto planned = static_cast<int>(block.configuration.trials.size());
   if (request.trials && *request.trials != planned)
     throw FaultError(
@@ -95,14 +95,14 @@ std::vector<trial::PlannedTrial> remainingTrials(const record::RunConfiguration&
 
 // A block that broke off goes on with the number of the trial it broke off in. Where single trials are left (repeats of aborted
 // ones), they get numbers that were not used yet.
-int firstTrialOf(const std::vector<trial::PlannedTrial>& remaining, const BlockProgress* before) {
+int firstTrialOf(const std::vector<trial::PlannedTrial>& remaining, const RecordedBlock* before) {
   if (before == nullptr) return 1;
   const bool oneStretch = remaining.back().index - remaining.front().index + 1 == static_cast<int>(remaining.size());
   return oneStretch && before->lastTrial <= remaining.front().index + 1 ? remaining.front().index + 1 : before->lastTrial + 1;
 }
 
 // The seed of the session that is resumed, before that the one asked for, else a drawn one.
-void chooseSeed(const SessionRequest& request, const BlockProgress* resumed, SessionToRun& session) {
+void chooseSeed(const SessionRequest& request, const RecordedBlock* resumed, SessionToRun& session) {
   if (resumed != nullptr) session.seed = resumed->configuration.sessionSeed;
   else if (request.seed) session.seed = *request.seed;
   else {
@@ -159,17 +159,17 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
       if (record::isBeingWritten(run.path))
         throw ResourceError(fmt::format("run {} is being recorded{} into {}; wait until it has ended, then resume", run.run,
                                         record::writerOf(run.path), run.path));
-  const std::vector<BlockProgress> progress = readProgress(request.place, session.notice.unreadable, request.resume);
-  std::vector<const BlockProgress*> recorded;
+  const std::vector<RecordedBlock> blocks = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
+  std::vector<const RecordedBlock*> recorded;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const experiment::CompiledExperiment& experiment = programme.experiments.at(static_cast<std::size_t>(order[k]));
     trial::checkTask(experiment, programme.isPlan() ? plan.blocks[static_cast<std::size_t>(order[k])].experiment : request.what);
-    recorded.push_back(findProgress(progress, plan, static_cast<int>(k) + 1, experiment.experiment()));
+    recorded.push_back(findRecordedBlock(blocks, plan, static_cast<int>(k) + 1, experiment.experiment()));
   }
-  const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const BlockProgress* block) { return block != nullptr; });
-  const BlockProgress* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
+  const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const RecordedBlock* block) { return block != nullptr; });
+  const RecordedBlock* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
   if (request.resume && resumed == nullptr)
-    refuseChanged(progress, plan, programme.experiments.at(static_cast<std::size_t>(order[0])).experiment());
+    refuseChanged(blocks, plan, programme.experiments.at(static_cast<std::size_t>(order[0])).experiment());
   if (resumed != nullptr) checkSameWishes(request, *resumed);
   for (std::size_t k = 0; k < order.size() && request.resume; ++k) {
     const experiment::Experiment& experiment = programme.experiments[static_cast<std::size_t>(order[k])].experiment();
@@ -181,7 +181,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   int run = chooseRun(request.place, request.run);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const PlanBlock& planned = plan.blocks[static_cast<std::size_t>(order[k])];
-    const BlockProgress* before = request.resume ? recorded[k] : nullptr;
+    const RecordedBlock* before = request.resume ? recorded[k] : nullptr;
     BlockToRun block{
         .experiment = programme.experiments[static_cast<std::size_t>(order[k])], .configuration = {}, .logPath = {}, .trials = {}};
     block.restSeconds = planned.restSeconds;
@@ -210,7 +210,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     session.blocks.push_back(std::move(block));
   }
   session.notice.unfinished = !request.resume && std::any_of(recorded.begin(), recorded.end(),
-                                                             [](const BlockProgress* b) { return b != nullptr && !b->complete(); });
+                                                             [](const RecordedBlock* b) { return b != nullptr && !b->complete(); });
   return session;
 }
 

@@ -8,7 +8,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/replay.h"
-#include "sim/session/progress.h"
+#include "sim/session/recorded_blocks.h"
 #include "tests/session/recorded_runs.h"
 
 // A run in real time: what its loop missed, the check of that before the first trial, and what stands beside the device.
@@ -91,7 +91,7 @@ TEST_F(InRealTime, ATrialThatMissedTooMuchIsInterruptedAndPutUpOnceMoreIfTheBloc
     EXPECT_NEAR(trial.elapsed, ticks + static_cast<double>(missed[i]) * kTickSeconds, 1e-3) << "by the clock, within a tick";
   }
   EXPECT_TRUE(record::replayRun(log).identical()) << record::replayRun(log).firstDifference;
-  EXPECT_EQ(readProgress(request_.place, unreadable).at(0).done, (std::set<int>{0, 1, 2}))
+  EXPECT_EQ(readRecordedBlocks(request_.place, unreadable).at(0).done, (std::set<int>{0, 1, 2}))
       << "--resume puts nothing up a third time, either";
 }
 

@@ -1,4 +1,4 @@
-#include "sim/session/progress.h"
+#include "sim/session/recorded_blocks.h"
 
 #include <algorithm>
 
@@ -15,15 +15,15 @@ bool lostHand(const trial::TrialResult& result) {
 
 }  // namespace
 
-std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead) {
-  std::vector<BlockProgress> blocks;
+std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead) {
+  std::vector<RecordedBlock> blocks;
   for (const RunOnDisk& run : recordedRuns(place)) {
     try {
       const record::RunLog log = record::RunLog::open(run.path, record::LogCheck::Trials);
       const record::RunConfiguration& configuration = log.configuration();
       auto block =
-          std::find_if(blocks.begin(), blocks.end(), [&](const BlockProgress& b) { return b.configuration.run == configuration.firstRun; });
-      if (block == blocks.end()) block = blocks.insert(blocks.end(), BlockProgress{.configuration = configuration});
+          std::find_if(blocks.begin(), blocks.end(), [&](const RecordedBlock& b) { return b.configuration.run == configuration.firstRun; });
+      if (block == blocks.end()) block = blocks.insert(blocks.end(), RecordedBlock{.configuration = configuration});
       for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);
         const int index = trial.planned.index;

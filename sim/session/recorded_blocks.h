@@ -8,7 +8,7 @@
 namespace reachlab::session {
 
 /// One block as far as it is recorded: its first run and those that resumed it.
-struct BlockProgress {
+struct RecordedBlock {
   record::RunConfiguration configuration;  // of the first run
   std::set<int> done;                      // planned indices that were finished, and are not to be repeated
   std::set<int> putUpAgain;                // or to be repeated, once
@@ -18,6 +18,6 @@ struct BlockProgress {
 
 /// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`; with `mustRead` one
 /// that the disk does not give is a ResourceError: whoever resumes would do again what it holds.
-std::vector<BlockProgress> readProgress(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead = false);
+std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead = false);
 
 }  // namespace reachlab::session

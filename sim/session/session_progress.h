@@ -7,7 +7,7 @@
 namespace reachlab::session {
 
 /// One block of a session: what is to be done, and how much of it is recorded.
-struct BlockStanding {
+struct BlockProgress {
   int block = 0;  // from 1, in this subject's order
   std::string condition, experiment;
   bool practice = false;
@@ -19,8 +19,8 @@ struct BlockStanding {
 };
 
 /// A session's blocks in this subject's order of this day, as far as they are recorded.
-struct SessionStanding {
-  std::vector<BlockStanding> blocks;
+struct SessionProgress {
+  std::vector<BlockProgress> blocks;
   std::vector<std::string> unreadable;  // logs that are left out, a sentence each
   int blocksDone() const;
   bool begun() const;
@@ -28,6 +28,6 @@ struct SessionStanding {
 };
 
 /// Looks at the disk; opens and writes nothing. Throws what planSession throws.
-SessionStanding standingOf(const SessionRequest& request, const Programme& programme);
+SessionProgress progressOf(const SessionRequest& request, const Programme& programme);
 
 }  // namespace reachlab::session
