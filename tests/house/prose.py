@@ -19,6 +19,7 @@ MOST_WORDS = 32000  # README, manual and theory together
 # share of long sentences, clauses without a noun and semicolons for each 1000 words
 # The aim for headers is (0.12, 1.5, 4). Until they are rewritten, their limits here may only fall.
 LIMITS = {"README": (0.12, 1.5, 2), "manual": (0.12, 1.5, 3), "changelog": (0.15, 1.5, 4), "decisions": (0.15, 1.5, 4), "headers": (0.12, 20.5, 16.5)}
+FEW = 3  # clauses or semicolons are allowed in any text, however short
 HEADERS = ["analysis", "base", "bench", "cli", "constraints", "devices", "gui", "network", "sim"]
 VERB = (r"(?:is|are|was|were|has|have|had|does|do|did|can|cannot|could|may|might|must|should|will|would|stands|stays|goes|comes|takes|gives|makes|holds|needs|"
         r"asks|knows|says|gets|begins|becomes|leads|moves|works|means|wins|answers|wants|feels|appears|waits|adds|falls|keeps)")
@@ -159,8 +160,8 @@ def main():
         print(line_of(name, count))
         total += count["words"] if name in ("README", "manual") else 0
         long, bare, semicolons = LIMITS[name]
-        per = 1000 / count["words"]
-        if count["long"] > long * count["sentences"] or count["nounless"] * per > bare or count["semicolons"] * per > semicolons:
+        few = lambda limit: max(limit * count["words"] / 1000, FEW)
+        if count["long"] > long * count["sentences"] or count["nounless"] > few(bare) or count["semicolons"] > few(semicolons):
             failed.append(f"{name}: at most {100 * long:.0f} % long sentences, {bare} clauses without a noun and {semicolons} semicolons for each 1000 words")
     if total > MOST_WORDS:
         failed.append(f"README and manual have {total} words of prose, at most {MOST_WORDS}")
