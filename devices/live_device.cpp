@@ -12,7 +12,7 @@ namespace reachlab::devices {
 class LiveDevice::Intervals final : public haptics::RunSink {
  public:
   bool onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept override {
-    const haptics::DeviceSample& sample = state.device;
+    const haptics::DeviceSample& sample = state.hands[0].device;
     const std::int64_t now = sample.takenNs != 0 ? sample.takenNs : state.measuredNs;
     const std::uint64_t came = sample.reports != 0 ? sample.reports : state.tick;
     if (came == before_ || !sample.valid) return true;
@@ -61,12 +61,13 @@ LiveDevice::~LiveDevice() { loop_->stop(); }
 
 LiveDevice::View LiveDevice::look() {
   if (const haptics::TickState* newer = loop_->takeLatest()) haptics::copyState(*newer, newest_);
+  const haptics::HandState& hand = newest_.hands[0];
   View view{};
-  view.position = newest_.device.position;
-  view.force = newest_.deviceForce;
-  view.buttons = newest_.device.buttons;
-  view.valid = newest_.device.valid;
-  view.speed = norm(newest_.hand.velocity);
+  view.position = hand.device.position;
+  view.force = hand.deviceForce;
+  view.buttons = hand.device.buttons;
+  view.valid = hand.device.valid;
+  view.speed = norm(hand.hip.velocity);
   intervals_->fill(view);
   const std::string said = device_->healthText(), name = device_->info().name;
   if (const haptics::DeviceFault fault = loop_->fault(); fault != haptics::DeviceFault::None) view.fault = haptics::describe(fault, name);

@@ -1,10 +1,13 @@
 #include "analysis/study/block_run.h"
 
+#include <new>
+
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "sim/dynamics/compiled_scene.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/haptics/blind_hand.h"
+#include "sim/haptics/tick_order.h"
 
 namespace reachlab::study {
 namespace {
@@ -33,31 +36,47 @@ BlockRun::BlockRun(const experiment::CompiledExperiment& experiment, bool withSa
 void BlockRun::begin(std::unique_ptr<haptics::HapticDevice> hand) {
   hand_ = checked(std::move(hand));
   if (engine_) scene_ = std::move(*engine_).takeScene();
-  engine_.emplace(experiment_->experiment(), std::move(scene_), haptics::engineOptions(hand_->info()));
+  engine_.emplace(experiment_->experiment(), std::move(scene_), haptics::engineOptions(*hand_));
   if (dynamic_cast<const haptics::BlindHand*>(hand_.get()) != nullptr) engine_->setLookedAtEvery(withSamples_ ? kSampleEvery : 0);
   tracker_ = record::TrialTracker();
-  seen_ = {};
   trial_ = 0;
 }
 
-// What the haptic loop does at one tick of the virtual clock, for a hand that no watch looks after.
-void BlockRun::tick(trial::Command command, const trial::PlannedTrial& planned) {
-  haptics::TickEngine& engine = *engine_;
-  const haptics::TickState& state = engine.state();
-  const std::int64_t now = static_cast<std::int64_t>(state.tick) * kTickNs;
-  // Read into its place: a copy of what was just written in parts is waited for.
-  const haptics::TickInput input{.device = hand_->read(), .command = command, .planned = planned, .measuredNs = now};
-  engine.tick(input);
-  hand_->write(state.deviceForce);
-  if (const auto cue = engine.cue()) hand_->cue(*cue);
-  hand_->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
+struct BlockRun::Stages : haptics::NoStages {
+  BlockRun& block;
+  trial::Command order;
+  const trial::PlannedTrial& planned;
+  Stages(BlockRun& theBlock, trial::Command theOrder, const trial::PlannedTrial& thePlanned)
+      : block(theBlock), order(theOrder), planned(thePlanned) {}
 
-  seen_.tick = state.tick;
-  seen_.measuredNs = now;
-  seen_.device.valid = input.device.valid;
-  tracker_.add(seen_, record::factsOf(state), events_);
-  events_.clear();
-  if (withSamples_ && state.tick % kSampleEvery == 0) keepRow(state);
+  bool read(haptics::TickInput& input) noexcept {
+    // Into its place: a copy of what was just written in parts is waited for.
+    ::new (&input.devices[0]) haptics::DeviceSample(block.hand_->read());
+    return true;
+  }
+  void command(haptics::TickInput& input) noexcept {
+    input.command = order;
+    input.planned = planned;
+  }
+  bool write(const haptics::TickInput&) noexcept {
+    const haptics::TickState& state = block.engine_->state();
+    block.hand_->write(state.hands[0].deviceForce);
+    if (const auto cue = block.engine_->cue()) block.hand_->cue(*cue);
+    block.hand_->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
+    return true;
+  }
+  void publish(const haptics::TickInput& input) {
+    const haptics::TickState& state = block.engine_->state();
+    block.tracker_.add({.tick = state.tick, .measuredNs = input.measuredNs}, record::factsOf(state), block.events_);
+    block.events_.clear();
+    if (block.withSamples_ && state.tick % kSampleEvery == 0) block.keepRow(state);
+  }
+};
+
+// On the virtual clock. No watch looks after a simulated hand.
+void BlockRun::tick(trial::Command command, const trial::PlannedTrial& planned) {
+  input_.measuredNs = static_cast<std::int64_t>(engine_->state().tick) * kTickNs;
+  haptics::runTick(*engine_, input_, Stages(*this, command, planned));
 }
 
 void BlockRun::keepRow(const haptics::TickState& state) {

@@ -29,6 +29,7 @@ class BlockRun {
   record::SampleRows rowsBetween(std::uint64_t first, std::uint64_t last) const;
 
  private:
+  struct Stages;  // of a tick (sim/haptics/tick_order.h)
   void tick(trial::Command command, const trial::PlannedTrial& planned);
   void keepRow(const haptics::TickState& state);
 
@@ -37,7 +38,7 @@ class BlockRun {
   std::unique_ptr<haptics::HapticDevice> hand_;
   std::optional<haptics::TickEngine> engine_;
   record::TrialTracker tracker_;
-  record::RecordedTick seen_;
+  haptics::TickInput input_;
   std::vector<record::RecordedEvent> events_;
   std::int32_t trial_ = 0;
   bool withSamples_;

@@ -35,10 +35,11 @@ void printWait(const session::RecordedRun& run) {
   const experiment::CompiledExperiment& experiment = run.experiment();
   const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment.experiment(), experiment.constraint());
   const haptics::TickState& state = run.latest();
-  Vec3 hand = state.device.position;
-  for (int i = 1; i < state.handCount; ++i)
-    if (const Vec3& other = handOf(state, i).device.position; norm(other - place.start) > norm(hand - place.start)) hand = other;
-  const double away = norm(hand - place.start);
+  const auto awayOf = [&](const haptics::HandState& hand) { return norm(hand.device.position - place.start); };
+  const auto farthest = std::max_element(state.hands.begin(), state.hands.begin() + state.handCount,
+                                         [&](const auto& a, const auto& b) { return awayOf(a) < awayOf(b); });
+  const Vec3 hand = farthest->device.position;
+  const double away = awayOf(*farthest);
   const std::string where = away > place.armRadius
                                 ? fmt::format("{:.3g} m from there, at ({:.4f}, {:.4f}, {:.4f}) m", away, hand.x, hand.y, hand.z)
                                 : "there, and does not rest";

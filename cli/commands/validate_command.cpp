@@ -85,8 +85,8 @@ void checkOnDevice(const Request& r, const session::Programme& programme) {
   for (const experiment::CompiledExperiment& block : programme.experiments) {
     const auto device = devices::makeDevice(r.device, block, 0);
     const auto lines = devices::checkBeforeBlock(block, *device);
-    std::string names = device->info().name;
-    for (const haptics::HapticDevice* other : device->otherHands()) names += " + " + other->info().name;
+    std::string names;
+    for (const haptics::HapticDevice* hand : device->hands()) names += (names.empty() ? "" : " + ") + hand->info().name;
     if (r.json) fmt::print("{}", preflightJson(lines));
     else fmt::print("{} on {}:\n{}", block.experiment().name, names, preflightText(lines));
   }

@@ -13,13 +13,11 @@ constexpr std::string_view kBetween = " + ";
 
 class SeveralHands final : public haptics::HapticDevice {
  public:
-  explicit SeveralHands(std::vector<std::unique_ptr<haptics::HapticDevice>> devices) : devices_(std::move(devices)) {
-    for (std::size_t i = 1; i < devices_.size(); ++i) others_.push_back(devices_[i].get());
-  }
+  explicit SeveralHands(std::vector<std::unique_ptr<haptics::HapticDevice>> devices) : devices_(std::move(devices)) {}
 
   haptics::DeviceInfo info() const override {
     haptics::DeviceInfo info = first().info();
-    for (const haptics::HapticDevice* other : others_) info.virtualHand = info.virtualHand && other->info().virtualHand;
+    for (const auto& device : devices_) info.virtualHand = info.virtualHand && device->info().virtualHand;
     return info;
   }
   void prepareTrial(int index) override {
@@ -33,7 +31,11 @@ class SeveralHands final : public haptics::HapticDevice {
   void see(std::span<const dynamics::MassState> masses) noexcept override {
     for (const auto& device : devices_) device->see(masses);
   }
-  std::span<haptics::HapticDevice* const> otherHands() const noexcept override { return others_; }
+  std::vector<haptics::HapticDevice*> hands() override {
+    std::vector<haptics::HapticDevice*> all;
+    for (const auto& device : devices_) all.push_back(device.get());
+    return all;
+  }
 
   // The worst of them: the states are in the order of how bad they are, but that one to calibrate can still be used.
   haptics::DeviceHealth health() const noexcept override {
@@ -70,7 +72,6 @@ class SeveralHands final : public haptics::HapticDevice {
   }
 
   std::vector<std::unique_ptr<haptics::HapticDevice>> devices_;
-  std::vector<haptics::HapticDevice*> others_;
 };
 
 }  // namespace

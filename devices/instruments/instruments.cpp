@@ -33,7 +33,7 @@ class Link final : public record::InstrumentLink {
 
   void begin(const record::RunConfiguration& configuration) override {
     close();
-    ring_ = std::make_unique<record::TickRing>(kQueueTicks, 0, 0);
+    ring_ = std::make_unique<record::TickRing>(kQueueTicks, 0, 0, 0);
     tracker_.emplace(configuration.firstTrial);
     firstTrial_ = configuration.firstTrial;
     pushed_ = taken_ = 0;
@@ -50,7 +50,7 @@ class Link final : public record::InstrumentLink {
       lost_.fetch_add(1, std::memory_order_relaxed);
       return false;
     }
-    slot->raw = {state.tick, state.measuredNs, state.device, command, missedTicks};
+    slot->stamp = {state.tick, state.measuredNs, command, missedTicks};
     slot->facts = record::factsOf(state);
     slot->hasRow = false;
     ring_->publish(false);
@@ -131,14 +131,14 @@ class Link final : public record::InstrumentLink {
 
   void handle(const record::QueuedTick& tick) {
     if (tick.facts.phase == trial::Phase::Waiting) takeSetups(tick.facts.trial + firstTrial_ - 1);  // its own came before its first tick
-    tick_ = tick.raw.tick;
-    tickNs_ = tick.raw.measuredNs;
-    const HandAtTick hand{tick.raw.measuredNs, tick.facts.hand.position, tick.facts.hand.velocity};
+    tick_ = tick.stamp.tick;
+    tickNs_ = tick.stamp.measuredNs;
+    const HandAtTick hand{tick.stamp.measuredNs, tick.facts.hip.position, tick.facts.hip.velocity};
     eachPresent([&](Instrument& instrument, std::vector<InstrumentNote>&) { instrument.hand(hand); });
     found_.clear();
-    tracker_->add(tick.raw, tick.facts, found_);
+    tracker_->add(tick.stamp, tick.facts, found_);
     for (const record::RecordedEvent& event : found_)
-      if (const std::optional<Mark> mark = markOf(event)) sendAll({*mark, event.trial, tick.raw.measuredNs});
+      if (const std::optional<Mark> mark = markOf(event)) sendAll({*mark, event.trial, tick.stamp.measuredNs});
   }
 
   static std::optional<Mark> markOf(const record::RecordedEvent& event) {

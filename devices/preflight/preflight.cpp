@@ -181,9 +181,9 @@ std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment
 
 namespace {
 
-std::vector<haptics::DeviceInfo> handsOf(const haptics::HapticDevice& device) {
-  std::vector<haptics::DeviceInfo> hands{device.info()};
-  for (const haptics::HapticDevice* other : device.otherHands()) hands.push_back(other->info());
+std::vector<haptics::DeviceInfo> handsOf(haptics::HapticDevice& device) {
+  std::vector<haptics::DeviceInfo> hands;
+  for (const haptics::HapticDevice* hand : device.hands()) hands.push_back(hand->info());
   return hands;
 }
 
@@ -195,7 +195,7 @@ std::vector<PreflightLine> linesOf(const CompiledExperiment& experiment, const s
 
 }  // namespace
 
-std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, const haptics::HapticDevice& device) {
+std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, haptics::HapticDevice& device) {
   const auto hands = handsOf(device);
   std::vector<PreflightLine> all;
   for (std::size_t i = 0; i < hands.size(); ++i)
@@ -210,7 +210,7 @@ std::string describe(const PreflightLine& line) {
                      line.remedy.empty() ? "" : "; what helps: " + line.remedy);
 }
 
-std::vector<std::string> warningsBeforeBlock(const CompiledExperiment& experiment, const haptics::HapticDevice& device) {
+std::vector<std::string> warningsBeforeBlock(const CompiledExperiment& experiment, haptics::HapticDevice& device) {
   std::vector<std::string> warnings;
   if (!experiment.experiment().task) return warnings;
   const auto hands = handsOf(device);

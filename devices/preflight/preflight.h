@@ -42,11 +42,11 @@ struct PreflightLine {
 std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::DeviceInfo& device,
                                             std::size_t hand = 0);
 /// Of every hand of a device, one after another.
-std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::HapticDevice& device);
+std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, haptics::HapticDevice& device);
 
 /// One sentence of a line that is not fine, with its remedy: "peak force: …; …", "hand 2: peak force: …; …".
 std::string describe(const PreflightLine& line);
 /// What is said before a run, a sentence each: the warnings of those hands that feel a force. Nothing without a task.
-std::vector<std::string> warningsBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::HapticDevice& device);
+std::vector<std::string> warningsBeforeBlock(const experiment::CompiledExperiment& experiment, haptics::HapticDevice& device);
 
 }  // namespace reachlab::devices

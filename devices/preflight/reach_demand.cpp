@@ -8,6 +8,7 @@
 #include "devices/simulated/simulated_hand.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
+#include "sim/haptics/tick_order.h"
 
 namespace reachlab::devices {
 namespace {
@@ -28,6 +29,25 @@ ReachDemand rigidBodyDemand(const experiment::Experiment& experiment, const tria
   return demand;
 }
 
+/// The stages of a tick of a practised hand on the virtual clock.
+struct PractisedHand : haptics::NoStages {
+  haptics::HapticDevice& hand;
+  const haptics::TickEngine& engine;
+  PractisedHand(haptics::HapticDevice& theHand, const haptics::TickEngine& theEngine) : hand(theHand), engine(theEngine) {}
+
+  bool read(haptics::TickInput& input) noexcept {
+    input.devices[0] = hand.read();
+    return true;
+  }
+  void command(haptics::TickInput& input) noexcept {
+    input.command = engine.state().tick == 0 ? trial::Command::NextTrial : trial::Command::None;
+  }
+  bool write(const haptics::TickInput&) noexcept {
+    if (const auto cue = engine.cue()) hand.cue(*cue);
+    return true;
+  }
+};
+
 ReachDemand simulatedDemand(const experiment::CompiledExperiment& experiment, haptics::TickEngine& engine, const Vec3& centre) {
   SubjectSpec practised;
   practised.noise = 0;
@@ -37,16 +57,13 @@ ReachDemand simulatedDemand(const experiment::CompiledExperiment& experiment, ha
   double squares = 0;
   std::uint64_t moving = 0;
   const haptics::TickState& state = engine.state();
-  for (std::uint64_t tick = 0; tick < kMostTicks && state.phase != trial::Phase::Done; ++tick) {
-    haptics::TickInput input;
-    input.device = hand->read();
-    if (tick == 0) input.command = trial::Command::NextTrial;
-    engine.tick(input);
-    if (const auto cue = engine.cue()) hand->cue(*cue);
+  haptics::TickInput input;
+  while (state.tick < kMostTicks && state.phase != trial::Phase::Done) {
+    haptics::runTick(engine, input, PractisedHand(*hand, engine));
     if (!trial::isEngaged(state.phase)) continue;
-    const double force = norm(state.feedbackForce);
+    const double force = norm(state.hands[0].feedbackForce);
     demand.peakForce = std::max(demand.peakForce, force);
-    demand.farthest = std::max(demand.farthest, norm(input.device.position - centre));
+    demand.farthest = std::max(demand.farthest, norm(input.devices[0].position - centre));
     if (state.phase != trial::Phase::Moving) continue;
     squares += force * force;
     ++moving;
@@ -65,8 +82,8 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
   asked.forceLimitEndsTrial = false;
   if (asked.task && duration) asked.task->duration = *duration;
   haptics::EngineOptions options;
-  options.deviceMaxForce = kNoLimit;
-  options.virtualHand = true;
+  options.hands[0].deviceMaxForce = kNoLimit;
+  options.hands[0].virtualHand = true;
   const experiment::CompiledExperiment compiled(asked, experiment);
   ReachDemand demand;
   if (asked.hands.size() > 1) {

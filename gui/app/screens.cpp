@@ -71,9 +71,11 @@ void Screens::showPatch(const haptics::TickState* state) {
 }
 
 void Screens::showState(const haptics::TickState& state, const network::OtherHands& others) {
+  frame_.ownHand = main_.plan().ownHand;
   copyToFrame(state, frame_);
+  frame_.hands.resize(std::max(frame_.hands.size(), main_.plan().hands.size()));
   for (std::size_t hand = 0; hand < std::min(others.known.size(), main_.plan().hands.size()); ++hand)
-    if (others.known[hand]) frame_.others.push_back({static_cast<int>(hand), others.place[hand]});
+    if (others.known[hand]) frame_.hands[hand] = others.place[hand];
   if (!main_.plan().look.forceArrow) frame_.force = {};
   main_.showFrame(frame_);
   if (subject_) subject_->view().showFrame(frame_);

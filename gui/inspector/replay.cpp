@@ -48,7 +48,7 @@ scene::SceneFrame Replay::frameAt(double time) const {
   const double gap = timeOf(b) - timeOf(a), part = gap > 0 ? std::clamp((time - timeOf(a)) / gap, 0.0, 1.0) : 0;
   const auto number = [&](std::size_t column) { return (1 - part) * rows_.at(a, column) + part * rows_.at(b, column); };
   const auto vector = [&](std::size_t column) { return Vec3{number(column), number(column + 1), number(column + 2)}; };
-  frame.hand = vector(hand_);
+  ownHand(frame) = vector(hand_);
   frame.handValid = rows_.at(a, valid_) != 0;
   for (std::size_t i = 0; i < massCount_; ++i) frame.masses.push_back(vector(mass_ + i * massStep_));
   if (isBody_) {

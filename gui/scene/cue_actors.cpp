@@ -129,13 +129,13 @@ struct CueActors::Impl {
       tracePoints->Reset();
     }
     const vtkIdType count = tracePoints->GetNumberOfPoints();
-    if (!frame.traced || !isFinite(frame.hand) || (count > 0 && norm(frame.hand - lastTraced) < kTraceStep * unit)) return;
-    lastTraced = frame.hand;
+    if (!frame.traced || !isFinite(ownHand(frame)) || (count > 0 && norm(ownHand(frame) - lastTraced) < kTraceStep * unit)) return;
+    lastTraced = ownHand(frame);
     if (count >= kTracePoints) {  // the older half goes
       for (vtkIdType i = 0; i < count / 2; ++i) tracePoints->SetPoint(i, tracePoints->GetPoint(i + count - count / 2));
       tracePoints->SetNumberOfPoints(count / 2);
     }
-    tracePoints->InsertNextPoint(frame.hand.x, frame.hand.y, frame.hand.z);
+    tracePoints->InsertNextPoint(ownHand(frame).x, ownHand(frame).y, ownHand(frame).z);
     vtkNew<vtkCellArray> line;
     line->InsertNextCell(static_cast<int>(tracePoints->GetNumberOfPoints()));
     for (vtkIdType i = 0; i < tracePoints->GetNumberOfPoints(); ++i) line->InsertCellPoint(i);
@@ -146,7 +146,7 @@ struct CueActors::Impl {
 
   void showArrow(const SceneFrame& frame) {
     const double force = norm(frame.force);
-    const bool shown = force > kLeastForce && std::isfinite(force) && isFinite(frame.hand);
+    const bool shown = force > kLeastForce && std::isfinite(force) && isFinite(ownHand(frame));
     arrow->SetVisibility(shown);
     if (!shown) return;
     const double length = std::min(kReachPerNewton * force, kLongest) * unit, thick = std::max(length, 0.25 * unit);
@@ -155,9 +155,9 @@ struct CueActors::Impl {
     z = z / norm(z);
     const Vec3 y = cross(z, x);
     vtkMatrix4x4* m = arrow->GetUserMatrix();
-    const double rows[3][4] = {{length * x.x, thick * y.x, thick * z.x, frame.hand.x},
-                               {length * x.y, thick * y.y, thick * z.y, frame.hand.y},
-                               {length * x.z, thick * y.z, thick * z.z, frame.hand.z}};
+    const double rows[3][4] = {{length * x.x, thick * y.x, thick * z.x, ownHand(frame).x},
+                               {length * x.y, thick * y.y, thick * z.y, ownHand(frame).y},
+                               {length * x.z, thick * y.z, thick * z.z, ownHand(frame).z}};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 4; ++j) m->SetElement(i, j, rows[i][j]);
     m->Modified();
@@ -185,7 +185,7 @@ void CueActors::show(const SceneFrame& frame) {
   for (std::size_t i = 0; i < d.shadows.size(); ++i) {
     const bool hand = i + 1 == d.shadows.size();
     if (!hand && i >= frame.masses.size()) continue;
-    const Vec3 at = hand ? frame.hand : frame.masses[i] + d.shift[i];
+    const Vec3 at = hand ? ownHand(frame) : frame.masses[i] + d.shift[i];
     if (isFinite(at)) d.shadows[i]->SetPosition(at.x, height, at.z);
   }
   if (d.look.trace) d.showTrace(frame);

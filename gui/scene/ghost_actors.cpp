@@ -56,7 +56,7 @@ void GhostActors::show(const std::vector<SceneFrame>& ghosts) {
       const bool shown = g < ghosts.size() && (hand || i < ghosts[g].masses.size());
       balls[i]->SetVisibility(shown);
       if (!shown) continue;
-      const Vec3 at = hand ? ghosts[g].hand : ghosts[g].masses[i] + impl_->shift[i];
+      const Vec3 at = hand ? ownHand(ghosts[g]) : ghosts[g].masses[i] + impl_->shift[i];
       if (isFinite(at)) balls[i]->SetPosition(at.x, at.y, at.z);
     }
   }

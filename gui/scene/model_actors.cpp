@@ -91,7 +91,7 @@ void ModelActors::show(const SceneFrame& frame) {
     if (!isFinite(at)) return;
     for (const Actor& actor : actors) actor->SetPosition(at.x, at.y, at.z);
   };
-  place(impl_->hand, frame.hand);
+  place(impl_->hand, ownHand(frame));
   for (std::size_t i = 0; i < std::min(frame.masses.size(), impl_->masses.size()); ++i)
     place(impl_->masses[i], frame.masses[i] + impl_->shift[i]);
 }

@@ -50,9 +50,8 @@ void placeBody(vtkActor& actor, const Vec3& at, const std::array<double, 4>& q, 
 
 struct ObjectActors::Impl {
   vtkRenderer& renderer;
-  ScenePlan plan;                                   // without its meshes
-  std::vector<Actor> all, masses, springs, others;  // the others' pens, by hand; the own one's place is empty
-  Actor hand;
+  ScenePlan plan;  // without its meshes
+  std::vector<Actor> all, masses, springs, hands;
   std::unique_ptr<CueActors> cues;
   std::unique_ptr<ModelActors> model;
   bool handWasValid = true;
@@ -120,22 +119,19 @@ struct ObjectActors::Impl {
       masses.push_back(add(from.body ? makeBox(look) : makeBall(look)));
       if (!from.body) masses.back()->SetScale(from.massRadius[i]);
     }
-    hand = add(makePen({from.look.colours.hand, 1, 0.6}));
-    hand->SetScale(from.handRadius);
-    others.resize(from.hands.size());
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      if (static_cast<int>(i) == from.ownHand) continue;
-      others[i] = add(makePen({from.hands[i].colour, 1, 0.6}));
-      others[i]->SetScale(from.handRadius);
-      others[i]->VisibilityOff();
+    const auto own = static_cast<std::size_t>(from.ownHand);
+    for (std::size_t i = 0; i < std::max<std::size_t>(from.hands.size(), 1); ++i) {
+      hands.push_back(add(makePen({i == own ? from.look.colours.hand : from.hands[i].colour, 1, 0.6})));
+      hands[i]->SetScale(from.handRadius);
+      hands[i]->SetVisibility(i == own);
     }
     for (std::size_t i = 0; i < masses.size(); ++i) masses[i]->SetVisibility(!model->hasMass(i));
-    hand->SetVisibility(!model->hasHand());
+    hands[own]->SetVisibility(!model->hasHand());
   }
 };
 
 ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
-    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, {}, nullptr, nullptr}) {
+    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, nullptr, nullptr}) {
   impl_->plan.curve = {};
   impl_->plan.surface = {};
   impl_->model = std::make_unique<ModelActors>(renderer, plan);
@@ -161,32 +157,27 @@ void ObjectActors::show(const SceneFrame& frame) {
     if (plan.body) placeBody(*impl_->masses[i], drawn(i), frame.body.orientation, 2.2 * plan.massRadius[i]);
     else place(*impl_->masses[i], drawn(i));
   }
-  if (isFinite(frame.hand)) place(*impl_->hand, frame.hand);
-  std::vector<std::optional<Vec3>> hands(std::max<std::size_t>(impl_->others.size(), 1));
-  hands[static_cast<std::size_t>(plan.ownHand)] = frame.hand;
-  for (const OtherHand& other : frame.others) {
-    const auto i = static_cast<std::size_t>(other.hand);
-    if (i >= impl_->others.size() || !impl_->others[i] || !isFinite(other.place)) continue;
-    hands[i] = other.place;
-    place(*impl_->others[i], other.place);
+  const auto own = static_cast<std::size_t>(plan.ownHand);
+  const auto isShown = [&](std::size_t i) { return i < frame.hands.size() && frame.hands[i] && isFinite(*frame.hands[i]); };
+  for (std::size_t i = 0; i < impl_->hands.size(); ++i) {
+    if (isShown(i)) place(*impl_->hands[i], *frame.hands[i]);
+    if (i != own) impl_->hands[i]->SetVisibility(isShown(i));
   }
-  for (std::size_t i = 0; i < impl_->others.size(); ++i)
-    if (impl_->others[i]) impl_->others[i]->SetVisibility(hands[i].has_value());
   if (frame.handValid != impl_->handWasValid) {
     impl_->handWasValid = frame.handValid;
     const widgets::Colour c = frame.handValid ? plan.look.colours.hand : widgets::colours::kHandLost;
-    impl_->hand->GetProperty()->SetColor(c.red, c.green, c.blue);
+    impl_->hands[own]->GetProperty()->SetColor(c.red, c.green, c.blue);
   }
   for (std::size_t i = 0; i < impl_->springs.size(); ++i) {
     const SpringPlan& spring = plan.springs[i];
     const auto to = static_cast<std::size_t>(spring.to);
     if (to >= count || (spring.from >= 0 && static_cast<std::size_t>(spring.from) >= count)) continue;
-    const std::optional<Vec3> hand = hands[std::min(static_cast<std::size_t>(spring.hand), hands.size() - 1)];
-    if (spring.from < 0 && !hand) {
-      impl_->springs[i]->VisibilityOff();
+    const auto hand = static_cast<std::size_t>(spring.hand);
+    if (spring.from < 0 && !isShown(hand)) {
+      if (hand != own) impl_->springs[i]->VisibilityOff();
       continue;
     }
-    const Vec3 from = spring.from < 0 ? *hand : drawn(static_cast<std::size_t>(spring.from));
+    const Vec3 from = spring.from < 0 ? *frame.hands[hand] : drawn(static_cast<std::size_t>(spring.from));
     if (isFinite(from) && isFinite(drawn(to))) stretch(*impl_->springs[i], from, drawn(to), (spring.coupling ? 0.011 : 0.016) * plan.unit);
   }
 }

@@ -333,7 +333,7 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       d.lastAt = d.pressedAt = mouse->pos();
       if (mouse->button() == Qt::LeftButton && !mouse->modifiers().testFlag(Qt::ShiftModifier)) {
         d.reaching = true;
-        d.handAtPress = d.frame.hand;
+        d.handAtPress = ownHand(d.frame);
       }
       return true;
     }

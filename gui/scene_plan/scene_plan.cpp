@@ -215,19 +215,18 @@ ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) 
 
 SceneFrame restingFrame(const ScenePlan& plan) {
   SceneFrame frame;
-  frame.hand = plan.start;
+  frame.hands.assign(std::max<std::size_t>(plan.hands.size(), 1), plan.start);
+  frame.ownHand = plan.ownHand;
   frame.masses.assign(plan.massRadius.size(), plan.start);
-  for (int hand = 0; hand < static_cast<int>(plan.hands.size()); ++hand)
-    if (hand != plan.ownHand) frame.others.push_back({hand, plan.start});
   return frame;
 }
 
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
-  frame.hand = state.hand.position;
-  frame.handValid = state.hand.valid;
-  frame.others.clear();
-  for (int hand = 1; hand < state.handCount; ++hand) frame.others.push_back({hand, handOf(state, hand).hand.position});
-  frame.force = state.feedbackForce;
+  const auto own = static_cast<std::size_t>(frame.ownHand), count = static_cast<std::size_t>(state.handCount);
+  frame.hands.assign(std::max(frame.hands.size(), own + count), std::nullopt);
+  for (std::size_t i = 0; i < count; ++i) frame.hands[own + i] = state.hands[i].hip.position;
+  frame.handValid = state.hands[0].hip.valid;
+  frame.force = state.hands[0].feedbackForce;
   frame.trial = state.trial;
   frame.traced = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving;
   frame.body = state.body;
@@ -237,10 +236,9 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
 
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
   const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
-  if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || apart(from.hand, to.hand)) return true;
-  if (from.others.size() != to.others.size()) return true;
-  for (std::size_t i = 0; i < from.others.size(); ++i)
-    if (apart(from.others[i].place, to.others[i].place)) return true;
+  if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || from.hands.size() != to.hands.size()) return true;
+  for (std::size_t i = 0; i < from.hands.size(); ++i)
+    if (from.hands[i].has_value() != to.hands[i].has_value() || (from.hands[i] && apart(*from.hands[i], *to.hands[i]))) return true;
   for (std::size_t i = 0; i < from.masses.size(); ++i)
     if (apart(from.masses[i], to.masses[i])) return true;
   if (!(norm(from.force - to.force) <= 0.05)) return true;

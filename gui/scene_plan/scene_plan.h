@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gui/model/model.h"
@@ -78,25 +79,22 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
 /// The same without its masses and springs, or without its target.
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
 
-/// A hand besides the first, or at another station.
-struct OtherHand {
-  int hand = 0;  // from 0
-  Vec3 place;    // [m]
-};
-
 /// One instant of it: what actors are moved to.
 struct SceneFrame {
-  Vec3 hand;  // [m]
-  std::vector<OtherHand> others;
-  std::vector<Vec3> masses;  // [m] true places
+  std::vector<std::optional<Vec3>> hands{Vec3{}};  // [m] of each of the plan's hands, or of the only one; empty: not known
+  int ownHand = 0;                                 // the index of the hand that is here; its place is always known
+  std::vector<Vec3> masses;                        // [m] true places
   dynamics::BodyState body;
-  bool handValid = true;
-  Vec3 force;              // [N] of the coupling on the hand; zero where no arrow is drawn
+  bool handValid = true;   // the own hand's device delivers samples
+  Vec3 force;              // [N] of the coupling on the own hand; zero where no arrow is drawn
   std::int32_t trial = 0;  // a trace ends with its trial
   bool traced = false;     // the hand is under way
 };
+inline const Vec3& ownHand(const SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
+inline Vec3& ownHand(SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
+/// The state's first hand becomes the frame's own; the frame's further hands are those of the state, the rest is not known.
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
 /// Something has moved by more than that [m], turned by more than a thousandth, the drawn force is another by 0.05 N, or the hand was lost or found.
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);

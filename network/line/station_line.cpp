@@ -370,7 +370,7 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
   own.sample.sequence = ++sequence_;
   // Before it is armed a hand holds nothing: for the others it is where it will hold.
   const bool armed = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving || state.phase == trial::Phase::Done;
-  copy_.fill(own.sample, armed ? state.hand : dynamics::HandSample{copy_.ownFixedPoint(), {}, true});
+  copy_.fill(own.sample, armed ? state.hands[0].hip : dynamics::HandSample{copy_.ownFixedPoint(), {}, true});
   if (state.tick % static_cast<std::uint64_t>(sendEvery_) != 0) return true;
   if (!memory_.out.tryPush(own)) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
   return true;

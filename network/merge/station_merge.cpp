@@ -71,7 +71,7 @@ Station readStation(const std::string& path) {
   s.hands.reserve(s.ticks.size());
   s.given = givenSamples(s.log);
   s.replay = replayStation(s.log, [&](const haptics::TickState& state, const CoupledCopy& copy) {
-    haptics::HandState hand = state;
+    haptics::HandState hand = state.hands[0];
     hand.work = copy.ownWork();
     s.hands.push_back(hand);
     s.trials.push_back(state.trial);
@@ -177,7 +177,7 @@ void requireSameSamples(const Station& here, const Station& there) {
     if (beyond && sequence <= there.hands.size() + kTail) continue;
     const bool holds = !beyond && there.phases[sequence - 1] >= trial::Phase::Armed;
     if (beyond ||
-        (holds && !(given.sample.hand == there.hands[sequence - 1].hand.position && given.sample.work == there.hands[sequence - 1].work)))
+        (holds && !(given.sample.hand == there.hands[sequence - 1].hip.position && given.sample.work == there.hands[sequence - 1].work)))
       refuse(fmt::format("of stations {} and {} are not of one run: sample {} came otherwise than it was sent", here.number, there.number,
                          sequence),
              "logs of one run", there.log.path());
@@ -310,8 +310,7 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const Station& s = stations[i];
       ticks[i] = s.conductor ? number : nearest[i].at(tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
-      haptics::HandState& hand = i == 0 ? static_cast<haptics::HandState&>(*state) : state->others[i - 1];
-      hand = s.hands[ticks[i]];
+      state->hands[i] = s.hands[ticks[i]];
     }
     if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
       recorder.announce(setups[setup].trial - merged.firstTrial + 1, setups[setup].planned);

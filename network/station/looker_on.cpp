@@ -61,12 +61,13 @@ void LookerOn::show() {
                {heard.sample.rates.data(), static_cast<std::size_t>(plant_->rateCount())});
   haptics::TickState& state = *state_;
   ++state.tick;
-  state.hand = {isHeard(0) ? newest_[0].sample.hand : plant_->fixedPoint(0), {}, true};
-  state.device.valid = true;
+  haptics::HandState& first = state.hands[0];
+  first.hip = {isHeard(0) ? newest_[0].sample.hand : plant_->fixedPoint(0), {}, true};
+  first.device.valid = true;
   state.trial = heard.trial;
   state.phase = static_cast<trial::Phase>(heard.phase);
   state.massCount = plant_->massCount();
-  plant_->observe(state.hand, std::span(state.masses).first(static_cast<std::size_t>(state.massCount)));
+  plant_->observe(first.hip, std::span(state.masses).first(static_cast<std::size_t>(state.massCount)));
   state.body = plant_->body();
 }
 

@@ -81,9 +81,9 @@ class HapticDevice {
   /// What a person would see after this tick: every mass. For virtual subjects.
   virtual void see(std::span<const dynamics::MassState> /*masses*/) noexcept {}
 
-  /// Where this device is several together: the second hand's on. Each is read, written and told by the haptic thread for itself what is
-  /// asked of a sample and a force; all else goes to them through this device.
-  virtual std::span<HapticDevice* const> otherHands() const noexcept { return {}; }
+  /// The device of each hand, the first hand's at index 0: this one, unless it is several together. The haptic thread reads and writes
+  /// each; all else goes to them through this device. Controlling thread.
+  virtual std::vector<HapticDevice*> hands() { return {this}; }
 
   virtual DeviceHealth health() const noexcept { return DeviceHealth::Ready; }
   /// Why it is not ready, or warnings of the last frames, in the device's own words. Empty: nothing to say.

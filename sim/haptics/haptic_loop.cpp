@@ -11,7 +11,6 @@
 namespace reachlab::haptics {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{HapticLoop::kPatienceMs};
 constexpr std::int64_t kLookNs = 5'000'000;  // of the watchdog
 
 std::string describeRights(const std::string& priority, int wanted, const std::string& memory) {
@@ -92,7 +91,7 @@ void HapticLoop::start() {
 
 void HapticLoop::advance() noexcept { core_->tick(0, static_cast<std::int64_t>(core_->engine->state().tick) * kPeriodNs); }
 
-// Within the device's patience, or it is left behind with nothing of ours in its hands.
+// A device that hangs is left behind with nothing of ours in its hands. All waits here end at the same two moments.
 void HapticLoop::stop() {
   if (stopped_) return;
   stopped_ = true;
@@ -101,20 +100,22 @@ void HapticLoop::stop() {
     core_->writeZero();
     return;
   }
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
+  const auto lastMoment = patience + std::chrono::milliseconds(kLastWordMs);
   if (core_->info.drivesClock)
     thread_ = LeavableThread([core = core_] {
       core->device->stopClock();
       core->writeZero();
     });
-  if (!thread_.join(kPatience)) {
+  if (!thread_.joinUntil(patience)) {
     core_->latch(DeviceFault::Stalled);
     while (!core_->abandon()) std::this_thread::yield();
     core_->abandoned.store(true, std::memory_order_release);
     LeavableThread lastWord([core = core_] { core->device->stopForce(); });  // it, too, may hang
-    lastWord.join(kPatience);
+    lastWord.joinUntil(lastMoment);
     thread_.leave();
   }
-  if (!watchdog_.join(kPatience)) watchdog_.leave();
+  if (!watchdog_.joinUntil(lastMoment)) watchdog_.leave();
 }
 
 bool HapticLoop::hangs() const noexcept {

@@ -16,8 +16,8 @@ namespace reachlab::haptics {
 ///                  clock as in real time, and a call that comes before half a period has passed repeats the last force.
 /// A device that renders force is looked after by a watch in the tick (device_watch.h) and by a watchdog thread beside it: when no tick
 /// is completed for 20 ms while force is on, the device is told zero by its second path and the fault is latched; the tick never waits
-/// for the watchdog. A device call that hangs is left behind: `stop` gives it kPatienceMs and goes on without it; its thread then never
-/// touches engine, sink or anything of ours again.
+/// for the watchdog. A device call that hangs is left behind: `stop` gives it kPatienceMs and returns without it. The thread of that call
+/// then never touches engine, sink or anything of ours again.
 /// Construction starts nothing; `start` does. The destructor stops and writes zero force.
 class HapticLoop {
  public:
@@ -29,7 +29,8 @@ class HapticLoop {
 
   /// Throws ResourceError from a device that drives the clock.
   void start();
-  /// Ends after the tick under way; zero force. Idempotent. Returns within about kPatienceMs whatever the device does.
+  /// Ends after the tick under way; zero force. Idempotent. Whatever the device does, all waits together last kPatienceMs + kLastWordMs at
+  /// most.
   void stop();
   /// One tick of the virtual clock.
   void advance() noexcept;
@@ -45,16 +46,17 @@ class HapticLoop {
   LoopReport report() const { return reportOf(*core_); }
 
   /// Any thread: what was latched, None while all is well.
-  DeviceFault fault() const noexcept { return core_->fault.load(std::memory_order_acquire); }
-  /// Whose device that is of, from 0.
-  int faultHand() const noexcept { return core_->faultHand.load(std::memory_order_relaxed); }
+  DeviceFault fault() const noexcept { return latched().fault; }
+  /// The same, with the hand whose device it is of.
+  LatchedFault latched() const noexcept { return core_->latched.load(std::memory_order_acquire); }
   /// Controlling thread: the experimenter has seen to it; takes effect at the next tick.
   void resetFault() noexcept { core_->resetAsked.store(true, std::memory_order_release); }
   /// Any thread: no tick has come for kHangNs since the watchdog fired, or a device call was left behind. The trial will not end.
   bool hangs() const noexcept;
 
   static constexpr std::int64_t kPeriodNs = LoopCore::kPeriodNs;
-  static constexpr int kPatienceMs = 300;
+  static constexpr int kPatienceMs = 300;   // for the tick, or the device's clock, to end
+  static constexpr int kLastWordMs = 100;   // for `stopForce` and the watchdog after that
   static constexpr std::int64_t kHangNs = 500'000'000;
 
  private:

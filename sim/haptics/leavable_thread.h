@@ -24,13 +24,14 @@ class LeavableThread {
   ~LeavableThread() { leave(); }
 
   bool running() const { return thread_.joinable(); }
-  /// True when the job has ended within `patience`; the thread is then joined. May be asked again.
-  bool join(std::chrono::milliseconds patience) {
+  /// True when the job has ended by then; the thread is then joined. May be asked again.
+  bool joinUntil(std::chrono::steady_clock::time_point then) {
     if (!thread_.joinable()) return true;
-    if (!ended_->try_acquire_for(patience)) return false;
+    if (!ended_->try_acquire_until(then)) return false;
     thread_.join();
     return true;
   }
+  bool join(std::chrono::milliseconds patience) { return joinUntil(std::chrono::steady_clock::now() + patience); }
   void leave() {
     if (thread_.joinable()) thread_.detach();
   }

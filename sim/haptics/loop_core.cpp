@@ -1,6 +1,9 @@
 #include "sim/haptics/loop_core.h"
 
+#include <new>
+
 #include "base/system/os.h"
+#include "sim/haptics/tick_order.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -11,30 +14,22 @@ void raise(std::atomic<T>& counter, T by) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
-bool forcesAreFinite(const TickState& state) noexcept {
-  for (int hand = 0; hand < state.handCount; ++hand)
-    if (!isFinite(handOf(state, hand).couplingForce)) return false;
-  return true;
-}
-
 // A trial is under way, or a stylus is held against its weight.
 bool forceActs(const TickState& state) noexcept {
   bool acts = trial::isEngaged(state.phase);
-  for (int hand = 0; hand < state.handCount; ++hand) acts = acts || !(handOf(state, hand).deviceForce == Vec3{});
+  for (int hand = 0; hand < state.handCount; ++hand) acts = acts || !(state.hands[static_cast<std::size_t>(hand)].deviceForce == Vec3{});
   return acts;
 }
 
 }  // namespace
 
 LoopCore::LoopCore(std::unique_ptr<TickEngine> theEngine, std::shared_ptr<HapticDevice> theDevice, RunSink* theSink)
-    : engine(std::move(theEngine)), device(std::move(theDevice)), info(device->info()), sink(theSink), deviceWatch(info),
-      anyRendersForce(info.rendersForce) {
-  for (HapticDevice* other : device->otherHands()) {
-    const DeviceInfo about = other->info();
-    others.push_back({other, about, DeviceWatch(about)});
+    : engine(std::move(theEngine)), device(std::move(theDevice)), info(device->info()), sink(theSink) {
+  for (HapticDevice* hand : device->hands()) {
+    const DeviceInfo about = hand->info();
+    hands.push_back({hand, about.rendersForce, DeviceWatch(about)});
     anyRendersForce = anyRendersForce || about.rendersForce;
   }
-  otherSamples.resize(others.size());
   // A virtual hand may look at every mass at every tick.
   if (const std::uint32_t every = sink != nullptr ? sink->massesEvery() : 0; every > 0 && !info.virtualHand) engine->setMassesEvery(every);
   copyState(engine->state(), snapshots.back());
@@ -56,11 +51,10 @@ bool LoopCore::abandon() noexcept {
   return false;
 }
 
-void LoopCore::latch(DeviceFault newFault, int hand) noexcept {
-  DeviceFault none = DeviceFault::None;
-  if (newFault == DeviceFault::None || fault.load(std::memory_order_acquire) != none) return;
-  faultHand.store(hand, std::memory_order_relaxed);
-  fault.compare_exchange_strong(none, newFault, std::memory_order_acq_rel);
+void LoopCore::latch(DeviceFault fault, int hand) noexcept {
+  LatchedFault none;
+  if (fault != DeviceFault::None)
+    latched.compare_exchange_strong(none, {fault, static_cast<std::uint8_t>(hand)}, std::memory_order_acq_rel);
 }
 
 void LoopCore::countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept {
@@ -75,34 +69,20 @@ void LoopCore::countLateness(std::int64_t latenessNs, std::uint32_t missed) noex
 // The watchdog may latch while this tick is being computed: what it has told the device must be the last word.
 void LoopCore::writeForces() noexcept {
   const TickState& state = engine->state();
-  const bool give = fault.load(std::memory_order_acquire) == DeviceFault::None;
-  device->write(give ? state.deviceForce : Vec3{});
-  for (std::size_t i = 0; i < others.size(); ++i) others[i].device->write(give ? state.others[i].deviceForce : Vec3{});
-  if (fault.load(std::memory_order_acquire) != DeviceFault::None) writeZero();
+  const bool give = !hasFault();
+  for (std::size_t i = 0; i < hands.size(); ++i) hands[i].device->write(give ? state.hands[i].deviceForce : Vec3{});
+  if (hasFault()) writeZero();
 }
 
 void LoopCore::writeZero() noexcept {
-  device->write({});
-  for (const OtherDevice& other : others) other.device->write({});
+  for (const Hand& hand : hands) hand.device->write({});
 }
 
 void LoopCore::acceptReset() noexcept {
   if (!resetAsked.load(std::memory_order_acquire)) return;
   resetAsked.store(false, std::memory_order_release);
-  deviceWatch.reset();
-  for (OtherDevice& other : others) other.watch.reset();
-  fault.store(DeviceFault::None, std::memory_order_release);
-}
-
-DeviceSample LoopCore::watched(int hand, HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
-                               std::int64_t measuredNs) noexcept {
-  watch.latch(fault.load(std::memory_order_acquire));
-  // Before it is looked at: a force that the engine has let grow while the device was not given it would come as a kick.
-  if (watchedDevice.health() == DeviceHealth::Failed) watch.latch(DeviceFault::Device);
-  const TickState& before = engine->state();
-  const DeviceSample believed = watch.look(sample, {trial::isEngaged(before.phase), missed, measuredNs});
-  latch(watch.fault(), hand);
-  return believed;
+  for (Hand& hand : hands) hand.watch.reset();
+  latched.store({}, std::memory_order_release);
 }
 
 void LoopCore::writeLastZero() noexcept {
@@ -111,55 +91,76 @@ void LoopCore::writeLastZero() noexcept {
   if (leaveDevice()) where.store(Where::Idle, std::memory_order_release);
 }
 
-bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
-  TickInput input;
-  if (!enterDevice(Where::Idle)) return false;
-  input.device = device->read();
-  for (std::size_t i = 0; i < others.size(); ++i) otherSamples[i] = others[i].device->read();
-  if (!leaveDevice()) return false;
-  if (anyRendersForce) {
-    acceptReset();
-    if (info.rendersForce) input.device = watched(0, *device, deviceWatch, input.device, missed, measuredNs);
-    for (std::size_t i = 0; i < others.size(); ++i)
-      if (OtherDevice& other = others[i]; other.info.rendersForce)
-        otherSamples[i] = watched(static_cast<int>(i) + 1, *other.device, other.watch, otherSamples[i], missed, measuredNs);
-    input.deviceFault = fault.load(std::memory_order_acquire) != DeviceFault::None;
+struct LoopCore::Stages {
+  LoopCore& core;
+
+  bool read(TickInput& input) noexcept {
+    if (!core.enterDevice(Where::Idle)) return false;
+    for (std::size_t i = 0; i < core.hands.size(); ++i) ::new (&input.devices[i]) DeviceSample(core.hands[i].device->read());
+    return core.leaveDevice();
   }
-  input.others = otherSamples;
-  Order order;
-  if (commands.tryPop(order)) {
+
+  void watch(TickInput& input) noexcept {
+    if (!core.anyRendersForce) return;
+    core.acceptReset();
+    // Before a sample is looked at: a force that the engine has let grow while the device was not given it would come as a kick.
+    for (std::size_t i = 0; i < core.hands.size(); ++i)
+      if (core.hands[i].device->health() == DeviceHealth::Failed) core.latch(DeviceFault::Device, static_cast<int>(i));
+    const WatchContext context{trial::isEngaged(core.engine->state().phase), input.missedTicks, input.measuredNs};
+    for (std::size_t i = 0; i < core.hands.size(); ++i) {
+      Hand& hand = core.hands[i];
+      if (!hand.rendersForce) continue;
+      hand.watch.latch(core.latched.load(std::memory_order_acquire).fault);
+      input.devices[i] = hand.watch.look(input.devices[i], context);
+      core.latch(hand.watch.fault(), static_cast<int>(i));
+    }
+    input.deviceFault = core.hasFault();
+  }
+
+  void command(TickInput& input) noexcept {
+    Order order;
+    (void)core.commands.tryPop(order);
     input.command = order.command;
     input.planned = order.planned;
   }
+
+  bool write(const TickInput&) noexcept {
+    const TickState& state = core.engine->state();
+    for (std::size_t i = 0; i < core.hands.size() && core.anyRendersForce; ++i)
+      if (!isFinite(state.hands[i].couplingForce)) core.latch(DeviceFault::NotFinite, static_cast<int>(i));
+    if (!core.enterDevice(Where::Computing)) return false;
+    core.writeForces();
+    if (const auto cue = core.engine->cue()) core.device->cue(*cue);
+    core.device->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
+    if (!core.leaveDevice()) return false;
+    core.forceOn.store(forceActs(state), std::memory_order_relaxed);
+    return true;
+  }
+
+  void publish(const TickInput& input) noexcept {
+    const TickState& state = core.engine->state();
+    LoopFaults& faults = core.engine->faults();
+    faults.lateTicks = core.late.load(std::memory_order_relaxed);
+    faults.longestGapNs = core.longestGapNs.load(std::memory_order_relaxed);
+    if (core.sink != nullptr && !core.sink->onTick(state, input.command, input.missedTicks)) {
+      ++faults.droppedRecords;
+      raise(core.dropped, std::uint64_t{1});
+    }
+    if (core.engine->sawAllMasses()) {  // what is shown is of one tick
+      copyState(state, core.snapshots.back());
+      core.snapshots.publish();
+    }
+    raise(core.ticks, std::uint64_t{1});
+    core.lastNs.store(input.measuredNs, std::memory_order_relaxed);
+    if (core.anyRendersForce) core.completedNs.store(os::now(), std::memory_order_release);
+    core.where.store(Where::Idle, std::memory_order_release);
+  }
+};
+
+bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   input.missedTicks = missed;
   input.measuredNs = measuredNs;
-  engine->tick(input);
-  const TickState& state = engine->state();
-  if (anyRendersForce && !forcesAreFinite(state)) latch(DeviceFault::NotFinite);
-
-  if (!enterDevice(Where::Computing)) return false;
-  writeForces();
-  if (const auto cue = engine->cue()) device->cue(*cue);
-  device->see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
-  if (!leaveDevice()) return false;
-  forceOn.store(forceActs(state), std::memory_order_relaxed);
-
-  LoopFaults& faults = engine->faults();
-  faults.lateTicks = late.load(std::memory_order_relaxed);
-  faults.longestGapNs = longestGapNs.load(std::memory_order_relaxed);
-  if (sink != nullptr && !sink->onTick(state, input.command, missed)) {
-    ++faults.droppedRecords;
-    raise(dropped, std::uint64_t{1});
-  }
-  if (engine->sawAllMasses()) {  // what is shown is of one tick
-    copyState(state, snapshots.back());
-    snapshots.publish();
-  }
-  raise(ticks, std::uint64_t{1});
-  lastNs.store(measuredNs, std::memory_order_relaxed);
-  if (anyRendersForce) completedNs.store(os::now(), std::memory_order_release);
-  where.store(Where::Idle, std::memory_order_release);
-  return true;
+  return runTick(*engine, input, Stages{*this});
 }
 
 void LoopCore::tickOfDevice() noexcept {

@@ -34,6 +34,13 @@ struct LoopReport {
   bool realTime = false;  // the loop runs at real-time priority, or by the device's own clock
 };
 
+/// The first fault since the start or the latest reset.
+struct LatchedFault {
+  DeviceFault fault = DeviceFault::None;
+  std::uint8_t hand = 0;  // whose device has it, from 0
+};
+static_assert(std::atomic<LatchedFault>::is_always_lock_free);
+
 /// What the haptic thread works on. Plain members with one writer each; kept alive by whoever may still run in it.
 struct LoopCore {
   static constexpr std::int64_t kPeriodNs = kTickNs;
@@ -61,21 +68,21 @@ struct LoopCore {
   bool abandon() noexcept;
   /// Any thread: the first fault stays. `hand`: whose device it is of, from 0.
   void latch(DeviceFault fault, int hand = 0) noexcept;
+  /// Any thread: a device's fault is latched.
+  bool hasFault() const noexcept { return latched.load(std::memory_order_acquire).fault != DeviceFault::None; }
 
   std::unique_ptr<TickEngine> engine;
   std::shared_ptr<HapticDevice> device;
   DeviceInfo info;
   RunSink* sink;
-  DeviceWatch deviceWatch;
-  /// The second hand's device on, which `device` keeps.
-  struct OtherDevice {
-    HapticDevice* device;
-    DeviceInfo info;
+  struct Hand {
+    HapticDevice* device;  // which `device` keeps
+    bool rendersForce;
     DeviceWatch watch;
   };
-  std::vector<OtherDevice> others;
-  std::vector<DeviceSample> otherSamples;
-  bool anyRendersForce;
+  std::vector<Hand> hands;  // the first hand at index 0
+  TickInput input;
+  bool anyRendersForce = false;
   SpscQueue<Order, 16> commands;
   TripleBuffer<TickState> snapshots;
   LatenessHistogram lateness;
@@ -83,8 +90,7 @@ struct LoopCore {
   std::atomic<std::int64_t> firstNs{0}, lastNs{0};
   std::atomic<std::int64_t> completedNs{0};  // when the latest tick was completed, for the watchdog
   std::atomic<bool> forceOn{false};          // a trial is engaged
-  std::atomic<DeviceFault> fault{DeviceFault::None};
-  std::atomic<int> faultHand{0};  // of the fault that is latched
+  std::atomic<LatchedFault> latched{};
   std::atomic<bool> resetAsked{false};
   std::atomic<Where> where{Where::Idle};
   std::atomic<bool> stopping{false};
@@ -99,8 +105,7 @@ struct LoopCore {
   bool leaveDevice() noexcept;
   void writeForces() noexcept;
   void acceptReset() noexcept;
-  DeviceSample watched(int hand, HapticDevice& watchedDevice, DeviceWatch& watch, const DeviceSample& sample, std::uint32_t missed,
-                       std::int64_t measuredNs) noexcept;
+  struct Stages;  // of a tick (tick_order.h)
 };
 
 LoopReport reportOf(const LoopCore& core);

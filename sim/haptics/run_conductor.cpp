@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
-std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, const HapticDevice& device) {
+std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, HapticDevice& device) {
   return std::make_unique<TickEngine>(experiment, engineOptions(device));
 }
 
@@ -29,9 +29,9 @@ RunConductor::~RunConductor() {
   if (loop_) loop_->stop();
 }
 
-std::vector<DeviceInfo> RunConductor::otherDevices() const {
+std::vector<DeviceInfo> RunConductor::hands() const {
   std::vector<DeviceInfo> infos;
-  for (const HapticDevice* other : device_->otherHands()) infos.push_back(other->info());
+  for (const HapticDevice* hand : device_->hands()) infos.push_back(hand->info());
   return infos;
 }
 
@@ -101,18 +101,16 @@ std::optional<ConductedTrial> RunConductor::runTrial(const std::atomic<bool>& st
 
 std::optional<std::string> RunConductor::fault() const {
   if (!loop_) return std::nullopt;
-  const DeviceHealth health = device_->health();  // of several hands, the worst
-  const HapticDevice* worst = device_.get();
-  for (const HapticDevice* other : device_->otherHands())
-    if (health != DeviceHealth::Ready && other->health() == health) worst = other;
-  // What the loop itself has found is of the hand it found it at, however well its device says that it is.
-  if (const int hand = loop_->faultHand(); health == DeviceHealth::Ready && loop_->fault() != DeviceFault::None && hand > 0)
-    worst = device_->otherHands()[static_cast<std::size_t>(hand - 1)];
-  const std::string device = worst->info().name, said = worst->healthText();
-  if (health == DeviceHealth::Lost) return fmt::format("device {} is lost{}", device, said.empty() ? "" : ": " + said);
-  if (const DeviceFault fault = loop_->fault(); fault != DeviceFault::None)
-    return describe(fault, device) + (said.empty() ? "" : ": " + said);
-  return std::nullopt;
+  const auto withItsWords = [](const std::string& sentence, const HapticDevice& device) {
+    const std::string said = device.healthText();
+    return said.empty() ? sentence : sentence + ": " + said;
+  };
+  const std::vector<HapticDevice*> hands = device_->hands();
+  for (const HapticDevice* hand : hands)
+    if (hand->health() == DeviceHealth::Lost) return withItsWords(fmt::format("device {} is lost", hand->info().name), *hand);
+  const LatchedFault latched = loop_->latched();
+  if (latched.fault == DeviceFault::None) return std::nullopt;
+  return withItsWords(describe(latched.fault, hands[latched.hand]->info().name), *hands[latched.hand]);
 }
 
 void RunConductor::finish() {

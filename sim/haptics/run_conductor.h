@@ -38,8 +38,8 @@ class RunConductor {
 
   const TickEngine& engine() const { return loop_ ? loop_->engine() : *engine_; }  // constants only while running
   DeviceInfo device() const { return device_->info(); }
-  /// Of the second hand on.
-  std::vector<DeviceInfo> otherDevices() const;
+  /// Of each hand's own device.
+  std::vector<DeviceInfo> hands() const;
 
   /// Starts the loop; ticks go to `sink`, which outlives the run and may be null.
   void start(RunSink* sink);

@@ -21,9 +21,8 @@ struct Blend {
 };
 Blend fadeOut(double x) noexcept { return {1 - minimumJerk(x), -minimumJerkRate(x)}; }
 
-// What stands of the device must fit the experiment's hands.
-void requireHands(const experiment::Experiment& experiment, const EngineOptions& options) {
-  const std::size_t hands = std::max<std::size_t>(experiment.hands.size(), 1), devices = options.others.size() + 1;
+void requireHands(const experiment::Experiment& experiment, std::size_t devices) {
+  const std::size_t hands = std::max<std::size_t>(experiment.hands.size(), 1);
   if (hands != devices)
     throw FaultError(Fault{
         "device",
@@ -31,7 +30,7 @@ void requireHands(const experiment::Experiment& experiment, const EngineOptions&
         "a device for each of the experiment's hands"});
 }
 
-ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOptions& options) {
+ForceLimits limitsFor(const experiment::Experiment& experiment, const HandOptions& options) {
   double most = experiment.forceLimit.value_or(options.deviceMaxForce);
   if (options.rendersForce) most = std::min(most, options.deviceMaxForce);
   return {most, options.rendersForce ? options.continuousForce : 0, options.thermalSeconds};
@@ -39,13 +38,13 @@ ForceLimits limitsFor(const experiment::Experiment& experiment, const EngineOpti
 
 }  // namespace
 
-EngineOptions engineOptions(const DeviceInfo& device) {
-  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds, device.guards, {}};
+HandOptions handOptions(const DeviceInfo& device) {
+  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds, device.guards};
 }
 
-EngineOptions engineOptions(const HapticDevice& device) {
-  EngineOptions options = engineOptions(device.info());
-  for (const HapticDevice* other : device.otherHands()) options.others.push_back(engineOptions(other->info()));
+EngineOptions engineOptions(HapticDevice& device) {
+  EngineOptions options{{}};
+  for (const HapticDevice* hand : device.hands()) options.hands.push_back(handOptions(hand->info()));
   return options;
 }
 
@@ -56,109 +55,96 @@ TickEngine::TickEngine(const experiment::CompiledExperiment& experiment, const E
     : TickEngine(experiment.experiment(), (experiment::requiredTask(experiment.experiment()), dynamics::compileScene(experiment)),
                  options) {}
 
-TickEngine::Port::Port(const experiment::Experiment& experiment, const EngineOptions& options)
+TickEngine::Hand::Hand(const experiment::Experiment& experiment, const HandOptions& options)
     : virtualHand(options.virtualHand), estimator(experiment.velocityEstimator), path(4), safety(limitsFor(experiment, options)),
       guards(options.guards), fpInBody(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),
       needsVelocity_(scene_.plant->needsHandVelocity()), start_(experiment::requiredTask(experiment).start),
-      settings_(trial::makeProtocolSettings(experiment, scene_.constraint)), port_(experiment, options) {
-  if (scene_.shared != nullptr || !options.others.empty()) requireHands(experiment, options);
-  for (const EngineOptions& other : options.others) others_.emplace_back(experiment, other);
+      settings_(trial::makeProtocolSettings(experiment, scene_.constraint)) {
+  if (scene_.shared != nullptr || options.hands.size() != 1) requireHands(experiment, options.hands.size());
   state_.massCount = scene_.plant->massCount();
-  state_.handCount = static_cast<std::int32_t>(others_.size()) + 1;
-  state_.rendersForce = options.rendersForce;
-  bool allVirtual = options.virtualHand;
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    state_.others[i].rendersForce = options.others[i].rendersForce;
-    allVirtual = allVirtual && options.others[i].virtualHand;
+  state_.handCount = static_cast<std::int32_t>(options.hands.size());
+  bool allVirtual = true;
+  for (const HandOptions& hand : options.hands) {
+    state_.hands[hands_.size()].rendersForce = hand.rendersForce;
+    hands_.emplace_back(experiment, hand).lastSeen = settings_.start;
+    allVirtual = allVirtual && hand.virtualHand;
   }
   if (allVirtual) settings_.startTimeoutTicks = settings_.timeoutTicks + settings_.restTicks;
-  port_.lastSeen = settings_.start;
-  for (Port& port : others_) port.lastSeen = settings_.start;
-  putUp();
+  queueTrial();
 }
 
-void TickEngine::putUp(Port& port) noexcept {
-  port.fpOffset = {};
-  port.anchorTicks = 0;
-  port.broken = port.clamped = false;
-  port.safety.rearm();
-  port.observer.reset();
-}
-
-void TickEngine::putUp() noexcept {
+void TickEngine::queueTrial() noexcept {
   dynamics::Plant& plant = *scene_.plant;
   plant.placeAtRest(start_);
   plant.observe({settings_.start, {}, true}, state_.masses);
   for (int i = 0; i < state_.massCount; ++i) state_.masses[i].a = {};
   state_.body = plant.body();
   forceStatus_ = dynamics::StepStatus::Ok;
-  putUp(port_);
-  for (Port& port : others_) putUp(port);
+  for (Hand& hand : hands_) {
+    hand.fpOffset = {};
+    hand.anchorTicks = 0;
+    hand.broken = hand.clamped = false;
+    hand.safety.rearm();
+    hand.observer.reset();
+  }
 }
 
-dynamics::HandSample TickEngine::takeHand(Port& port, const DeviceSample& device, std::uint32_t missedTicks) noexcept {
-  dynamics::HandSample hand{port.lastSeen, {}, false};
+// In place: what was just written in parts is waited for when it is copied as a whole.
+void TickEngine::takeHand(Hand& hand, const DeviceSample& device, std::uint32_t missedTicks, dynamics::HandSample& hip) noexcept {
+  hip.position = hand.lastSeen;
+  hip.velocity = {};
+  hip.valid = false;
   const bool finite = isFinite(device.position) && (!device.hasVelocity || isFinite(device.velocity));
-  if (!finite) port.broken = true;
-  if (!device.valid || port.broken) {
-    port.lost = true;
-    return hand;
+  if (!finite) hand.broken = true;
+  if (!device.valid || hand.broken) {
+    hand.lost = true;
+    return;
   }
-  const bool anew = port.lost || (missedTicks > kGapTicks && !port.virtualHand);
-  if (anew || norm(device.position - port.lastRaw) > dynamics::kLargestJump) port.estimator.reset();
-  port.lastRaw = device.position;
-  Vec3 place = device.position - port.fpOffset;
-  hand.velocity = port.estimator.estimate(device);
-  hand.valid = true;
+  const bool anew = hand.lost || (missedTicks > kGapTicks && !hand.virtualHand);
+  if (anew || norm(device.position - hand.lastRaw) > dynamics::kLargestJump) hand.estimator.reset();
+  hand.lastRaw = device.position;
+  Vec3 place = device.position - hand.fpOffset;
+  hip.velocity = hand.estimator.estimate(device);
+  hip.valid = true;
   if (anew && trial::isEngaged(protocol_.phase)) {
-    port.anchor = port.lastSeen - place;
-    port.anchorTicks = kReanchorTicks;
+    hand.anchor = hand.lastSeen - place;
+    hand.anchorTicks = kReanchorTicks;
   }
-  port.lost = false;
-  if (port.anchorTicks > 0) {
-    const Blend blend = fadeOut(1 - static_cast<double>(port.anchorTicks) / kReanchorTicks);
-    place += blend.value * port.anchor;
-    hand.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * port.anchor;
-    --port.anchorTicks;
+  hand.lost = false;
+  if (hand.anchorTicks > 0) {
+    const Blend blend = fadeOut(1 - static_cast<double>(hand.anchorTicks) / kReanchorTicks);
+    place += blend.value * hand.anchor;
+    hip.velocity += (blend.rate / (kReanchorTicks * kTickSeconds)) * hand.anchor;
+    --hand.anchorTicks;
   }
-  hand.position = port.lastSeen = place;
-  return hand;
+  hip.position = hand.lastSeen = place;
 }
 
-// A device that is not there is a lost hand.
-void TickEngine::takeOthers(const TickInput& input) noexcept {
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    HandState& hand = state_.others[i];
-    if (i < input.others.size()) hand.device = input.others[i];
-    else hand.device.valid = false;
-    hand.hand = takeHand(others_[i], hand.device, input.missedTicks);
-  }
+// The plant itself takes the first hand.
+void TickEngine::tellSharedHands() noexcept {
+  for (std::size_t i = 1; i < hands_.size(); ++i)
+    scene_.shared->setHand(static_cast<int>(i), hands_[i].path.segment(), state_.hands[i].hip);
 }
 
-void TickEngine::tellOthers() noexcept {
-  for (std::size_t i = 0; i < others_.size(); ++i)
-    scene_.shared->setHand(static_cast<int>(i) + 1, others_[i].path.segment(), state_.others[i].hand);
-}
-
-bool TickEngine::allValid(const dynamics::HandSample& hand) const noexcept {
-  bool valid = hand.valid;
-  for (std::size_t i = 0; i < others_.size(); ++i) valid = valid && state_.others[i].hand.valid;
+bool TickEngine::allValid() const noexcept {
+  bool valid = true;
+  for (std::size_t i = 0; i < hands_.size(); ++i) valid = valid && state_.hands[i].hip.valid;
   return valid;
 }
 
-dynamics::StepStatus TickEngine::stepObject(const dynamics::HandSample& hand) noexcept {
-  bool continuous = port_.path.push(hand);
-  for (std::size_t i = 0; i < others_.size(); ++i) continuous = others_[i].path.push(state_.others[i].hand) && continuous;
-  if (!others_.empty()) tellOthers();
-  if (!allValid(hand)) return dynamics::StepStatus::HandLost;
+dynamics::StepStatus TickEngine::stepObject() noexcept {
+  bool continuous = true;
+  for (std::size_t i = 0; i < hands_.size(); ++i) continuous = hands_[i].path.push(state_.hands[i].hip) && continuous;
+  tellSharedHands();
+  if (!allValid()) return dynamics::StepStatus::HandLost;
   if (!continuous) scene_.plant->restart();
-  return scene_.plant->step(port_.path.segment(needsVelocity_), kTickSeconds);
+  return scene_.plant->step(hands_.front().path.segment(needsVelocity_), kTickSeconds);
 }
 
-void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {
+void TickEngine::observeMasses() noexcept {
   const std::span<const dynamics::MassState> masses{state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
   const auto isDue = [&](std::uint32_t every) { return every != 0 && state_.tick % every == 0; };
   const bool looked = isDue(lookedAtEvery_), many = state_.massCount >= kManyMasses;
@@ -167,53 +153,47 @@ void TickEngine::observeMasses(const dynamics::HandSample& hand) noexcept {
     sawAll_ = false;
     return;
   }
-  scene_.plant->observe(hand, state_.masses);
+  scene_.plant->observe(state_.hands[0].hip, state_.masses);
   sawAll_ = looked;
 }
 
-// At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which still is as it was put up.
-void TickEngine::placeFixedPoint(Port& port, dynamics::HandSample& hand, const Vec3& fixedPoint) noexcept {
-  port.fpOffset = hand.position - fixedPoint;
-  hand.position = port.lastSeen = fixedPoint;
-  port.path.reset();
-  port.path.push(hand);
-}
-
-void TickEngine::placeFixedPoints(dynamics::HandSample& hand) noexcept {
-  placeFixedPoint(port_, hand, scene_.shared != nullptr ? scene_.shared->fixedPoint(0) : state_.masses[0].r + port_.fpInBody);
-  for (std::size_t i = 0; i < others_.size(); ++i)
-    placeFixedPoint(others_[i], state_.others[i].hand, scene_.shared->fixedPoint(static_cast<int>(i) + 1));
-  if (!others_.empty()) tellOthers();
+// At arming the FP is placed on the HIP: the hand is seen where the FP is, in mass 1 or fixed to the body, which is still at its start.
+void TickEngine::placeFixedPoints() noexcept {
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    Hand& hand = hands_[i];
+    dynamics::HandSample& hip = state_.hands[i].hip;
+    const Vec3 fixedPoint =
+        scene_.shared != nullptr ? scene_.shared->fixedPoint(static_cast<int>(i)) : state_.masses[0].r + hand.fpInBody;
+    hand.fpOffset = hip.position - fixedPoint;
+    hip.position = hand.lastSeen = fixedPoint;
+    hand.path.reset();
+    hand.path.push(hip);
+  }
+  tellSharedHands();
   scene_.plant->restart();
 }
 
-trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, const dynamics::HandSample& hand,
-                                               dynamics::StepStatus status) noexcept {
-  trial::ProtocolInput seen{state_.tick,
-                            input.command,
-                            input.planned,
-                            input.device.position,
-                            norm(hand.velocity),
-                            hand.valid,
-                            port_.broken,
-                            port_.clamped,
-                            status,
-                            {state_.masses.data(), static_cast<std::size_t>(state_.massCount)},
-                            input.missedTicks};
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    const HandState& other = state_.others[i];
-    seen.hipSpeed = std::max(seen.hipSpeed, norm(other.hand.velocity));
-    seen.handValid = seen.handValid && other.hand.valid;
-    seen.handBroken = seen.handBroken || others_[i].broken;
-    seen.clamped = seen.clamped || others_[i].clamped;
-    otherHips_[i] = other.device.position;
+trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, dynamics::StepStatus status) noexcept {
+  trial::ProtocolInput seen;
+  seen.tick = state_.tick;
+  seen.command = input.command;
+  seen.planned = input.planned;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const dynamics::HandSample& hip = state_.hands[i].hip;
+    hips_[i] = input.devices[i].position;
+    seen.hipSpeed = std::max(norm(hip.velocity), seen.hipSpeed);
+    seen.handValid = seen.handValid && hip.valid;
+    seen.handBroken = seen.handBroken || hands_[i].broken;
+    seen.clamped = seen.clamped || hands_[i].clamped;
   }
-  seen.otherHips = {otherHips_.data(), others_.size()};
+  seen.hips = {hips_.data(), hands_.size()};
+  seen.status = status;
+  seen.masses = {state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
+  seen.missedTicks = input.missedTicks;
   return seen;
 }
 
-void TickEngine::tick(const TickInput& input) noexcept {
-  dynamics::Plant& plant = *scene_.plant;
+void TickEngine::step(const TickInput& input) noexcept {
   ++state_.tick;
   state_.measuredNs = input.measuredNs;
   state_.faults.missedTicks += input.missedTicks;
@@ -222,36 +202,30 @@ void TickEngine::tick(const TickInput& input) noexcept {
 
   const trial::Phase before = protocol_.phase;
   if (input.command == trial::Command::NextTrial && (before == trial::Phase::Idle || before == trial::Phase::Done)) {
-    putUp();
+    queueTrial();
     cue_ = Cue::Place;
   }
-  dynamics::HandSample hand = takeHand(port_, input.device, input.missedTicks);
-  if (!others_.empty()) takeOthers(input);
+  for (std::size_t i = 0; i < hands_.size(); ++i) takeHand(hands_[i], input.devices[i], input.missedTicks, state_.hands[i].hip);
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   if (trial::isEngaged(before)) {
-    status = stepObject(hand);
-    observeMasses(hand);
+    status = stepObject();
+    observeMasses();
     if (status == dynamics::StepStatus::Ok) status = forceStatus_;
   }
 
   const bool wasGone = protocol_.gone;
-  trial::advance(settings_, protocolInput(input, hand, status), protocol_);
+  trial::advance(settings_, protocolInput(input, status), protocol_);
   if (!sawAll_ && !trial::isEngaged(protocol_.phase)) {  // as it ended, so it is shown and recorded from now on
-    plant.observe(hand, state_.masses);
+    scene_.plant->observe(state_.hands[0].hip, state_.masses);
     sawAll_ = true;
   }
   if (before == trial::Phase::Waiting && protocol_.phase == trial::Phase::Armed) {
-    placeFixedPoints(hand);
-    plant.observe(hand, state_.masses);
+    placeFixedPoints();
+    scene_.plant->observe(state_.hands[0].hip, state_.masses);
   }
   if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
 
-  state_.device = input.device;  // no sooner: what was just written in parts is waited for when it is copied as a whole
-  state_.hand = hand;
-  exertForces(hand, status, input.missedTicks);
-  state_.deviceState = deviceState(port_, input.device, input.deviceFault);
-  for (std::size_t i = 0; i < others_.size(); ++i)
-    state_.others[i].deviceState = deviceState(others_[i], state_.others[i].device, input.deviceFault);
+  state_.status = status;
   state_.phase = protocol_.phase;
   state_.semaphore = protocol_.semaphore;
   state_.gone = protocol_.gone;
@@ -262,71 +236,72 @@ void TickEngine::tick(const TickInput& input) noexcept {
 }
 
 // What acts beside the object: the workspace's wall, and the passivity controller where it is wanted.
-Vec3 TickEngine::guardForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool engaged) noexcept {
+Vec3 TickEngine::guardForce(Hand& hand, HandState& out, bool engaged) noexcept {
   out.interventions = 0;
-  if (hand.valid) port.observer.observe(out.device.position);
-  out.portEnergy = port.observer.energy();
+  if (out.hip.valid) hand.observer.observe(out.device.position);
+  out.portEnergy = hand.observer.energy();
   if (!engaged) return {};
-  const Vec3 wall = wallForce(port.guards, out.device.position, hand.velocity);
+  const Vec3 wall = wallForce(hand.guards, out.device.position, out.hip.velocity);
   if (!(wall == Vec3{})) out.interventions |= intervention::kWall;
-  const Vec3 dissipation = port.guards.passivityControl ? port.observer.control(hand.velocity) : Vec3{};
+  const Vec3 dissipation = hand.guards.passivityControl ? hand.observer.control(out.hip.velocity) : Vec3{};
   if (!(dissipation == Vec3{})) out.interventions |= intervention::kPassivity;
   return wall + dissipation;
 }
 
-DeviceState TickEngine::deviceState(const Port& port, const DeviceSample& device, bool fault) const noexcept {
-  if (fault || port.safety.latched()) return DeviceState::Fault;
+DeviceState TickEngine::deviceState(const Hand& hand, const DeviceSample& device, bool fault) const noexcept {
+  if (fault || hand.safety.latched()) return DeviceState::Fault;
   if (!device.valid && !device.released) return DeviceState::Off;
   if (trial::isEngaged(protocol_.phase)) return DeviceState::Engaged;
   return protocol_.phase == trial::Phase::Waiting ? DeviceState::Armed : DeviceState::Homed;
 }
 
-// `out.feedbackForce` becomes what the device is given.
-void TickEngine::exertForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool held, std::uint32_t missedTicks) noexcept {
-  const bool engaged = trial::isEngaged(protocol_.phase);
-  out.feedbackForce = -out.couplingForce;
-  const Vec3 added = guardForce(port, out, hand, engaged && held);
-  const bool weighs = !(port.guards.compensation == Vec3{});
-  Vec3 asked = out.feedbackForce;
-  if (!(added == Vec3{})) asked += added;
-  if (weighs) asked += port.guards.compensation;
-  out.deviceForce = port.safety.limit(asked, engaged || weighs, held && missedTicks <= kGapTicks);
-  port.observer.render(weighs && !(out.deviceForce == Vec3{}) ? out.deviceForce - port.guards.compensation : out.deviceForce);
-  out.clamped = !(out.deviceForce == asked);
-  out.interventions |= port.safety.interventions();
-  port.clamped = norm(out.feedbackForce) > port.safety.limit();
+void TickEngine::exertCoupling(bool acts) noexcept {
+  const dynamics::Plant& plant = *scene_.plant;
+  state_.hands[0].couplingForce = acts ? plant.couplingForce(state_.hands[0].hip) : Vec3{};
+  if (!acts) state_.energy = 0;
+  else if (sawAll_) state_.energy = plant.energy(state_.hands[0].hip);
+  if (scene_.shared == nullptr) return;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const int number = static_cast<int>(i);
+    if (i > 0) state_.hands[i].couplingForce = acts ? scene_.shared->couplingForceOf(number) : Vec3{};
+    state_.hands[i].work = scene_.shared->work(number);
+  }
 }
 
-void TickEngine::exertForces(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept {
-  const dynamics::Plant& plant = *scene_.plant;
+// `out.feedbackForce` becomes what the device is given.
+void TickEngine::limitForce(Hand& hand, HandState& out, bool held, std::uint32_t missedTicks) noexcept {
   const bool engaged = trial::isEngaged(protocol_.phase);
-  const bool held = (others_.empty() ? hand.valid : allValid(hand)) && status == dynamics::StepStatus::Ok;
-  const bool acts = engaged && held;
-  state_.couplingForce = acts ? plant.couplingForce(hand) : Vec3{};
-  if (!acts) state_.energy = 0;
-  else if (sawAll_) state_.energy = plant.energy(hand);
-  bool finite = isFinite(state_.couplingForce);
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    HandState& other = state_.others[i];
-    const int number = static_cast<int>(i) + 1;
-    other.couplingForce = acts ? scene_.shared->couplingForceOf(number) : Vec3{};
-    other.work = scene_.shared->work(number);
-    finite = finite && isFinite(other.couplingForce);
+  out.feedbackForce = -out.couplingForce;
+  const Vec3 added = guardForce(hand, out, engaged && held);
+  const bool weighs = !(hand.guards.compensation == Vec3{});
+  Vec3 asked = out.feedbackForce;
+  if (!(added == Vec3{})) asked += added;
+  if (weighs) asked += hand.guards.compensation;
+  out.deviceForce = hand.safety.limit(asked, engaged || weighs, held && missedTicks <= kGapTicks);
+  hand.observer.render(weighs && !(out.deviceForce == Vec3{}) ? out.deviceForce - hand.guards.compensation : out.deviceForce);
+  out.clamped = !(out.deviceForce == asked);
+  out.interventions |= hand.safety.interventions();
+  hand.clamped = norm(out.feedbackForce) > hand.safety.limit();
+}
+
+void TickEngine::limit(const TickInput& input) noexcept {
+  const bool engaged = trial::isEngaged(protocol_.phase);
+  const bool held = allValid() && state_.status == dynamics::StepStatus::Ok;
+  exertCoupling(engaged && held);
+  for (std::size_t i = 0; i < hands_.size(); ++i)
+    if (!isFinite(state_.hands[i].couplingForce)) forceStatus_ = state_.status = dynamics::StepStatus::NotFinite;
+  bool clamped = false;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    HandState& out = state_.hands[i];
+    out.device = input.devices[i];  // only now: see takeHand
+    limitForce(hands_[i], out, held, input.missedTicks);
+    out.deviceState = deviceState(hands_[i], out.device, input.deviceFault);
+    clamped = clamped || out.clamped;
   }
-  if (scene_.shared != nullptr) state_.work = scene_.shared->work(0);
-  if (!finite) forceStatus_ = status = dynamics::StepStatus::NotFinite;
-  exertForce(port_, state_, hand, held, missedTicks);
-  bool clamped = state_.clamped;
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    exertForce(others_[i], state_.others[i], state_.others[i].hand, held, missedTicks);
-    clamped = clamped || state_.others[i].clamped;
-  }
-  if (engaged && clamped) ++state_.faults.clampedTicks;
-  if (engaged) {
-    ++state_.faults.steps[static_cast<std::size_t>(status)];
-    state_.body = plant.body();
-  }
-  state_.status = status;
+  if (!engaged) return;
+  if (clamped) ++state_.faults.clampedTicks;
+  ++state_.faults.steps[static_cast<std::size_t>(state_.status)];
+  state_.body = scene_.plant->body();
 }
 
 }  // namespace reachlab::haptics

@@ -1,7 +1,7 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,35 +18,37 @@ namespace reachlab::haptics {
 
 /// All that comes from outside in one tick. Logged, and with the configuration enough to compute the run again bit for bit.
 struct TickInput {
-  DeviceSample device;
+  std::array<DeviceSample, experiment::kMaxHands> devices;  // of each hand, the first at index 0
   trial::Command command = trial::Command::None;
-  trial::PlannedTrial planned;                // of the trial that NextTrial puts up
-  std::uint32_t missedTicks = 0;              // whole periods that were skipped before this tick
-  std::int64_t measuredNs = 0;                // for the record only
-  bool deviceFault = false;                   // latched on a device; its samples are then not valid
-  std::span<const DeviceSample> others = {};  // of the second hand on; as many as the experiment has
+  trial::PlannedTrial planned;    // of the trial that NextTrial queues
+  std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
+  std::int64_t measuredNs = 0;    // for the record only
+  bool deviceFault = false;       // latched on a device; its samples are then not valid
 };
 
-struct EngineOptions {
+/// What the engine must know of one hand's device.
+struct HandOptions {
   double deviceMaxForce = 12;  // [N] DeviceInfo::maxForce
   /// DeviceInfo::virtualHand: the hand moves by tick count, so after a gap it is where it was and nothing has to be anchored anew.
   bool virtualHand = false;
   /// DeviceInfo::rendersForce: then an experiment's limit can only lower the device's. Where no force is felt it takes its place.
   bool rendersForce = false;
-  double continuousForce = 0;              // [N] DeviceInfo::maxContinuousForce
-  double thermalSeconds = 10;              // [s] DeviceInfo::thermalSeconds
-  GuardSettings guards = {};               // DeviceInfo::guards
-  std::vector<EngineOptions> others = {};  // of the second hand on
+  double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
+  double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
+  GuardSettings guards = {};   // DeviceInfo::guards
 };
-EngineOptions engineOptions(const DeviceInfo& device);
-/// With those of all its hands.
-EngineOptions engineOptions(const HapticDevice& device);
+HandOptions handOptions(const DeviceInfo& device);
+struct EngineOptions {
+  std::vector<HandOptions> hands{HandOptions{}};  // the first hand's at index 0
+};
+/// Those of the device's hands.
+EngineOptions engineOptions(HapticDevice& device);
 
 /// Everything deterministic of one tick, from device sample to device force: estimate the hand, step the object, judge the trial, limit
 /// the force. Physics and protocol advance by one tick a tick, whatever the clock did; after a gap of more than kGapTicks the device's
 /// force is zero and rises again by a ramp, and a real hand, which has moved meanwhile, is seen to go on from where it was: the
 /// difference is blended out over kReanchorTicks, so the object feels neither a jump nor a burst.
-/// `tick` is a pure function of construction and inputs so far. One thread at a time.
+/// Its state is a pure function of construction and inputs so far. One thread at a time.
 /// Where several hands hold the object (experiment::Hand), each has all of this for itself, and one that is lost takes the force from all.
 class TickEngine {
  public:
@@ -60,8 +62,10 @@ class TickEngine {
   TickEngine(const experiment::CompiledExperiment& experiment, const EngineOptions& options);
   TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options);
 
-  /// Haptic thread: neither allocates, locks, waits nor throws.
-  void tick(const TickInput& input) noexcept;
+  /// The two stages of a tick (tick_order.h) that are the engine's: estimate the hands, step the object and judge the trial; then limit
+  /// the forces. Haptic thread: neither allocates, locks, waits nor throws.
+  void step(const TickInput& input) noexcept;
+  void limit(const TickInput& input) noexcept;
   /// After the latest tick; before the first, the object at rest at the start.
   const TickState& state() const noexcept { return state_; }
   /// What a virtual hand is to be told after the latest tick.
@@ -89,8 +93,8 @@ class TickEngine {
 
  private:
   /// What is one hand's own: how it is estimated, where it holds, and what its device may get.
-  struct Port {
-    Port(const experiment::Experiment& experiment, const EngineOptions& options);
+  struct Hand {
+    Hand(const experiment::Experiment& experiment, const HandOptions& options);
 
     bool virtualHand;
     VelocityEstimator estimator;
@@ -108,21 +112,18 @@ class TickEngine {
     bool clamped = false;    // at the tick before, by the force limit
   };
 
-  dynamics::HandSample takeHand(Port& port, const DeviceSample& device, std::uint32_t missedTicks) noexcept;
-  void takeOthers(const TickInput& input) noexcept;
-  void tellOthers() noexcept;
-  void putUp() noexcept;
-  void putUp(Port& port) noexcept;
-  dynamics::StepStatus stepObject(const dynamics::HandSample& hand) noexcept;
-  void observeMasses(const dynamics::HandSample& hand) noexcept;
-  void placeFixedPoint(Port& port, dynamics::HandSample& hand, const Vec3& fixedPoint) noexcept;
-  void placeFixedPoints(dynamics::HandSample& hand) noexcept;
-  bool allValid(const dynamics::HandSample& hand) const noexcept;
-  trial::ProtocolInput protocolInput(const TickInput& input, const dynamics::HandSample& hand, dynamics::StepStatus status) noexcept;
-  void exertForces(const dynamics::HandSample& hand, dynamics::StepStatus status, std::uint32_t missedTicks) noexcept;
-  void exertForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool held, std::uint32_t missedTicks) noexcept;
-  Vec3 guardForce(Port& port, HandState& out, const dynamics::HandSample& hand, bool engaged) noexcept;
-  DeviceState deviceState(const Port& port, const DeviceSample& device, bool fault) const noexcept;
+  void takeHand(Hand& hand, const DeviceSample& device, std::uint32_t missedTicks, dynamics::HandSample& hip) noexcept;
+  void tellSharedHands() noexcept;
+  void queueTrial() noexcept;
+  dynamics::StepStatus stepObject() noexcept;
+  void observeMasses() noexcept;
+  void placeFixedPoints() noexcept;
+  bool allValid() const noexcept;
+  trial::ProtocolInput protocolInput(const TickInput& input, dynamics::StepStatus status) noexcept;
+  void exertCoupling(bool acts) noexcept;
+  void limitForce(Hand& hand, HandState& out, bool held, std::uint32_t missedTicks) noexcept;
+  Vec3 guardForce(Hand& hand, HandState& out, bool engaged) noexcept;
+  DeviceState deviceState(const Hand& hand, const DeviceSample& device, bool fault) const noexcept;
 
   dynamics::Scene scene_;
   const dynamics::EndMasses* ends_;  // the plant, if it offers them
@@ -131,9 +132,8 @@ class TickEngine {
   bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters
   trial::ProtocolSettings settings_;
-  Port port_;                                                // of the first hand
-  std::vector<Port> others_;                                 // of the second hand on
-  std::array<Vec3, experiment::kMaxHands - 1> otherHips_{};  // [m] raw
+  std::vector<Hand> hands_;                         // the first hand at index 0
+  std::array<Vec3, experiment::kMaxHands> hips_{};  // [m] raw
   trial::ProtocolState protocol_;
   dynamics::StepStatus forceStatus_ = dynamics::StepStatus::Ok;
   std::optional<Cue> cue_;

@@ -1,8 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 
 #include "sim/dynamics/object/plant.h"
 #include "sim/experiment/object.h"
@@ -25,7 +25,7 @@ struct LoopFaults {
 /// What is known of one hand after one tick.
 struct HandState {
   DeviceSample device;        // raw
-  dynamics::HandSample hand;  // what the coupling saw
+  dynamics::HandSample hip;   // what the coupling saw
   Vec3 couplingForce;         // [N] on the object, unclamped
   Vec3 feedbackForce;         // [N] to the device, unclamped (the negative)
   Vec3 deviceForce;           // [N] to the device, after the safety layer
@@ -37,9 +37,8 @@ struct HandState {
   double work = 0;                 // [J] done by the hand on the object in this trial; counted where several hold it
 };
 
-/// Everything that is known after one tick; published to the window and turned into a row of the recording. Plain; copies are cheap
-/// because only `massCount` masses are copied (copyTo).
-struct TickState : HandState {  // of the first hand
+/// What is known after one tick beside the hands and the masses.
+struct TickHeader {
   std::uint64_t tick = 0;       // since the run's start; simulated time is tick * 1 ms
   std::int64_t measuredNs = 0;  // monotonic clock at the tick, for the record only
   trial::Phase phase = trial::Phase::Idle;
@@ -54,22 +53,21 @@ struct TickState : HandState {  // of the first hand
   std::int32_t massCount = 0;
   std::int32_t handCount = 1;
   dynamics::BodyState body;
-  std::array<dynamics::MassState, experiment::kMaxMasses> masses{};
-  std::array<HandState, experiment::kMaxHands - 1> others{};  // the second hand on
+};
+
+/// Everything that is known after one tick; published to the window and turned into a row of the recording.
+struct TickState : TickHeader {
+  std::array<HandState, experiment::kMaxHands> hands{};  // the first `handCount`
+  std::array<dynamics::MassState, experiment::kMaxMasses> masses{};  // the first `massCount`
 };
 static_assert(std::is_trivially_copyable_v<TickState>);
 
-/// A hand's part, from 0.
-inline const HandState& handOf(const TickState& state, int hand) noexcept {
-  return hand == 0 ? state : state.others[static_cast<std::size_t>(hand - 1)];
-}
-
 /// Copies a state with only the masses and hands that are there, so that the cost follows the scene.
 inline void copyState(const TickState& from, TickState& to) noexcept {
-  const auto* used = reinterpret_cast<const char*>(from.masses.data() + from.massCount);
-  std::memcpy(static_cast<void*>(&to), &from, static_cast<std::size_t>(used - reinterpret_cast<const char*>(&from)));
-  if (from.handCount > 1)
-    std::memcpy(to.others.data(), from.others.data(), static_cast<std::size_t>(from.handCount - 1) * sizeof(HandState));
+  static_assert(sizeof(TickState) == sizeof(TickHeader) + sizeof(from.hands) + sizeof(from.masses), "a member would not be copied");
+  static_cast<TickHeader&>(to) = from;
+  std::copy_n(from.hands.data(), from.handCount, to.hands.data());
+  std::copy_n(from.masses.data(), from.massCount, to.masses.data());
 }
 
 }  // namespace reachlab::haptics

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/system/os.h"
+#include "sim/haptics/tick_order.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
@@ -60,9 +61,9 @@ TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t 
     trials += over;
     input.command = over ? trial::Command::NextTrial : trial::Command::None;
     since = over || phase == trial::Phase::Waiting ? 0 : since + 1;
-    input.device.position = start + std::sin(kOmega * kTickSeconds * static_cast<double>(since)) * swing;
+    input.devices[0].position = start + std::sin(kOmega * kTickSeconds * static_cast<double>(since)) * swing;
     const std::int64_t before = os::now();
-    engine.tick(input);
+    runTick(engine, input);
     cost = os::now() - before;
   }
   const std::uint64_t allocated = countAllocations ? countAllocations() - allocatedBefore : 0;

@@ -8,6 +8,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
+#include "sim/haptics/tick_order.h"
 #include "sim/record/log/trial_tracker.h"
 
 namespace reachlab::record {
@@ -70,6 +71,59 @@ void compareTrials(const RunLog& log, Replay& replay) {
   }
 }
 
+/// The stages of a recorded tick. Its watch has judged the samples already, and nobody gets the forces.
+struct RecordedTicks : haptics::NoStages {
+  RecordedTicks(const RunLog& theLog, const ReplayHooks& theHooks, const haptics::TickEngine& theEngine)
+      : log(theLog), hooks(theHooks), engine(theEngine), ticks(log.ticks()), furtherHands(log.otherTicks()), setups(log.setups()), rows(log),
+        tracker(log.configuration().firstTrial) {}
+
+  bool read(haptics::TickInput& input) {
+    if (replay.ticks == ticks.size()) return false;
+    const RecordedTick& tick = ticks[replay.ticks];
+    input.devices[0] = tick.device;
+    for (std::size_t i = 0; i < furtherHands.size(); ++i) {
+      if (replay.ticks >= furtherHands[i].size()) return false;
+      input.devices[i + 1] = furtherHands[i][replay.ticks];
+    }
+    input.missedTicks = tick.missedTicks;
+    input.measuredNs = tick.measuredNs;
+    return true;
+  }
+  void command(haptics::TickInput& input) {
+    input.command = ticks[replay.ticks].command;
+    input.planned = {};
+    if (input.command != trial::Command::NextTrial || setup == setups.size()) return;
+    tracker.announce(setups[setup]);
+    input.planned = setups[setup++].planned;
+  }
+  void publish(const haptics::TickInput&) {
+    const haptics::TickState& state = engine.state();
+    const RecordedTick& tick = ticks[replay.ticks];
+    const std::uint64_t expected = ticks.front().tick + replay.ticks;
+    if (tick.tick != expected || state.tick != tick.tick)
+      throw FaultError(Fault{{},
+                             fmt::format("tick {} is missing (dropped while recording), so the run cannot be simulated past it", expected),
+                             {},
+                             FilePlace{log.path()}});
+    ++replay.ticks;
+    rows.look(state, hooks, replay);
+    if (hooks.afterTick) hooks.afterTick(state);
+    if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
+  }
+
+  const RunLog& log;
+  const ReplayHooks& hooks;
+  const haptics::TickEngine& engine;
+  std::vector<RecordedTick> ticks;
+  std::vector<std::vector<haptics::DeviceSample>> furtherHands;
+  std::vector<TrialSetup> setups;
+  std::size_t setup = 0;
+  RowCheck rows;
+  TrialTracker tracker;
+  std::vector<RecordedEvent> events;
+  Replay replay;
+};
+
 }  // namespace
 
 Replay replayRun(const RunLog& log) { return replayRun(log, {}); }
@@ -79,10 +133,9 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const experiment::CompiledExperiment compiled = recordedExperiment(c);
   const experiment::Experiment& experiment = compiled.experiment();
   haptics::EngineOptions options{
-      c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds, c.guards, {}};
+      {{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds, c.guards}}};
   for (const HandDevice& hand : c.otherHands)
-    options.others.push_back(
-        {hand.maxForce, hand.virtualHand, hand.rendersForce, hand.continuousForce, hand.thermalSeconds, hand.guards, {}});
+    options.hands.push_back({hand.maxForce, hand.virtualHand, hand.rendersForce, hand.continuousForce, hand.thermalSeconds, hand.guards});
   const auto made = hooks.makeEngine ? hooks.makeEngine(compiled, options) : std::make_unique<haptics::TickEngine>(compiled, options);
   haptics::TickEngine& engine = *made;
   experiment::Experiment recorded = experiment;
@@ -92,46 +145,11 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
       c.table.hands != scene.hands)
     throw FaultError(
         Fault{"table", "has not the masses and hands of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
-  const std::vector<TrialSetup> setups = log.setups();
-  RowCheck rows(log);
-  TrialTracker tracker(c.firstTrial);
-  std::vector<RecordedEvent> events;
-  Replay replay;
-  const std::vector<std::vector<haptics::DeviceSample>> otherTicks = log.otherTicks();
-  std::vector<haptics::DeviceSample> others(otherTicks.size());
-  std::size_t setup = 0, number = 0;
-  std::uint64_t expected = 0;
-  const auto finished = [&] {
-    compareTrials(log, replay);
-    return replay;
-  };
-  for (const RecordedTick& tick : log.ticks()) {
-    haptics::TickInput input{tick.device, tick.command, {}, tick.missedTicks, tick.measuredNs};
-    for (std::size_t hand = 0; hand < others.size(); ++hand) {
-      if (number >= otherTicks[hand].size()) return finished();
-      others[hand] = otherTicks[hand][number];
-    }
-    input.others = others;
-    ++number;
-    if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
-      tracker.announce(setups[setup]);
-      input.planned = setups[setup++].planned;
-    }
-    engine.tick(input);
-    const haptics::TickState& state = engine.state();
-    if (replay.ticks == 0) expected = tick.tick;
-    if (tick.tick != expected || state.tick != tick.tick)
-      throw FaultError(Fault{{},
-                             fmt::format("tick {} is missing (dropped while recording), so the run cannot be simulated past it", expected),
-                             {},
-                             FilePlace{log.path()}});
-    ++expected;
-    ++replay.ticks;
-    rows.look(state, hooks, replay);
-    if (hooks.afterTick) hooks.afterTick(state);
-    if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
-  }
-  return finished();
+  RecordedTicks ticks{log, hooks, engine};
+  haptics::TickInput input;
+  while (haptics::runTick(engine, input, ticks)) {}
+  compareTrials(log, ticks.replay);
+  return ticks.replay;
 }
 
 }  // namespace reachlab::record

@@ -114,9 +114,10 @@ void RecordedRun::completeConfiguration() {
   c.guards = device.guards;
   c.deviceMapping = device.mapping;
   c.otherHands.clear();  // of the run that is resumed
-  for (const haptics::DeviceInfo& hand : conductor_->otherDevices())
-    c.otherHands.push_back({hand.name, hand.version, hand.maxForce, hand.virtualHand, hand.rendersForce, hand.maxContinuousForce,
-                            hand.thermalSeconds, hand.guards, hand.mapping});
+  const std::vector<haptics::DeviceInfo> hands = conductor_->hands();
+  for (auto hand = hands.begin() + 1; hand != hands.end(); ++hand)
+    c.otherHands.push_back({hand->name, hand->version, hand->maxForce, hand->virtualHand, hand->rendersForce, hand->maxContinuousForce,
+                            hand->thermalSeconds, hand->guards, hand->mapping});
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
   if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;

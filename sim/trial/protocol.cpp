@@ -66,23 +66,21 @@ void putUp(const ProtocolInput& in, ProtocolState& state) noexcept {
 
 bool restsAtStart(const ProtocolSettings& s, const ProtocolInput& in) noexcept {
   const auto atStart = [&](const Vec3& hip) { return norm(hip - s.start) <= s.armRadius; };
-  return in.handValid && atStart(in.hip) && in.hipSpeed <= s.restSpeed && std::all_of(in.otherHips.begin(), in.otherHips.end(), atStart);
+  return in.handValid && in.hipSpeed <= s.restSpeed && std::all_of(in.hips.begin(), in.hips.end(), atStart);
 }
 
 // Movement begins with the hand that moves first.
 bool hasLeft(const ProtocolSettings& s, const ProtocolInput& in, const ProtocolState& state) noexcept {
   if (!in.handValid) return false;
-  if (norm(in.hip - state.armedAt) > s.onset) return true;
-  for (std::size_t i = 0; i < in.otherHips.size(); ++i)
-    if (norm(in.otherHips[i] - state.othersArmedAt[i]) > s.onset) return true;
+  for (std::size_t i = 0; i < in.hips.size(); ++i)
+    if (norm(in.hips[i] - state.armedAt[i]) > s.onset) return true;
   return false;
 }
 
 void arm(const ProtocolInput& in, ProtocolState& state) noexcept {
   state.phase = Phase::Armed;
   state.armedTick = in.tick;
-  state.armedAt = in.hip;
-  std::copy(in.otherHips.begin(), in.otherHips.end(), state.othersArmedAt.begin());
+  std::copy(in.hips.begin(), in.hips.end(), state.armedAt.begin());
   state.gone = !state.planned.catchTrial && state.planned.foreperiodTicks <= 0;
 }
 

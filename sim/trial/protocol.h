@@ -73,17 +73,15 @@ ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, 
 struct ProtocolInput {
   std::uint64_t tick = 0;
   Command command = Command::None;
-  PlannedTrial planned;  // used with NextTrial
-  Vec3 hip;              // [m] raw
-  double hipSpeed = 0;   // [m/s] estimated
-  bool handValid = true;
-  bool handBroken = false;  // the device gave something that is not finite
-  bool clamped = false;     // at the tick before
+  PlannedTrial planned;        // used with NextTrial
+  std::span<const Vec3> hips;  // [m] raw, of each hand
+  double hipSpeed = 0;         // [m/s] estimated, of the fastest hand
+  bool handValid = true;       // every hand is
+  bool handBroken = false;     // any device gave something that is not finite
+  bool clamped = false;        // any force, at the tick before
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::span<const dynamics::MassState> masses;
-  std::uint32_t missedTicks = 0;         // whole periods that were skipped before this tick
-  std::span<const Vec3> otherHips = {};  // [m] raw, of the second hand on; what stands above of one hand is then of all of them: the
-                                         // fastest, all valid, any broken or clamped
+  std::uint32_t missedTicks = 0;  // whole periods that were skipped before this tick
 };
 
 struct ProtocolState {
@@ -92,8 +90,7 @@ struct ProtocolState {
   std::int32_t trial = 0;  // from 1
   PlannedTrial planned;
   bool gone = false;  // the go signal was given
-  Vec3 armedAt;       // [m] the HIP at arming
-  std::array<Vec3, experiment::kMaxHands - 1> othersArmedAt{};
+  std::array<Vec3, experiment::kMaxHands> armedAt{};  // [m] the HIPs at arming
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
   std::int64_t restTicks = 0;    // at the start and at rest, in a row
   int lostTicks = 0;             // in a row

@@ -68,8 +68,7 @@ inline std::string recordRun(const std::string& folder, const RunToRecord& what)
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   haptics::LoopOptions options;
   options.virtualClock = true;
-  haptics::RunConductor run(experiment::CompiledExperiment(experiment), devices::makeDevice(what.device, experiment, what.seed), c.trials,
-                            options);
+  haptics::RunConductor run(experiment::CompiledExperiment(experiment), devices::makeDevice(what.device, experiment, what.seed), c.trials, options);
   record::RecorderOptions recording;
   recording.threaded = false;
   record::Recorder recorder(path, c, recording);

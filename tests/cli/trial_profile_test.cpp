@@ -29,11 +29,11 @@ record::RunLog recorded(const record::TemporaryFolder& folder, bool moves) {
       const auto t = static_cast<double>(state->tick);
       state->phase = state->tick == 100 ? trial::Phase::Done : moves && state->tick >= 40 ? trial::Phase::Moving : trial::Phase::Waiting;
       state->result.onsetTick = moves ? 40 : 0;
-      state->hand.velocity = {2 * t, -3 * t, 6 * t};   // of size 7
+      state->hands[0].hip.velocity = {2 * t, -3 * t, 6 * t};   // of size 7
       state->masses[0].v = {t, 4 * t, -8 * t};         // of size 9
       state->masses[1].v = {1e3, 1e3, 1e3};            // not looked at
       state->masses[2].v = {-2 * t, 6 * t, 9 * t};     // of size 11
-      state->couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
+      state->hands[0].couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
       recorder.onTick(*state, trial::Command::None, 0);
     }
     recorder.close();

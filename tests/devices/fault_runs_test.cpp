@@ -408,7 +408,7 @@ void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
   rig.moveTo({-0.1, 0, 0});
   const auto device = std::make_shared<Tapped>(rig.open(), guarded);
   const haptics::DeviceInfo info = device->info();
-  auto engine = std::make_unique<haptics::TickEngine>(experiment, haptics::engineOptions(info));
+  auto engine = std::make_unique<haptics::TickEngine>(experiment, haptics::EngineOptions{{haptics::handOptions(info)}});
   haptics::LoopCore core(std::move(engine), device, nullptr);
   const double limit = plan.limit > 0 ? std::min(plan.limit, info.maxForce) : info.maxForce;
   constexpr int kTicks = 600;
@@ -452,10 +452,10 @@ void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
     }
     if (trial::isEngaged(state.phase)) moved += 1e-3;
     rig.moveTo({-0.1 + plan.reach * 0.5 * (1 - std::cos(2 * M_PI * moved / plan.period)), 0, 0});
-    if (plan.resets && !any && core.fault.load() != haptics::DeviceFault::None && latchedFor > 50) core.resetAsked = true;
+    if (plan.resets && !any && core.hasFault() && latchedFor > 50) core.resetAsked = true;
     timeNs += kMs * (1 + missed);
 
-    const bool latchedBefore = core.fault.load() != haptics::DeviceFault::None && !core.resetAsked.load();
+    const bool latchedBefore = core.hasFault() && !core.resetAsked.load();
     device->largest = 0;
     bool ticked = false;
     rig.advance([&] {
@@ -474,7 +474,7 @@ void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
     const bool refuses = rig.refuses();
     goneFor = device->health() == haptics::DeviceHealth::Lost && !refuses ? goneFor + 1 : 0;
     if (goneFor >= 20) RC_ASSERT(rig.told() == 0);
-    latchedFor = core.fault.load() != haptics::DeviceFault::None ? latchedFor + 1 : 0;
+    latchedFor = core.hasFault() ? latchedFor + 1 : 0;
     before = force;
   }
 }

@@ -12,6 +12,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
 #include "sim/predict/predict.h"
+#include "sim/haptics/tick_order.h"
 
 namespace reachlab::devices {
 namespace {
@@ -26,7 +27,7 @@ std::vector<haptics::ConductedTrial> conduct(const CompiledExperiment& experimen
   for (int i = 0; i < trials; ++i) planned.push_back({i});
   haptics::LoopOptions options;
   options.virtualClock = true;
-  haptics::RunConductor run(experiment, std::move(hand), planned, options);
+  haptics::RunConductor run(experiment::CompiledExperiment(experiment), std::move(hand), planned, options);
   run.start(nullptr);
   const std::atomic<bool> stop{false};
   std::vector<haptics::ConductedTrial> results;
@@ -52,7 +53,7 @@ Watched watch(const std::string& name, const std::string& options, double pulse 
   std::shared_ptr<void> learnt;
   const auto made = prepareFeedbackSubjects(experiment, spec)(1, 0, learnt);
   auto& hand = dynamic_cast<FeedbackHand&>(*made);
-  haptics::TickEngine engine(experiment.experiment(), haptics::engineOptions(hand.info()));
+  haptics::TickEngine engine(experiment.experiment(), haptics::engineOptions(hand));
   hand.prepareTrial(0);
   haptics::TickInput input;
   input.command = trial::Command::NextTrial;
@@ -60,12 +61,12 @@ Watched watch(const std::string& name, const std::string& options, double pulse 
   bool gone = false;
   for (int tick = 0, since = 0; since < 3000 && tick < 10000; ++tick) {
     if (gone) hand.push(since >= pulseAt && since < pulseAt + pulseTicks ? pulse : 0);
-    input.device = hand.read();
-    engine.tick(input);
+    input.devices[0] = hand.read();
+    haptics::runTick(engine, input);
     input.command = trial::Command::None;
-    hand.write(engine.state().deviceForce);
+    hand.write(engine.state().hands[0].deviceForce);
     if (gone) {
-      out.speed.push_back(input.device.velocity.x), out.place.push_back(input.device.position.x), out.command.push_back(hand.command());
+      out.speed.push_back(input.devices[0].velocity.x), out.place.push_back(input.devices[0].position.x), out.command.push_back(hand.command());
       ++since;
     }
     if (const auto cue = engine.cue()) hand.cue(*cue), gone = *cue == haptics::Cue::Go;

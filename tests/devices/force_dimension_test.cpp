@@ -283,8 +283,8 @@ TEST_F(TwoForceDimensions, AreTwoHandsEachWithItsPlaceAndForce) {
   experiment = experiment::readExperiment("chain-two-hands");
   fakeDhd(0).position[1] = 0.01, fakeDhd(1).position[1] = 0.02;
   const auto left = open("forcedimension:0 + forcedimension:1");
-  ASSERT_EQ(left->otherHands().size(), 1u);
-  haptics::HapticDevice& right = *left->otherHands()[0];
+  ASSERT_EQ(left->hands().size(), 2u);
+  haptics::HapticDevice& right = *left->hands()[1];
   ASSERT_TRUE(until([&] {
     left->write({1, 0, 0});
     right.write({2, 0, 0});

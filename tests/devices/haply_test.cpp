@@ -427,8 +427,8 @@ TEST(Haply, TwoAtOneServiceAreTwoHandsEachWithItsPlaceForceAndGrip) {
   service.moveTo({0.02, 0, 0}, "06A1");
   const auto left = makeDevice(fmt::format("haply:049D,grip=61548,port={0} + haply:06A1,grip=61549,port={0}", service.port()),
                                experiment::readExperiment("chain-two-hands"), 1);
-  ASSERT_EQ(left->otherHands().size(), 1u);
-  haptics::HapticDevice& right = *left->otherHands()[0];
+  ASSERT_EQ(left->hands().size(), 2u);
+  haptics::HapticDevice& right = *left->hands()[1];
   ASSERT_TRUE(until([&] {
     left->write({1, 0, 0});
     right.write({2, 0, 0});

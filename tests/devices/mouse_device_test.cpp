@@ -11,6 +11,7 @@
 
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
+#include "sim/haptics/tick_order.h"
 
 namespace reachlab::devices {
 namespace {
@@ -87,11 +88,11 @@ double velocityError(const Drag& drag, double& delay) {
       nextFrame += drag.frame;
     }
     haptics::TickInput input;
-    input.device = mouse.read();
-    engine.tick(input);
+    input.devices[0] = mouse.read();
+    haptics::runTick(engine, input);
     if (tick < 4000) continue;
     // The pointer's stamps are whole milliseconds, rounded down: half of one earlier on the average.
-    const double truth = velocity(t - mouse.delay() + 0.5e-3), error = engine.state().hand.velocity.x - truth;
+    const double truth = velocity(t - mouse.delay() + 0.5e-3), error = engine.state().hands[0].hip.velocity.x - truth;
     squares += error * error, power += truth * truth, delays += mouse.delay();
     ++counted;
   }

@@ -205,14 +205,14 @@ TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
   const auto device = makeDevice("simulated + simulated + simulated", both, 5);
   const auto alone = makeDevice("simulated", both, 5);
   for (haptics::HapticDevice* one : {device.get(), alone.get()}) one->prepareTrial(0), one->cue(haptics::Cue::Place);
-  ASSERT_EQ(device->otherHands().size(), 2u);
+  ASSERT_EQ(device->hands().size(), 3u);
   Vec3 second, third;
   device->cue(haptics::Cue::Go);
   Vec3 first;
   for (int i = 0; i < 900; ++i) {
     first = device->read().position;
-    second = device->otherHands()[0]->read().position;
-    third = device->otherHands()[1]->read().position;
+    second = device->hands()[1]->read().position;
+    third = device->hands()[2]->read().position;
   }
   EXPECT_EQ(first, placeOf(*alone));
   EXPECT_FALSE(second == first);
@@ -302,8 +302,8 @@ TEST(SeveralHands, AreOneDeviceInTheFirstOnesNameAndAllAreAsked) {
   device->write({1, 0, 0});
   EXPECT_EQ(parts[0]->force.x, 1);
   EXPECT_EQ(parts[1]->force.x, 0) << "each is told for itself";
-  ASSERT_EQ(device->otherHands().size(), 2u);
-  EXPECT_EQ(device->otherHands()[1], parts[2]);
+  ASSERT_EQ(device->hands().size(), 3u);
+  EXPECT_EQ(device->hands()[2], parts[2]);
   device->startClock(nullptr, nullptr);
   EXPECT_EQ(parts[0]->clocks, 1);
   EXPECT_EQ(parts[1]->clocks, 0);

@@ -15,6 +15,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/haptics/run_conductor.h"
+#include "sim/haptics/tick_order.h"
 
 namespace reachlab::devices {
 namespace {
@@ -149,15 +150,15 @@ TEST(SimulatedHand, OnACurveTheObjectMovesAsTheCriterionPredicts) {
   for (const char* bent : {"ellipse", "chain-on-ellipse", "helix"}) {
     const experiment::CompiledExperiment experiment(experiment::readExperiment(bent));
     const auto prediction = predict::predict(experiment, predict::Criterion::MinHandJerk);
-    haptics::TickEngine engine(experiment.experiment(), {.virtualHand = true});
+    haptics::TickEngine engine(experiment.experiment(), {{{.virtualHand = true}}});
     const auto hand = makeDevice("simulated:noise=0,reaction=0,criterion=min-hand-jerk", experiment, 1);
     hand->prepareTrial(0);
     haptics::TickInput input;
     input.command = trial::Command::NextTrial;
     double worst = 0, peak = 0;
     for (int tick = 0, since = -1; since < static_cast<int>(prediction->duration * 1000) && tick < 5000; ++tick) {
-      input.device = hand->read();
-      engine.tick(input);
+      input.devices[0] = hand->read();
+      haptics::runTick(engine, input);
       input.command = trial::Command::None;
       if (engine.state().phase == trial::Phase::Done) break;
       if (since >= 0) ++since;

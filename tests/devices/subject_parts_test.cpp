@@ -20,6 +20,7 @@
 #include "devices/subject/subject_parameters.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
+#include "sim/haptics/tick_order.h"
 #include "sim/predict/predict.h"
 
 namespace reachlab::devices {
@@ -757,19 +758,19 @@ TEST(ImpedanceHand, CarriesItsPlanOutWhereItKnowsTheObject) {
   std::shared_ptr<void> learnt;
   const auto hand = prepareImpedanceSubjects(experiment, parseImpedanceSubject("kind=impedance,noise=0,reaction=0"))(1, 0, learnt);
   const auto plan = prepareSubjects(experiment, parseSubject("noise=0,reaction=0.001"))(1, 0, learnt);
-  haptics::TickEngine engine(experiment, haptics::engineOptions(hand->info()));
+  haptics::TickEngine engine(experiment, haptics::engineOptions(*hand));
   hand->prepareTrial(0), plan->prepareTrial(0);
   haptics::TickInput input;
   input.command = trial::Command::NextTrial;
   double worst = 0;
   int since = -1;
   for (int tick = 0; since < 1500 && tick < 6000; ++tick) {
-    input.device = hand->read();
+    input.devices[0] = hand->read();
     const Vec3 meant = plan->read().position;
-    engine.tick(input);
+    haptics::runTick(engine, input);
     input.command = trial::Command::None;
-    hand->write(engine.state().deviceForce);
-    if (since >= 0) ++since, worst = std::max(worst, norm(input.device.position - meant));
+    hand->write(engine.state().hands[0].deviceForce);
+    if (since >= 0) ++since, worst = std::max(worst, norm(input.devices[0].position - meant));
     if (const auto cue = engine.cue()) hand->cue(*cue), plan->cue(*cue), since = *cue == haptics::Cue::Go ? 0 : since;
   }
   EXPECT_EQ(since, 1500);

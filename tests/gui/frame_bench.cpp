@@ -61,7 +61,7 @@ struct Bench {
     constexpr int kPictures = 48, kFirst = 16;  // the first ones are for the program to learn how fast it draws
     for (int i = 1; i <= kPictures; ++i) {
       const double share = static_cast<double>(i) / kPictures, time = share * duration;
-      frame.hand = start + share * way;
+      ownHand(frame) = start + share * way;
       for (std::size_t k = 0; k < frame.masses.size(); ++k) frame.masses[k] = start + (share / (1.5 + static_cast<double>(k))) * way;
       const double before = processorSeconds();
       view->showFrame(frame);

@@ -57,24 +57,18 @@ TEST_F(Watch, PassesAnOrdinaryReachUntouched) {
   EXPECT_EQ(watch.fault(), DeviceFault::None);
 }
 
-TEST_F(Watch, AHandHeldStillIsNotFrozen) {
-  for (int i = 0; i < 5000; ++i) ASSERT_TRUE(look({0.1, 0, 0}).valid);
-  EXPECT_EQ(watch.fault(), DeviceFault::None);
-}
-
-TEST_F(Watch, MissingReportsUnderForceAreLatchedAfterTheDevicesBound) {
-  settle({0.1, 0, 0});
-  for (int i = 1; i < 20; ++i) ASSERT_TRUE(look({0.1, 0, 0}, false).valid) << i;
-  EXPECT_FALSE(look({0.1, 0, 0}, false).valid) << "20 ms without a report";
-  EXPECT_EQ(watch.fault(), DeviceFault::Silent);
-}
-
-// An arm that is unplugged where little is felt would otherwise end trial after trial, and the run without a word.
-TEST_F(Watch, MissingReportsAreLatchedHoweverLittleIsFelt) {
-  settle({0.1, 0, 0});
-  for (int i = 1; i < 20; ++i) ASSERT_TRUE(look({0.1, 0, 0}, false).valid) << i;
-  EXPECT_FALSE(look({0.1, 0, 0}, false).valid);
-  EXPECT_EQ(watch.fault(), DeviceFault::Silent);
+// However little is felt: an arm that is unplugged would otherwise end trial after trial, and the run without a word. A hand held still goes on
+// reporting.
+TEST_F(Watch, MissingReportsInATrialAreLatchedAfterTheDevicesBound) {
+  for (const int bound : {20, 10}) {
+    DeviceInfo info = forceDevice();
+    info.silenceLimit = 1e-3 * bound;
+    watch = DeviceWatch(info);
+    for (int i = 0; i < 5000; ++i) ASSERT_TRUE(look({0.1, 0, 0}).valid);
+    for (int i = 1; i < bound; ++i) ASSERT_TRUE(look({0.1, 0, 0}, false).valid) << i;
+    EXPECT_FALSE(look({0.1, 0, 0}, false).valid) << bound << " ms without a report";
+    EXPECT_EQ(watch.fault(), DeviceFault::Silent);
+  }
 }
 
 TEST_F(Watch, MissingReportsBetweenTrialsAreNoFault) {
@@ -90,16 +84,6 @@ TEST_F(Watch, ADeviceThatDoesNotCountItsReportsIsNotJudgedByThem) {
     context.nowNs = now += kTickNs;
     ASSERT_TRUE(watch.look(sample, context).valid);
   }
-}
-
-TEST_F(Watch, AJumpOfMoreThanTwentyMillimetresIsLatched) {
-  settle({});
-  EXPECT_TRUE(look({0.0199, 0, 0}).valid || watch.fault() == DeviceFault::Speed);
-  DeviceWatch other(forceDevice());
-  watch = other;
-  settle({});
-  EXPECT_FALSE(look({0, 0.0201, 0}).valid);
-  EXPECT_EQ(watch.fault(), DeviceFault::Jump);
 }
 
 TEST_F(Watch, WhileTheObjectIsPutUpTheHandMayJump) {
@@ -118,22 +102,6 @@ TEST_F(Watch, AHandThatWasCarriedToTheStartIsNotFastThere) {
   context.engaged = true;
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(look({}).valid) << i;
   EXPECT_EQ(watch.fault(), DeviceFault::None);
-}
-
-TEST_F(Watch, AMissedTickIsNoJump) {
-  settle({});
-  double x = 0;
-  for (int i = 0; i < 200; ++i) ASSERT_TRUE(look({x += 2e-3, 0, 0}).valid) << "2 m/s is below the limit";
-  EXPECT_TRUE(look({x += 2e-3 * 11, 0, 0}, true, 10).valid) << "22 mm in eleven ticks at 2 m/s";
-}
-
-TEST_F(Watch, AHandFasterThanItsLimitIsLatched) {
-  settle({});
-  double x = 0;
-  int ticks = 0;
-  while (ticks < 100 && look({x += 3.5e-3, 0, 0}).valid) ++ticks;
-  EXPECT_EQ(watch.fault(), DeviceFault::Speed);
-  EXPECT_LE(ticks, 10) << "within the window of ten ticks";
 }
 
 TEST_F(Watch, TheLimitIsTheSameHoweverLongAHandHasBeenLookedAt) {
@@ -187,16 +155,6 @@ TEST_F(Watch, AHandThatWasLostMayComeBackElsewhere) {
   context.nowNs = now += kTickNs;
   EXPECT_FALSE(watch.look(lost, context).valid);
   EXPECT_TRUE(look({0.2, 0, 0}).valid);
-}
-
-// 10 ms for a device that says so, from when its newest report came on the clock.
-TEST_F(Watch, TheBoundOnSilenceIsTheDevicesOwn) {
-  DeviceInfo info = forceDevice();
-  info.silenceLimit = 0.01;
-  watch = DeviceWatch(info);
-  settle({});
-  for (int i = 1; i < 10; ++i) ASSERT_TRUE(look({}, false).valid) << i;
-  EXPECT_FALSE(look({}, false).valid);
 }
 
 // Told by its clock, a report is as old as the device says, but never from a time to come.
@@ -281,45 +239,6 @@ TEST(DeviceHealth, EachHasItsName) {
   EXPECT_EQ(nameOf(DeviceHealth::Failed), "failed");
 }
 
-TEST(DeviceInfo, OfADeviceThatSaysNothingOfItself) {
-  const DeviceInfo info;
-  EXPECT_EQ(info.maxForce, 12);
-  EXPECT_EQ(info.maxContinuousForce, 0);
-  EXPECT_EQ(info.thermalSeconds, 10);
-  EXPECT_FALSE(info.virtualHand || info.rendersForce || info.drivesClock);
-  EXPECT_EQ(info.speedLimit, 3);
-  EXPECT_EQ(info.silenceLimit, 0.02);
-  EXPECT_EQ(info.degreesOfFreedom, 3);
-  EXPECT_EQ(info.rate, 1000);
-  EXPECT_EQ(info.workspaceRadius, 0);
-  for (const double unknown : {info.apparentMass, info.coulombFriction, info.viscosity, info.resolution, info.stylusMass})
-    EXPECT_EQ(unknown, 0);
-  const DeviceSample sample;
-  EXPECT_TRUE(sample.valid);
-  EXPECT_FALSE(sample.hasVelocity || sample.released || sample.hasOrientation);
-  EXPECT_EQ(sample.buttons, 0u);
-  EXPECT_EQ(sample.reports, 0u);
-  EXPECT_EQ(sample.takenNs, 0);
-  EXPECT_EQ(sample.orientation, (std::array<double, 4>{1, 0, 0, 0}));
-}
-
-// A device that overrides nothing.
-class PlainDevice final : public HapticDevice {
- public:
-  DeviceInfo info() const override { return {}; }
-  DeviceSample read() noexcept override { return {}; }
-  void write(const Vec3&) noexcept override {}
-};
-
-TEST(HapticDevice, IsReadyAloneAndWithoutASecondPathUnlessItSaysSo) {
-  PlainDevice device;
-  EXPECT_EQ(device.health(), DeviceHealth::Ready);
-  EXPECT_EQ(device.healthText(), "");
-  EXPECT_EQ(device.calibrationHint(), "");
-  EXPECT_TRUE(device.otherHands().empty());
-  EXPECT_FALSE(device.stopForce());
-}
-
 TEST(DeviceWatch, LeavesDevicesWithoutForceAlone) {
   DeviceWatch watch{DeviceInfo{}};
   DeviceSample sample;
@@ -335,17 +254,6 @@ TEST(Watchdog, FiresWhenNoTickIsCompletedForTwentyMillisecondsUnderForce) {
   EXPECT_EQ(judgeLoop({kLast + 20 * kMs + 1, kLast, true, false}), DeviceFault::Stalled);
   EXPECT_EQ(judgeLoop({kLast + 400 * kMs, kLast, false, false}), DeviceFault::None) << "no force, no haste";
   EXPECT_EQ(judgeLoop({kLast + 400 * kMs, 0, true, false}), DeviceFault::None) << "no tick yet";
-}
-
-TEST(Watchdog, LooksAtNothingThatItIsNotTold) {
-  constexpr std::int64_t kMs = 1'000'000, kLast = 1000 * kMs;
-  EXPECT_EQ(judgeLoop({}), DeviceFault::None);
-  EXPECT_EQ(judgeLoop({kLast}), DeviceFault::None) << "no tick yet";
-  EXPECT_EQ(judgeLoop({kLast + 900 * kMs, kLast}), DeviceFault::None) << "neither force nor a device's clock";
-  const WatchContext context;
-  EXPECT_FALSE(context.engaged);
-  EXPECT_EQ(context.missed, 0u);
-  EXPECT_EQ(context.nowNs, 0);
 }
 
 TEST(Watchdog, ADeviceThatDrivesTheClockMustCall) {

@@ -9,24 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "sim/haptics/tick_engine.h"
+#include "sim/haptics/tick_order.h"
 #include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
 namespace {
-
-TEST(Wall, PushesInwardsByItsLawAndNotWithin) {
-  GuardSettings settings;
-  settings.wallCentre = {0.01, 0, 0};
-  settings.wallRadius = 0.1;
-  EXPECT_EQ(wallForce(settings, {0.11, 0, 0}, {1, 0, 0}), Vec3{});
-  const Vec3 outwards = wallForce(settings, {0.112, 0, 0}, {0.5, 3, 0});
-  EXPECT_NEAR(outwards.x, -(500 * 0.002 + 2 * 0.5), 1e-9);
-  EXPECT_EQ(outwards.y, 0);
-  EXPECT_NEAR(wallForce(settings, {0.112, 0, 0}, {-0.5, 0, 0}).x, -500 * 0.002, 1e-9) << "it does not hold back who leaves it";
-  settings.wallRadius = 0;
-  EXPECT_EQ(wallForce(settings, {5, 0, 0}, {}), Vec3{}) << "no wall was asked for";
-}
 
 // A spring held from tick to tick gives more than it takes: over a cycle of period P at 1 kHz, E = -(k A^2 pi) sin-lag, to first order
 // -pi k A^2 w dt/2. The observer must see exactly that.
@@ -82,17 +69,9 @@ TEST(Wall, PushesAlongTheRayFromItsCentre) {
   EXPECT_LT(norm(along + (700 * 0.005 + 3 * 0.4) * outwards), 1e-9);
   EXPECT_LT(norm(wallForce(settings, place, -0.4 * outwards) + 700 * 0.005 * outwards), 1e-9);
   EXPECT_EQ(wallForce(settings, settings.wallCentre + 0.0999 * outwards, outwards), Vec3{});
+  EXPECT_EQ(wallForce(GuardSettings{}, {5, 0, 0}, {}), Vec3{}) << "no wall was asked for";
   settings.wallRadius = 0.5;  // narrower than a metre, and a wall all the same
   EXPECT_NEAR(norm(wallForce(settings, settings.wallCentre + Vec3{0, 0.51, 0}, {})), 7, 1e-9);
-}
-
-TEST(GuardSettings, SayNothingUnlessAsked) {
-  const GuardSettings settings;
-  EXPECT_EQ(settings.wallRadius, 0);
-  EXPECT_EQ(settings.wallStiffness, 500);
-  EXPECT_EQ(settings.wallDamping, 2);
-  EXPECT_EQ(settings.compensation, Vec3{});
-  EXPECT_FALSE(settings.passivityControl);
 }
 
 TEST(GuardSettings, AreEqualWhereEveryOneIs) {
@@ -168,7 +147,7 @@ TEST(PassivityObserver, TheControllerBrakesByTheEnergyThatIsMissing) {
 
 class GuardedEngine : public ::testing::Test {
  protected:
-  GuardedEngine() : experiment(test::armedAtOnce("chain-slow")) { options.rendersForce = true; }
+  GuardedEngine() : experiment(test::armedAtOnce("chain-slow")) { options.hands[0].rendersForce = true; }
   // At the start with a trial put up, until it is armed and the ramp is over.
   TickEngine& armed() {
     engine = std::make_unique<TickEngine>(experiment, options);
@@ -178,11 +157,11 @@ class GuardedEngine : public ::testing::Test {
   }
   const TickState& tick(const Vec3& place, trial::Command command = trial::Command::None, bool fault = false) {
     TickInput input;
-    input.device.position = place;
-    input.device.valid = !fault;
+    input.devices[0].position = place;
+    input.devices[0].valid = !fault;
     input.deviceFault = fault;
     input.command = command;
-    engine->tick(input);
+    runTick(*engine, input);
     return engine->state();
   }
   experiment::Experiment experiment;
@@ -191,77 +170,77 @@ class GuardedEngine : public ::testing::Test {
 };
 
 TEST_F(GuardedEngine, TheWallIsFeltBesideTheObjectAndSaid) {
-  options.guards.wallRadius = 0.099;
+  options.hands[0].guards.wallRadius = 0.099;
   armed();
   const TickState& state = tick({-0.1, 0, 0});
-  EXPECT_NEAR(state.deviceForce.x, 500 * 0.001, 1e-9) << "1 mm into it";
-  EXPECT_TRUE(state.interventions & intervention::kWall);
-  EXPECT_FALSE(state.clamped) << "the device gets what it was asked for";
+  EXPECT_NEAR(state.hands[0].deviceForce.x, 500 * 0.001, 1e-9) << "1 mm into it";
+  EXPECT_TRUE(state.hands[0].interventions & intervention::kWall);
+  EXPECT_FALSE(state.hands[0].clamped) << "the device gets what it was asked for";
 }
 
 TEST_F(GuardedEngine, TheStylusIsHeldAlsoBetweenTrials) {
-  options.guards.compensation = {0, 0.295 * 9.80665, 0};
+  options.hands[0].guards.compensation = {0, 0.295 * 9.80665, 0};
   engine = std::make_unique<TickEngine>(experiment, options);
   for (int i = 0; i < 300; ++i) tick({0.05, 0, 0});
-  EXPECT_EQ(engine->state().deviceForce, options.guards.compensation);
-  EXPECT_EQ(tick({0.05, 0, 0}, trial::Command::None, true).deviceForce, Vec3{}) << "a fault takes it as well";
+  EXPECT_EQ(engine->state().hands[0].deviceForce, options.hands[0].guards.compensation);
+  EXPECT_EQ(tick({0.05, 0, 0}, trial::Command::None, true).hands[0].deviceForce, Vec3{}) << "a fault takes it as well";
 }
 
 TEST_F(GuardedEngine, StatesFollowTheTrial) {
   engine = std::make_unique<TickEngine>(experiment, options);
-  EXPECT_EQ(engine->state().deviceState, DeviceState::Off);
-  EXPECT_EQ(tick({0, 0, 0}).deviceState, DeviceState::Homed);
-  EXPECT_EQ(tick({0, 0, 0}, trial::Command::NextTrial).deviceState, DeviceState::Armed);
+  EXPECT_EQ(engine->state().hands[0].deviceState, DeviceState::Off);
+  EXPECT_EQ(tick({0, 0, 0}).hands[0].deviceState, DeviceState::Homed);
+  EXPECT_EQ(tick({0, 0, 0}, trial::Command::NextTrial).hands[0].deviceState, DeviceState::Armed);
   for (int i = 0; i < 5; ++i) tick({-0.1, 0, 0});
-  EXPECT_EQ(engine->state().deviceState, DeviceState::Engaged);
-  EXPECT_EQ(tick({-0.1, 0, 0}, trial::Command::None, true).deviceState, DeviceState::Fault);
+  EXPECT_EQ(engine->state().hands[0].deviceState, DeviceState::Engaged);
+  EXPECT_EQ(tick({-0.1, 0, 0}, trial::Command::None, true).hands[0].deviceState, DeviceState::Fault);
 }
 
 // What the observer counts is what the device was given, without the weight that is held beside it.
 TEST_F(GuardedEngine, TheWeightOfAStylusIsNoEnergyOfTheProgram) {
-  options.guards.compensation = {0, 2, 0};
+  options.hands[0].guards.compensation = {0, 2, 0};
   engine = std::make_unique<TickEngine>(experiment, options);
   for (int i = 0; i < 300; ++i) tick({0.05, 0, 0});
   for (int i = 1; i <= 100; ++i) tick({0.05, 1e-4 * i, 0});
-  EXPECT_NEAR(engine->state().portEnergy, 0, 1e-15);
-  EXPECT_EQ(engine->state().interventions, 0);
-  EXPECT_FALSE(engine->state().clamped);
+  EXPECT_NEAR(engine->state().hands[0].portEnergy, 0, 1e-15);
+  EXPECT_EQ(engine->state().hands[0].interventions, 0);
+  EXPECT_FALSE(engine->state().hands[0].clamped);
 }
 
 // Pulled out by 3 cm and back, at 600 N/m on a chain of 3 kg: the energy that is counted is the work on the forces that were given.
 TEST_F(GuardedEngine, ThePortsEnergyIsTheWorkOnTheForceThatWasFelt) {
   armed();
   double work = 0;
-  Vec3 place{-0.1, 0, 0}, force = engine->state().deviceForce;
+  Vec3 place{-0.1, 0, 0}, force = engine->state().hands[0].deviceForce;
   for (int i = 0; i <= 600; ++i) {
     const Vec3 next{-0.1 + 0.03 * std::sin(0.01 * i), 1e-5 * i, 0};
     work -= dot(force, next - place);
     place = next;
     const TickState& state = tick(next);
-    ASSERT_NEAR(state.portEnergy, work, 1e-12) << i;
-    force = state.deviceForce;
+    ASSERT_NEAR(state.hands[0].portEnergy, work, 1e-12) << i;
+    force = state.hands[0].deviceForce;
   }
   EXPECT_GT(std::abs(work), 1e-3);
   tick(place, trial::Command::Abort);
   tick(place, trial::Command::NextTrial);
-  EXPECT_EQ(engine->state().portEnergy, 0) << "each trial counts for itself";
+  EXPECT_EQ(engine->state().hands[0].portEnergy, 0) << "each trial counts for itself";
 }
 
 // The mass of 3 kg swings on its coupling without a damper: held from tick to tick, the coupling gives energy away.
 TEST_F(GuardedEngine, ThePassivityControllerActsWhereItIsWantedAlone) {
   for (const bool wanted : {false, true}) {
-    options.guards.passivityControl = wanted;
+    options.hands[0].guards.passivityControl = wanted;
     armed();
     int acted = 0;
     double least = 0;
     for (int i = 0; i <= 1500; ++i) {
       const TickState& state = tick({-0.1 + 0.01 * std::sin(0.09 * i), 0, 0});
-      if (state.interventions & intervention::kPassivity) {
+      if (state.hands[0].interventions & intervention::kPassivity) {
         ++acted;
-        EXPECT_LT(state.portEnergy, 0);
-        EXPECT_LT(dot(state.deviceForce - state.feedbackForce, state.hand.velocity), 0) << "it brakes";
+        EXPECT_LT(state.hands[0].portEnergy, 0);
+        EXPECT_LT(dot(state.hands[0].deviceForce - state.hands[0].feedbackForce, state.hands[0].hip.velocity), 0) << "it brakes";
       }
-      least = std::min(least, state.portEnergy);
+      least = std::min(least, state.hands[0].portEnergy);
     }
     if (wanted) {
       EXPECT_GT(acted, 10);
@@ -275,55 +254,17 @@ TEST_F(GuardedEngine, ThePassivityControllerActsWhereItIsWantedAlone) {
 TEST_F(GuardedEngine, AReleasedHandIsHomedAndALostOneOff) {
   engine = std::make_unique<TickEngine>(experiment, options);
   TickInput input;
-  input.device.position = {0.05, 0, 0};
-  input.device.valid = false;
-  engine->tick(input);
-  EXPECT_EQ(engine->state().deviceState, DeviceState::Off);
-  input.device.released = true;
-  engine->tick(input);
-  EXPECT_EQ(engine->state().deviceState, DeviceState::Homed);
-  input.device = {};
-  input.device.position = {0.05, std::nan(""), 0};
-  engine->tick(input);
-  EXPECT_EQ(engine->state().deviceState, DeviceState::Homed) << "no force was computed from it";
-}
-
-TEST_F(GuardedEngine, NothingAskedForChangesNoBit) {
-  TickEngine plain(experiment, EngineOptions{});
-  options = {};
-  options.guards.wallRadius = 10;
-  armed();
-  TickInput first;
-  first.device.position = {-0.1, 0, 0};
-  first.command = trial::Command::NextTrial;
-  plain.tick(first);
-  first.command = trial::Command::None;
-  for (int i = 0; i < 300; ++i) plain.tick(first);
-  for (int i = 0; i < 500; ++i) {
-    first.device.position.x = -0.1 + 1e-4 * i;
-    plain.tick(first);
-    tick(first.device.position);
-    ASSERT_EQ(plain.state().deviceForce, engine->state().deviceForce) << i;
-  }
-}
-
-TEST(ForceSafetyInterventions, EachIsSaidWhenItActs) {
-  ForceSafety safety({5, 0, 10});
-  safety.limit({1, 0, 0}, true, true);
-  EXPECT_TRUE(safety.interventions() & intervention::kRamp);
-  for (int i = 0; i < 300; ++i) safety.limit({1, 0, 0}, true, true);
-  EXPECT_EQ(safety.interventions(), 0);
-  safety.limit({4.5, 0, 0}, true, true);
-  EXPECT_EQ(safety.interventions(), intervention::kSlew);
-  for (int i = 0; i < 5; ++i) safety.limit({9, 0, 0}, true, true);
-  EXPECT_EQ(safety.interventions(), intervention::kLimit);
-  safety.limit({9, 0, 0}, true, false);
-  EXPECT_EQ(safety.interventions(), intervention::kHeldBack);
-  safety.limit({NAN, 0, 0}, true, true);
-  EXPECT_EQ(safety.interventions(), intervention::kNotFinite);
-  ForceSafety warm({5, 1, 0.1});
-  for (int i = 0; i < 1000; ++i) warm.limit({4, 0, 0}, true, true);
-  EXPECT_EQ(warm.interventions(), intervention::kHeat);
+  input.devices[0].position = {0.05, 0, 0};
+  input.devices[0].valid = false;
+  runTick(*engine, input);
+  EXPECT_EQ(engine->state().hands[0].deviceState, DeviceState::Off);
+  input.devices[0].released = true;
+  runTick(*engine, input);
+  EXPECT_EQ(engine->state().hands[0].deviceState, DeviceState::Homed);
+  input.devices[0] = {};
+  input.devices[0].position = {0.05, std::nan(""), 0};
+  runTick(*engine, input);
+  EXPECT_EQ(engine->state().hands[0].deviceState, DeviceState::Homed) << "no force was computed from it";
 }
 
 }  // namespace

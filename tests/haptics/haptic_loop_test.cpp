@@ -12,6 +12,7 @@
 
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/run_conductor.h"
+#include "sim/haptics/tick_order.h"
 #include "tests/haptics/armed_at_once.h"
 #include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"
@@ -65,82 +66,22 @@ TEST(HapticLoop, RealTimeGivesTheBitsOfTheVirtualClock) {
   for (std::size_t i = 0; i < count; ++i) {
     const TickState &f = fast->ticks[f0 + i].state, &r = real->ticks[r0 + i].state;
     ASSERT_EQ(std::memcmp(&f.masses[0], &r.masses[0], sizeof(dynamics::MassState)), 0) << "tick " << i;
-    ASSERT_EQ(f.couplingForce, r.couplingForce);
+    ASSERT_EQ(f.hands[0].couplingForce, r.hands[0].couplingForce);
     ASSERT_EQ(f.phase, r.phase);
-  }
-}
-
-TEST(HapticLoop, TheLoggedInputsReproduceARealTimeRun) {
-  const experiment::Experiment experiment = shortTask();
-  auto sink = std::make_unique<MemorySink>(3000);
-  RunConductor conductor(experiment::CompiledExperiment(experiment), makeReach(), {trial::PlannedTrial{}});
-  conductor.start(sink.get());
-  conductor.runTrial(std::atomic<bool>{false});
-  conductor.finish();
-  TickEngine again(experiment, {12, true});
-  for (const test::SeenTick& seen : sink->ticks) {
-    again.tick({seen.state.device, seen.command, {}, seen.missed, seen.state.measuredNs});
-    ASSERT_EQ(std::memcmp(&again.state().masses[0], &seen.state.masses[0], sizeof(dynamics::MassState)), 0);
-    ASSERT_EQ(again.state().deviceForce, seen.state.deviceForce);
-    ASSERT_EQ(again.state().phase, seen.state.phase);
   }
 }
 
 TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
   const experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
-  ScriptedDevice device(-0.1, 0.1, 300);
+  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   {
     HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), test::borrowed(device), nullptr);
     loop.start();
     loop.tryCommand(trial::Command::NextTrial);
     while (loop.report().ticks < 200) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  ASSERT_FALSE(device.written.empty());
-  EXPECT_EQ(device.written.back(), Vec3{});
-}
-
-TEST(HapticLoop, ReportsWhatItAchieved) {
-  ScriptedDevice device(-0.1, 0.1, 300);
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), test::borrowed(device), nullptr);
-  loop.start();
-  while (loop.report().ticks < 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  loop.stop();
-  const LoopReport report = loop.report();
-  EXPECT_GT(report.rate, 0);
-  EXPECT_LE(report.latenessP50, report.latenessP99);
-  EXPECT_LE(report.latenessP99, report.latenessMax);
-  EXPECT_FALSE(report.mode.empty());
-  // Every period since the first tick was either done or counted as missed.
-  const double periods = report.seconds * 1000;
-  EXPECT_NEAR(static_cast<double>(report.ticks + report.faults.missedTicks), periods + 1, 1.5) << "ends of the run are not on deadlines";
-}
-
-TEST(HapticLoop, CountsTicksThatTheRecorderCouldNotTake) {
-  ScriptedDevice device(-0.1, 0.1, 300);
-  MemorySink sink(10);
-  LoopOptions options;
-  options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), &sink, options);
-  for (int i = 0; i < 25; ++i) loop.advance();
-  EXPECT_EQ(loop.engine().state().faults.droppedRecords, 15u);
-  EXPECT_EQ(loop.report().faults.droppedRecords, 15u);
-}
-
-TEST(RunConductor, ConductsEveryTrialOnceAndWaitsForItsRecord) {
-  MemorySink sink(1);
-  LoopOptions options;
-  options.virtualClock = true;
-  RunConductor conductor(experiment::CompiledExperiment(shortTask()), makeReach(), {trial::PlannedTrial{4}, trial::PlannedTrial{7}},
-                         options);
-  conductor.start(&sink);
-  const std::atomic<bool> stop{false};
-  std::vector<int> indices;
-  while (const auto trial = conductor.runTrial(stop)) indices.push_back(trial->planned.index);
-  conductor.finish();
-  EXPECT_EQ(indices, (std::vector<int>{4, 7}));
-  EXPECT_EQ(sink.announced, (std::vector<std::int32_t>{1, 2}));
-  EXPECT_EQ(sink.awaited, sink.announced);
-  EXPECT_TRUE(sink.closed);
+  ASSERT_FALSE(device->written.empty());
+  EXPECT_EQ(device->written.back(), Vec3{});
 }
 
 TEST(RunConductor, InterruptsTheTrialUnderWayWhenAskedToStop) {
@@ -155,20 +96,6 @@ TEST(RunConductor, InterruptsTheTrialUnderWayWhenAskedToStop) {
     EXPECT_EQ(trial->result.outcome, trial::Outcome::Interrupted);
     EXPECT_EQ(trial->result.reason, trial::Reason::Experimenter);
   }
-}
-
-TEST(RunConductor, CanBePolledLikeTheWindowDoes) {
-  RunConductor conductor(experiment::CompiledExperiment(shortTask()), makeReach(), {trial::PlannedTrial{}});
-  conductor.start(nullptr);
-  ASSERT_TRUE(conductor.putUpNext());
-  EXPECT_FALSE(conductor.putUpNext()) << "one trial at a time";
-  std::optional<ConductedTrial> ended;
-  while (!ended) {
-    ended = conductor.poll();
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_EQ(conductor.latest().phase, trial::Phase::Done);
-  EXPECT_EQ(conductor.trialsLeft(), 0u);
 }
 
 // A clock whose time passes as the test says: a microsecond a look, and at the sleeps that are named so much more.
@@ -191,7 +118,7 @@ class MadeClock final : public LoopClock {
 
 // Deadlines stay on the grid of 1 ms whatever is missed, each tick comes at its own, and what was missed is counted once.
 TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
-  ScriptedDevice device(-0.1, 0.1, 300);
+  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   MemorySink sink(1000);
   LoopOptions options;
   options.spinNs = 30'000;
@@ -228,23 +155,11 @@ TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
   EXPECT_NEAR(static_cast<double>(report.faults.longestGapNs), 8'501'000, 1000) << "7.5 ms late after the 1 ms that is due";
   EXPECT_NEAR(report.latenessMax, 7501, 1);
   EXPECT_NEAR(report.seconds, 1e-3 * static_cast<double>(report.ticks - 1 + 11), 1e-5);
-  EXPECT_EQ(device.written.back(), Vec3{});
-}
-
-TEST(HapticLoop, IsAskedForNothingButThis) {
-  const LoopOptions options;
-  EXPECT_FALSE(options.virtualClock);
-  EXPECT_EQ(options.priority, 80);
-  EXPECT_EQ(options.spinNs, 50'000);
-  EXPECT_EQ(options.clock, nullptr);
-  EXPECT_EQ(HapticLoop::kPeriodNs, 1'000'000);
-  EXPECT_EQ(HapticLoop::kPatienceMs, 300);
-  EXPECT_EQ(HapticLoop::kHangNs, 500'000'000);
-  EXPECT_EQ(MemorySink(1).massesEvery(), 1u) << "a sink looks at every mass at every tick unless it says otherwise";
+  EXPECT_EQ(device->written.back(), Vec3{});
 }
 
 TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
-  ScriptedDevice device(-0.1, 0.1, 300);
+  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   LoopOptions options;
   options.priority = 7;
   options.clock = std::make_shared<MadeClock>(std::map<int, std::int64_t>{});
@@ -261,7 +176,7 @@ TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
 }
 
 TEST(HapticLoop, TheVirtualClockStartsAtNoughtAndGoesByTicks) {
-  ScriptedDevice device(-0.1, 0.1, 300);
+  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
@@ -274,15 +189,15 @@ TEST(HapticLoop, TheVirtualClockStartsAtNoughtAndGoesByTicks) {
     EXPECT_EQ(sink.ticks[i].state.tick, i + 1);
     EXPECT_EQ(sink.ticks[i].missed, 0u);
   }
-  device.written.clear();
+  device->written.clear();
   loop.stop();
-  EXPECT_EQ(device.written, std::vector<Vec3>{Vec3{}});
+  EXPECT_EQ(device->written, std::vector<Vec3>{Vec3{}});
   loop.stop();
-  EXPECT_EQ(device.written.size(), 1u) << "once";
+  EXPECT_EQ(device->written.size(), 1u) << "once";
 }
 
 TEST(HapticLoop, TakesSixteenCommandsAtMostBeforeATick) {
-  ScriptedDevice device(-0.1, 0.1, 300);
+  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   MemorySink sink(100);
   LoopOptions options;
   options.virtualClock = true;
@@ -320,7 +235,7 @@ TEST_F(Conducted, EachTrialIsPreparedAnnouncedAndPutUpInItsOrder) {
   EXPECT_EQ(run.latest().tick, 0u);
   EXPECT_EQ(run.latest().massCount, 1);
   EXPECT_EQ(run.device().name, "left");
-  EXPECT_TRUE(run.otherDevices().empty());
+  EXPECT_EQ(run.hands().size(), 1u);
   EXPECT_EQ(run.report().ticks, 0u);
   EXPECT_EQ(run.fault(), std::nullopt);
   run.resetFault();
@@ -411,8 +326,8 @@ TEST_F(Conducted, TrialsThatWereAppendedCanBeTakenBackWhileTheyAreToCome) {
 
 TEST_F(Conducted, ASentenceSaysWhichDeviceIsLostAndWhy) {
   RunConductor& run = make({{}}, test::armedAtOnce("chain-two-hands"));
-  ASSERT_EQ(run.otherDevices().size(), 1u);
-  EXPECT_EQ(run.otherDevices()[0].name, "right");
+  ASSERT_EQ(run.hands().size(), 2u);
+  EXPECT_EQ(run.hands()[1].name, "right");
   run.start(nullptr);
   EXPECT_EQ(run.fault(), std::nullopt);
   device->is = second.is = DeviceHealth::Lost;  // of several, the device tells the worst
@@ -454,17 +369,6 @@ TEST_F(Conducted, ASentenceSaysAtWhichHandAFaultWasFound) {
     EXPECT_EQ(run.fault(), std::nullopt) << "from the next tick on";
     broken.says.clear();
   }
-}
-
-TEST_F(Conducted, ACompiledExperimentGivesTheSameRun) {
-  RunConductor& run = make({{}});
-  run.start(nullptr);
-  RunConductor again(experiment::CompiledExperiment(shortTask()), makeReach(), {{}}, options);
-  again.start(nullptr);
-  EXPECT_EQ(again.engine().protocol().latestTick, run.engine().protocol().latestTick);
-  EXPECT_EQ(again.engine().protocol().start, run.engine().protocol().start);
-  ASSERT_TRUE(again.runTrial(std::atomic<bool>{false}));
-  EXPECT_EQ(again.latest().phase, trial::Phase::Done);
 }
 
 // How often a trial was asked to stop.

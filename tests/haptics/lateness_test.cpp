@@ -9,17 +9,6 @@
 namespace reachlab::haptics {
 namespace {
 
-TEST(LatenessHistogram, PercentilesAreRightToABucketsWidth) {
-  LatenessHistogram histogram;
-  EXPECT_EQ(histogram.percentile(0.5), 0);
-  for (int i = 1; i <= 100'000; ++i) histogram.add(i);
-  constexpr double kBucket = 1.0 / 16;  // of the value: sixteen buckets an octave
-  EXPECT_NEAR(histogram.percentile(0.50), 50'000, 50'000 * kBucket);
-  EXPECT_NEAR(histogram.percentile(0.99), 99'000, 99'000 * kBucket);
-  EXPECT_EQ(histogram.percentile(1), 100'000);
-  EXPECT_EQ(histogram.max(), 100'000);
-}
-
 TEST(LatenessHistogram, TakesAnyDuration) {
   LatenessHistogram histogram;
   histogram.add(-5);

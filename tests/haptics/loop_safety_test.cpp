@@ -53,6 +53,7 @@ class FailingDevice : public HapticDevice {
   }
   bool stopForce() noexcept override {
     ++stops;
+    hangIf(hangsInStop);
     return true;
   }
   void letGo() {
@@ -63,7 +64,7 @@ class FailingDevice : public HapticDevice {
 
   std::function<void()> whileItIsTold;  // of a force
 
-  std::atomic<bool> hangsInRead{false}, hangsInWrite{false}, frozen{false}, jump{false};
+  std::atomic<bool> hangsInRead{false}, hangsInWrite{false}, hangsInStop{false}, frozen{false}, jump{false};
   std::atomic<double> lastForce{0}, most{0};
   std::atomic<int> stops{0}, hanging{0};
 
@@ -153,7 +154,7 @@ TEST_F(LoopSafety, AHangingReadIsToldZeroByTheSecondPath) {
 
 TEST_F(LoopSafety, AReadThatHangsBetweenTrialsIsToldZeroWhileAStylusIsHeld) {
   EngineOptions options;
-  options.guards.compensation = {0, 3, 0};
+  options.hands[0].guards.compensation = {0, 3, 0};
   loop = std::make_unique<HapticLoop>(std::make_unique<TickEngine>(experiment, options), device, nullptr);
   loop->start();
   ASSERT_TRUE(until([&] { return device->lastForce > 2.9; }));
@@ -184,7 +185,7 @@ TEST_F(LoopSafety, AFaultThatComesWhileTheDeviceIsToldItsForceLeavesNoForce) {
   ASSERT_GT(device->lastForce, 1.2);
   device->whileItIsTold = [&] { core.latch(DeviceFault::Stalled); };
   ASSERT_TRUE(core.tick(0, now += LoopCore::kPeriodNs));
-  EXPECT_EQ(core.fault, DeviceFault::Stalled);
+  EXPECT_EQ(core.latched.load().fault, DeviceFault::Stalled);
   EXPECT_EQ(device->lastForce, 0);
 }
 
@@ -198,12 +199,27 @@ TEST_F(LoopSafety, StopReturnsThoughADeviceCallHangs) {
   EXPECT_TRUE(until([&] { return device->hanging == 0; }));
 }
 
+// The tick, the last word and the watchdog all hang. Who slept for twice the longest wait has not woken by then.
+TEST_F(LoopSafety, StopWaitsOnceHoweverManyCallsHang) {
+  engage();
+  device->hangsInStop = true;
+  device->hangsInRead = true;
+  ASSERT_TRUE(until([&] { return device->hanging > 1; })) << "the read and the watchdog's word";
+  std::atomic<bool> woken{false};
+  std::jthread sleeper([&] {
+    std::this_thread::sleep_for(2 * std::chrono::milliseconds(HapticLoop::kPatienceMs + HapticLoop::kLastWordMs));
+    woken = true;
+  });
+  loop->stop();
+  EXPECT_FALSE(woken);
+  EXPECT_EQ(device->hanging, 3);
+}
+
 TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsWithASentence) {
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   auto hanging = std::make_unique<FailingDevice>(engine->protocol().start);
   FailingDevice* const seen = hanging.get();
-  auto run =
-      std::make_unique<RunConductor>(experiment::CompiledExperiment(experiment), std::move(hanging), std::vector<trial::PlannedTrial>{{}});
+  auto run = std::make_unique<RunConductor>(experiment::CompiledExperiment(experiment), std::move(hanging), std::vector<trial::PlannedTrial>{{}});
   run->start(nullptr);
   std::jthread breaker([&] {
     until([&] { return seen->lastForce > 1.2; });

@@ -15,8 +15,8 @@ std::uint64_t allocationsOfThreeTrials(experiment::Experiment experiment) {
   experiment.task->rest = experiment::kNoStartRest;
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   const Vec3 start = engine->protocol().start;
-  test::ScriptedDevice device(start.x, start.x + 0.02, 400);
-  device.others = start;
+  const auto device = std::make_shared<test::ScriptedDevice>(start.x, start.x + 0.02, 400);
+  device->beside = start;
   test::MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;

@@ -25,7 +25,7 @@ class ScriptedDevice final : public HapticDevice {
     if (going_ && at_ < ticks_) ++at_;
     const double x = static_cast<double>(at_) / ticks_;
     DeviceSample sample;
-    sample.position = others;
+    sample.position = beside;
     sample.position.x = from_ + (to_ - from_) * x * x * x * (10 + x * (6 * x - 15));
     return sample;
   }
@@ -34,7 +34,7 @@ class ScriptedDevice final : public HapticDevice {
   }
 
   std::vector<Vec3> written;
-  Vec3 others;  // [m] y and z of the hand
+  Vec3 beside;  // [m] y and z of the hand
 
  private:
   double from_, to_;

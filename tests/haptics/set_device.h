@@ -28,7 +28,11 @@ class SetDevice final : public HapticDevice {
     if (whileItIsTold) whileItIsTold();
   }
   void see(std::span<const dynamics::MassState> masses) noexcept override { seen = masses.size(); }
-  std::span<HapticDevice* const> otherHands() const noexcept override { return others; }
+  std::vector<HapticDevice*> hands() override {
+    std::vector<HapticDevice*> all{this};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
   DeviceHealth health() const noexcept override { return is; }
   std::string healthText() const override { return says; }
   bool stopForce() noexcept override {
@@ -40,7 +44,7 @@ class SetDevice final : public HapticDevice {
   DeviceSample sample;
   DeviceHealth is = DeviceHealth::Ready;
   std::string says;
-  std::vector<HapticDevice*> others;
+  std::vector<HapticDevice*> others;  // which are together with this one
   std::function<void()> whileItIsRead, whileItIsTold;
 
   std::vector<Vec3> written;

@@ -74,11 +74,5 @@ TEST(TickTiming, OneTrialLastsAsLongAsItIsMeasured) {
   EXPECT_EQ(measureTicks(experiment, 4000).trials, 1u);
 }
 
-TEST(TickTiming, RefusesAnExperimentWithoutATask) {
-  experiment::Experiment experiment = test::armedAtOnce("dingwell");
-  experiment.task.reset();
-  EXPECT_THROW(measureTicks(experiment, 10), FaultError);
-}
-
 }  // namespace
 }  // namespace reachlab::haptics

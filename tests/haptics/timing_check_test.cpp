@@ -43,8 +43,6 @@ TEST(TimingCheck, TheLongestGapIsTheCountedOneOrTheLatestTicks) {
   EXPECT_TRUE(judgeTiming(report, limits()).realTime);
   report.realTime = false;
   EXPECT_FALSE(judgeTiming(report, limits()).realTime);
-  EXPECT_EQ(kTimingCheckSeconds, 2);
-  EXPECT_FALSE(TimingVerdict{}.good || TimingVerdict{}.realTime) << "nothing is good before it was looked at";
 }
 
 TEST(TimingCheck, ALoopThatNeverTickedIsNotGood) { EXPECT_FALSE(judgeTiming(LoopReport{}, limits()).good); }

@@ -61,7 +61,7 @@ TEST_F(Looker, SeesTheConductorsCopyAndEveryHand) {
   EXPECT_EQ(state.phase, trial::Phase::Moving);
   EXPECT_EQ(state.massCount, 5);
   EXPECT_NEAR(state.masses[0].r.x, 0, 1e-9);
-  EXPECT_EQ(state.hand.position.x, -0.09);
+  EXPECT_EQ(state.hands[0].hip.position.x, -0.09);
   EXPECT_FALSE(looker_->hands().known[0]);
   EXPECT_TRUE(looker_->hands().known[1]);
   EXPECT_EQ(looker_->hands().place[1].x, 0.02);

@@ -40,11 +40,11 @@ Asked askedByAStation(const std::string& name) {
   const experiment::CompiledExperiment experiment{e};
   const auto memory = std::make_unique<LineMemory>();
   CoupledCopy* copy = nullptr;
-  auto engine = makeStationEngine(experiment, 0, {.deviceMaxForce = 12, .virtualHand = true}, copy);
+  auto engine = makeStationEngine(experiment, 0, {{{.deviceMaxForce = 12, .virtualHand = true}}}, copy);
   StationSink line(*memory, *copy, 0);
   const Vec3 start = engine->protocol().start;
-  haptics::test::ScriptedDevice device(start.x, start.x + 0.05, 1000);
-  device.others = start;
+  const auto device = std::make_shared<haptics::test::ScriptedDevice>(start.x, start.x + 0.05, 1000);
+  device->beside = start;
 
   const record::TemporaryFolder folder("station-allocation");
   record::RunConfiguration c = record::madeConfiguration();

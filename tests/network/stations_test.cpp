@@ -21,6 +21,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/recorder.h"
 #include "tests/record/made_run.h"
+#include "sim/haptics/tick_order.h"
 
 // Two whole stations, engine, sink, rings and log, on clocks of the test: the line between them is a function, so what is judged never
 // depends on how busy the computer is.
@@ -35,7 +36,7 @@ class Station {
  public:
   Station(const experiment::CompiledExperiment& experiment, int own, bool conductor, std::int64_t clockNs, const std::string& path)
       : memory_(std::make_unique<LineMemory>()), clockNs_(clockNs) {
-    const haptics::EngineOptions options{.deviceMaxForce = 12, .virtualHand = true};
+    const haptics::EngineOptions options{{{.deviceMaxForce = 12, .virtualHand = true}}};
     engine_ = makeStationEngine(experiment, own, options, copy_);
     sink_ = std::make_unique<StationSink>(*memory_, *copy_, own);
     record::RunConfiguration c = record::madeConfiguration();
@@ -72,8 +73,8 @@ class Station {
     }
     if (engine_->state().gone) moved_ += kTickSeconds;
     const double along = heldMinimumJerk(moved_ / kDuration).value;
-    input.device.position = from_ + along * (to_ - from_);
-    engine_->tick(input);
+    input.devices[0].position = from_ + along * (to_ - from_);
+    haptics::runTick(*engine_, input);
     const haptics::TickState& state = engine_->state();
     sink_->onTick(state, input.command, 0);
     recorder_->onTick(state, input.command, 0);
@@ -340,7 +341,7 @@ TEST(StationSink, IsReadWhileTheCopyMoves) {
   const experiment::CompiledExperiment experiment{experiment::readExperiment("chain-two-hands")};
   const auto memory = std::make_unique<LineMemory>();
   CoupledCopy* copy = nullptr;
-  const auto engine = makeStationEngine(experiment, 0, {.deviceMaxForce = 12, .virtualHand = true}, copy);
+  const auto engine = makeStationEngine(experiment, 0, {{{.deviceMaxForce = 12, .virtualHand = true}}}, copy);
   StationSink sink(*memory, *copy, 0);
   std::atomic<bool> on{true};
   std::atomic<int> records{0}, wrong{0};
@@ -362,8 +363,8 @@ TEST(StationSink, IsReadWhileTheCopyMoves) {
     haptics::TickInput input;
     input.measuredNs = tick * 1'000'000ll;
     if (tick == 5) input.command = trial::Command::NextTrial;
-    input.device.position = engine->state().masses[0].r;
-    engine->tick(input);
+    input.devices[0].position = engine->state().masses[0].r;
+    haptics::runTick(*engine, input);
     heard.sample.sequence = tick, heard.sample.time = 1e-3 * tick;
     (void)memory->in[1].tryPush(heard);
     sink.onTick(engine->state(), input.command, 0);

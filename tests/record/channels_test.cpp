@@ -31,7 +31,7 @@ class Filled {
     expected["latency"] = 1.35;
     s.measuredNs = 2'500'000'000;
     expected["measured_time"] = 2.5;
-    hand(s, "", "1");
+    hand(s.hands[0], "", "1");
     expected["energy"] = s.energy = another();
     expected["trial"] = s.trial = 7;
     s.phase = trial::Phase::Moving;
@@ -49,10 +49,10 @@ class Filled {
     }
     for (std::size_t k = 0; k < 4; ++k) expected[std::string("body_quat_") + "wxyz"[k]] = s.body.orientation[k] = another();
     vector("body_gyro", s.body.angularVelocity);
-    expected["port_energy"] = s.portEnergy = another();
-    expected["hand_work"] = s.work = another();
+    expected["port_energy"] = s.hands[0].portEnergy = another();
+    expected["hand_work"] = s.hands[0].work = another();
     for (int i = 2; i <= 4; ++i) {
-      haptics::HandState& other = s.others[static_cast<std::size_t>(i - 2)];
+      haptics::HandState& other = s.hands[static_cast<std::size_t>(i - 1)];
       const std::string number = std::to_string(i);
       hand(other, number, number);
       expected["hand" + number + "_work"] = other.work = another();
@@ -71,8 +71,8 @@ class Filled {
   // The first hand's columns have no number, the others' forces have theirs in front.
   void hand(haptics::HandState& h, const std::string& number, const std::string& whose) {
     const std::string force = number.empty() ? "" : "hand" + number + "_";
-    vector("hand" + number + "_pos", h.hand.position);
-    vector("hand" + number + "_vel", h.hand.velocity);
+    vector("hand" + number + "_pos", h.hip.position);
+    vector("hand" + number + "_vel", h.hip.velocity);
     vector("device" + number + "_pos", h.device.position);
     vector(force + "coupling_force", h.couplingForce);
     vector(force + "feedback_force", h.feedbackForce);
@@ -138,7 +138,7 @@ TEST(Channels, AnInvalidSampleIsAZero) {
   Filled filled;
   const ChannelTable table = makeChannelTable(sceneOf(1), 0);
   std::vector<double> row(table.size());
-  filled.state->device.valid = false;
+  filled.state->hands[0].device.valid = false;
   fillRow(table, *filled.state, row.data());
   EXPECT_EQ(row[table.indexOf("valid")], 0);
 }

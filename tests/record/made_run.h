@@ -71,11 +71,11 @@ class MadeRun {
               : within < kWaiting + kArmed + kMoving ? trial::Phase::Moving
                                                      : trial::Phase::Done;
     const double x = valueAt(tick);
-    s.device.position = {x, -x, 2 * x};
-    s.hand.position = {x, -x, 2 * x};
-    s.hand.velocity = {x / 7, 0, 0};
-    s.couplingForce = {10 * x, 0, 0};
-    s.feedbackForce = s.deviceForce = {-10 * x, 0, 0};
+    s.hands[0].device.position = {x, -x, 2 * x};
+    s.hands[0].hip.position = {x, -x, 2 * x};
+    s.hands[0].hip.velocity = {x / 7, 0, 0};
+    s.hands[0].couplingForce = {10 * x, 0, 0};
+    s.hands[0].feedbackForce = s.hands[0].deviceForce = {-10 * x, 0, 0};
     s.energy = x * x;
     for (int i = 0; i < s.massCount; ++i) s.masses[static_cast<std::size_t>(i)].r = {x + i, 0, 0};
     if (s.phase == trial::Phase::Done) {

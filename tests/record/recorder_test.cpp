@@ -110,8 +110,8 @@ TEST(Recorder, KeepsEveryHandsRawSamples) {
     state->handCount = 3;
     for (state->tick = 0; state->tick < kTicks; ++state->tick) {
       for (std::size_t hand = 0; hand < 2; ++hand) {
-        state->others[hand].device.position = placeOf(state->tick, hand);
-        state->others[hand].device.buttons = static_cast<std::uint32_t>(state->tick % 7 * hand);
+        state->hands[hand + 1].device.position = placeOf(state->tick, hand);
+        state->hands[hand + 1].device.buttons = static_cast<std::uint32_t>(state->tick % 7 * hand);
       }
       recorder.onTick(*state, trial::Command::None, 0);
     }

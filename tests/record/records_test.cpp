@@ -62,6 +62,8 @@ std::vector<RecordedTick> ticksOf(const Bytes& bytes) {
   return ticks;
 }
 
+void add(TickBlock& block, const RecordedTick& tick) { block.add(tick, tick.device); }
+
 RecordedTick tickAt(std::uint64_t number, std::int64_t ns, const Vec3& place) {
   RecordedTick tick;
   tick.tick = number;
@@ -97,7 +99,7 @@ TEST(TickRecord, HasOfEachTickOnlyWhatItsFlagsAskFor) {
   ticks[2].device.buttons = 6;
   ticks[2].command = trial::Command::Abort;
   ticks[2].missedTicks = 3;
-  for (const RecordedTick& tick : ticks) block.add(tick);
+  for (const RecordedTick& tick : ticks) add(block, tick);
   EXPECT_FALSE(block.empty());
   EXPECT_EQ(block.count(), 3u);
   const Bytes expected = bytesOf(std::uint32_t{3}) +
@@ -122,7 +124,7 @@ TEST(TickRecord, TellsATickOrATimeAnewWhereItDoesNotFollowTheLast) {
   then(5, 10);
   then(4, 0);
   TickBlock block;
-  for (const RecordedTick& tick : ticks) block.add(tick);
+  for (const RecordedTick& tick : ticks) add(block, tick);
   const std::uint8_t same = 8 | 1;
   Bytes expected = bytesOf(std::uint32_t{7}) + bytesOf(std::uint8_t{64 | 128 | 1}, std::uint64_t{0}, std::int64_t{100}, 0.0, 0.0, 0.0);
   expected = expected + bytesOf(same, static_cast<std::uint32_t>(kMost));
@@ -137,20 +139,20 @@ TEST(TickRecord, TellsATickOrATimeAnewWhereItDoesNotFollowTheLast) {
 TEST(TickRecord, TwoPlacesOfTheSameBitsAreOneAndZerosOfTwoSignsAreTwo) {
   TickBlock block;
   const double nan = std::nan("");
-  block.add(tickAt(0, 0, {nan, 0, 0}));
-  block.add(tickAt(1, 0, {nan, 0, 0}));
-  block.add(tickAt(2, 0, {nan, -0.0, 0}));
+  add(block, tickAt(0, 0, {nan, 0, 0}));
+  add(block, tickAt(1, 0, {nan, 0, 0}));
+  add(block, tickAt(2, 0, {nan, -0.0, 0}));
   EXPECT_EQ(block.payload().size(), 4u + (1 + 8 + 8 + 24) + (1 + 4) + (1 + 4 + 24));
   EXPECT_TRUE(std::signbit(ticksOf(copyOf(block.payload()))[2].device.position.y));
 }
 
 TEST(TickRecord, ABlockThatWasClearedBeginsAnew) {
   TickBlock block, fresh;
-  block.add(tickAt(3, 30, {1, 2, 3}));
+  add(block, tickAt(3, 30, {1, 2, 3}));
   block.clear();
   EXPECT_TRUE(block.empty());
   EXPECT_EQ(block.count(), 0u);
-  for (TickBlock* b : {&block, &fresh}) b->add(tickAt(4, 40, {1, 2, 3}));
+  for (TickBlock* b : {&block, &fresh}) add(*b, tickAt(4, 40, {1, 2, 3}));
   EXPECT_EQ(copyOf(block.payload()), copyOf(fresh.payload())) << "it can be read without the one before";
 }
 

@@ -10,27 +10,27 @@ bool push(TickRing& ring, std::uint64_t number, bool wantsRow, std::size_t colum
   double* space = nullptr;
   QueuedTick* slot = ring.beginPush(space);
   if (slot == nullptr) return false;
-  slot->raw.tick = number;
+  slot->stamp.tick = number;
   slot->hasRow = wantsRow && space != nullptr;
   if (slot->hasRow)
     for (std::size_t k = 0; k < columns; ++k) space[k] = static_cast<double>(10 * number + k);
-  for (std::size_t k = 0; k < ring.otherSpace(slot).size(); ++k)
-    ring.otherSpace(slot)[k].buttons = static_cast<std::uint32_t>(100 * number + k);
+  for (std::size_t k = 0; k < ring.deviceSpace(slot).size(); ++k)
+    ring.deviceSpace(slot)[k].buttons = static_cast<std::uint32_t>(100 * number + k);
   ring.publish(slot->hasRow);
   return true;
 }
 
 // Takes the oldest, which is tick `number`.
-void expectPop(TickRing& ring, std::uint64_t number, bool hasRow, std::size_t columns, std::size_t others) {
+void expectPop(TickRing& ring, std::uint64_t number, bool hasRow, std::size_t columns, std::size_t hands) {
   SCOPED_TRACE(number);
   const double* row = nullptr;
   const QueuedTick* tick = ring.front(row);
   ASSERT_NE(tick, nullptr);
-  EXPECT_EQ(tick->raw.tick, number);
+  EXPECT_EQ(tick->stamp.tick, number);
   ASSERT_EQ(row != nullptr, hasRow);
   for (std::size_t k = 0; hasRow && k < columns; ++k) EXPECT_EQ(row[k], static_cast<double>(10 * number + k));
-  ASSERT_EQ(ring.othersOf(tick).size(), others);
-  for (std::size_t k = 0; k < others; ++k) EXPECT_EQ(ring.othersOf(tick)[k].buttons, 100 * number + k);
+  ASSERT_EQ(ring.devicesOf(tick).size(), hands);
+  for (std::size_t k = 0; k < hands; ++k) EXPECT_EQ(ring.devicesOf(tick)[k].buttons, 100 * number + k);
   ring.pop(hasRow);
 }
 
@@ -48,7 +48,7 @@ TEST(TickRing, HoldsAsManyTicksAsItWasMadeForInTheirOrder) {
 }
 
 TEST(TickRing, RowsHaveAStoreOfTheirOwn) {
-  TickRing ring(7, 2, 3);
+  TickRing ring(7, 2, 3, 0);
   std::uint64_t pushed = 0, popped = 0;
   for (int round = 0; round < 40; ++round) {
     for (int k = 0; k < 2; ++k, ++pushed) ASSERT_TRUE(push(ring, pushed, pushed % 3 == 0, 3));
@@ -57,7 +57,7 @@ TEST(TickRing, RowsHaveAStoreOfTheirOwn) {
 }
 
 TEST(TickRing, ATickForWhoseRowThereIsNoRoomGoesWithoutIt) {
-  TickRing ring(4, 2, 1);
+  TickRing ring(4, 2, 1, 0);
   for (std::uint64_t k = 1; k <= 4; ++k) EXPECT_TRUE(push(ring, k, true, 1));
   for (std::uint64_t k = 1; k <= 4; ++k) expectPop(ring, k, k <= 2, 1, 0);
   EXPECT_TRUE(push(ring, 5, true, 1));

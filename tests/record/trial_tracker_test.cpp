@@ -39,7 +39,7 @@ struct Made {
   }
 
   TrialTracker tracker;
-  RecordedTick tick;
+  TickStamp tick;
   TickFacts facts;
   std::vector<RecordedEvent> events;
 };
@@ -70,7 +70,7 @@ TEST(TrialTracker, FollowsATrialFromWhereItIsPutUpToItsEnd) {
   EXPECT_FALSE(run.tracker.underWay());
   run.put(Phase::Waiting);
   run.facts.couplingForce = {100, 0, 0};  // not of the movement
-  run.facts.hand.velocity = {9, 0, 0};
+  run.facts.hip.velocity = {9, 0, 0};
   TrialTracker::Step step = run.next();
   EXPECT_TRUE(step.started);
   EXPECT_FALSE(step.finished);
@@ -82,8 +82,8 @@ TEST(TrialTracker, FollowsATrialFromWhereItIsPutUpToItsEnd) {
   run.put(Phase::Moving);
   double forces = 0;
   for (int k = 0; k <= 10; ++k) {  // a hand that sets off 5 m away, and forces of 3-4-5 triangles
-    run.facts.hand.position = {5, 0.01 * k * k, 0};
-    run.facts.hand.velocity = {0, 0.3 - 0.01 * std::abs(k - 4), 0.4};
+    run.facts.hip.position = {5, 0.01 * k * k, 0};
+    run.facts.hip.velocity = {0, 0.3 - 0.01 * std::abs(k - 4), 0.4};
     const double size = 1 + std::abs(k - 7);
     run.facts.couplingForce = {0.6 * size, 0, -0.8 * size};
     forces += size;
@@ -126,7 +126,7 @@ TEST(TrialTracker, NothingOfATrialIsInTheNext) {
   Made run;
   run.put(Phase::Moving);
   run.facts.couplingForce = {50, 0, 0};
-  run.facts.hand.velocity = {7, 0, 0};
+  run.facts.hip.velocity = {7, 0, 0};
   run.facts.clamped = true;
   run.until(20);
   run.tick.tick += 5;
@@ -137,7 +137,7 @@ TEST(TrialTracker, NothingOfATrialIsInTheNext) {
   run.facts = {};
   run.put(Phase::Moving, 2);
   run.facts.couplingForce = {0, 2, 0};
-  run.facts.hand.position = {1, 1, 1};
+  run.facts.hip.position = {1, 1, 1};
   for (int k = 0; k < 4; ++k) {
     run.next();
     run.facts.couplingForce.y += 2;
@@ -160,7 +160,7 @@ TEST(TrialTracker, AHandThatNeverSetOffHasNoMeasures) {
   Made run;
   run.put(Phase::Armed);
   run.facts.couplingForce = {50, 0, 0};
-  run.facts.hand.velocity = {7, 0, 0};
+  run.facts.hip.velocity = {7, 0, 0};
   run.until(30);
   run.facts.phase = Phase::Done;
   run.facts.result = {trial::Outcome::Aborted, trial::Reason::NoOnset, 0, 0, 0, 0, 30};
@@ -294,9 +294,9 @@ TEST(TrialTracker, CountsDroppedMissedAndClampedTicks) {
 TEST(TrialTracker, TellsWhenTheDeviceIsLostAndBack) {
   Made run;
   run.until(3);
-  run.tick.device.valid = false;
+  run.facts.deviceValid = false;
   run.until(6);
-  run.tick.device.valid = true;
+  run.facts.deviceValid = true;
   run.until(9);
   EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{3, EventKind::DeviceLost, 0, 0}, {6, EventKind::DeviceBack, 0, 0}}));
 }
@@ -395,25 +395,25 @@ TEST_F(Facts, AreThoseOfTheOnlyHand) {
   s.phase = Phase::Done;
   s.status = dynamics::StepStatus::AtEnd;
   s.trial = 6;
-  s.hand.position = {1, 2, 3};
-  s.couplingForce = {4, 5, 6};
+  s.hands[0].hip.position = {1, 2, 3};
+  s.hands[0].couplingForce = {4, 5, 6};
   s.result.mass = 7;
-  s.deviceState = haptics::DeviceState::Engaged;
-  s.interventions = 5;
-  s.clamped = true;
+  s.hands[0].deviceState = haptics::DeviceState::Engaged;
+  s.hands[0].interventions = 5;
+  s.hands[0].clamped = true;
   TickFacts facts = factsOf(s);
   EXPECT_EQ(facts.phase, Phase::Done);
   EXPECT_EQ(facts.status, dynamics::StepStatus::AtEnd);
   EXPECT_EQ(facts.trial, 6);
-  EXPECT_EQ(facts.hand.position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(facts.hip.position, (Vec3{1, 2, 3}));
   EXPECT_EQ(facts.couplingForce, (Vec3{4, 5, 6}));
   EXPECT_EQ(facts.result.mass, 7);
   EXPECT_TRUE(facts.clamped);
   EXPECT_EQ(facts.deviceState, haptics::DeviceState::Off) << "a device without force has no state";
   EXPECT_EQ(facts.interventions, 0);
-  s.rendersForce = true;
-  s.device.valid = false;
-  s.others[0].clamped = true;  // is not there
+  s.hands[0].rendersForce = true;
+  s.hands[0].device.valid = false;
+  s.hands[1].clamped = true;  // is not there
   facts = factsOf(s);
   EXPECT_FALSE(facts.clamped) << "a lost device is held back by nobody";
   EXPECT_EQ(facts.deviceState, haptics::DeviceState::Engaged);
@@ -423,22 +423,22 @@ TEST_F(Facts, AreThoseOfTheOnlyHand) {
 TEST_F(Facts, OfSeveralHandsAreWhatActsOnAnyOfThem) {
   haptics::TickState& s = *state_;
   s.handCount = 3;
-  s.rendersForce = s.others[1].rendersForce = true;
-  s.interventions = haptics::intervention::kLimit;
-  s.others[0].interventions = haptics::intervention::kRamp;  // renders no force
-  s.others[1].interventions = haptics::intervention::kWall;
-  s.deviceState = haptics::DeviceState::Homed;
-  s.others[0].deviceState = haptics::DeviceState::Fault;
-  s.others[1].deviceState = haptics::DeviceState::Armed;
+  s.hands[0].rendersForce = s.hands[2].rendersForce = true;
+  s.hands[0].interventions = haptics::intervention::kLimit;
+  s.hands[1].interventions = haptics::intervention::kRamp;  // renders no force
+  s.hands[2].interventions = haptics::intervention::kWall;
+  s.hands[0].deviceState = haptics::DeviceState::Homed;
+  s.hands[1].deviceState = haptics::DeviceState::Fault;
+  s.hands[2].deviceState = haptics::DeviceState::Armed;
   TickFacts facts = factsOf(s);
   EXPECT_FALSE(facts.clamped);
   EXPECT_EQ(facts.interventions, haptics::intervention::kLimit | haptics::intervention::kWall);
   EXPECT_EQ(facts.deviceState, haptics::DeviceState::Armed);
-  s.others[1].clamped = true;
+  s.hands[2].clamped = true;
   EXPECT_TRUE(factsOf(s).clamped);
-  s.others[1].device.valid = false;
+  s.hands[2].device.valid = false;
   EXPECT_FALSE(factsOf(s).clamped);
-  s.clamped = true;
+  s.hands[0].clamped = true;
   EXPECT_TRUE(factsOf(s).clamped);
 }
 

@@ -227,12 +227,14 @@ TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
   request_.fast = false;
   request_.trials.reset();
   RecordedSession session(planWithRest(0.3), request_, maker(false));
-  std::chrono::steady_clock::time_point rests, opened;
+  std::chrono::steady_clock::time_point ended, opened;
   SessionWords said = words();
-  said.resting = [&](const BlockToRun&) { rests = std::chrono::steady_clock::now(); };
+  said.ended = [&](const RecordedRun& run, const haptics::ConductedTrial&) {
+    if (run.configuration().block == 1) ended = std::chrono::steady_clock::now();
+  };
   said.opened = [&](const RecordedRun&) { opened = std::chrono::steady_clock::now(); };
   EXPECT_TRUE(conduct(session, kNeverStop, said));
-  EXPECT_GE(opened - rests, std::chrono::milliseconds(300));
+  EXPECT_GE(opened - ended, std::chrono::milliseconds(300));
 }
 
 // A person's hand that lies somewhere else than at the start.
@@ -255,7 +257,7 @@ TEST_F(Conducted, ATrialThatWaitsForItsHandIsSaidToWait) {
   SessionWords said = words();
   said.waiting = [&](const RecordedRun& run) {
     EXPECT_EQ(run.latest().phase, trial::Phase::Waiting);
-    EXPECT_EQ(run.latest().device.position, Vec3(0.05, 0, 0));
+    EXPECT_EQ(run.latest().hands[0].device.position, Vec3(0.05, 0, 0));
     told_.emplace_back("waiting");
     stop = true;
   };

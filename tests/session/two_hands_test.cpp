@@ -29,23 +29,20 @@ constexpr const char* kChain = R"({ "schema_version": 1, "name": "both", "constr
 /// Two scripted devices as one.
 class Pair final : public haptics::HapticDevice {
  public:
-  explicit Pair(double otherTo = 0.1, int otherTicks = 400) : first(-0.1, 0.1, 400), second(-0.1, otherTo, otherTicks), others_{&second} {}
+  explicit Pair(double otherTo = 0.1, int otherTicks = 400) : first(-0.1, 0.1, 400), second(-0.1, otherTo, otherTicks) {}
   haptics::DeviceInfo info() const override { return first.info(); }
   void cue(haptics::Cue cue) noexcept override { first.cue(cue), second.cue(cue); }
   haptics::DeviceSample read() noexcept override { return first.read(); }
   void write(const Vec3& force) noexcept override { first.write(force); }
-  std::span<haptics::HapticDevice* const> otherHands() const noexcept override { return others_; }
+  std::vector<haptics::HapticDevice*> hands() override { return {this, &second}; }
   ScriptedDevice first, second;
-
- private:
-  std::array<haptics::HapticDevice*, 1> others_;
 };
 
 /// A scripted hand as a device that renders force, which the loop looks after; with another hand beside it, if told.
 class Rendering final : public haptics::HapticDevice {
  public:
   Rendering(const std::string& name, int ticks, std::unique_ptr<HapticDevice> other = nullptr)
-      : name_(name), script_(-0.1, 0.1, ticks), other_(std::move(other)), others_{other_.get()} {}
+      : name_(name), script_(-0.1, 0.1, ticks), other_(std::move(other)) {}
   haptics::DeviceInfo info() const override {
     haptics::DeviceInfo info = script_.info();
     info.name = name_;
@@ -58,13 +55,12 @@ class Rendering final : public haptics::HapticDevice {
   }
   haptics::DeviceSample read() noexcept override { return script_.read(); }
   void write(const Vec3& force) noexcept override { script_.write(force); }
-  std::span<haptics::HapticDevice* const> otherHands() const noexcept override { return {others_.data(), other_ ? 1u : 0u}; }
+  std::vector<haptics::HapticDevice*> hands() override { return other_ ? std::vector<haptics::HapticDevice*>{this, other_.get()} : std::vector<haptics::HapticDevice*>{this}; }
 
  private:
   std::string name_;
   ScriptedDevice script_;
   std::unique_ptr<HapticDevice> other_;
-  std::array<HapticDevice*, 1> others_;
 };
 
 class TwoHands : public testing::Test {
@@ -162,7 +158,7 @@ TEST_F(TwoHands, NeedADeviceEach) {
 
 TEST_F(TwoHands, TheTrialWaitsForBothAtTheStart) {
   auto device = std::make_unique<Pair>();
-  device->second.others = {0, 0.05, 0};  // 5 cm beside the start
+  device->second.beside = {0, 0.05, 0};  // 5 cm beside the start
   record(std::move(device));
   EXPECT_EQ(results_.at(0).reason, trial::Reason::NoStart);
 }

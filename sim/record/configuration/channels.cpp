@@ -49,7 +49,7 @@ void addBody(std::vector<Channel>& out) {
   addVector(out, {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
 }
 
-// A further hand's own columns, in the order of `putHand`.
+// A further hand's own columns, in the order of `fillRow`.
 constexpr std::size_t kHandColumns = 20;
 void addHand(std::vector<Channel>& out, int number) {
   const std::string hand = fmt::format("hand{}", number), device = fmt::format("device{}", number);
@@ -76,12 +76,10 @@ double* putVector(double* at, const Vec3& v) noexcept {
   return at + 3;
 }
 
-double* putHand(double* at, const haptics::HandState& hand) noexcept {
+double* putVectors(double* at, const haptics::HandState& hand) noexcept {
   for (const Vec3& v :
-       {hand.hand.position, hand.hand.velocity, hand.device.position, hand.couplingForce, hand.feedbackForce, hand.deviceForce})
+       {hand.hip.position, hand.hip.velocity, hand.device.position, hand.couplingForce, hand.feedbackForce, hand.deviceForce})
     at = putVector(at, v);
-  *at++ = hand.device.valid ? 1 : 0;
-  *at++ = hand.work;
   return at;
 }
 
@@ -135,16 +133,12 @@ void fillRow(const ChannelTable& table, const haptics::TickState& state, double*
   double* at = row;
   *at++ = secondsOf(state.tick);
   *at++ = static_cast<double>(state.measuredNs) * 1e-9;
-  at = putVector(at, state.hand.position);
-  at = putVector(at, state.hand.velocity);
-  at = putVector(at, state.device.position);
-  at = putVector(at, state.couplingForce);
-  at = putVector(at, state.feedbackForce);
-  at = putVector(at, state.deviceForce);
+  const haptics::HandState& first = state.hands[0];
+  at = putVectors(at, first);
   *at++ = state.energy;
   *at++ = state.trial;
   *at++ = static_cast<double>(state.phase);
-  *at++ = state.device.valid ? 1 : 0;
+  *at++ = first.device.valid ? 1 : 0;
   for (int i = 0; i < table.massCount; ++i) {
     const dynamics::MassState& mass = state.masses[static_cast<std::size_t>(i)];
     at = putVector(at, mass.r);
@@ -157,9 +151,14 @@ void fillRow(const ChannelTable& table, const haptics::TickState& state, double*
     for (const double part : state.body.orientation) *at++ = part;
     at = putVector(at, state.body.angularVelocity);
   }
-  if (table.portEnergy) *at++ = state.portEnergy;
-  if (table.hands > 1) *at++ = state.work;
-  for (int hand = 1; hand < table.hands; ++hand) at = putHand(at, handOf(state, hand));
+  if (table.portEnergy) *at++ = first.portEnergy;
+  if (table.hands > 1) *at++ = first.work;
+  for (int i = 1; i < table.hands; ++i) {
+    const haptics::HandState& hand = state.hands[static_cast<std::size_t>(i)];
+    at = putVectors(at, hand);
+    *at++ = hand.device.valid ? 1 : 0;
+    *at++ = hand.work;
+  }
 }
 
 void numberTrial(const ChannelTable&, int firstTrial, double* row) noexcept {

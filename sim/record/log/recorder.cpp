@@ -25,7 +25,7 @@ struct Recorder::Impl {
         firstTrial(configuration.firstTrial), sceneColumns(rowWidth(table)),
         writer(path, configuration, options.diskReserve, options.threaded ? RunWriter::CutBy::Clock : RunWriter::CutBy::Ticks),
         ring(options.threaded ? options.queueTicks : 1, options.threaded ? options.queueTicks / every + 2 : 1, table.size(),
-             static_cast<std::size_t>(table.hands - 1)) {}
+             static_cast<std::size_t>(table.hands)) {}
 
   RecorderOptions options;
   ChannelTable table;
@@ -50,14 +50,14 @@ struct Recorder::Impl {
   void drain() {
     const double* row = nullptr;
     while (const QueuedTick* tick = ring.front(row)) {
-      if (fault.empty()) write(*tick, ring.othersOf(tick), row);
+      if (fault.empty()) write(*tick, ring.devicesOf(tick), row);
       ring.pop(tick->hasRow);
     }
     if (fault.empty()) guarded([this] { writer.flushIfDue(); });
   }
-  void write(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row) {
+  void write(const QueuedTick& tick, std::span<const haptics::DeviceSample> devices, const double* row) {
     guarded([&] {
-      if (writer.add(tick, others, row)) finishedTrial = writer.lastTrial().trial;
+      if (writer.add(tick, devices, row)) finishedTrial = writer.lastTrial().trial;
     });
   }
   template <typename Work>
@@ -105,10 +105,10 @@ bool Recorder::onTick(const haptics::TickState& state, trial::Command command, s
   QueuedTick* slot = impl.ring.beginPush(rowSpace);
   if (slot == nullptr) return false;
   const bool due = state.tick % impl.every == 0;
-  slot->raw = {state.tick, state.measuredNs, state.device, command, missedTicks};
+  slot->stamp = {state.tick, state.measuredNs, command, missedTicks};
   slot->facts = factsOf(state);
-  if (const auto others = impl.ring.otherSpace(slot); !others.empty())
-    for (std::size_t i = 0; i < others.size(); ++i) others[i] = state.others[i].device;
+  const auto devices = impl.ring.deviceSpace(slot);
+  for (std::size_t i = 0; i < devices.size(); ++i) devices[i] = state.hands[i].device;
   slot->hasRow = due && rowSpace != nullptr;
   if (slot->hasRow) {
     fillRow(impl.table, state, rowSpace);

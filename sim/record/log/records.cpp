@@ -44,14 +44,14 @@ void requireWhole(const ByteReader& in, const char* what) {
 
 }  // namespace
 
-void TickBlock::add(const RecordedTick& tick) {
+void TickBlock::add(const TickStamp& tick, const haptics::DeviceSample& device) {
   const bool first = count_ == 0;
   const std::int64_t passed = tick.measuredNs - last_.measuredNs;
   std::uint8_t flags = 0;
-  if (tick.device.valid) flags |= kValid;
-  if (tick.device.hasVelocity) flags |= kHasVelocity;
-  if (tick.device.buttons != 0) flags |= kButtons;
-  if (!first && sameBits(tick.device.position, last_.device.position)) flags |= kSamePosition;
+  if (device.valid) flags |= kValid;
+  if (device.hasVelocity) flags |= kHasVelocity;
+  if (device.buttons != 0) flags |= kButtons;
+  if (!first && sameBits(device.position, lastPosition_)) flags |= kSamePosition;
   if (tick.command != trial::Command::None) flags |= kCommand;
   if (tick.missedTicks != 0) flags |= kMissed;
   if (first || tick.tick != last_.tick + 1) flags |= kTickJump;
@@ -61,12 +61,13 @@ void TickBlock::add(const RecordedTick& tick) {
   if (flags & kTickJump) bytes_.put(tick.tick);
   if (flags & kTimeJump) bytes_.put(tick.measuredNs);
   else bytes_.put(static_cast<std::uint32_t>(passed));
-  if (!(flags & kSamePosition)) put(bytes_, tick.device.position);
-  if (flags & kHasVelocity) put(bytes_, tick.device.velocity);
-  if (flags & kButtons) bytes_.put(tick.device.buttons);
+  if (!(flags & kSamePosition)) put(bytes_, device.position);
+  if (flags & kHasVelocity) put(bytes_, device.velocity);
+  if (flags & kButtons) bytes_.put(device.buttons);
   if (flags & kCommand) bytes_.put(static_cast<std::uint8_t>(tick.command));
   if (flags & kMissed) bytes_.put(tick.missedTicks);
   last_ = tick;
+  lastPosition_ = device.position;
   ++count_;
 }
 

@@ -13,7 +13,8 @@ namespace reachlab::record {
 /// Collects the ticks of one block.
 class TickBlock {
  public:
-  void add(const RecordedTick& tick);
+  /// `device`: the first hand's sample.
+  void add(const TickStamp& tick, const haptics::DeviceSample& device);
   bool empty() const { return count_ == 0; }
   std::uint32_t count() const { return count_; }
   /// The payload so far; `clear` before the next block.
@@ -22,7 +23,8 @@ class TickBlock {
 
  private:
   ByteWriter bytes_;
-  RecordedTick last_;
+  TickStamp last_;
+  Vec3 lastPosition_;  // [m]
   std::uint32_t count_ = 0;
 };
 void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick>& out);

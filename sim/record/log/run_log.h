@@ -18,13 +18,17 @@ struct TrialSetup {
   trial::PlannedTrial planned;
 };
 
-/// A raw tick as logged: with the configuration all that is needed to simulate the run again.
-struct RecordedTick {
+/// What is logged of a tick beside its hands.
+struct TickStamp {
   std::uint64_t tick = 0;
   std::int64_t measuredNs = 0;  // monotonic clock of the computer
-  haptics::DeviceSample device;
   trial::Command command = trial::Command::None;
   std::uint32_t missedTicks = 0;  // whole periods skipped before this tick
+};
+/// A raw tick as its log record has it: with the samples of further hands and the configuration, all that is needed to simulate the run
+/// again.
+struct RecordedTick : TickStamp {
+  haptics::DeviceSample device;  // of the first hand
 };
 
 enum class EventKind : std::uint8_t {

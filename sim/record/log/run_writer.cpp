@@ -22,7 +22,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinter
 RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve, CutBy cutBy)
     : cutBy_(cutBy), diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()),
       tracker_(configuration.firstTrial) {
-  for (int hand = 2; hand <= configuration.table.hands; ++hand) otherTicks_.emplace_back(hand);
+  for (int hand = 2; hand <= configuration.table.hands; ++hand) handBlocks_.emplace_back(hand);
   log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
   log_.sync();
   lookedAt_ = log_.size();
@@ -52,10 +52,10 @@ void RunWriter::announce(const TrialSetup& setup) {
   log_.append(RecordType::TrialSetup, payload.bytes());
 }
 
-bool RunWriter::add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row) {
-  lastTick_ = tick.raw.tick;
+bool RunWriter::add(const QueuedTick& tick, std::span<const haptics::DeviceSample> devices, const double* row) {
+  lastTick_ = tick.stamp.tick;
   // A trial begins a block of its own, so that it can be read without the one before.
-  const auto step = tracker_.add(tick.raw, tick.facts, events_);
+  const auto step = tracker_.add(tick.stamp, tick.facts, events_);
   if (step.started) {
     std::vector<RecordedEvent> own;
     own.swap(events_);
@@ -64,9 +64,9 @@ bool RunWriter::add(const QueuedTick& tick, std::span<const haptics::DeviceSampl
     tracker_.trial().offset = log_.size();
     tracker_.trial().sequence = log_.nextSequence();
   }
-  ticks_.add(tick.raw);
-  for (std::size_t i = 0; i < otherTicks_.size() && i < others.size(); ++i) otherTicks_[i].add(others[i]);
-  if (row != nullptr) samples_.add(tick.raw.tick, row);
+  ticks_.add(tick.stamp, devices[0]);
+  for (std::size_t i = 0; i < handBlocks_.size(); ++i) handBlocks_[i].add(devices[i + 1]);
+  if (row != nullptr) samples_.add(tick.stamp.tick, row);
   if (step.finished) {
     flush();
     writeTrial(tracker_.trial());
@@ -90,7 +90,7 @@ void RunWriter::flush() {
     log_.append(RecordType::Ticks, ticks_.payload());
     ticks_.clear();
   }
-  for (HandBlock& block : otherTicks_) {
+  for (HandBlock& block : handBlocks_) {
     if (block.empty()) continue;
     log_.append(RecordType::HandTicks, block.payload());
     block.clear();

@@ -24,7 +24,7 @@ class RunWriter {
 
   void announce(const TrialSetup& setup);
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
-  bool add(const QueuedTick& tick, std::span<const haptics::DeviceSample> others, const double* row);
+  bool add(const QueuedTick& tick, std::span<const haptics::DeviceSample> devices, const double* row);
   void note(const std::string& text);
   /// A record of somebody else's, as it is.
   void append(RecordType type, std::span<const std::uint8_t> payload) { log_.append(type, payload); }
@@ -46,7 +46,7 @@ class RunWriter {
   std::uint64_t lookedAt_ = 0;  // size of the log when the disk was last looked at
   LogWriter log_;
   TickBlock ticks_;
-  std::vector<HandBlock> otherTicks_;  // of the second hand on, tick by tick with `ticks_`
+  std::vector<HandBlock> handBlocks_;  // of the second hand on, tick by tick with `ticks_`, which has the first hand
   SampleBlock samples_;
   std::vector<RecordedEvent> events_;
   TrialTracker tracker_;

@@ -9,9 +9,9 @@
 
 namespace reachlab::record {
 
-/// One tick on its way to the recorder; its row, when it has one, lies in the ring's row store.
+/// One tick on its way to the recorder. Its hands' samples and its row, when it has one, lie in stores of the ring.
 struct QueuedTick {
-  RecordedTick raw;
+  TickStamp stamp;
   TickFacts facts;
   bool hasRow = false;
 };
@@ -20,9 +20,8 @@ struct QueuedTick {
 /// waits. A row is `columns` numbers, and only every so manieth tick has one, so rows have a store of their own.
 class TickRing {
  public:
-  /// `others`: raw samples of further hands with each tick.
-  TickRing(std::size_t ticks, std::size_t rows, std::size_t columns, std::size_t others = 0)
-      : columns_(columns), slots_(ticks), rows_(rows * columns), rowCount_(rows), otherCount_(others), others_(ticks * others) {}
+  TickRing(std::size_t ticks, std::size_t rows, std::size_t columns, std::size_t hands)
+      : columns_(columns), slots_(ticks), rows_(rows * columns), rowCount_(rows), hands_(hands), devices_(ticks * hands) {}
 
   /// Writer: a slot to fill, or nullptr when full; `rowSpace` is set when a row fits too. `publish` makes it visible.
   QueuedTick* beginPush(double*& rowSpace) noexcept {
@@ -32,9 +31,9 @@ class TickRing {
     rowSpace = rowFits ? rows_.data() + rowHead_ % rowCount_ * columns_ : nullptr;
     return &slots_[head % slots_.size()];
   }
-  /// Writer: room for the further hands' samples of the slot that `beginPush` gave.
-  std::span<haptics::DeviceSample> otherSpace(const QueuedTick* slot) noexcept {
-    return {others_.data() + static_cast<std::size_t>(slot - slots_.data()) * otherCount_, otherCount_};
+  /// Writer: room for each hand's raw sample at the slot that `beginPush` gave.
+  std::span<haptics::DeviceSample> deviceSpace(const QueuedTick* slot) noexcept {
+    return {devices_.data() + static_cast<std::size_t>(slot - slots_.data()) * hands_, hands_};
   }
   void publish(bool withRow) noexcept {
     if (withRow) ++rowHead_;
@@ -49,9 +48,9 @@ class TickRing {
     row = tick.hasRow ? rows_.data() + rowTail_.load(std::memory_order_relaxed) % rowCount_ * columns_ : nullptr;
     return &tick;
   }
-  /// Reader: the further hands' samples of that tick.
-  std::span<const haptics::DeviceSample> othersOf(const QueuedTick* tick) const noexcept {
-    return {others_.data() + static_cast<std::size_t>(tick - slots_.data()) * otherCount_, otherCount_};
+  /// Reader: each hand's raw sample at that tick.
+  std::span<const haptics::DeviceSample> devicesOf(const QueuedTick* tick) const noexcept {
+    return {devices_.data() + static_cast<std::size_t>(tick - slots_.data()) * hands_, hands_};
   }
   void pop(bool withRow) noexcept {
     if (withRow) rowTail_.store(rowTail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
@@ -64,8 +63,8 @@ class TickRing {
   std::vector<QueuedTick> slots_;
   std::vector<double> rows_;
   std::size_t rowCount_;
-  std::size_t otherCount_;
-  std::vector<haptics::DeviceSample> others_;
+  std::size_t hands_;
+  std::vector<haptics::DeviceSample> devices_;
   std::size_t rowHead_ = 0;  // writer only
   alignas(kCacheLine) std::atomic<std::size_t> head_{0};
   alignas(kCacheLine) std::atomic<std::size_t> tail_{0};

@@ -6,27 +6,17 @@
 
 namespace reachlab::record {
 
-namespace {
-
-TickFacts factsOfFirst(const haptics::TickState& state) noexcept {
-  return {state.phase,
-          state.status,
-          state.trial,
-          state.clamped && state.device.valid,
-          state.rendersForce ? state.deviceState : haptics::DeviceState::Off,
-          state.rendersForce ? state.interventions : std::uint8_t{0},
-          state.hand,
-          state.couplingForce,
-          state.result};
-}
-
-}  // namespace
-
-// Of several hands: what acts on any of them.
+// Of several hands: what acts on any of them. The movement is the first hand's.
 TickFacts factsOf(const haptics::TickState& state) noexcept {
-  TickFacts facts = factsOfFirst(state);
-  for (int i = 1; i < state.handCount; ++i) {
-    const haptics::HandState& hand = haptics::handOf(state, i);
+  TickFacts facts{.phase = state.phase,
+                  .status = state.status,
+                  .trial = state.trial,
+                  .deviceValid = state.hands[0].device.valid,
+                  .hip = state.hands[0].hip,
+                  .couplingForce = state.hands[0].couplingForce,
+                  .result = state.result};
+  for (int i = 0; i < state.handCount; ++i) {
+    const haptics::HandState& hand = state.hands[static_cast<std::size_t>(i)];
     facts.clamped = facts.clamped || (hand.clamped && hand.device.valid);
     if (!hand.rendersForce) continue;
     facts.deviceState = std::max(facts.deviceState, hand.deviceState);
@@ -35,7 +25,7 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
   return facts;
 }
 
-void TrialTracker::begin(const RecordedTick& tick, std::int32_t number) {
+void TrialTracker::begin(const TickStamp& tick, std::int32_t number) {
   trial_ = {};
   trial_.trial = number;
   trial_.planned.index = number - 1;
@@ -50,18 +40,18 @@ void TrialTracker::begin(const RecordedTick& tick, std::int32_t number) {
 }
 
 void TrialTracker::measure(const TickFacts& facts) {
-  trial_.peakHandSpeed = std::max(trial_.peakHandSpeed, norm(facts.hand.velocity));
-  if (moving_ > 0) trial_.handPathLength += norm(facts.hand.position - lastPosition_);
+  trial_.peakHandSpeed = std::max(trial_.peakHandSpeed, norm(facts.hip.velocity));
+  if (moving_ > 0) trial_.handPathLength += norm(facts.hip.position - lastPosition_);
   const double force = norm(facts.couplingForce);
   trial_.peakForce = std::max(trial_.peakForce, force);
   forceSum_ += force;
   ++moving_;
   trial_.meanForce = forceSum_ / static_cast<double>(moving_);
-  lastPosition_ = facts.hand.position;
+  lastPosition_ = facts.hip.position;
 }
 
 // An intervention that comes and goes from tick to tick is one, until it has stayed away for kQuietTicks.
-void TrialTracker::tellGuards(const RecordedTick& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events) {
+void TrialTracker::tellGuards(const TickStamp& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events) {
   constexpr std::uint64_t kQuietTicks = 100;
   if (facts.deviceState != deviceState_)
     events.push_back({tick.tick, EventKind::DeviceState, number, static_cast<double>(facts.deviceState),
@@ -85,7 +75,7 @@ void TrialTracker::tellGuards(const RecordedTick& tick, std::int32_t number, con
   }
 }
 
-TrialTracker::Step TrialTracker::add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
+TrialTracker::Step TrialTracker::add(const TickStamp& tick, const TickFacts& facts, std::vector<RecordedEvent>& events) {
   Step step;
   const std::int32_t number = facts.trial > 0 ? facts.trial + firstTrial_ - 1 : facts.trial;
   const auto tell = [&](EventKind kind, double value = 0) { events.push_back({tick.tick, kind, number, value, {}}); };
@@ -96,8 +86,8 @@ TrialTracker::Step TrialTracker::add(const RecordedTick& tick, const TickFacts& 
     tell(EventKind::TrialStart, trial_.planned.index);
   }
   if (tick.missedTicks > 0) tell(EventKind::TicksMissed, tick.missedTicks);
-  if (tick.device.valid != valid_) tell(tick.device.valid ? EventKind::DeviceBack : EventKind::DeviceLost);
-  valid_ = tick.device.valid;
+  if (facts.deviceValid != valid_) tell(facts.deviceValid ? EventKind::DeviceBack : EventKind::DeviceLost);
+  valid_ = facts.deviceValid;
   tellGuards(tick, number, facts, events);
   if (facts.clamped != clamped_) tell(facts.clamped ? EventKind::ClampBegin : EventKind::ClampEnd);
   clamped_ = facts.clamped;

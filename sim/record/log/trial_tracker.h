@@ -14,7 +14,8 @@ struct TickFacts {
   bool clamped = false;  // the device gets less force than the object gives
   haptics::DeviceState deviceState = haptics::DeviceState::Off;
   std::uint8_t interventions = 0;  // bits of haptics::intervention
-  dynamics::HandSample hand;
+  bool deviceValid = true;  // the first hand's
+  dynamics::HandSample hip;
   Vec3 couplingForce;         // [N]
   trial::TrialResult result;  // in phase Done
 };
@@ -34,7 +35,7 @@ class TrialTracker {
     bool finished = false;  // `trial()` is complete
   };
   /// Appends to `events` what happened at this tick.
-  Step add(const RecordedTick& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
+  Step add(const TickStamp& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
   /// The trial under way or just finished; trial number 0 before the first.
   const RecordedTrial& trial() const { return trial_; }
@@ -44,9 +45,9 @@ class TrialTracker {
   RecordedTrial brokenOff() const;
 
  private:
-  void begin(const RecordedTick& tick, std::int32_t number);
+  void begin(const TickStamp& tick, std::int32_t number);
   void measure(const TickFacts& facts);
-  void tellGuards(const RecordedTick& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events);
+  void tellGuards(const TickStamp& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
   int firstTrial_;
   std::vector<TrialSetup> setups_;

@@ -203,12 +203,12 @@ TEST_F(Window, MassesPutSideBySideAreAllInThePictureFromTheSameSide) {
 TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   MainWindow& window = open();
   const scene::Camera before = window.view().camera();
-  const Vec3 hand = window.view().frame().hand;
+  const Vec3 hand = ownHand(window.view().frame());
   press(Qt::RightButton, {200, 200});
   moveTo({260, 180});
   release(Qt::RightButton, {260, 180});
   EXPECT_GT(norm(window.view().camera().position - before.position), 1e-3);
-  EXPECT_EQ(window.view().frame().hand, hand);
+  EXPECT_EQ(ownHand(window.view().frame()), hand);
 }
 
 TEST_F(Window, AbortAndRepeatPutTheSameTrialUpAgain) {

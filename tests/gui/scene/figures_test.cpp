@@ -55,7 +55,7 @@ class Figures : public ::testing::Test {
     view_.setPlan(plan);
     SceneFrame frame = view_.frame();
     const Vec3 way = plan.target - plan.start;
-    frame.hand = plan.start + share * way;
+    ownHand(frame) = plan.start + share * way;
     const double step = frame.masses.size() > 1 ? 0.35 / static_cast<double>(frame.masses.size() - 1) : 0;
     for (std::size_t i = 0; i < frame.masses.size(); ++i)
       frame.masses[i] = plan.start + std::max(0.0, share - 0.04 - step * static_cast<double>(i)) * way;

@@ -102,7 +102,7 @@ TEST(Trace, IsOfOneTrialAndItsMemoryIsBounded) {
   EXPECT_EQ(cues.tracePointCount(), 0) << "waiting is no way";
   frame.traced = true;
   for (int i = 0; i < 3 * CueActors::kTracePoints; ++i) {
-    frame.hand.x = (i % 2 == 0 ? 0.01 : 0.02) * plan.unit;
+    ownHand(frame).x = (i % 2 == 0 ? 0.01 : 0.02) * plan.unit;
     cues.show(frame);
   }
   EXPECT_GT(cues.tracePointCount(), CueActors::kTracePoints / 3);

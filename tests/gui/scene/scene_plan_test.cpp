@@ -72,16 +72,18 @@ TEST(ScenePlan, EachOfSeveralHandsHasItsColourAndIsCoupledToWhatItHolds) {
   EXPECT_EQ(plan.springs[1].to, 4);
   EXPECT_EQ(plan.springs[1].hand, 1);
   const SceneFrame rest = restingFrame(plan);
-  ASSERT_EQ(rest.others.size(), 1u);
-  EXPECT_EQ(rest.others[0].hand, 0);
+  EXPECT_EQ(rest.hands, (std::vector<std::optional<Vec3>>{plan.start, plan.start}));
+  EXPECT_EQ(&ownHand(rest), &*rest.hands[1]);
   haptics::TickState both;  // at one station
   both.handCount = 2;
-  both.others[0].hand.position = {0.1, 0.2, 0.3};
+  both.hands[1].hip.position = {0.1, 0.2, 0.3};
   SceneFrame frame;
   copyToFrame(both, frame);
-  ASSERT_EQ(frame.others.size(), 1u);
-  EXPECT_EQ(frame.others[0].hand, 1);
-  EXPECT_EQ(frame.others[0].place.y, 0.2);
+  EXPECT_EQ(frame.hands, (std::vector<std::optional<Vec3>>{Vec3{}, Vec3{0.1, 0.2, 0.3}}));
+  SceneFrame second = rest;  // at the station of the second hand
+  both.handCount = 1;
+  copyToFrame(both, second);
+  EXPECT_EQ(second.hands, (std::vector<std::optional<Vec3>>{std::nullopt, Vec3{}})) << "where the first is, is not known";
 }
 
 TEST(ScenePlan, MassesOverOneAnotherAreCountedUntilTheyPart) {
