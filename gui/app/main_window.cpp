@@ -172,6 +172,10 @@ void MainWindow::wireSession() {
       fitted.push_back(inspector::fittedEpsilon(*run->study, 0, static_cast<predict::Criterion>(i)));
     predictions().setFitted(fitted);
   });
+  session_.setOwnPause([this] {
+    const docks::SessionDock& dock = *docks_.session;
+    return dock.repeatsByItself() ? std::optional(dock.pauseSeconds()) : std::nullopt;
+  });
   connect(&session_, &SessionController::experimentChanged, this, &MainWindow::showExperiment);
   connect(&session_, &SessionController::runOpened, this, &MainWindow::runOpened);
   connect(&session_, &SessionController::runClosed, this, &MainWindow::runClosed);
@@ -262,7 +266,6 @@ void MainWindow::runOpened() {
 }
 
 void MainWindow::runClosed() {
-  pacing_.cancel();
   status_->runClosed();
   plans_->refresh();
   screens_->showRest();
@@ -288,11 +291,6 @@ void MainWindow::trialEnded() {
     forecast_.compare(trace_.points(), trace_.path(), {session_.run()->configuration().sampleEveryTicks, result.onsetTick, result.endTick},
                       result.outcome == trial::Outcome::Success);
   if (result.outcome == trial::Outcome::Success && session_.run() != nullptr) fitRun();
-  if (const session::RecordedRun* run = session_.run(); run != nullptr && run->trialsLeft() > 0) {
-    const double planned = run->configuration().pauseSeconds;
-    if (planned > 0 || docks_.session->repeatsByItself())
-      pacing_.plan(std::chrono::steady_clock::now(), planned > 0 ? planned : docks_.session->pauseSeconds());
-  }
   showStage();
 }
 
@@ -307,7 +305,7 @@ void MainWindow::oneFrame() {
   session_.poll();
   drainTrace();
   forecast_.poll();
-  if (pacing_.takeDue(std::chrono::steady_clock::now())) nextTrial();
+  if (session_.takeNextTrial()) nextTrial();
   if (const haptics::TickState* seen = session_.seen()) {
     screens_->showState(*seen, session_.otherHands());
     showOverlay();
@@ -359,7 +357,7 @@ void MainWindow::nextTrial() {
 }
 
 void MainWindow::beginNext() {
-  pacing_.cancel();
+  session_.cancelPause();
   if (session_.restLeft() > 0)
     return message_->tell(tr("The plan rests %1 s more before its next block; Ctrl+E ends this block's run and the rest.")
                               .arg(std::ceil(session_.restLeft())));

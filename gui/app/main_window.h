@@ -16,7 +16,6 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/session/session_controller.h"
 #include "gui/session/sound_cues.h"
-#include "gui/session/trial_pacing.h"
 #include "gui/subject/subject_words.h"
 #include "sim/experiment/scene_look.h"
 
@@ -147,7 +146,6 @@ class MainWindow : public QMainWindow {
   plot::LiveTrace trace_;
   inspector::Inspector runFits_;  // of the run's trials, from their rows on the disk
   std::vector<int> succeeded_;    // trials of the run, as recorded
-  TrialPacing pacing_;
   SoundCues sounds_;
   subject::SubjectWords words_;  // of the subject's screen
   std::int64_t lastNs_ = 0;      // of the trace: when its last point was made

@@ -179,8 +179,13 @@ void SessionController::beginAnew() {
 }
 
 double SessionController::restLeft() const {
-  const auto left = restUntil_ - std::chrono::steady_clock::now();
-  return std::max(0.0, std::chrono::duration<double>(left).count());
+  return recorded_ ? recorded_->pacing().restLeft(std::chrono::steady_clock::now()) : 0;
+}
+
+bool SessionController::takeNextTrial() { return recorded_ && recorded_->pacing().takeNextTrial(std::chrono::steady_clock::now()); }
+
+void SessionController::cancelPause() {
+  if (recorded_) recorded_->pacing().cancelPause();
 }
 
 QString SessionController::instructions() {
@@ -251,7 +256,7 @@ void SessionController::note(const QString& text) {
 
 void SessionController::endRun() {
   if (run() == nullptr) return;
-  restUntil_ = {};
+  recorded_->pacing() = {};
   endAfterTrial_ = false;
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
@@ -303,10 +308,7 @@ void SessionController::poll() {
     if (!ended) return;
     tellInstruments();
     last_ = *ended;
-    if (const session::BlockToRun* next = isPlan() ? recorded_->nextBlock() : nullptr;
-        next != nullptr && run()->trialsLeft() == 0 && !recorded_->isFast())
-      restUntil_ = std::chrono::steady_clock::now() +
-                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(next->restSeconds));
+    if (run() != nullptr) recorded_->trialEnded(std::chrono::steady_clock::now(), ownPause_ ? ownPause_() : std::nullopt);
     Q_EMIT trialEnded();
     if (run() == nullptr) return;
     if (const auto fault = run()->fault()) throw ResourceError(*fault);

@@ -2,7 +2,7 @@
 #include <QObject>
 #include <QString>
 #include <QStringList>
-#include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -65,6 +65,11 @@ class SessionController : public QObject {
   bool takeBackRepeat();
   /// [s] that the plan rests yet before its next block; 0: it may begin.
   double restLeft() const;
+  /// True once, when the pause before a trial that comes by itself is over.
+  bool takeNextTrial();
+  void cancelPause();
+  /// Asked after each trial: [s] before the next comes by itself where the plan has no pause; none: it waits to be asked for.
+  void setOwnPause(std::function<std::optional<double>()> ownPause) { ownPause_ = std::move(ownPause); }
   /// Of the block that is open or, once that is done, of the next; empty: none.
   QString instructions();
   void note(const QString& text);
@@ -149,7 +154,7 @@ class SessionController : public QObject {
   std::unique_ptr<network::LookerOn> looker_;
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
-  std::chrono::steady_clock::time_point restUntil_{};
+  std::function<std::optional<double>()> ownPause_;
   // held by whoever changes the run that is open or looks whether there is one: the window, or the thread below
   std::mutex changing_;
   std::jthread endsOnSignal_;  // last: it looks at all of the above

@@ -7,10 +7,10 @@
 namespace reachlab::session {
 namespace {
 
-// The pause between trials; the haptic loop goes on meanwhile.
-void pauseFor(double seconds, const std::atomic<bool>& stop) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (!stop && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+// The haptic loop goes on meanwhile.
+template <typename IsOver>
+void waitUntil(IsOver&& isOver, const std::atomic<bool>& stop) {
+  while (!stop && !isOver(std::chrono::steady_clock::now())) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 // Says at times that the trial which is up waits for its hand.
@@ -38,13 +38,15 @@ std::optional<haptics::ConductedTrial> runTrial(RecordedRun& run, const std::ato
 }
 
 // True when it was done to its end.
-bool conduct(RecordedRun& run, bool virtualClock, const std::atomic<bool>& stop, const SessionWords& words) {
+bool conductRun(RecordedSession& session, const std::atomic<bool>& stop, const SessionWords& words) {
+  RecordedRun& run = *session.run();
   run.checkTiming(stop);
   if (run.timingVerdict() && words.checked) words.checked(run);
   while (const std::optional<haptics::ConductedTrial> trial = runTrial(run, stop, words)) {
     words.ended(run, *trial);
     if (trial::endsRun(trial->result) || run.fault()) return false;
-    if (!virtualClock && run.trialsLeft() > 0) pauseFor(run.configuration().pauseSeconds, stop);
+    session.trialEnded(std::chrono::steady_clock::now(), 0);
+    if (run.trialsLeft() > 0) waitUntil([&](Pacing::Time now) { return session.pacing().takeNextTrial(now); }, stop);
     if (stop) return false;
   }
   return true;
@@ -64,6 +66,7 @@ RecordedSession::RecordedSession(const Programme& programme, const SessionReques
 bool RecordedSession::openNext() {
   closeRun();
   if (blocks_.empty()) return false;
+  pacing_ = {};
   const BlockToRun& block = blocks_.front();
   RecordedRunOptions options;
   options.place = request_.place;
@@ -83,19 +86,27 @@ void RecordedSession::closeRun() {
   if (const std::unique_ptr<RecordedRun> ending = std::move(run_)) ending->finish();
 }
 
+void RecordedSession::trialEnded(Pacing::Time now, std::optional<double> ownPause) {
+  const auto unlessFast = [this](double seconds) { return request_.fast ? 0 : seconds; };
+  if (run_->trialsLeft() > 0) {
+    const double planned = run_->configuration().pauseSeconds;
+    if (planned > 0 || ownPause) pacing_.pauseFor(unlessFast(planned > 0 ? planned : *ownPause), now);
+  } else if (!blocks_.empty() && unlessFast(blocks_.front().restSeconds) > 0) {
+    pacing_.restFor(blocks_.front().restSeconds, now);
+  }
+}
+
 bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const SessionWords& words) {
-  bool first = true;
   while (session.nextBlock() != nullptr) {
-    const BlockToRun& next = *session.nextBlock();
-    if (!std::exchange(first, false) && next.restSeconds > 0 && !session.isFast()) {
-      if (words.resting) words.resting(next);
-      pauseFor(next.restSeconds, stop);
+    if (session.pacing().rests()) {
+      if (words.resting) words.resting(*session.nextBlock());
+      waitUntil([&](Pacing::Time now) { return session.pacing().restLeft(now) == 0; }, stop);
       if (stop) return false;
     }
     session.openNext();
     RecordedRun& run = *session.run();
     words.opened(run);
-    const bool toItsEnd = conduct(run, run.configuration().clock == "virtual", stop, words);
+    const bool toItsEnd = conductRun(session, stop, words);
     run.closeLog();
     words.logClosed(run);
     const std::optional<std::string> fault = run.fault();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "sim/session/pacing.h"
 #include "sim/session/recorded_run.h"
 
 namespace reachlab::session {
@@ -28,7 +29,11 @@ class RecordedSession {
   std::size_t blocksLeft() const { return blocks_.size(); }
   const BlockToRun* nextBlock() const { return blocks_.empty() ? nullptr : &blocks_.front(); }  // null: none is left
 
-  bool isFast() const { return request_.fast; }  // on the virtual clock: nobody rests
+  /// To be called when a trial of the run has ended: begins the plan's pause before the run's next trial or, after its last, the plan's rest
+  /// before the next block. `ownPause` [s] stands where the plan has no pause; without it the next trial waits to be asked for. On the
+  /// virtual clock nobody pauses or rests.
+  void trialEnded(Pacing::Time now, std::optional<double> ownPause);
+  Pacing& pacing() { return pacing_; }
   /// Finishes the run that is open, if any, and opens that of the next block; false when no block is left. A block whose run could not be
   /// opened is still left.
   bool openNext();
@@ -46,11 +51,12 @@ class RecordedSession {
   std::uint64_t seed_ = 0;
   std::deque<BlockToRun> blocks_;  // to be opened yet
   std::unique_ptr<RecordedRun> run_;
+  Pacing pacing_;
 };
 
 /// What a front end is told while a session is conducted to its end.
 struct SessionWords {
-  std::function<void(const BlockToRun& next)> resting;  // the plan rests before this block; may be empty
+  std::function<void(const BlockToRun& next)> resting;  // the plan rests before this block, from the end of the last trial; may be empty
   std::function<void(const RecordedRun& run)> opened;   // before the loop starts
   std::function<void(const RecordedRun& run)> checked;  // RecordedRun::timingVerdict is there; in real time only, before the first trial
   /// In real time, 3 s after a trial was put up and every 10 s from then on, while the hand does not rest at its start: a person waits for

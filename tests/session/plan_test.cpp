@@ -90,17 +90,6 @@ TEST(Plan, KnowsTheEdgesOfWhatItTakes) {
   EXPECT_EQ(plain.blocks[0].condition, "");
 }
 
-TEST(Plan, ThePapersProtocolIsThreePacesOnTwoDaysWithAHundredTrialsEach) {
-  const std::string file = std::string(REACHLAB_SOURCE_DIR) + "/resources/plans/paper.json";
-  EXPECT_NO_THROW((void)checkedProgramme(file));
-  const Plan plan = readPlan(file);
-  std::map<std::pair<int, std::string>, int> trials;
-  for (const PlanBlock& block : plan.blocks)
-    if (!block.practice) trials[{block.day, block.experiment}] += block.trials;
-  EXPECT_EQ(trials.size(), 6u);
-  for (const auto& [key, count] : trials) EXPECT_EQ(count, 100) << key.second;
-}
-
 TEST(BlockOrder, GivesSixSubjectsTheSixOrdersOfThreePaces) {
   const Plan plan = readPlan(std::string(REACHLAB_SOURCE_DIR) + "/resources/plans/paper.json");
   for (const int day : {1, 2}) {
@@ -149,15 +138,6 @@ TEST(BlockOrder, OfMoreThanFourConditionsIsALatinSquare) {
   EXPECT_GT(mixed.size(), 2u) << "what only begins with a number is a name";
   for (const char* subject : {"0", "00", "000", "0000", "00000", "000000"}) zeros.insert(blockOrder(plan, subject, 0));
   EXPECT_GT(zeros.size(), 1u) << "subjects are counted from 1";
-}
-
-TEST(BlockOrder, OfTwoConditionsIsTurnedRoundForEverySecondSubject) {
-  const Plan plan = parsePlan(R"({ "schema_version": 1, "order_seed": 1, "counterbalance": "permute", "trials": 1, "blocks": [
-      { "experiment": "chain-slow" }, { "experiment": "chain-fast" } ] })",
-                              "p.json");
-  const std::vector<int> first = blockOrder(plan, "01", 0), second = blockOrder(plan, "02", 0);
-  EXPECT_EQ(first, (std::vector<int>{second[1], second[0]}));
-  EXPECT_EQ(blockOrder(plan, "03", 0), first);
 }
 
 // What a subject has begun with is gone on with, by a later program too. Each seed has the six orders in turns of its own.
@@ -221,17 +201,6 @@ TEST(PlanTrials, PutsTheAskedShareOfCatchTrialsAtSeededPlacesAndNeverFirst) {
     placings.insert(places);
   }
   EXPECT_EQ(placings.size(), 20u);
-}
-
-TEST(PlanTrials, MayPutACatchTrialAtEveryPlaceButTheFirst) {
-  PlanBlock block;
-  block.trials = 4;
-  block.catchShare = 0.25;
-  std::set<int> places;
-  for (std::uint64_t seed = 0; seed < 100; ++seed)
-    for (const trial::PlannedTrial& trial : planTrials(block, seed))
-      if (trial.catchTrial) places.insert(trial.index);
-  EXPECT_EQ(places, (std::set<int>{1, 2, 3}));
 }
 
 TEST(BlockSeed, OfTheFirstBlockIsTheRunsOwn) {
