@@ -14,7 +14,6 @@
 #include "sim/haptics/run_conductor.h"
 #include "sim/haptics/tick_order.h"
 #include "tests/haptics/armed_at_once.h"
-#include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/haptics/set_device.h"
 
@@ -75,7 +74,7 @@ TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
   const experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   {
-    HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), test::borrowed(device), nullptr);
+    HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), device, nullptr);
     loop.start();
     loop.tryCommand(trial::Command::NextTrial);
     while (loop.report().ticks < 200) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -125,7 +124,7 @@ TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
   const auto clock =
       std::make_shared<MadeClock>(std::map<int, std::int64_t>{{10, 430'000}, {20, 3'430'000}, {30, 7'530'000}, {40, 1'080'000}});
   options.clock = clock;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), test::borrowed(device), &sink,
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, &sink,
                   options);
   loop.start();
   loop.start();  // once is enough
@@ -163,7 +162,7 @@ TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
   LoopOptions options;
   options.priority = 7;
   options.clock = std::make_shared<MadeClock>(std::map<int, std::int64_t>{});
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), nullptr, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, nullptr, options);
   loop.start();
   loop.stop();
   loop.stop();
@@ -180,7 +179,7 @@ TEST(HapticLoop, TheVirtualClockStartsAtNoughtAndGoesByTicks) {
   MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
   loop.start();  // nothing runs by itself
   EXPECT_EQ(loop.report().ticks, 0u);
   for (int i = 0; i < 3; ++i) loop.advance();
@@ -201,7 +200,7 @@ TEST(HapticLoop, TakesSixteenCommandsAtMostBeforeATick) {
   MemorySink sink(100);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), test::borrowed(device), &sink, options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
   for (int i = 0; i < 16; ++i) EXPECT_TRUE(loop.tryCommand(i % 2 == 0 ? trial::Command::NextTrial : trial::Command::Abort));
   EXPECT_FALSE(loop.tryCommand(trial::Command::Abort));
   for (int i = 0; i < 17; ++i) loop.advance();

@@ -4,7 +4,6 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/haptics/haptic_loop.h"
-#include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"
 
 namespace reachlab::haptics {
@@ -20,7 +19,7 @@ std::uint64_t allocationsOfThreeTrials(experiment::Experiment experiment) {
   test::MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::move(engine), test::borrowed(device), &sink, options);
+  HapticLoop loop(std::move(engine), device, &sink, options);
   const std::uint64_t before = cli::countAllocations();
   for (int i = 0; i < 3000; ++i) {
     if (i % 1000 == 0) loop.tryCommand(i == 0 ? trial::Command::NextTrial : trial::Command::Abort);
