@@ -3,6 +3,7 @@
 #include "base/ticks.h"
 #include "bench/contender.h"
 #include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/scene.h"
 
 namespace reachlab::bench {
 namespace {

@@ -12,6 +12,7 @@
 #include "bench/suite.h"
 #include "sim/dynamics/hand/hand_path.h"
 #include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/scene.h"
 
 namespace reachlab::bench {
 namespace {

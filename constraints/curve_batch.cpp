@@ -1,7 +1,5 @@
 #include "constraints/curve_batch.h"
 
-#include "constraints/constraint.h"
-
 namespace reachlab::constraints {
 
 void evaluateSingly(CurveFunction function, const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept {

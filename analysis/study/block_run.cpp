@@ -4,7 +4,8 @@
 
 #include "base/fault.h"
 #include "base/ticks.h"
-#include "sim/dynamics/compiled_scene.h"
+#include "constraints/constraint.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/haptics/blind_hand.h"
 #include "sim/haptics/tick_order.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 
 namespace reachlab::analysis {
 namespace {

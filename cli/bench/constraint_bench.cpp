@@ -6,6 +6,7 @@
 
 #include "base/system/os.h"
 #include "constraints/constraint.h"
+#include "constraints/curve_batch.h"
 #include "constraints/formula/sincos.h"
 
 namespace reachlab::cli {

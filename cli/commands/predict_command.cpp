@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "base/json/json_reader.h"
 #include "cli/commands/commands.h"
 #include "cli/output/predict_output.h"
 #include "cli/terminal/criterion_option.h"
@@ -94,6 +95,8 @@ void runPredict(const PredictArguments& arguments) {
                            fmt::format("more than 0, at most {:.0f} s", experiment::kMaxDuration)});
   if (arguments.json && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "writes CSV rows; --json is for a single prediction"});
   const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
+  if (!experiment.experiment().task)
+    throw FaultError(atTheirPlaces({predict::missingTaskFault()}, experiment.experiment().text, arguments.experiment));
   predict::PredictOptions options;
   options.duration = arguments.duration;
   options.handDamping = arguments.handDamping;

@@ -7,10 +7,14 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "base/json/json_reader.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/hand_laws.h"
 #include "cli/terminal/standard_streams.h"
+#include "constraints/constraint.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::cli {
@@ -222,7 +226,9 @@ void simulate(const Request& request) {
   const constraints::Constraint& constraint = compiled.constraint();
   const int parameters = constraint.kind == constraints::ConstraintKind::Free ? 0 : constraint.parameterCount();
   const std::size_t coordinates = parameters == 0 ? 3 : static_cast<std::size_t>(parameters);
-  if (!experiment.task && request.at.empty()) throw RefusedError("simulate needs a start: give task.start, or --at");
+  if (!experiment.task && request.at.empty())
+    throw FaultError(atTheirPlaces({{"task", "is missing, and a simulation needs its start", "{ start, target, … }, or --at"}}, experiment.text,
+                                   request.experiment));
   const HandLaw law = makeHandLaw(request.hand, experiment, constraint);
   const std::vector<double> at = request.at.empty() ? experiment.task->start : request.at;
   std::vector<double> rate = request.rate;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {
@@ -72,13 +72,5 @@ std::array<Domain, 2> domainOf(const Definition& definition, const std::array<do
 /// Value of a constant expression that may name the definition's shape parameters. Throws FaultError.
 double constantOf(const std::string& expression, const FormulaText& names, const std::array<double, kMaxShapeParameters>& shape,
                   const std::string& key);
-
-/// The definition's generated code if it is of the catalogue; all null otherwise.
-struct GeneratedFunctions {
-  CurveFunction curve = nullptr;
-  CurveBatchFunction curveBatch = nullptr;
-  SurfaceFunction surface = nullptr;
-};
-GeneratedFunctions generatedFunctions(const Definition& definition);
 
 }  // namespace reachlab::constraints

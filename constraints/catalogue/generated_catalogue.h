@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 
+#include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
 
 namespace reachlab::constraints {
@@ -12,6 +13,14 @@ struct GeneratedEntry {
   CurveBatchFunction curveBatch;
   SurfaceFunction surface;
 };
+/// The definition's generated code if it is of the catalogue; all null otherwise.
+struct GeneratedFunctions {
+  CurveFunction curve = nullptr;
+  CurveBatchFunction curveBatch = nullptr;
+  SurfaceFunction surface = nullptr;
+};
+GeneratedFunctions generatedFunctions(const Definition& definition);
+
 /// Defined by the generated file in the build folder; by name.
 std::span<const GeneratedEntry> generatedEntries();
 

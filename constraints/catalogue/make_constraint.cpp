@@ -8,7 +8,7 @@
 #include "base/fault.h"
 #include "base/names.h"
 #include "base/number_range.h"
-#include "constraints/catalogue/definition.h"
+#include "constraints/catalogue/generated_catalogue.h"
 #include "constraints/regularity/analysis.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_branches.h"

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "base/math/elementary.h"
+#include "constraints/curve_batch.h"
 #include "constraints/formula/program.h"
 #include "constraints/formula/sincos.h"
 

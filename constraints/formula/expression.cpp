@@ -32,6 +32,7 @@ bool commutes(Op op) { return op == Op::Add || op == Op::Mul; }
 }  // namespace
 
 const char* nameOf(Op op) { return kOpNames[static_cast<int>(op)]; }
+
 int operandCount(Op op) {
   switch (op) {
     case Op::Constant:

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "constraints/formula/expression.h"
 #include "constraints/formula/parser.h"
 #include "constraints/formula/program.h"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/math/elementary.h"
+#include "constraints/constraint.h"
 #include "constraints/formula/program.h"
 #include "constraints/formula/sincos.h"
 

@@ -44,6 +44,27 @@ Interval angleOver(Interval y, Interval x) {
   return hull({elementary::atan2(y.lo, x.lo), elementary::atan2(y.lo, x.hi), elementary::atan2(y.hi, x.lo), elementary::atan2(y.hi, x.hi)});
 }
 
+/// a^b; `finiteness` is raised to what is known of it.
+Interval powerOver(const Interval& a, const Interval& b, Finiteness& finiteness) {
+  const auto raise = [&](Finiteness to) { finiteness = std::max(finiteness, to); };
+  const bool whole = b.lo == b.hi && b.lo == std::floor(b.lo);
+  if (a.lo > 0)
+    return hull({elementary::pow(a.lo, b.lo), elementary::pow(a.lo, b.hi), elementary::pow(a.hi, b.lo), elementary::pow(a.hi, b.hi)});
+  if (whole && b.lo == 0) return {1, 1};
+  if (whole && b.lo > 0) return wholePower(a, b.lo);
+  if (whole && a.hi < 0) return hull({elementary::pow(a.lo, b.lo), elementary::pow(a.hi, b.lo)});
+  if (!whole && a.hi < 0) {
+    raise(Finiteness::Nowhere);
+    return kEverything;
+  }
+  if (!whole && b.lo > 0) {
+    raise(a.lo < 0 ? Finiteness::Touching : Finiteness::Finite);
+    return {0, std::max({1.0, elementary::pow(std::max(a.hi, 0.0), b.lo), elementary::pow(std::max(a.hi, 0.0), b.hi)})};
+  }
+  raise(a.lo == 0 && a.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
+  return kEverything;
+}
+
 }  // namespace
 
 IntervalEvaluator::IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
@@ -80,28 +101,7 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
       }
       break;
     case Op::PowInt: r = wholePower(a, n.b); break;
-    case Op::Pow: {
-      const bool whole = b.lo == b.hi && b.lo == std::floor(b.lo);
-      if (a.lo > 0) {
-        r = hull({elementary::pow(a.lo, b.lo), elementary::pow(a.lo, b.hi), elementary::pow(a.hi, b.lo), elementary::pow(a.hi, b.hi)});
-      } else if (whole && b.lo == 0) {
-        r = {1, 1};
-      } else if (whole && b.lo > 0) {
-        r = wholePower(a, b.lo);
-      } else if (whole && a.hi < 0) {
-        r = hull({elementary::pow(a.lo, b.lo), elementary::pow(a.hi, b.lo)});
-      } else if (!whole && a.hi < 0) {
-        raise(Finiteness::Nowhere);
-        r = kEverything;
-      } else if (!whole && b.lo > 0) {
-        raise(a.lo < 0 ? Finiteness::Touching : Finiteness::Finite);
-        r = {0, std::max({1.0, elementary::pow(std::max(a.hi, 0.0), b.lo), elementary::pow(std::max(a.hi, 0.0), b.hi)})};
-      } else {
-        raise(a.lo == 0 && a.hi == 0 ? Finiteness::Nowhere : Finiteness::Unknown);
-        r = kEverything;
-      }
-      break;
-    }
+    case Op::Pow: r = powerOver(a, b, f); break;
     case Op::Sin: r = waveOver(elementary::sin, std::numbers::pi / 2, a); break;
     case Op::Cos: r = waveOver(elementary::cos, 0, a); break;
     case Op::Tan: {

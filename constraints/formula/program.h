@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "constraints/formula/expression.h"
 
 namespace reachlab::constraints {

@@ -34,7 +34,7 @@ std::string generate(const std::vector<std::string>& files) {
                          curve ? fmt::format("{0}, {0}Batch, nullptr", function) : "nullptr, nullptr, " + function);
   }
   return "// Generated from constraints/definitions by reachlab_generate; do not edit.\n#include <cmath>\n\n"
-         "#include \"base/math/elementary.h\"\n#include \"constraints/catalogue/generated_catalogue.h\"\n#include \"constraints/formula/sincos.h\"\n\nnamespace reachlab::constraints "
+         "#include \"base/math/elementary.h\"\n#include \"constraints/catalogue/generated_catalogue.h\"\n#include \"constraints/curve_batch.h\"\n#include \"constraints/formula/sincos.h\"\n\nnamespace reachlab::constraints "
          "{\nnamespace {\n\n" +
          functions + "constexpr GeneratedEntry kEntries[] = {\n" + table +
          "};\n\n}  // namespace\n\nstd::span<const GeneratedEntry> generatedEntries() { return kEntries; }\n\n}  // namespace "

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/math/gauss_legendre.h"
+#include "constraints/constraint.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "base/math/legendre_series.h"
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::constraints {
 

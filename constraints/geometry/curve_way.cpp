@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "base/fault.h"
+#include "constraints/constraint.h"
+#include "constraints/geometry/task_path.h"
 
 namespace reachlab::constraints {
 
 CurveWay::CurveWay(const Constraint& curve, double from, double to)
     : curve_(curve), arc_(curve, from, to), from_(from), to_(to), sense_(to < from ? -1 : 1) {
-  if (!(length() > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+  if (!(length() > 0)) throw FaultError(samePlaceFault());
   const auto perMetre = [&](double parameter) { return sense_ / norm(evaluate(curve_.curve, parameter).rPhi); };
   before_ = perMetre(from);
   after_ = perMetre(to);

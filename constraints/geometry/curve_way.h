@@ -1,4 +1,5 @@
 #pragma once
+#include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
 
 namespace reachlab::constraints {

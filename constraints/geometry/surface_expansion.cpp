@@ -1,6 +1,7 @@
 #include "constraints/geometry/surface_expansion.h"
 
 #include "base/error.h"
+#include "constraints/constraint.h"
 #include "constraints/geometry/taylor.h"
 
 namespace reachlab::constraints {

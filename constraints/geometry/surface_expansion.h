@@ -3,7 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "constraints/constraint.h"
+#include "base/math/vec3.h"
+#include "constraints/constraint_spec.h"
 #include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {

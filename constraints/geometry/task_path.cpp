@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "constraints/constraint.h"
+
 namespace reachlab::constraints {
 namespace {
 
@@ -21,15 +23,23 @@ Vec3 placeOn(const Constraint& constraint, std::span<const double> q) noexcept {
   return {kNowhere, kNowhere, kNowhere};
 }
 
+Fault samePlaceFault() { return {"task.target", "start and target are the same place", "two places"}; }
+
 TaskPath::TaskPath(const Constraint& constraint, std::span<const double> start, std::span<const double> target)
-    : constraint_(constraint), start_(placeOn(constraint, start)), target_(placeOn(constraint, target)),
+    : constraint_(std::make_shared<const Constraint>(constraint)), start_(placeOn(constraint, start)), target_(placeOn(constraint, target)),
       chord_(unitOrZero(target_ - start_)) {
   if (constraint.kind == ConstraintKind::Curve && start.size() == 1 && target.size() == 1 && target[0] < start[0]) sense_ = -1;
 }
 
+TaskPath::TaskPath() : constraint_(std::make_shared<const Constraint>()) {}
+
+bool TaskPath::straight() const noexcept { return constraint_->straight || constraint_->kind == ConstraintKind::Free; }
+
+bool TaskPath::bent() const noexcept { return constraint_->kind == ConstraintKind::Curve && !constraint_->straight; }
+
 Vec3 TaskPath::directionAt(double q) const noexcept {
   if (straight()) return chord_;
-  return bent() ? sense_ * unitOrZero(evaluate(constraint_.curve, q).rPhi) : Vec3{};
+  return bent() ? sense_ * unitOrZero(evaluate(constraint_->curve, q).rPhi) : Vec3{};
 }
 
 double TaskPath::velocityAlong(const Vec3& velocity, double q) const noexcept {

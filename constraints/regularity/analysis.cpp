@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {

@@ -3,7 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "constraints/constraint.h"
+#include "base/math/vec3.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::constraints {
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "constraints/constraint.h"
 #include "constraints/regularity/analysis.h"
 
 namespace reachlab::constraints {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/fault.h"
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "constraints/formula/interval.h"
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::constraints {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "constraints/formula/roots.h"
 #include "constraints/regularity/narrow.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::constraints {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "constraints/formula/guards.h"
 

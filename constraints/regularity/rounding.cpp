@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {

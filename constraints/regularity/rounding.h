@@ -1,5 +1,5 @@
 #pragma once
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::constraints {
 

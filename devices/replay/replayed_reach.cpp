@@ -9,6 +9,7 @@
 #include "base/math/cubic_spline.h"
 #include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
+#include "constraints/geometry/task_path.h"
 #include "devices/driver/drivers.h"
 #include "devices/replay/reach_source.h"
 #include "sim/trial/protocol.h"
@@ -44,8 +45,7 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
   const Vec3 chord = far - first, wanted = target - start;
   const double length = norm(chord), asked = norm(wanted);
   if (!(length > 0)) throw FaultError(Fault{{}, "the hand does not move", {}, FilePlace{reach.file}});
-  if (!(asked > 0))
-    throw FaultError(Fault{"task.target", "start and target are the same place; a recorded reach cannot be laid onto them", "two places"});
+  if (!(asked > 0)) throw FaultError(constraints::samePlaceFault());
 
   std::vector<Vec3> laid;
   laid.reserve(reach.position.size());

@@ -10,7 +10,9 @@
 #include "base/fault.h"
 #include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 #include "constraints/geometry/curve_way.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
@@ -197,7 +199,7 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
     reach.from[k] = task.start[k];
     reach.by[k] = task.target[k] - task.start[k];
   }
-  if (reach.by[0] == 0 && reach.by[1] == 0) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+  if (reach.by[0] == 0 && reach.by[1] == 0) throw FaultError(constraints::samePlaceFault());
   return timeForTask(task, [&](double duration) {
     const auto forceAt = [=](double t) {
       const Motion m = reach.at(t, duration);
@@ -224,7 +226,7 @@ ReachPlan makeReachPlan(const experiment::CompiledExperiment& compiled, std::opt
   const constraints::Constraint& constraint = compiled.constraint();
   const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment, constraint);
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
-  if (flat && place.start == place.target) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+  if (flat && place.start == place.target) throw FaultError(constraints::samePlaceFault());
   constexpr auto kUsual = predict::Criterion::MinHandJerk;
   if (flat) return planAlongChord(experiment, place.start, place.target, criterion.value_or(kUsual), handMass);
   const bool curve = constraint.kind == constraints::ConstraintKind::Curve;

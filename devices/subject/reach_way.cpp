@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 #include "sim/experiment/experiment.h"
 
@@ -21,7 +22,7 @@ ReachWay::ReachWay(const experiment::CompiledExperiment& experiment) {
   const Vec3 chord = constraints::placeOn(constraint, task.target) - start_;
   if (constraint.kind == constraints::ConstraintKind::Free || constraint.straight) {
     length_ = norm(chord);
-    if (!(length_ > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+    if (!(length_ > 0)) throw FaultError(constraints::samePlaceFault());
     direction_ = chord / length_;
     return;
   }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "constraints/geometry/curve_way.h"
-#include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/object/mass_state.h"
 #include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::devices {

@@ -37,6 +37,7 @@
 #include "gui/session/trial_marking.h"
 #include "gui/widgets/message_bar.h"
 #include "gui/widgets/work_strip.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {

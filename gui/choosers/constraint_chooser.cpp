@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/system/ending.h"
+#include "constraints/constraint.h"
 #include "gui/choosers/formula_editor.h"
 #include "gui/scene/scene_view.h"
 #include "gui/scene/thumbnail.h"

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/shape_sliders.h"

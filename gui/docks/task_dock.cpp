@@ -3,6 +3,7 @@
 #include <QFormLayout>
 #include <QLabel>
 
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/number_list_edit.h"

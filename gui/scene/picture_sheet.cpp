@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/experiment.h"

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/math/vec3.h"
 #include "gui/scene_plan/constraint_mesh.h"
 #include "gui/widgets/colours.h"
 

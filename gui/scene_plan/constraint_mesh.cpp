@@ -1,5 +1,7 @@
 #include "gui/scene_plan/constraint_mesh.h"
 
+#include "constraints/constraint.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "constraints/constraint.h"
+#include "base/math/vec3.h"
+#include "constraints/constraint_spec.h"
 
 /// A constraint as points and lines to draw: computed from the same functions that the simulation moves on, and known to no graphics
 /// library. Sampling follows curvature and is bounded, so a wild formula costs no more than a tame one.

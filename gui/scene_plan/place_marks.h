@@ -2,7 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "constraints/constraint.h"
+#include "base/math/vec3.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::gui::scene {
 

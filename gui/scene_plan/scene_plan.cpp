@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 #include "gui/scene_plan/hand_colours.h"
 #include "gui/scene_plan/part_names.h"

@@ -1,5 +1,5 @@
 #include "gui/session/session_controller.h"
-#include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
 
 #include <QStringList>
 #include <algorithm>

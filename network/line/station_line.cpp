@@ -22,6 +22,7 @@
 #include "base/system/os.h"
 #include "base/ticks.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
 extern char** environ;

@@ -12,6 +12,7 @@
 
 #include "base/fault.h"
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 #include "network/line/station_line.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/recorder.h"

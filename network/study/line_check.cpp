@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 #include "network/study/copies_over_lines.h"
 #include "network/study/growth.h"
 #include "network/study/two_hands.h"

@@ -7,6 +7,7 @@
 
 #include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 #include "network/study/copies_over_lines.h"
 #include "network/study/growth.h"
 #include "sim/experiment/experiment.h"

@@ -41,7 +41,7 @@ class BodyPlant final : public SystemPlant<BodySystem, Method> {
 }  // namespace
 
 BodySystem::BodySystem(const ObjectModel& model, const experiment::Object& object)
-    : springs(model), inertia(object.inertia), fpOffset(object.fpOffset) {
+    : SpaceSystem(model), inertia(object.inertia), fpOffset(object.fpOffset) {
   const Matrix3& m = inertia;
   const auto minor = [&](int i, int j) {
     const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;

@@ -1,6 +1,6 @@
 #pragma once
+#include "sim/dynamics/method_choice.h"
 #include "sim/dynamics/object/object_model.h"
-#include "sim/dynamics/object/plant.h"
 
 namespace reachlab::dynamics {
 

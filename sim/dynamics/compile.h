@@ -2,12 +2,18 @@
 #include <memory>
 #include <string>
 
-#include "constraints/regularity/places.h"
-#include "constraints/regularity/surface_branches.h"
-#include "sim/dynamics/exact/linear_plant.h"
-#include "sim/dynamics/systems/quadric.h"
+#include "sim/dynamics/exact/linear_space.h"
+#include "sim/dynamics/object/object_model.h"
+
+namespace reachlab::constraints {
+struct CurveRegularity;
+struct SurfaceBranches;
+}  // namespace reachlab::constraints
 
 namespace reachlab::dynamics {
+
+class Plant;
+struct Quadric;
 
 struct MethodRequest {
   std::string method;    // rk4 | abm | adaptive | stiff

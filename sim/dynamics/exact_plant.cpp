@@ -1,5 +1,7 @@
+#include "constraints/constraint.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/exact/dense_core.h"
+#include "sim/dynamics/exact/linear_plant.h"
 #include "sim/dynamics/exact/oscillator_core.h"
 
 namespace reachlab::dynamics {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/constraint.h"
 #include "sim/dynamics/hand/hand_function.h"
 
 namespace reachlab::dynamics {

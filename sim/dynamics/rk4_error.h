@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "sim/dynamics/object/plant.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
 

@@ -1,20 +1,25 @@
+#include "sim/dynamics/scene.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "constraints/constraint.h"
 #include "constraints/regularity/analysis.h"
 #include "constraints/regularity/narrow_band.h"
 #include "constraints/regularity/period.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/rounding.h"
+#include "constraints/regularity/surface_branches.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/rk4_error.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/dynamics/systems/curve_places.h"
+#include "sim/dynamics/systems/quadric.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
@@ -175,7 +180,7 @@ void estimateRk4(Scene& scene, const experiment::Experiment& experiment, double 
   constexpr double kAccurate = 1e-6;  // [m] a predicted error above it is worth a warning
   MethodChoice& choice = scene.choice;
   if (experiment.task)
-    if (const auto measured = measureRk4Error(*scene.plant, *experiment.task, scene.constraint, step)) choice.predictedError = *measured;
+    if (const auto measured = measureRk4Error(*scene.plant, *experiment.task, *scene.constraint, step)) choice.predictedError = *measured;
   if (choice.predictedError > kAccurate)
     choice.warnings.push_back(fmt::format(
         "rk4 is stable but not accurate here: fastest mode times step {:.3g}, predicted error {:.2g} m; use method auto, or a smaller step",
@@ -210,8 +215,8 @@ void requireSharedCurve(const constraints::CurveRegularity& regularity, double s
 void estimateShared(Scene& scene, experiment::Experiment experiment, double step) {
   if (!experiment.task) return;
   experiment.hands.resize(1);
-  const auto alone = makeSharedPlant(experiment, scene.constraint);
-  if (const auto measured = measureRk4Error(*alone, *experiment.task, scene.constraint, step)) scene.choice.predictedError = *measured;
+  const auto alone = makeSharedPlant(experiment, *scene.constraint);
+  if (const auto measured = measureRk4Error(*alone, *experiment.task, *scene.constraint, step)) scene.choice.predictedError = *measured;
   constexpr double kAccurate = 1e-6, kUseless = 1e-4;  // [m]
   if (scene.choice.predictedError > kUseless)
     throw RefusedError(
@@ -224,7 +229,7 @@ void estimateShared(Scene& scene, experiment::Experiment experiment, double step
 }
 
 void compileShared(Scene& scene, const experiment::Experiment& experiment, double step) {
-  auto plant = makeSharedPlant(experiment, scene.constraint);
+  auto plant = makeSharedPlant(experiment, *scene.constraint);
   scene.shared = plant.get();
   scene.plant = std::move(plant);
   scene.choice.form = fmt::format("{} hands, {} states", experiment.hands.size(), scene.shared->placeCount() + scene.shared->rateCount());
@@ -232,9 +237,86 @@ void compileShared(Scene& scene, const experiment::Experiment& experiment, doubl
   estimateShared(scene, experiment, step);
 }
 
+/// What is known of a curve about the start.
+struct CurveFacts {
+  std::shared_ptr<const constraints::CurveRegularity> regularity;
+  CurveForm form;
+  double speedRatio = 1;  // smallest to largest |r_phi|
+};
+
+CurveFacts examineCurve(const experiment::Experiment& experiment, const constraints::Constraint& constraint, double start) {
+  CurveFacts facts;
+  facts.regularity = std::make_shared<const constraints::CurveRegularity>(constraints::computeRegularity(constraint, start));
+  const constraints::CurvePiece& piece = startPiece(*facts.regularity, start);
+  requireValue(piece.curve, start);
+  if (experiment.task) requireNearZero(constraint, piece.curve, start);
+  const SpeedRange speeds = findSpeedRange(constraint, piece, start);
+  facts.speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
+  facts.form = {facts.speedRatio < kHardSpeedRatio || !facts.regularity->whole, speeds.most};
+  for (const constraints::Place& place : facts.regularity->places)
+    if (experiment.task && isStill(place.kind) && std::abs(start - place.at) < 1e-9 * std::max(1.0, std::abs(place.at)))
+      throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start", start,
+                                     nameOf(place.kind)));
+  return facts;
+}
+
+/// Whether a straight line has ends that throw the masses back. Throws RefusedError where nothing can move along it.
+bool hasElasticEnds(const constraints::Constraint& constraint, const LinearSpace& space, double start) {
+  if (space.axes != 1) return false;
+  requireValue(constraint.curve, start);
+  if (!(norm(space.tangent) > 0)) throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
+  return !space.domain.periodic && space.domain.atEnd == constraints::AtEnd::Bounce &&
+         (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
+}
+
+void compileLinear(Scene& scene, const ObjectModel& model, const LinearSpace& space, double step, const MethodRequest& request) {
+  scene.choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
+  if (scene.choice.method == "exact") scene.plant = makeExactPlant(model, space, step);
+  else scene.plant = space.axes == 1 ? makeLinePlant(model, space, request) : makeFreePlant(model, request);
+}
+
+void compileOnCurve(Scene& scene, const ObjectModel& model, const CurveFacts& facts, const MethodRequest& request) {
+  if (model.kind == experiment::ObjectKind::Body)
+    throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
+  const int states = 2 * model.count();
+  if (!facts.regularity->whole) {
+    scene.choice.form = fmt::format("curve by {} smooth pieces (examined from phi = {:.6g} to {:.6g}), speed along it, {} states",
+                                    facts.regularity->pieces.size(), facts.regularity->lo, facts.regularity->hi, states);
+    scene.plant = makeBrokenCurvePlant(model, *scene.constraint, facts.regularity, facts.form.largestSpeed, request);
+    return;
+  }
+  scene.choice.form = facts.form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states",
+                                                          facts.speedRatio, states)
+                                            : fmt::format("curve in phi, {} states", states);
+  scene.plant = makeCurvePlant(model, *scene.constraint, facts.form, request);
+}
+
+void compileOnSurface(Scene& scene, const ObjectModel& model, const std::array<double, 2>& start, const MethodRequest& request) {
+  const constraints::Constraint& constraint = *scene.constraint;
+  if (model.count() != 1 || model.kind == experiment::ObjectKind::Body)
+    throw RefusedError("on a surface only a point moves; use a curve, or one mass");
+  const auto branches = constraints::computeBranches(constraint);
+  if (!isFinite(evaluate(constraint.surface, start[0], start[1]).r))
+    throw RefusedError(fmt::format("the surface has no value at the start u = {}, v = {}; choose another start", start[0], start[1]));
+  if (const auto band = branches->smooth() ? constraints::findNarrowBand(constraint, start) : std::nullopt)
+    throw RefusedError(
+        fmt::format("about {} = {:.6g} the surface turns within {:.2g} of it, less than the way of a tick, and a mass would be "
+                    "carried across unseen; write a wider place",
+                    band->parameter == 0 ? "u" : "v", band->at, band->width));
+  const auto quadric = branches->smooth() ? fitQuadric(constraint.surface, constraint.domain, start) : std::nullopt;
+  if (quadric && provesQuadric(constraint, *quadric)) {
+    scene.choice.form = "surface of second degree in world coordinates, 6 states";
+    scene.plant = makeQuadricPlant(model, constraint, *quadric, hasEdges(constraint), request);
+    return;
+  }
+  scene.choice.form = "surface in u and v, 4 states";
+  if (!branches->smooth()) scene.choice.form += fmt::format(", smooth between {} lines", branches->lines.size());
+  scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
+}
+
 Scene compile(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
   Scene scene;
-  scene.constraint = constraint;
+  scene.constraint = std::make_shared<const constraints::Constraint>(constraint);
   const ObjectModel model = makeObjectModel(experiment);
   if (!(options.step > 0) || !std::isfinite(options.step))
     throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));
@@ -244,83 +326,34 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
 
   const bool typed = constraint.name == "curve" || constraint.name == "surface";  // the catalogue's formulas are known
   if (experiment.task && typed) requireDigits(constraint, start);
-  const bool linear = isLinear(constraint, model);
-  SceneFacts facts{.linear = linear, .step = options.step};
+  SceneFacts facts{.linear = isLinear(constraint, model), .step = options.step};
   if (experiment.task) facts.duration = experiment.task->duration;
-  CurveForm form;
-  std::shared_ptr<const constraints::CurveRegularity> regularity;
-  double speedRatio = 1;
-  if (linear) {
-    const LinearSpace space = linearSpace(constraint);
-    if (space.axes == 1) requireValue(constraint.curve, start[0]);
-    if (space.axes == 1 && !(norm(space.tangent) > 0))
-      throw RefusedError("the line has no length: nothing can move along it; give length_m > 0");
-    facts.elasticEnds = space.axes == 1 && !space.domain.periodic && space.domain.atEnd == constraints::AtEnd::Bounce &&
-                        (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi));
+  LinearSpace space;
+  CurveFacts curve;
+  if (facts.linear) {
+    space = linearSpace(constraint);
+    facts.elasticEnds = hasElasticEnds(constraint, space, start[0]);
   } else if (constraint.kind == constraints::ConstraintKind::Curve) {
-    regularity = std::make_shared<const constraints::CurveRegularity>(constraints::computeRegularity(constraint, start[0]));
-    const constraints::CurvePiece& piece = startPiece(*regularity, start[0]);
-    requireValue(piece.curve, start[0]);
-    if (experiment.task) requireNearZero(constraint, piece.curve, start[0]);
-    const SpeedRange speeds = findSpeedRange(constraint, piece, start[0]);
-    speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
-    form = {speedRatio < kHardSpeedRatio || !regularity->whole, speeds.most};
-    facts.hardCurve = speedRatio < kHardSpeedRatio;
-    for (const constraints::Place& place : regularity->places)
-      if (experiment.task && isStill(place.kind) && std::abs(start[0] - place.at) < 1e-9 * std::max(1.0, std::abs(place.at)))
-        throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start",
-                                       start[0], nameOf(place.kind)));
+    curve = examineCurve(experiment, constraint, start[0]);
+    facts.hardCurve = curve.speedRatio < kHardSpeedRatio;
   }
   scene.choice = chooseMethod(methodFor(experiment, options), model, facts);
-  MethodChoice& choice = scene.choice;
-  const MethodRequest request{choice.method, options.tolerance};
+  const MethodRequest request{scene.choice.method, options.tolerance};
 
   if (!experiment.hands.empty()) {
-    if (regularity) requireSharedCurve(*regularity, speedRatio);
+    if (curve.regularity) requireSharedCurve(*curve.regularity, curve.speedRatio);
     compileShared(scene, experiment, options.step);
-  } else if (linear) {
-    const LinearSpace space = linearSpace(constraint);
-    choice.form = fmt::format("{}, {} states", space.axes == 1 ? "line" : "free space", 2 * space.axes * model.count());
-    if (choice.method == "exact") scene.plant = makeExactPlant(model, space, options.step);
-    else scene.plant = space.axes == 1 ? makeLinePlant(model, space, request) : makeFreePlant(model, request);
+  } else if (facts.linear) {
+    compileLinear(scene, model, space, options.step, request);
   } else if (constraint.kind == constraints::ConstraintKind::Free) {
-    choice.form = "rigid body, 13 states";
+    scene.choice.form = "rigid body, 13 states";
     scene.plant = makeBodyPlant(model, experiment.object, request);
   } else if (constraint.kind == constraints::ConstraintKind::Curve) {
-    if (model.kind == experiment::ObjectKind::Body)
-      throw RefusedError("a body moves in free space only; use point, chain or parallel on a curve");
-    choice.form = form.tangential ? fmt::format("curve, speed along it (|r_phi| falls to {:.2g} of its largest), {} states", speedRatio,
-                                                2 * model.count())
-                                  : fmt::format("curve in phi, {} states", 2 * model.count());
-    if (!regularity->whole) {
-      choice.form = fmt::format("curve by {} smooth pieces (examined from phi = {:.6g} to {:.6g}), speed along it, {} states",
-                                regularity->pieces.size(), regularity->lo, regularity->hi, 2 * model.count());
-      scene.plant = makeBrokenCurvePlant(model, constraint, regularity, form.largestSpeed, request);
-    } else {
-      scene.plant = makeCurvePlant(model, constraint, form, request);
-    }
+    compileOnCurve(scene, model, curve, request);
   } else {
-    if (model.count() != 1 || model.kind == experiment::ObjectKind::Body)
-      throw RefusedError("on a surface only a point moves; use a curve, or one mass");
-    const auto branches = constraints::computeBranches(constraint);
-    if (!isFinite(evaluate(constraint.surface, start[0], start[1]).r))
-      throw RefusedError(fmt::format("the surface has no value at the start u = {}, v = {}; choose another start", start[0], start[1]));
-    if (const auto band = branches->smooth() ? constraints::findNarrowBand(constraint, {start[0], start[1]}) : std::nullopt)
-      throw RefusedError(
-          fmt::format("about {} = {:.6g} the surface turns within {:.2g} of it, less than the way of a tick, and a mass would be "
-                      "carried across unseen; write a wider place",
-                      band->parameter == 0 ? "u" : "v", band->at, band->width));
-    const auto quadric = branches->smooth() ? fitQuadric(constraint.surface, constraint.domain, {start[0], start[1]}) : std::nullopt;
-    if (quadric && provesQuadric(constraint, *quadric)) {
-      choice.form = "surface of second degree in world coordinates, 6 states";
-      scene.plant = makeQuadricPlant(model, constraint, *quadric, hasEdges(constraint), request);
-    } else {
-      choice.form = "surface in u and v, 4 states";
-      if (!branches->smooth()) choice.form += fmt::format(", smooth between {} lines", branches->lines.size());
-      scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
-    }
+    compileOnSurface(scene, model, {start[0], start[1]}, request);
   }
-  if (choice.method == "rk4" && scene.shared == nullptr) estimateRk4(scene, experiment, options.step);
+  if (scene.choice.method == "rk4" && scene.shared == nullptr) estimateRk4(scene, experiment, options.step);
   if (experiment.task) scene.plant->placeAtRest(start);
   return scene;
 }

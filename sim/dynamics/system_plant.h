@@ -10,7 +10,7 @@
 namespace reachlab::dynamics {
 
 /// A System stepped by a Method: the plant of every scene that has no exact propagator, or for which another method was asked.
-template <class System, template <class> class Method>
+template <ObjectSystem System, template <class> class Method>
 class SystemPlant : public PlantBase {
  public:
   using State = typename System::State;
@@ -36,8 +36,7 @@ class SystemPlant : public PlantBase {
   void setCoupled(bool coupled) noexcept override {
     if (coupled == coupled_) return;
     coupled_ = coupled;
-    if constexpr (requires { system_.setCoupled(model_, coupled); }) system_.setCoupled(model_, coupled);
-    else system_.springs.setCoupled(model_, coupled);
+    system_.setCoupled(model_, coupled);
     method_.restart();
   }
   void restart() noexcept override { method_.restart(); }
@@ -45,24 +44,24 @@ class SystemPlant : public PlantBase {
   StepStatus step(const HandSegment& hand, double dt) noexcept override {
     StepReport report;
     fraction_ = 1;
-    if constexpr (requires { system_.anyHeld(); })
+    if constexpr (kHas.holding)
       if (system_.anyHeld() && !system_.release(system_.handAt(hand, 0), system_.handAt(hand, 1), now())) return noContinuation();
     StepStatus status = method_.step(system_, hand, dt, now(), next(), report);
-    if constexpr (System::kEnds)
+    if constexpr (kHas.ends)
       if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()) || mayHaveTurned(dt)))
         status = meetEnds(hand, dt, status, report);
-    if constexpr (requires(System & s, State & y) { s.settle(y, y); })
+    if constexpr (kHas.settling)
       if (status == StepStatus::Ok) {
         const Settled settled = system_.settle(now(), next());
         if (settled != Settled::Same) method_.restart();
         if (settled == Settled::Lost) status = StepStatus::NoContinuation;
       }
-    if constexpr (requires(const System& s, const State& y) { s.lost(y); })
+    if constexpr (kHas.losing)
       if ((status == StepStatus::Capped || status == StepStatus::NotFinite) && system_.lost(now())) status = StepStatus::NoContinuation;
     if (status == StepStatus::Ok) current_ = 1 - current_;
     if (status == StepStatus::NoContinuation) fraction_ = 0;
     stopped_ = status;
-    error_ = report.error * 0.1;
+    error_ = report.error * kTypicalPlace;
     rhs_ += report.rhs;
     return status;
   }
@@ -70,25 +69,17 @@ class SystemPlant : public PlantBase {
   void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
     const auto used = masses.first(static_cast<std::size_t>(model_.count()));
     system_.locate(now(), used);
-    if constexpr (requires { system_.parametrise(used); }) system_.parametrise(used);
+    if constexpr (kHas.parametrising) system_.parametrise(used);
     State dy(system_.states());
     system_.rate(system_.handOf(hand), now(), dy);
     system_.accelerate(now(), dy, used);
   }
   double errorEstimate() const noexcept override { return error_; }
-  std::string stopReason() const override {
-    if constexpr (requires { system_.endReason(); })
-      if (stopped_ == StepStatus::AtEnd) return system_.endReason();
-    if (stopped_ == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
-    if constexpr (requires { system_.troubleReason(now()); })
-      if (stopped_ == StepStatus::Capped || stopped_ == StepStatus::NotFinite) return system_.troubleReason(now());
-    if constexpr (requires { system_.lostReason(now()); })
-      if (stopped_ == StepStatus::NoContinuation) return system_.lostReason(now());
-    if (stopped_ == StepStatus::NoContinuation) return System::kNoContinuation;
-    return {};
-  }
+  std::string stopReason() const override { return system_.stopReason(stopped_, now()); }
 
  protected:
+  static constexpr Hooks kHas = System::kHas;
+
   const State& state() const noexcept { return now(); }
   State& state() noexcept { return now(); }
   void locate(std::span<MassState> masses) const noexcept override { system_.locate(now(), masses); }
@@ -105,7 +96,7 @@ class SystemPlant : public PlantBase {
     return stopped_ = StepStatus::NoContinuation;
   }
   bool mayHaveTurned(double dt) noexcept {
-    if constexpr (requires { system_.turned(now(), next(), dt); }) return system_.turned(now(), next(), dt);
+    if constexpr (kHas.branches) return system_.turned(now(), next(), dt);
     return false;
   }
 
@@ -113,11 +104,10 @@ class SystemPlant : public PlantBase {
   /// follows.
   StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
     const State before = now();
-    [[maybe_unused]] const auto branches = branchesNow();
+    [[maybe_unused]] const auto branch = branchNow();
     const auto takeBack = [&] {
       now() = before;
-      if constexpr (requires { system_.where; }) system_.where = branches;
-      if constexpr (requires { system_.useBranch(); }) system_.useBranch();
+      if constexpr (kHas.branches) system_.takeBack(branch);
     };
     State at = before;
     double begun = 0;
@@ -140,7 +130,7 @@ class SystemPlant : public PlantBase {
       }
       begun += meeting.share * (1 - begun);
       now() = at;
-      if constexpr (requires { system_.passEnds(at, at, system_.handAt(rest, 0), dt); }) {
+      if constexpr (kHas.branches) {
         rest = part(hand, begun, 1);
         if (system_.passEnds(meeting.beyond, now(), system_.handAt(rest, 0), dt)) continue;
         at = now();  // masses that passed, and a place at which the formula has a limit, stay
@@ -160,12 +150,14 @@ class SystemPlant : public PlantBase {
     return StepStatus::Capped;
   }
 
-  auto branchesNow() const noexcept {
-    if constexpr (requires { system_.where; }) return system_.where;
+  auto branchNow() const noexcept {
+    if constexpr (kHas.branches) return system_.branch();
     else return 0;
   }
 
+  /// No energy is lost between two states, to rounding.
   bool sameSpeed(const State& a, const State& b) const noexcept {
+    constexpr double kSame = 1e-9;  // of the squares' sum
     const auto sum = [&](const State& y) {
       system_.locate(y, located_);
       double squares = 0;
@@ -173,18 +165,19 @@ class SystemPlant : public PlantBase {
       return squares;
     };
     const double one = sum(a), other = sum(b);
-    return std::abs(one - other) <= 1e-9 * one;
+    return std::abs(one - other) <= kSame * one;
   }
 
-  // On a cusp, to rounding, the parameter would run at 1e16 1/s.
   bool hasRates(const HandSegment& hand, const State& y) const noexcept {
-    constexpr double kFastest = 1e12;
+    constexpr double kFastest = 1e12;  // [1/s] on a cusp, to rounding, the parameter would run at 1e16
     State dy(system_.states());
     system_.rate(system_.handAt(hand, 0), y, dy);
     for (int i = 0; i < system_.states(); ++i)
       if (!(std::abs(dy[i]) < kFastest)) return false;
     return true;
   }
+
+  static constexpr double kTypicalPlace = 0.1;  // [m] the scale of a place, in which a method states its error
 
   Method<System> method_;
   Adaptive<System> locator_;

@@ -4,6 +4,9 @@
 
 #include "base/fault.h"
 #include "base/number_range.h"
+#include "base/ticks.h"
+#include "constraints/constraint.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment_keys.h"
 
 namespace reachlab::experiment {
@@ -149,12 +152,12 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   std::vector<Fault>& faults = checked.faults;
   checkShape(experiment.constraint, faults);
   if (compiled != nullptr) {
-    checked.constraint = *compiled;
+    checked.constraint = std::make_shared<const constraints::Constraint>(*compiled);
   } else if (faults.empty()) {
     constraints::ConstraintSpec spec = experiment.constraint;
     spec.inUse = placesInUse(experiment.task);
     try {
-      checked.constraint = constraints::makeConstraint(spec);
+      checked.constraint = std::make_shared<const constraints::Constraint>(constraints::makeConstraint(spec));
     } catch (const FaultError& error) {
       faults.insert(faults.end(), error.faults.begin(), error.faults.end());
     }

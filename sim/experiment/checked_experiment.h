@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ inline constexpr double kMaxDuration = 3600, kMaxTimeout = 86400, kMaxRestDurati
 /// on the way, unless it is at fault itself.
 struct CheckedExperiment {
   std::vector<Fault> faults;
-  std::optional<constraints::Constraint> constraint;
+  std::shared_ptr<const constraints::Constraint> constraint;
 };
 /// `compiled`: the experiment's constraint, where somebody has it; compiled here otherwise.
 CheckedExperiment check(const Experiment& experiment, const constraints::Constraint* compiled = nullptr);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "sim/experiment/object.h"
 #include "sim/experiment/subject_screen.h"
 #include "sim/experiment/task.h"

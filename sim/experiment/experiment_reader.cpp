@@ -226,7 +226,7 @@ CompiledExperiment openExperimentText(const std::string& text, const std::string
   CheckedExperiment checked = check(experiment);
   addProblems(tree, checked.faults, faults);
   faults.throwIfAny();
-  return {std::move(experiment), std::make_shared<const constraints::Constraint>(std::move(*checked.constraint))};
+  return {std::move(experiment), std::move(checked.constraint)};
 }
 
 Experiment readUnchecked(const std::string& text, const std::string& file, const std::string& definition) {
@@ -252,7 +252,7 @@ std::shared_ptr<const constraints::Constraint> constraintOf(const Experiment& ex
   const bool same = origin != nullptr && experiment.constraint == origin->experiment().constraint;
   CheckedExperiment checked = check(experiment, same ? &origin->constraint() : nullptr);
   if (!checked.faults.empty()) throw FaultError(std::move(checked.faults));
-  return std::make_shared<const constraints::Constraint>(std::move(*checked.constraint));
+  return std::move(checked.constraint);
 }
 
 }  // namespace

@@ -3,11 +3,9 @@
 #include <vector>
 
 #include "base/math/vec3.h"
+#include "sim/experiment/object_limits.h"
 
 namespace reachlab::experiment {
-
-inline constexpr int kMaxMasses = 512;
-inline constexpr int kMaxHands = 8;  // on one object
 
 enum class ObjectKind { Point, Chain, Parallel, Body };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/math/vec3.h"
-#include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/object/mass_state.h"
 #include "sim/haptics/hand_guard.h"
 
 namespace reachlab::haptics {

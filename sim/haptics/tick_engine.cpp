@@ -7,7 +7,7 @@
 #include "base/fault.h"
 #include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
-#include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
@@ -62,7 +62,7 @@ TickEngine::Hand::Hand(const experiment::Experiment& experiment, const HandOptio
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
     : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),
       needsVelocity_(scene_.plant->needsHandVelocity()), start_(experiment::requiredTask(experiment).start),
-      settings_(trial::makeProtocolSettings(experiment, scene_.constraint)) {
+      settings_(trial::makeProtocolSettings(experiment, *scene_.constraint)) {
   if (scene_.shared != nullptr || options.hands.size() != 1) requireHands(experiment, options.hands.size());
   state_.massCount = scene_.plant->massCount();
   state_.handCount = static_cast<std::int32_t>(options.hands.size());

@@ -7,6 +7,7 @@
 
 #include "sim/dynamics/hand/hand_path.h"
 #include "sim/dynamics/object/end_masses.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/force_safety.h"
@@ -87,7 +88,7 @@ class TickEngine {
   dynamics::Scene takeScene() && { return std::move(scene_); }
 
   const dynamics::MethodChoice& choice() const { return scene_.choice; }
-  const constraints::Constraint& constraint() const { return scene_.constraint; }
+  const constraints::Constraint& constraint() const { return *scene_.constraint; }
   const trial::ProtocolSettings& protocol() const { return settings_; }
   std::string stopReason() const { return scene_.plant->stopReason(); }
 

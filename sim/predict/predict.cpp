@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/arm/arm_prediction.h"
 #include "sim/predict/curve/curve_object_prediction.h"
@@ -152,6 +153,8 @@ std::unique_ptr<Prediction> makeBentPrediction(const experiment::Experiment& exp
 
 }  // namespace
 
+Fault missingTaskFault() { return {"task", "is missing, and a prediction needs one", "{ start, target, … }"}; }
+
 std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, Criterion criterion, const PredictOptions& options) {
   return predict(experiment, constraints::makeConstraint(experiment.constraint), criterion, options);
 }
@@ -162,12 +165,12 @@ std::unique_ptr<Prediction> predict(const experiment::CompiledExperiment& experi
 
 std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, const constraints::Constraint& constraint,
                                     Criterion criterion, const PredictOptions& options) {
-  if (!experiment.task) throw FaultError(Fault{"task", "is missing, and a prediction needs one", "{ start, target, … }"});
+  if (!experiment.task) throw FaultError(missingTaskFault());
   const experiment::Task& task = *experiment.task;
   const auto parameters = static_cast<size_t>(constraint.kind == constraints::ConstraintKind::Free ? 3 : constraint.parameterCount());
   if (task.start.size() != parameters || task.target.size() != parameters)
     throw FaultError(Fault{"task", "has start and target of another length", fmt::format("{} numbers each", parameters)});
-  if (task.start == task.target) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+  if (task.start == task.target) throw FaultError(constraints::samePlaceFault());
   const double duration = options.duration > 0 ? options.duration : task.duration;
   if (!(duration > 0) || !std::isfinite(duration)) throw FaultError(Fault{"duration", fmt::format("is {}", duration), "more than 0 s"});
 
@@ -184,7 +187,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
                                  warnings);
   };
   const std::optional<StraightTask> straight = findStraightTask(constraint, task);
-  if (straight && !(straight->distance > 0)) throw FaultError(Fault{"task.target", "start and target are the same place", "two places"});
+  if (straight && !(straight->distance > 0)) throw FaultError(constraints::samePlaceFault());
   if (experiment.hands.size() > 1) {
     if (isPoint) point = PointIs::Hand;
     prediction = makeTogetherPrediction(experiment, constraint, straight, criterion, duration, options.unknowns);

@@ -2,6 +2,7 @@
 #include <memory>
 #include <span>
 
+#include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/predict/prediction/prediction.h"
 
@@ -17,6 +18,9 @@ struct PredictOptions {
   /// along a line) starts from the polynomial in T through their unknowns and has as many, unless those turn out too few.
   std::span<const Prediction* const> near;
 };
+
+/// Of an experiment that has no task.
+Fault missingTaskFault();
 
 /// Throws RefusedError (uncontrollable, condition > 1e12 …) and FaultError (no task, criterion not defined here).
 std::unique_ptr<Prediction> predict(const experiment::CompiledExperiment& experiment, Criterion criterion,

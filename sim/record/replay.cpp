@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/fault.h"
+#include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/haptics/tick_order.h"

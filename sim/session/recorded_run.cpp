@@ -13,6 +13,7 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/utc.h"
+#include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/exporters.h"
 #include "sim/record/log/append_file.h"

@@ -8,6 +8,7 @@
 #include "base/json/json_reader.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
@@ -37,8 +38,7 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
     return error.faults;
   }
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
-  if (experiment.task->start == experiment.task->target || (flat && place.start == place.target))
-    return {{"task.target", "start and target are the same place", "two places"}};
+  if (experiment.task->start == experiment.task->target || (flat && place.start == place.target)) return {constraints::samePlaceFault()};
   return {};
 }
 

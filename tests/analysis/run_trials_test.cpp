@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "tests/analysis/synthetic.h"
 

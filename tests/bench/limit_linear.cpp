@@ -5,6 +5,7 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "bench/extrapolation.h"
+#include "bench/linear_step.h"
 #include "bench/visit_system.h"
 #include "tests/bench/limit_forms.h"
 #include "tests/bench/limit_sincos.h"
@@ -118,43 +119,24 @@ Contender makeModal(const BenchScene& scene) {
   return makeLimitContender(scene, form);
 }
 
-/// P of y(t + dt) = P (y(t), c), where c are the six coefficients of the hand's displacement in powers of s = t/dt [m]. Row-major. Each column
-/// is the answer to a one of its own, integrated in 113 bits.
-std::vector<double> computeExactStep(const BenchScene& scene) {
-  return visitSystem(scene, [&]<class System>(const System& system) -> std::vector<double> {
-    if constexpr (requires { system.x0; } && System::kCoordinates == ExactForm::kMasses) {
-      std::vector<double> matrix(ExactForm::kStates * ExactForm::kColumns);
-      const Quad dt = kTickSeconds;
-      for (int j = 0; j < ExactForm::kColumns; ++j) {
-        const int power = j - ExactForm::kStates;
-        const auto rate = [&](const Quad& t, const Quad* y, Quad* dy) {
-          Quad before = 1;  // s to the power - 1
-          for (int k = 1; k < power; ++k) before *= t / dt;
-          Quad r[3] = {system.x0, 0, 0}, v[3] = {0, 0, 0};
-          if (power == 0) r[0] += 1;
-          if (power > 0) r[0] += before * (t / dt), v[0] = power * before / dt;
-          system.rate(y, r, v, dy);
-        };
-        std::vector<Quad> y(ExactForm::kStates, Quad(0));
-        if (power < 0) y[j] = 1;
-        Extrapolation<Quad, decltype(rate)>(rate, ExactForm::kStates, 12, 1e-28).advance(Quad(0), dt, y);
-        for (int i = 0; i < ExactForm::kStates; ++i) matrix[i * ExactForm::kColumns + j] = static_cast<double>(y[i]);
-      }
-      return matrix;
-    }
-    throw FaultError(Fault{"scene", "is " + scene.name + ", which has no matrix of this size"});
-  });
-}
-
 }  // namespace
 
+/// y(t + dt) = P (y(t), c), rounded once to double, where c are the coefficients of the hand's displacement in powers of s = t/dt [m].
 Contender makeExactLimit(const BenchScene& scene) {
-  const std::vector<double> exact = computeExactStep(scene);
-  ExactForm form;
-  form.x0 = scene.hand.from.x;
-  for (int i = 0; i < ExactForm::kStates; ++i)
-    for (int j = 0; j < ExactForm::kColumns; ++j) form.column[j][i / 8][i % 8] = exact[i * ExactForm::kColumns + j];
-  return makeLimitContender(scene, form);
+  return visitSystem(scene, [&]<class System>(const System& system) -> Contender {
+    if constexpr (requires { system.x0; } && 2 * System::kCoordinates == ExactForm::kStates) {
+      const Matrix step = stateAndHandStep(system, Quad(kTickSeconds));
+      ExactForm form;
+      form.x0 = scene.hand.from.x;
+      Quad scale = 1;  // k-th derivative = k!/dt^k times the k-th coefficient
+      for (int j = 0; j < ExactForm::kColumns; ++j) {
+        for (int i = 0; i < ExactForm::kStates; ++i) form.column[j][i / 8][i % 8] = static_cast<double>(step(i, j) * scale);
+        if (j >= ExactForm::kStates) scale *= (j - ExactForm::kStates + 1) / Quad(kTickSeconds);
+      }
+      return makeLimitContender(scene, form);
+    }
+    throw RefusedError("scene " + scene.name + " has no form here");
+  });
 }
 
 Contender makeModalLimit(const BenchScene& scene) { return scene.name == "S1b50" ? makeModal<50>(scene) : makeModal<500>(scene); }

@@ -140,11 +140,6 @@ TEST(Measure, WhoeverDidNotReachTheEndIsGivenNoPrice) {
   EXPECT_GT(rows[1].nsPerMs, 0);
 }
 
-TEST(Measure, SevenRoundsOfTwoMillisecondsAreWhatIsUsual) {
-  EXPECT_EQ(Effort{}.rounds, 7);
-  EXPECT_EQ(Effort{}.secondsPerRound, 2e-3);
-}
-
 // --- contenders
 
 TEST(Contender, StepsShorterThanATickAreCountedByTheTick) {

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "bench/peer_system.h"
+#include "constraints/constraint.h"
 #include "sim/dynamics/object/forces.h"
 
 namespace reachlab::bench {
@@ -166,60 +167,6 @@ TEST(Systems, ANameWithoutARightHandSideIsRefused) {
 // --- the scenes
 
 constexpr double kPi = 3.14159265358979323846;
-
-TEST(Scenes, AreTheTablesOnes) {
-  struct Expected {
-    const char *name, *constraint;
-    std::size_t masses;
-    double mass, stiffness, damping, couplingStiffness, couplingDamping, viscosity, seconds;
-  };
-  const std::vector<Expected> table{{"S1", "line", 5, 0.6, 600, 0, 600, 0, 0, 1.35},
-                                    {"S1b50", "line", 50, 0.06, 600, 0, 600, 0, 0, 1.35},
-                                    {"S1b500", "line", 500, 0.006, 600, 0, 600, 0, 0, 1.35},
-                                    {"S2a", "ellipse", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S2b", "ellipse", 1, 1, 0, 0, 600, 5, 2, 1.35},
-                                    {"S3", "torus", 1, 1, 0, 0, 600, 5, 1, 1.35},
-                                    {"S4", "monkey-saddle", 1, 1, 0, 0, 600, 5, 1, 1.35},
-                                    {"S5", "epitrochoid", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S5h", "epitrochoid", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S6", "line", 2, 3, 50, 0, 0, 0, 0, 2.5},
-                                    {"S7a", "line", 5, 0.01, 20000, 0, 600, 0, 0, 1.35},
-                                    {"S7b", "line", 5, 0.01, 20000, 50, 600, 5, 0, 1.35},
-                                    {"S7c", "ellipse", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S7d", "", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S7e", "", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S7f", "", 1, 1, 0, 0, 600, 5, 0, 1.35},
-                                    {"S8", "ellipse", 5, 0.6, 600, 1, 600, 5, 0, 1.35}};
-  const std::vector<BenchScene> scenes = benchScenes();
-  ASSERT_EQ(scenes.size(), table.size());
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const BenchScene& s = scenes[i];
-    const Expected& e = table[i];
-    SCOPED_TRACE(e.name);
-    EXPECT_EQ(s.name, e.name);
-    EXPECT_EQ(s.experiment.name, e.name);
-    EXPECT_NE(s.title, "");
-    EXPECT_EQ(s.experiment.constraint.surface.empty() ? s.experiment.constraint.name : "", e.constraint);
-    const experiment::Object& o = s.experiment.object;
-    EXPECT_EQ(o.masses, std::vector<double>(e.masses, e.mass));
-    EXPECT_EQ(o.stiffness.size(), e.masses == 2 ? 2 : e.masses - 1);
-    EXPECT_EQ(o.damping.size(), o.stiffness.size());
-    EXPECT_EQ(o.stiffness.empty() ? 0 : o.stiffness[0], e.stiffness);
-    EXPECT_EQ(o.damping.empty() ? 0 : o.damping[0], e.damping);
-    EXPECT_EQ(s.experiment.coupling.value_or(experiment::Coupling{}).stiffness, e.couplingStiffness);
-    EXPECT_EQ(s.experiment.coupling.value_or(experiment::Coupling{}).damping, e.couplingDamping);
-    EXPECT_EQ(o.viscosity, e.viscosity);
-    EXPECT_EQ(s.duration, e.seconds);
-    ASSERT_TRUE(s.experiment.task);
-    EXPECT_EQ(s.experiment.task->duration, e.seconds);
-    EXPECT_EQ(s.experiment.task->start, s.start);
-    EXPECT_EQ(s.cartesian, s.name.starts_with("S7") && s.name > "S7c");
-    EXPECT_EQ(s.rate.empty(), s.name != "S7d" && s.name != "S7e");
-    EXPECT_EQ(s.hand.kind == HandLaw::Kind::None, s.name == "S7d" || s.name == "S7e");
-    EXPECT_EQ(s.hand.duration, s.name == "S7d" || s.name == "S7e" ? s.hand.duration : e.seconds);
-  }
-  EXPECT_EQ(benchScene("S6").experiment.object.stiffness, (std::vector<double>{50, 250}));
-}
 
 /// Where the constraint is at the scene's start, or at numbers q.
 Vec3 placeAt(const BenchScene& scene, const std::vector<double>& q) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "tests/constraints/count_compilations.h"
 
 namespace reachlab::constraints {

@@ -6,6 +6,7 @@
 
 #include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
+#include "constraints/curve_batch.h"
 
 namespace reachlab::constraints {
 namespace {

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "constraints/geometry/curve_way.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "constraints/catalogue/definition.h"
+#include "constraints/catalogue/generated_catalogue.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

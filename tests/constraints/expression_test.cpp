@@ -1,3 +1,5 @@
+#include "constraints/constraint.h"
+#include "constraints/curve_batch.h"
 #include "constraints/formula/expression.h"
 
 #include <gtest/gtest.h>

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "constraints/formula/program.h"
 #include "constraints/regularity/analysis.h"
 #include "test_paths.h"

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "constraints/regularity/rounding.h"
 
 #include <gtest/gtest.h>

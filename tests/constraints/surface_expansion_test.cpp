@@ -1,4 +1,5 @@
 // Taylor arithmetic over a formula's graph against the graph's own symbolic derivatives, order by order.
+#include "constraints/constraint.h"
 #include "constraints/geometry/surface_expansion.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 
 #include <gtest/gtest.h>

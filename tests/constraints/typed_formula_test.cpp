@@ -11,30 +11,6 @@ namespace {
 
 constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
 
-TEST(TypedFormula, EllipseGivesItsDerivatives) {
-  const Constraint c =
-      makeConstraint({.name = "", .curve = {"0", "a*cos(phi)", "b*sin(phi)"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.06}}});
-  for (const double phi : {-20.0, -1.0, 0.0, 0.3, 2.0, 1e4, 3e6}) {
-    const CurvePoint p = evaluate(c.curve, phi);
-    EXPECT_NEAR(p.r.y, 0.1 * std::cos(phi), kRounding);
-    EXPECT_NEAR(p.rPhi.y, -0.1 * std::sin(phi), kRounding);
-    EXPECT_NEAR(p.rPhiPhi.z, -0.06 * std::sin(phi), kRounding);
-    EXPECT_EQ(p.rPhiPhi.x, 0);
-  }
-  EXPECT_FALSE(c.straight);
-}
-
-TEST(TypedFormula, MonkeySaddleGivesItsDerivatives) {
-  const Constraint c = makeConstraint({.name = "", .curve = {}, .surface = {"u/10", "v/10", "(u^3 - 3*u*v^2)/50"}, .shape = {}});
-  const double u = -0.95, v = 0.3;
-  const SurfacePoint p = evaluate(c.surface, u, v);
-  EXPECT_NEAR(p.r.z, (u * u * u - 3 * u * v * v) / 50, kRounding);
-  EXPECT_NEAR(p.rU.z, (3 * u * u - 3 * v * v) / 50, kRounding);
-  EXPECT_NEAR(p.rUv.z, -6 * v / 50, kRounding);
-  EXPECT_NEAR(p.rVv.z, -6 * u / 50, kRounding);
-  EXPECT_NEAR(p.rU.x, 0.1, kRounding);
-}
-
 // 0*log(phi) is 0 where it has a value, and it has none below 0: simplified to 0 it would go on there without a word.
 TEST(TypedFormula, WhatCancelsOutWithTheEndOfItsDomainIsRefused) {
   const auto faultOf = [](const std::string& y) -> std::string {

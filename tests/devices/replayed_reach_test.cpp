@@ -202,8 +202,7 @@ TEST(ReplayedReach, WhatCannotBeLaidIsRefusedInWords) {
   EXPECT_EQ(refusalOf({"f", {0}, {{}}}), "f: fewer than two samples");
   EXPECT_EQ(refusalOf({"f", {0, 1}, {{1, 1, 1}, {1, 1, 1}}}), "f: the hand does not move");
   EXPECT_EQ(refusalOf({"f", {0, 1}, {{}, {1, 0, 0}}}, {1, 0, 0}),
-            "task.target: start and target are the same place; a recorded reach cannot be laid "
-            "onto them; allowed: two places");
+            "task.target: start and target are the same place; allowed: two places");
 }
 
 TEST_F(Files, AReplayIsNamedAndMovesByTickCount) {

@@ -309,5 +309,18 @@ TEST(EveryPlant, AMassOfAParallelObjectMovesAsAPointOnItsOwnSpring) {
   }
 }
 
+TEST(EveryPlant, ForgetsWhatStoppedItWhereItIsPutUpAgain) {
+  experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "phi", "sqrt(phi)", "0");
+  e.task.emplace().start = {0.1};
+  e.task->target = {0.2};
+  const Scene scene = freeScene(e, {0.1}, {-1});
+  ASSERT_EQ(run(*scene.plant, noHand, 1), StepStatus::AtEnd);
+  EXPECT_LT(scene.plant->lastStepFraction(), 1);
+  EXPECT_NE(scene.plant->stopReason(), "");
+  scene.plant->placeAtRest(std::array{0.1});
+  EXPECT_EQ(scene.plant->lastStepFraction(), 1);
+  EXPECT_EQ(scene.plant->stopReason(), "");
+}
+
 }  // namespace
 }  // namespace reachlab::dynamics

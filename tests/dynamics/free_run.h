@@ -6,6 +6,7 @@
 #include <string>
 
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "constraints/regularity/analysis.h"
 #include "tests/dynamics/make_experiment.h"
 

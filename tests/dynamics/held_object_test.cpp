@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "constraints/constraint.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
@@ -101,7 +102,7 @@ TEST(HeldObject, MassesOnACurveAreAcceleratedByWhatIsAlongIt) {
     EXPECT_EQ(m[i].q[1], 0);
     EXPECT_EQ(m[i].qRate[0], scene.shared->rates()[i]);
     EXPECT_EQ(m[i].qRate[1], 0);
-    const constraints::CurvePoint p = constraints::evaluate(scene.constraint.curve, m[i].q[0]);
+    const constraints::CurvePoint p = constraints::evaluate(scene.constraint->curve, m[i].q[0]);
     EXPECT_LT(norm(m[i].r - p.r), 1e-16);
     EXPECT_LT(norm(m[i].v - m[i].qRate[0] * p.rPhi), 1e-16);
     EXPECT_NEAR(dot(p.rPhi, m[i].a - forceOn(e, m, i, extra) / e.object.masses[i]), 0, 1e-12) << i;
@@ -152,7 +153,7 @@ TEST(HeldObject, EnergiesAreThoseOfMotionSpringsAndHeight) {
         held += kGrip[static_cast<std::size_t>(h)] * hands[h].stiffness[i] * dot(stretch, stretch) / 2;
       }
     }
-    const Vec3 start = e.constraint.name == "free" ? Vec3{0.2, 0.2, 0.2} : constraints::evaluate(scene.constraint.curve, 0.2).r;
+    const Vec3 start = e.constraint.name == "free" ? Vec3{0.2, 0.2, 0.2} : constraints::evaluate(scene.constraint->curve, 0.2).r;
     const double heightAtStart = -1.6 * dot(e.object.gravity, start);
     EXPECT_NEAR(scene.shared->kineticEnergy(), kinetic, 1e-13);
     EXPECT_NEAR(scene.shared->objectEnergy(), kinetic + springs + height - heightAtStart, 1e-12) << "height is counted from the start";

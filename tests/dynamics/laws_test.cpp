@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
@@ -252,7 +253,7 @@ TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
   experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
   e.constraint.name = "catenary";
   Scene scene = freeScene(e, {0.2}, {3});
-  const constraints::Domain domain = scene.constraint.domain[0];
+  const constraints::Domain domain = scene.constraint->domain[0];
   ASSERT_TRUE(std::isfinite(domain.hi));
   const double before = scene.plant->energy({});
   const StepStatus status = run(*scene.plant, noHand, 5);
@@ -373,7 +374,7 @@ TEST(Ends, AnElasticEdgeLeavesTheSpeedAlongIt) {
   }
   ASSERT_LT(after.qRate[0], 0) << "it was thrown back";
   const auto alongEdge = [&](const MassState& mass) {
-    const Vec3 edge = constraints::evaluate(scene.constraint.surface, mass.q[0], mass.q[1]).rV;
+    const Vec3 edge = constraints::evaluate(scene.constraint->surface, mass.q[0], mass.q[1]).rV;
     return dot(mass.v, edge) / norm(edge);
   };
   EXPECT_NEAR(alongEdge(after), alongEdge(before), 5e-3) << "[m/s], of 0.3: what a tick's bend changes";

@@ -8,6 +8,7 @@
 #include "base/math/minimum_jerk.h"
 #include "sim/dynamics/hand/hand_function.h"
 #include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {

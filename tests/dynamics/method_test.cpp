@@ -15,6 +15,7 @@ namespace {
 struct Follower {
   static constexpr int kStates = 3;
   static constexpr bool kSecondOrder = false;
+  static constexpr Hooks kHas{};
   using State = Numbers<3>;
   using Hand = HandSample;
   double w = 3, c = 0, fast = 1, second = 2;  // x2(0)
@@ -142,6 +143,7 @@ TEST(Method, RadauIsOfFifthOrderAndBearsAnyDamping) {
 struct Quadrature {
   static constexpr int kStates = 2;
   static constexpr bool kSecondOrder = false;
+  static constexpr Hooks kHas{};
   using State = Numbers<2>;
   using Hand = HandSample;
   static constexpr int states() noexcept { return 2; }

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "sim/dynamics/systems/quadric.h"
 
 #include <gtest/gtest.h>

@@ -104,7 +104,7 @@ void tryOne(std::uint64_t seed, Tally& tally) {
   std::vector<double> rate;
   try {
     scene = compileScene(e);
-    const constraints::Constraint& c = scene.constraint;
+    const constraints::Constraint& c = *scene.constraint;
     if (surface) {
       for (std::size_t k = 0; k < 2; ++k) box[k].lo = start[k] - kBox, box[k].hi = start[k] + kBox;
       smooth = constraints::isProvedRegular(c, box);

@@ -4,6 +4,7 @@
 
 #include "base/math/minimum_jerk.h"
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "constraints/constraint.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/rk4_error.h"
+#include "sim/dynamics/systems/quadric.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
@@ -235,7 +237,7 @@ TEST(Rk4Error, IsMeasuredOnlyWhereThereIsAReach) {
   const Scene scene = compileScene(e, {"rk4", 1e-2, 0});
   experiment::Task task;
   task.start = {1}, task.target = {2}, task.duration = 1;
-  const auto measured = [&](const experiment::Task& t, double step) { return measureRk4Error(*scene.plant, t, scene.constraint, step); };
+  const auto measured = [&](const experiment::Task& t, double step) { return measureRk4Error(*scene.plant, t, *scene.constraint, step); };
   ASSERT_TRUE(measured(task, 1e-2));
   EXPECT_GT(*measured(task, 1e-2), 0);
   const auto spoilt = [&](auto change) {

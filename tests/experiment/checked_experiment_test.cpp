@@ -1,4 +1,5 @@
 #include "base/fault.h"
+#include "constraints/constraint.h"
 #include "sim/experiment/checked_experiment.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "sim/experiment/compiled_experiment.h"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 
 #include "base/fault.h"
 #include "constraints/constraint.h"
+#include "constraints/curve_batch.h"
 #include "constraints/formula/cpp_writer.h"
 #include "constraints/formula/formula.h"
 

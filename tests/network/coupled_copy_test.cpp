@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "network/coupled_copy.h"
 
 #include <gtest/gtest.h>

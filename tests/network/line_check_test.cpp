@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "network/study/line_check.h"
 
 #include <gtest/gtest.h>

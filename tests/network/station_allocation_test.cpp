@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/bench/allocation_count.h"
+#include "constraints/constraint.h"
 #include "network/line/station_line.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"

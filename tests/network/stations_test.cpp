@@ -16,6 +16,7 @@
 #include "base/math/minimum_jerk.h"
 #include "base/math/seeded.h"
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 #include "network/line/station_line.h"
 #include "network/merge/station_merge.h"
 #include "sim/experiment/experiment.h"

@@ -8,6 +8,7 @@
 #include "constraints/geometry/arc_curve.h"
 #include "sim/dynamics/hand/hand_function.h"
 #include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/scene.h"
 #include "sim/predict/curve/curve_object.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
@@ -101,7 +102,7 @@ struct Arrival {
 
 Arrival simulate(const experiment::Experiment& e, const Prediction& p) {
   const dynamics::Scene scene = dynamics::compileScene(e, {"adaptive", 0.001, 1e-13});
-  const constraints::ArcCurve curve(scene.constraint, e.task->start[0], e.task->target[0]);
+  const constraints::ArcCurve curve(*scene.constraint, e.task->start[0], e.task->target[0]);
   scene.plant->placeAtRest(e.task->start);
   const double T = p.duration;
   const dynamics::HandFunction hand = [&](double t) {

@@ -186,21 +186,15 @@ TEST(Refusals, SayWhyNothingCanBeComputed) {
   EXPECT_THROW(predict(makeChain(400, 0.6, 600, 1.35), MinHandJerk), RefusedError);
   EXPECT_THROW(predict(makeChain(400, 0.6, 600, 1.35), MinCrackle), RefusedError);
   EXPECT_THROW(predict(makeChain(5, 0.6, 0, 1.35), MinHandForce), RefusedError);
-  EXPECT_THROW(predict(makeParallel({3, 3}, {50, 0}, 2.5), MinHandJerk), RefusedError);
   try {
     (void)predict(makeParallel({3, 3}, {50, 0}, 2.5), MinHandJerk);
+    ADD_FAILURE() << "a loose mass has no prediction";
   } catch (const RefusedError& refused) {
     EXPECT_NE(std::string(refused.what()).find("spring 2 is 0 N/m"), std::string::npos) << refused.what();
   }
   experiment::Experiment stiff = chainModerate();
   for (double& b : stiff.object.damping) b = 1e9;
   EXPECT_THROW(predict(stiff, MinHandJerk), RefusedError);
-  experiment::Experiment body = dingwell();
-  body.object.kind = experiment::ObjectKind::Body;
-  EXPECT_THROW(predict(body, MinHandJerk), FaultError);
-  experiment::Experiment nowhere = dingwell();
-  nowhere.task->target = nowhere.task->start;
-  EXPECT_THROW(predict(nowhere, MinHandJerk), FaultError);
 }
 
 TEST(Warnings, NameTravelTimeAndCondition) {

@@ -8,6 +8,7 @@
 #include "base/math/matrix.h"
 #include "sim/dynamics/hand/hand_function.h"
 #include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/scene.h"
 #include "sim/predict/line/flat_output.h"
 #include "sim/predict/predict.h"
 #include "sim/predict/transcription/rest_to_rest_basis.h"

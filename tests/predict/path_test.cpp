@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "base/math/gauss_legendre.h"
 #include "constraints/catalogue/definition.h"
+#include "constraints/constraint.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 

@@ -1,3 +1,5 @@
+#include "constraints/constraint.h"
+#include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
 #include <gtest/gtest.h>

@@ -4,19 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "sim/dynamics/exact/linear_space.h"
 #include "sim/dynamics/hand/axis_hand.h"
 #include "sim/dynamics/object/end_masses.h"
 #include "sim/dynamics/object/plant_base.h"
 
 namespace reachlab::dynamics {
-
-/// Where a linear object lives: one axis of a straight line r(phi) = origin + phi * tangent, or the three axes of free space.
-struct LinearSpace {
-  int axes = 1;
-  Vec3 origin;                 // [m] r(0)
-  Vec3 tangent;                // [m] r_phi, constant
-  constraints::Domain domain;  // of phi
-};
 
 /// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore): the state is that of the differential equation at each tick to
 /// rounding, for any stiffness and damping and any polynomial hand.

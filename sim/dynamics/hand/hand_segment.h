@@ -3,6 +3,7 @@
 
 #include "base/math/fused.h"
 #include "base/math/lanes.h"
+#include "sim/dynamics/hand/hand_sample.h"
 
 namespace reachlab::dynamics {
 
@@ -25,13 +26,6 @@ inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int 
 }
 /// The part of a segment between s0 and s1, as a segment of its own.
 HandSegment part(const HandSegment& whole, double s0, double s1) noexcept;
-
-/// One hand sample in world coordinates, at the end of a tick. `valid` is false when the device was lost.
-struct HandSample {
-  Vec3 position;  // [m]
-  Vec3 velocity;  // [m/s] estimated
-  bool valid = true;
-};
 
 inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
   return {valueAt(hand.position, hand.degree, s), valueAt(hand.velocity, hand.degree, s), true};

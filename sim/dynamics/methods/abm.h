@@ -63,7 +63,7 @@ auto beyond(const Lanes& x, const Lanes& most) noexcept {
 }
 }  // namespace adams
 
-template <class System, template <class> class Fallback>
+template <Equations System, template <class> class Fallback>
 class AbmWith {
  public:
   using State = typename System::State;
@@ -81,17 +81,15 @@ class AbmWith {
 
   [[gnu::flatten]] StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next,
                                    StepReport& report) noexcept {
-    if constexpr (requires { system.glide(dt, y, next); })
+    if constexpr (System::kHas.gliding)
       if (system.glide(dt, y, next)) {  // exact, and leaves the history behind
         restart();
         return StepStatus::Ok;
       }
     if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
     if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
-    if constexpr (requires { system.careful; })
-      if (system.careful) return stepOtherwise(system, hand, y, next, report);
-    if constexpr (requires { system.wantsCare(y); })
-      if (system.wantsCare(y)) return stepOtherwise(system, hand, y, next, report);
+    if constexpr (System::kHas.care)
+      if (system.wantsSubSteps(y)) return stepOtherwise(system, hand, y, next, report);
     const auto end = system.handOf(endOf(hand));
     const int n = system.states();
     State predicted(n), f(n);

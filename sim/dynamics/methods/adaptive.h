@@ -5,12 +5,14 @@
 #include "sim/dynamics/hand/hand_segment.h"
 #include "sim/dynamics/methods/dense_output.h"
 #include "sim/dynamics/object/step_report.h"
+#include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
 
 inline constexpr double kDefaultTolerance = 1e-13;  // per sub-step, relative to each number's scale
 
-template <class System>
+/// Sub-steps inside a tick by the pair of order 8 (dop853.h), each as long as its estimated error allows.
+template <Equations System>
 class Adaptive {
  public:
   using State = typename System::State;
@@ -34,70 +36,118 @@ class Adaptive {
                         StepReport& report) noexcept {
     State inside = y0;
     double reached = 0;
-    const StepStatus status = advance(system, hand, dt, y0, y, reached, report,
-                                      [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
-                                        const bool ends = !system.inside(to);
-                                        if (!ends && !mayHaveTurned(system, from, to, h)) return false;
-                                        const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
-                                        report.rhs += 4;
-                                        State at(system.states());
-                                        double low = 0, high = 1;
-                                        inside = from;
-                                        meeting.beyond = to;
-                                        if (!ends) {
-                                          high = findTurnOutside(system, dense, from, meeting.beyond);
-                                          if (high == 0) return false;
-                                        }
-                                        for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high)) {
-                                          dense.at(middle, at);
-                                          const bool good = system.inside(at);
-                                          (good ? low : high) = middle;
-                                          (good ? inside : meeting.beyond) = at;
-                                        }
-                                        meeting.met = true;
-                                        reached = t + low * h;
-                                        return true;
-                                      });
+    const auto meets = [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
+      const bool ends = !system.inside(to);
+      if (!ends && !mayHaveTurned(system, from, to, h)) return false;
+      const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
+      report.rhs += 4;
+      inside = from;
+      meeting.beyond = to;
+      const double outside = ends ? 1 : findTurnOutside(system, dense, from, meeting.beyond);
+      if (outside == 0) return false;
+      meeting.met = true;
+      reached = t + findLastInside(system, dense, outside, inside, meeting.beyond) * h;
+      return true;
+    };
+    const StepStatus status = advance(system, hand, dt, y0, y, reached, report, meets);
     meeting.share = reached / dt;
     if (meeting.met) y = inside;
     return status;
   }
 
  private:
+  static constexpr double kGrowth = 5;           // largest ratio of a sub-step to the one before it; 1 right after a rejection
+  static constexpr double kRounding = 4.5e-16;   // of phi, two units in its last place: a smaller error is not to be had
+  static constexpr double kNearlyLast = 1.01;    // of a sub-step: a rest that is no longer is done in one
+
   static bool mayHaveTurned(const System& system, const State& from, const State& to, double h) noexcept {
-    if constexpr (requires { system.turned(from, to, h); }) return system.turned(from, to, h);
+    if constexpr (System::kHas.branches) return system.turned(from, to, h);
     return false;
   }
   /// A share of a sub-step at which a mass is beyond an end, though it is back at the sub-step's end; 0 if there is none.
   template <class Dense>
   static double findTurnOutside(const System& system, const Dense& dense, const State& from, State& beyond) noexcept {
+    if constexpr (System::kHas.pieces) return findReversalOutside(system, dense, from, beyond);
+    constexpr int kLooks = 64;
+    for (int k = 1; k < kLooks; ++k)
+      if (isOutside(system, dense, k / double{kLooks}, beyond)) return k / double{kLooks};
+    return 0;
+  }
+  /// On a curve a mass is farthest beyond an end exactly where its speed changes its sign.
+  template <class Dense>
+  static double findReversalOutside(const System& system, const Dense& dense, const State& from, State& beyond) noexcept {
+    constexpr int kHalvings = 50;  // to the rounding of a share
     const int n = system.states();
     State at(n), end(n);
     dense.at(1, end);
-    const auto outside = [&](double share) {
-      dense.at(share, at);
-      if (system.inside(at)) return false;
-      beyond = at;
-      return true;
-    };
-    if constexpr (requires { system.pieceOf(0); }) {  // on a curve exactly where the speed changes its sign
-      for (int i = n / 2; i < n; ++i) {
-        if (!(from[i] * end[i] < 0)) continue;
-        double low = 0, high = 1;
-        for (int round = 0; round < 50; ++round) {
-          const double middle = 0.5 * (low + high);
-          dense.at(middle, at);
-          (from[i] * at[i] > 0 ? low : high) = middle;
-        }
-        if (outside(high)) return high;
+    for (int i = n / 2; i < n; ++i) {
+      if (!(from[i] * end[i] < 0)) continue;
+      double low = 0, high = 1;
+      for (int round = 0; round < kHalvings; ++round) {
+        const double middle = 0.5 * (low + high);
+        dense.at(middle, at);
+        (from[i] * at[i] > 0 ? low : high) = middle;
       }
-    } else {
-      constexpr int kLooks = 64;
-      for (int k = 1; k < kLooks; ++k)
-        if (outside(k / double{kLooks})) return k / double{kLooks};
+      if (isOutside(system, dense, high, beyond)) return high;
     }
     return 0;
   }
+  template <class Dense>
+  static bool isOutside(const System& system, const Dense& dense, double share, State& beyond) noexcept {
+    State at(system.states());
+    dense.at(share, at);
+    if (system.inside(at)) return false;
+    beyond = at;
+    return true;
+  }
+  /// The last share of a sub-step at which every mass is on the constraint, by halving from 0 to a share at which one is `outside`; with
+  /// the states before and behind it.
+  template <class Dense>
+  static double findLastInside(const System& system, const Dense& dense, double outside, State& inside, State& beyond) noexcept {
+    State at(system.states());
+    double low = 0, high = outside;
+    for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high)) {
+      dense.at(middle, at);
+      const bool good = system.inside(at);
+      (good ? low : high) = middle;
+      (good ? inside : beyond) = at;
+    }
+    return low;
+  }
+
+  /// The error that a sub-step may have in each number.
+  class Allowance {
+   public:
+    Allowance(const System& system, double tolerance) : system_(system), tolerance_(tolerance) {
+      if constexpr (System::kHas.care) tolerance_ *= system.tightening();
+    }
+    double operator()(int i, double value) const noexcept {
+      const double whole = tolerance_ * (system_.scale(i) + std::abs(value));
+      if constexpr (System::kHas.pieces)
+        if (i < system_.rates()) return std::max(whole / steep_, kRounding * std::abs(value));
+      return whole;
+    }
+    void lookAt(const State& y) noexcept {
+      if constexpr (System::kHas.pieces) steep_ = system_.steepness(y);
+    }
+    /// The error of a sub-step from y, in units of what its end allows: towards an end without bound of r_phi an error is what it moves the
+    /// mass there.
+    double atEnd(const State& y, const State& end, double error) noexcept {
+      if constexpr (System::kHas.pieces) {
+        const double ahead = system_.steepness(end);
+        if (!(error <= 1 && ahead > steep_)) return error;
+        const double before = (*this)(0, y[0]);
+        steep_ = ahead;
+        return error * (before / (*this)(0, y[0]));
+      }
+      return error;
+    }
+
+   private:
+    const System& system_;
+    double tolerance_;
+    double steep_ = 1;  // how many times more than usual a unit of phi moves a mass
+  };
 
   /// Sub-steps from 0 to dt, until `stops(rate, t, h, y, stages, next)` says of an accepted one that it is the last. `t`: how far they came.
   template <class Stops>
@@ -107,46 +157,29 @@ class Adaptive {
     auto k = dop853::makeStages<System::kStates>(n);
     State trial(n);
     const auto rate = [&](double time, const State& at, State& slope) { system.rate(system.handAt(hand, time / dt), at, slope); };
-    double tolerance = tolerance_;
-    if constexpr (requires { system.careful; })
-      if (system.careful) tolerance *= kCareful;
-    [[maybe_unused]] double steep = 1;  // how many times more than usual a unit of phi moves a mass
-    const auto unit = [&](int i, double value) {
-      const double whole = tolerance * (system.scale(i) + std::abs(value));
-      if constexpr (requires { system.steepness(y); })
-        if (i < system.rates()) return std::max(whole / steep, kRounding * std::abs(value));
-      return whole;
-    };
+    Allowance allowed(system, tolerance_);
     y = y0;
     rate(0, y, k[0]);
     int rhs = 1;
-    double h = last_ > 0 ? std::min(last_, dt) : dt;
+    double h = last_ > 0 ? std::min(last_, dt) : dt, growth = kGrowth;
     t = 0;
-    double most = 5;  // growth allowed: none right after a rejection
     report.error = 0;
     StepStatus status = StepStatus::Ok;
     bool stopped = false;
-    while (t < dt) {
-      if constexpr (requires { system.reach(y, k[0]); }) h = std::min(h, system.reach(y, k[0]));
-      const bool lastPart = t + 1.01 * h >= dt;
+    while (t < dt && !stopped) {
+      if constexpr (System::kHas.pieces) h = std::min(h, system.reach(y, k[0]));
+      const bool lastPart = t + kNearlyLast * h >= dt;
       if (lastPart) h = dt - t;
-      if constexpr (requires { system.steepness(y); }) steep = system.steepness(y);
-      double error = dop853::attempt<System::kStates>(rate, unit, t, h, y, k, trial);
+      allowed.lookAt(y);
+      double error = dop853::attempt<System::kStates>(rate, allowed, t, h, y, k, trial);
       rhs += dop853::kStages - 1;
-      if constexpr (requires { system.steepness(y); })
-        if (const double ahead = system.steepness(trial); error <= 1 && ahead > steep) {
-          const double before = unit(0, y[0]);  // towards an end without bound of r_phi an error is what it moves the mass there
-          steep = ahead;
-          error *= before / unit(0, y[0]);
-        }
-      const double factor = dop853::growth(error, most);
-      most = error <= 1 ? 5 : 1;
+      error = allowed.atEnd(y, trial, error);
+      const double factor = dop853::growth(error, growth);
       if (error <= 1) {
+        growth = kGrowth;
         report.error += tolerance_ * error;
-        if (stops(rate, t, h, y, k, trial)) {
-          stopped = true;
-          break;
-        }
+        stopped = stops(rate, t, h, y, k, trial);
+        if (stopped) break;
         t = lastPart ? dt : t + h;
         y = trial;
         last_ = lastPart ? std::max(last_, h * factor) : h * factor;
@@ -155,13 +188,14 @@ class Adaptive {
           ++rhs;
         }
       } else {
+        growth = 1;
         last_ = h * factor;
         status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
         if (t + h * factor == t) break;
       }
       h *= factor;
       if (t < dt && rhs + dop853::kStages > kMaxRhsPerTick) {
-        status = status == StepStatus::NotFinite && error > 1 ? status : StepStatus::Capped;
+        if (!(status == StepStatus::NotFinite && error > 1)) status = StepStatus::Capped;
         break;
       }
     }
@@ -173,8 +207,6 @@ class Adaptive {
     return StepStatus::Ok;
   }
 
-  static constexpr double kCareful = 0.01;
-  static constexpr double kRounding = 4.5e-16;  // of phi: less is not to be had
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step
 };

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "sim/dynamics/methods/adaptive.h"
-#include "sim/dynamics/systems/curve_system.h"
+#include "constraints/constraint.h"
 
 namespace reachlab::dynamics {
 
@@ -11,7 +11,7 @@ namespace reachlab::dynamics {
 ///   phi' = v/c,   v' = |r_phi|/c dv/dt,   t' = |r_phi|/c
 /// and nothing is divided by |r_phi|. A true cusp (|r_phi| = 0, found where r_phi.r_phiphi changes sign) ends a sub-step exactly there:
 /// arc length and speed run on, only the tangent turns, so the bead passes with its energy and the methods see smooth pieces.
-template <class System>
+template <Equations System>
 class CuspAdaptive {
  public:
   using State = typename System::State;
@@ -24,7 +24,7 @@ class CuspAdaptive {
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
     bool timeAlone = false;  // where |r_phi| is large it is time in which phi is smooth, and narrow places are known to sub-steps in time
-    if constexpr (requires { system.wantsCare(y); }) timeAlone = system.wantsCare(y);
+    if constexpr (System::kHas.care) timeAlone = system.wantsSubSteps(y);
     if (timeAlone || nearest(system, y).speed > kFar * system.speedScale) {
       StepReport tried;
       const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
@@ -41,6 +41,11 @@ class CuspAdaptive {
   static constexpr double kFar = 0.25;               // of the largest |r_phi|: nothing hard within a tick, mostly
   static constexpr std::uint64_t kSuspicious = 100;  // right-hand sides of a tick that was not regular after all
   static constexpr double kCusp = 1e-9;              // |r_phi| over c below which a minimum is a true cusp
+  static constexpr double kOnCusp = 1e-13;           // |r_phi| over c of a mass that is on it
+  static constexpr double kAtRest = 1e-14;           // [m/s] slower, nothing tells which way a mass on a cusp would leave
+  static constexpr double kLongest = 0.3;            // in phi: a longer sub-step could go over a minimum of |r_phi|
+  static constexpr double kGrowth = 5;               // largest ratio of a sub-step to the one before it; 1 right after a rejection
+  static constexpr double kLeast = 1e-300;           // instead of a divisor that is zero
   static constexpr int kSize = System::kStates > 0 ? System::kStates + 1 : 0;
   using Extended = Numbers<kSize>;  // y and t
 
@@ -54,24 +59,27 @@ class CuspAdaptive {
       if (const double speed = system.speedAt(i, y[i]); speed < lead.speed) lead = {i, speed};
     return lead;
   }
-  static double slope(const System& system, int mass, double phi) noexcept {
-    const constraints::CurvePoint p = evaluate(system.curveOf(mass), phi);
-    return dot(p.rPhi, p.rPhiPhi);
-  }
 
-  StepStatus pass(const System& system, const HandSegment& hand, double dt, const State& y0, State& next, StepReport& report) noexcept {
-    const int n = system.states();
-    const double c = system.speedScale;
-    Extended y(n + 1), trial(n + 1);
-    for (int i = 0; i < n; ++i) y[i] = y0[i];
-    y[n] = 0;
+  /// One tick in fictitious time, sub-step by sub-step: `y` is where it has come to, `trial` where the next sub-step leads.
+  struct Passage {
+    const System& system;
+    const HandSegment& hand;
+    double dt;         // [s]
+    double tolerance;  // of each number's scale
+    int n = system.states();
+    double c = system.speedScale;  // [m]
+    Extended y{n + 1}, trial{n + 1};
+    dop853::Stages<kSize> k = dop853::makeStages<kSize>(n + 1);
     Lead lead{};
-    State plain(n), rates(n);
-    const auto rate = [&](double, const Extended& at, Extended& d) {
+    State plain{n}, rates{n};  // room for the state without t, and for its slope
+    int rhs = 0;
+    bool onCusp = false;  // the last sub-step ended there
+
+    void rate(const Extended& at, Extended& d) noexcept {
       for (int i = 0; i < n; ++i) plain[i] = at[i];
       const auto now = system.handAt(hand, at[n] / dt);
       double speed = 0;
-      if constexpr (requires { system.rate(now, plain, rates, 0, speed); }) {
+      if constexpr (System::kHas.leadRate) {
         system.rate(now, plain, rates, lead.mass, speed);
       } else {
         system.rate(now, plain, rates);
@@ -81,101 +89,134 @@ class CuspAdaptive {
       for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
       d[lead.mass] = at[system.rates() + lead.mass] / c;
       d[n] = factor;
-    };
-    const auto unit = [&](int i, double value) { return i < n ? tolerance_ * (system.scale(i) + std::abs(value)) : tolerance_; };
-    auto k = dop853::makeStages<kSize>(n + 1);
-    int rhs = 0;
+    }
+    /// A sub-step of tau from y to `trial`; its estimated error, 1 being the most allowed.
+    double attempt(double tau) noexcept {
+      rhs += dop853::kStages - 1;
+      return dop853::attempt<kSize>([&](double, const Extended& at, Extended& d) { rate(at, d); },
+                                    [&](int i, double value) { return i < n ? tolerance * (system.scale(i) + std::abs(value)) : tolerance; },
+                                    0, tau, y, k, trial);
+    }
+
+    /// Takes the mass that is nearest its cusp now. False where it rests on it.
+    bool chooseLead() noexcept {
+      for (int i = 0; i < n; ++i) plain[i] = y[i];
+      lead = nearest(system, plain);
+      if (lead.speed <= kOnCusp * c && std::abs(y[system.rates() + lead.mass]) <= kAtRest) return false;
+      rate(y, k[0]);
+      ++rhs;
+      return true;
+    }
+    /// The longest sub-step that does not go over a minimum of |r_phi|, nor beyond the tick's end.
+    double limit(double h) const noexcept {
+      const double speed = std::abs(y[system.rates() + lead.mass]);
+      h = std::min(h, kLongest * c / std::max(speed, kLeast));
+      return std::min(h, aim(system, lead.mass, y[lead.mass], k[0][lead.mass], k[0][system.rates() + lead.mass] / c, dt - y[n]));
+    }
+
+    double slope(double phi) const noexcept {
+      const constraints::CurvePoint p = evaluate(system.curveOf(lead.mass), phi);
+      return dot(p.rPhi, p.rPhiPhi);
+    }
+    /// |r_phi| falls at the sub-step's begin and rises at its end.
+    bool crossesMinimum(double error) const noexcept {
+      const double from = y[lead.mass], to = trial[lead.mass];
+      if (!std::isfinite(error) || from == to || onCusp) return false;
+      const double direction = to > from ? 1 : -1;
+      return direction * slope(from) < 0 && direction * slope(to) > 0;
+    }
+    /// Shortens the sub-step of h so that it ends on the true cusp that it crosses, by Newton's method in tau; false if there is none, or
+    /// it is not met. `error` becomes that of the shortened one.
+    bool endOnCusp(double h, double& error) noexcept {
+      constexpr int kRounds = 12;
+      constexpr double kMet = 4e-16, kNear = 1e-12;  // of 1 + |phi|: rounding, and what Newton's last step comes to
+      const double from = y[lead.mass], to = trial[lead.mass];
+      double phi = 0;
+      if (!findCusp(system, lead.mass, from, to, phi)) return false;
+      double tau = h * (phi - from) / (to - from);
+      for (int round = 0; round < kRounds; ++round) {
+        error = attempt(tau);
+        const double miss = phi - trial[lead.mass];
+        const double speed = trial[system.rates() + lead.mass] / c;
+        if (std::abs(miss) <= kMet * (1 + std::abs(phi)) || speed == 0) break;
+        tau += miss / speed;
+        if (!(tau > 0 && tau <= h)) break;
+      }
+      if (!(std::abs(phi - trial[lead.mass]) < kNear * (1 + std::abs(phi)))) return false;
+      trial[lead.mass] = phi;
+      return true;
+    }
+    /// Shortens the sub-step of h, which leads beyond the tick's end, until its time is that end: Newton's method in tau, kept between
+    /// bounds by halving.
+    void endOnTick(double h, double& error) noexcept {
+      constexpr int kRounds = 40;
+      constexpr double kMet = 2e-16;  // of dt
+      double low = 0, high = h, tau = h;
+      for (int round = 0; round < kRounds && std::abs(trial[n] - dt) > kMet * dt; ++round) {
+        (trial[n] > dt ? high : low) = tau;
+        const double factor = system.speedAt(lead.mass, trial[lead.mass]) / c;
+        double better = tau - (trial[n] - dt) / std::max(factor, kLeast);
+        if (!(better > low && better < high)) better = 0.5 * (low + high);
+        if (better == tau) break;
+        tau = better;
+        error = attempt(tau);
+        if (error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs)) break;
+      }
+    }
+  };
+
+  StepStatus pass(const System& system, const HandSegment& hand, double dt, const State& y0, State& next, StepReport& report) noexcept {
+    Passage p{system, hand, dt, tolerance_};
+    const int n = p.n;
+    for (int i = 0; i < n; ++i) p.y[i] = y0[i];
+    p.y[n] = 0;
     StepStatus status = StepStatus::Ok;
-    double h = last_ > 0 ? last_ : dt, most = 5;
-    bool onCusp = false;  // the last sub-step ended there
-    for (bool fresh = true; y[n] < dt;) {
+    double h = last_ > 0 ? last_ : dt, growth = kGrowth;
+    for (bool fresh = true; p.y[n] < dt;) {
       if (fresh) {
-        for (int i = 0; i < n; ++i) plain[i] = y[i];
-        lead = nearest(system, plain);
-        const double speed = std::abs(y[system.rates() + lead.mass]);
-        if (lead.speed <= 1e-13 * c && speed <= 1e-14) return StepStatus::NoContinuation;  // at rest on a cusp: which way?
-        rate(0, y, k[0]);
-        ++rhs;
-        h = std::min(h, 0.3 * c / std::max(speed, 1e-300));  // no more than 0.3 in phi, so that a minimum is not stepped over
-        h = std::min(h, aim(system, lead.mass, y[lead.mass], k[0][lead.mass], k[0][system.rates() + lead.mass] / c, dt - y[n]));
+        if (!p.chooseLead()) return StepStatus::NoContinuation;
+        h = p.limit(h);
         fresh = false;
       }
-      double error = dop853::attempt<kSize>(rate, unit, 0, h, y, k, trial);
-      rhs += dop853::kStages - 1;
-      // A true cusp inside: end there.
-      const double from = y[lead.mass], to = trial[lead.mass];
-      bool cuspEnd = false;
-      if (std::isfinite(error) && from != to) {
-        const double direction = to > from ? 1 : -1;
-        const bool falling = onCusp ? false : direction * slope(system, lead.mass, from) < 0;
-        if (falling && direction * slope(system, lead.mass, to) > 0) {
-          double phi = 0;
-          if (findCusp(system, lead.mass, from, to, phi)) {
-            double tau = h * (phi - from) / (to - from);
-            for (int round = 0; round < 12; ++round) {
-              error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
-              rhs += dop853::kStages - 1;
-              const double miss = phi - trial[lead.mass];
-              const double speed = trial[system.rates() + lead.mass] / c;
-              if (std::abs(miss) <= 4e-16 * (1 + std::abs(phi)) || speed == 0) break;
-              tau += miss / speed;
-              if (!(tau > 0 && tau <= h)) break;
-            }
-            if (std::abs(phi - trial[lead.mass]) < 1e-12 * (1 + std::abs(phi))) {
-              trial[lead.mass] = phi;
-              cuspEnd = true;  // h stays: the way to the cusp may have been too short for the time to move on behind it
-            }
-          }
-        }
-      }
-      // At the tick's end but for little: a small step in time. Past it: shorten until t meets its end.
-      bool finished = !cuspEnd && error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs);
-      if (!finished && error <= 1 && trial[n] >= dt) {
-        double low = 0, high = h, tau = h;
-        for (int round = 0; round < 40 && std::abs(trial[n] - dt) > 2e-16 * dt; ++round) {
-          (trial[n] > dt ? high : low) = tau;
-          const double factor = system.speedAt(lead.mass, trial[lead.mass]) / c;
-          double better = tau - (trial[n] - dt) / std::max(factor, 1e-300);
-          if (!(better > low && better < high)) better = 0.5 * (low + high);
-          if (better == tau) break;
-          tau = better;
-          error = dop853::attempt<kSize>(rate, unit, 0, tau, y, k, trial);
-          rhs += dop853::kStages - 1;
-          if (error <= 1 && endInTime(system, hand, dt, lead.mass, trial, plain, rates, rhs)) break;
-        }
+      double error = p.attempt(h);
+      bool onCusp = p.crossesMinimum(error) && p.endOnCusp(h, error);
+      bool finished = !onCusp && error <= 1 && endInTime(system, hand, dt, p.lead.mass, p.trial, p.plain, p.rates, p.rhs);
+      if (!finished && error <= 1 && p.trial[n] >= dt) {
+        p.endOnTick(h, error);
         finished = true;
-        cuspEnd = false;
+        onCusp = false;
       }
-      const double factor = dop853::growth(error, most);
-      most = error <= 1 ? 5 : 1;
+      const double factor = dop853::growth(error, growth);
       if (error <= 1) {
+        growth = kGrowth;
         report.error += tolerance_ * error;
-        if (!finished && !(trial[n] > y[n]) && !cuspEnd) {
+        if (!finished && !(p.trial[n] > p.y[n]) && !onCusp) {
           status = StepStatus::Capped;
           break;
         }
-        y = trial;
-        onCusp = cuspEnd;
+        p.y = p.trial;
+        p.onCusp = onCusp;
         fresh = true;
         if (finished) {
-          y[n] = dt;
+          p.y[n] = dt;
           last_ = h * factor;
         }
       } else {
+        growth = 1;
         status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
       }
-      h *= cuspEnd ? 1.0 : factor;
-      if (y[n] < dt && rhs + 2 * dop853::kStages > kMaxRhsPerTick) {
+      if (!onCusp) h *= factor;  // the way to a cusp may have been too short for the time to move on behind it
+      if (p.y[n] < dt && p.rhs + 2 * dop853::kStages > kMaxRhsPerTick) {
         status = StepStatus::Capped;
         break;
       }
     }
-    report.rhs += static_cast<std::uint64_t>(rhs);
-    if (y[n] < dt) {
+    report.rhs += static_cast<std::uint64_t>(p.rhs);
+    if (p.y[n] < dt) {
       last_ = 0;
       return status == StepStatus::Ok ? StepStatus::Capped : status;
     }
-    for (int i = 0; i < n; ++i) next[i] = y[i];
+    for (int i = 0; i < n; ++i) next[i] = p.y[i];
     return StepStatus::Ok;
   }
 

@@ -1,11 +1,12 @@
 #pragma once
 #include "sim/dynamics/hand/hand_segment.h"
 #include "sim/dynamics/object/step_report.h"
+#include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
 
 /// The paper's method: classic fourth-order Runge-Kutta, one step a tick.
-template <class System>
+template <Equations System>
 class Rk4 {
  public:
   using State = typename System::State;

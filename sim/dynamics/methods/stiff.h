@@ -10,13 +10,14 @@
 #include "sim/dynamics/hand/hand_segment.h"
 #include "sim/dynamics/object/numbers.h"
 #include "sim/dynamics/object/step_report.h"
+#include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
 
 /// Radau IIA of order 5, L-stable (Hairer, Wanner: Solving Ordinary Differential Equations II, IV.8), for damped light masses on curves,
 /// whose modes are too fast for explicit methods. Simplified Newton on the three stages together; the error of a sub-step is taken from
 /// the same sub-step in two halves.
-template <class System>
+template <Equations System>
 class Stiff {
  public:
   using State = typename System::State;

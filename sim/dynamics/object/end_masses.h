@@ -2,7 +2,7 @@
 #include <array>
 #include <span>
 
-#include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/object/mass_state.h"
 
 namespace reachlab::dynamics {
 

@@ -4,6 +4,7 @@
 
 #include "base/math/lanes.h"
 #include "sim/experiment/object.h"
+#include "sim/experiment/object_limits.h"
 
 namespace reachlab::dynamics {
 

@@ -1,33 +1,14 @@
 #pragma once
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "constraints/constraint.h"
 #include "sim/dynamics/hand/hand_segment.h"
+#include "sim/dynamics/object/mass_state.h"
 #include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::dynamics {
-
-/// How a step ended; everything but Ok leads to zero force. Counted per kind, never thrown.
-enum class StepStatus : std::uint8_t { Ok, HandLost, NotFinite, Capped, AtEnd, NoContinuation, PeerLost };
-inline constexpr int kStepStatusCount = 7;
-std::string_view describe(StepStatus status);
-
-/// One mass in world coordinates, with its constraint parameters (unused ones 0; none for a free object).
-struct MassState {
-  Vec3 r, v, a;                        // [m], [m/s], [m/s^2]
-  std::array<double, 2> q{}, qRate{};  // phi or u, v (no unit), and their rates [1/s]
-};
-
-/// Orientation of a body: unit quaternion (w, x, y, z) and angular velocity [rad/s], world frame.
-struct BodyState {
-  std::array<double, 4> orientation{1, 0, 0, 0};
-  Vec3 angularVelocity;
-};
 
 /// A scene compiled for exactly one experiment: dynamics and method together (docs/adr/0002-a-scene-is-compiled-to-form-and-method.md).
 /// Not thread-safe; the haptic loop owns it. None of the noexcept members allocates, locks or throws. A function of its inputs alone: the
@@ -73,33 +54,5 @@ class Plant {
   /// Why an AtEnd / NoContinuation step stopped, in words. Not for the haptic thread.
   virtual std::string stopReason() const { return {}; }
 };
-
-/// What `method: auto` chose and why; shown before the trial and stored in the recording.
-struct MethodChoice {
-  std::string method;         // rk4 | exact | abm | adaptive | stiff
-  std::string form;           // "line, 10 states" / "curve in phi" / "surface in ambient coordinates" …
-  std::string reason;         // one sentence with the numbers
-  double fastestMode = 0;     // [1/s] largest |eigenvalue| at the start
-  double predictedError = 0;  // [m] position, over one reach
-  std::vector<std::string> warnings;
-};
-
-struct SceneOptions {
-  std::string method;    // empty: the experiment's
-  double step = 0.001;   // [s]
-  double tolerance = 0;  // adaptive methods; 0: default
-};
-
-class SharedPlant;
-
-struct Scene {
-  std::unique_ptr<Plant> plant;
-  SharedPlant* shared = nullptr;  // the same plant where several hands hold the object (shared_plant.h)
-  MethodChoice choice;
-  constraints::Constraint constraint;
-};
-
-/// Compiles the experiment. Throws RefusedError (method unstable here, singular start …) with numbers and a remedy.
-Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options = {});
 
 }  // namespace reachlab::dynamics

@@ -1,8 +1,6 @@
 #pragma once
 #include <cstdint>
 
-#include "sim/dynamics/object/plant.h"
-
 namespace reachlab::dynamics {
 
 /// What a method tells of its step.

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "constraints/curve_batch.h"
 #include "sim/dynamics/systems/batch_springs.h"
 #include "sim/dynamics/systems/curve_places.h"
 
@@ -10,20 +11,15 @@ namespace reachlab::dynamics {
 /// The equations of CurveSystem for two and more masses, eight at a time in the lanes of vector registers. `Batches` registers for the
 /// masses, 0: as many as they need. Lanes without a mass rest at the first mass's start.
 template <int Batches, bool Parallel, bool Tangential>
-struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential> {
+struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSystem<BatchSprings<Batches, Parallel>> {
   using Places = CurvePlaces<0, Batches * kBatchLanes, Tangential>;
-  using Places::curve, Places::rates;
+  using Space = SpaceSystem<BatchSprings<Batches, Parallel>>;
+  using Places::curve, Places::rates, Space::springs, typename Space::Hand;
   static constexpr int kStates = 2 * Batches * kBatchLanes;
   using State = Numbers<kStates>;
-  using Hand = HandSample;
-
-  BatchSprings<Batches, Parallel> springs;
 
   BatchSystem(const ObjectModel& model, const constraints::Constraint& constraint, double typicalSpeed)
-      : Places(model, constraint, typicalSpeed, batchesFor(model.count()) * kBatchLanes), springs(model) {}
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+      : Places(model, constraint, typicalSpeed, batchesFor(model.count()) * kBatchLanes), Space(model) {}
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     constraints::Unfilled<std::array<constraints::CurveBatch, kMaxBatches<Batches>>> points;

@@ -13,23 +13,17 @@ inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
 /// A rigid body in free space: the hand's force acts at the FP, at `fpOffset` from the centre of mass in body axes, so that it turns the
 /// body as well (c_i of Eq. 7 are force and moment). y = (r, v, quaternion w x y z, angular velocity in body axes).
 ///   m r'' = F + m g - lambda v,   q' = q (0, w)/2,   I w' = R^T ((R offset) x F) - w x I w
-struct BodySystem {
+struct BodySystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 13;
   static constexpr bool kSecondOrder = false;
-  static constexpr bool kEnds = false;
-  static constexpr const char* kNoContinuation = "there is no continuation here";
+  static constexpr Hooks kHas{.settling = true};
   using State = Numbers<13>;
-  using Hand = HandSample;
 
-  Springs<1, true> springs;
   Matrix3 inertia{}, inverseInertia{};
   Vec3 fpOffset;
 
   BodySystem(const ObjectModel& model, const experiment::Object& object);
   static constexpr int states() noexcept { return 13; }
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   struct Pose {
     Vec3 r, v, turn;    // turn: angular velocity, body axes
@@ -90,6 +84,7 @@ struct BodySystem {
     masses[0].v = {s[3], s[4], s[5]};
   }
   void accelerate(const State&, const State& ds, std::span<MassState> masses) const noexcept { masses[0].a = {ds[3], ds[4], ds[5]}; }
+  std::string stopReason(StepStatus status, const State&) const { return plainReason(status, "there is no continuation here"); }
 };
 
 }  // namespace reachlab::dynamics

@@ -16,22 +16,19 @@ namespace reachlab::dynamics {
 /// In a kink that both sides push it into, a mass rests as soon as its swing would last less than kSwing of a step; it leaves when a side
 /// pulls it out.
 template <int N, bool Parallel>
-struct BrokenCurveSystem {
+struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
+  using Space = SpaceSystem<Springs<N, Parallel>>;
+  using Space::springs, typename Space::Hand;
   static constexpr int kStates = 2 * N;
   static constexpr bool kTangential = true;
   static constexpr bool kSecondOrder = false;
-  static constexpr bool kEnds = true;
+  static constexpr Hooks kHas{.ends = true, .branches = true, .holding = true, .care = true, .pieces = true, .leadRate = true};
   static constexpr double kSwing = 1.0 / 30;
-  static constexpr const char* kNoContinuation =
-      "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined";
   using State = Numbers<kStates>;
-  using Hand = HandSample;
-
   std::shared_ptr<const constraints::CurveRegularity> regularity;
   constraints::Domain domain;
   double speedScale;  // [m] typical |r_phi|
   int count;
-  Springs<N, Parallel> springs;
   struct Where {
     int piece = 0;
     bool held = false;  // at rest on its piece's lower end, in the corner of a kink
@@ -42,7 +39,7 @@ struct BrokenCurveSystem {
 
   BrokenCurveSystem(const ObjectModel& model, const constraints::Constraint& constraint,
                     std::shared_ptr<const constraints::CurveRegularity> pieces, double typicalSpeed)
-      : regularity(std::move(pieces)), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()), springs(model) {}
+      : Space(model), regularity(std::move(pieces)), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()) {}
 
   constexpr int n() const noexcept { return N > 0 ? N : count; }
   constexpr int rates() const noexcept { return n(); }
@@ -61,21 +58,19 @@ struct BrokenCurveSystem {
     return least;
   }
   /// Sub-steps alone know how to go on: phi is needed more exactly than usual, or something narrow is being passed.
-  bool wantsCare(const State& y) const noexcept {
+  bool wantsSubSteps(const State& y) const noexcept {
     constexpr double kSteep = 4;
     for (int i = 0; i < n(); ++i)
       if (pieceOf(i).narrow) return true;
     return steepness(y) > kSteep;
   }
+  double tightening() const noexcept { return 1; }
   /// How many times more than usual a unit of phi moves a mass; without bound towards the end of an arc, a root or a power.
   double steepness(const State& y) const noexcept {
     double most = 1;
     for (int i = 0; i < n(); ++i) most = std::fmax(most, speedAt(i, y[i]) / speedScale);
     return most;
   }
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   struct Vectors {
     std::array<Vec3, kMassCapacity<N>> all;
@@ -166,6 +161,8 @@ struct BrokenCurveSystem {
     return false;
   }
 
+  auto branch() const noexcept { return where; }
+  void takeBack(const std::array<Where, kMassCapacity<N>>& before) noexcept { where = before; }
   /// Each mass that `beyond` shows behind a passed end goes on in the next piece; false if one may not.
   bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept {
     for (int i = 0; i < n(); ++i) {
@@ -211,6 +208,11 @@ struct BrokenCurveSystem {
     return false;
   }
 
+  std::string stopReason(StepStatus status, const State& y) const {
+    if (status == StepStatus::AtEnd) return endReason();
+    if (status == StepStatus::Capped || status == StepStatus::NotFinite) return troubleReason(y);
+    return plainReason(status, "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined");
+  }
   std::string endReason() const {
     if (stoppedMass < 0) return "a mass reached the end of the constraint's domain";
     const constraints::CurvePiece& piece = pieceOf(stoppedMass);

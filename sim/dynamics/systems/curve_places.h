@@ -22,8 +22,7 @@ template <int N, int Room, bool Tangential>
 struct CurvePlaces {
   static constexpr bool kTangential = Tangential;
   static constexpr bool kSecondOrder = !Tangential;
-  static constexpr bool kEnds = true;
-  static constexpr const char* kNoContinuation = "the mass rests on a cusp of the curve: which way it would leave is not determined";
+  static constexpr Hooks kHas{.ends = true, .settling = true};
 
   constraints::Curve curve;
   constraints::Domain domain;
@@ -77,12 +76,17 @@ struct CurvePlaces {
     return Settled::Same;
   }
   template <class State>
+  std::string stopReason(StepStatus status, const State& y) const {
+    if (status == StepStatus::Capped || status == StepStatus::NotFinite) return troubleReason(y);
+    return status == StepStatus::NoContinuation ? lostReason(y) : plainReason(status, "");
+  }
+  template <class State>
   std::string lostReason(const State& y) const {
     for (int i = 0; i < n(); ++i)
       if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p))
         return fmt::format("mass {} at phi = {:.6g}, so far from 0 that a rounding of phi moves it by {:.2g} m, in every tick", i + 1, y[i],
                            roundingOfPhi(p, y[i]));
-    return kNoContinuation;
+    return "the mass rests on a cusp of the curve: which way it would leave is not determined";
   }
   template <class State>
   void locate(const State& y, std::span<MassState> masses) const noexcept {

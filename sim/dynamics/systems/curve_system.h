@@ -8,20 +8,16 @@ namespace reachlab::dynamics {
 /// Tangential = true:  y = (phi_i, v_i), v the speed along the curve, phi' = v/|r_phi|, v' = r_phi.F/(m |r_phi|): neither omega^2 nor
 /// 1/M, for curves that are hard somewhere.
 template <int N, bool Parallel, bool Tangential>
-struct CurveSystem : CurvePlaces<N, N, Tangential> {
+struct CurveSystem : CurvePlaces<N, N, Tangential>, SpaceSystem<Springs<N, Parallel>> {
   using Places = CurvePlaces<N, N, Tangential>;
-  using Places::curve, Places::n;
+  using Space = SpaceSystem<Springs<N, Parallel>>;
+  using Places::curve, Places::n, Space::springs, typename Space::Hand;
+  static constexpr Hooks kHas{.ends = true, .settling = true, .leadRate = Tangential};
   static constexpr int kStates = 2 * N;
   using State = Numbers<kStates>;
-  using Hand = HandSample;
-
-  Springs<N, Parallel> springs;
 
   CurveSystem(const ObjectModel& model, const constraints::Constraint& constraint, double typicalSpeed)
-      : Places(model, constraint, typicalSpeed, model.count()), springs(model) {}
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
+      : Places(model, constraint, typicalSpeed, model.count()), Space(model) {}
 
   /// A vector for each mass.
   struct Vectors {

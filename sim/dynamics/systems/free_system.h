@@ -5,22 +5,17 @@ namespace reachlab::dynamics {
 
 /// A point, chain or parallel object in free space, y = (r_1 … r_N, v_1 … v_N). For methods other than the exact one.
 template <int N, bool Parallel>
-struct FreeSystem {
+struct FreeSystem : SpaceSystem<Springs<N, Parallel>> {
+  using Space = SpaceSystem<Springs<N, Parallel>>;
+  using Space::springs, typename Space::Hand;
   static constexpr int kStates = 6 * N;
   static constexpr bool kSecondOrder = true;
-  static constexpr bool kEnds = false;
-  static constexpr const char* kNoContinuation = "there is no continuation here";
+  static constexpr Hooks kHas{};
   using State = Numbers<kStates>;
-  using Hand = HandSample;
 
-  Springs<N, Parallel> springs;
-
-  explicit FreeSystem(const ObjectModel& model) : springs(model) {}
+  using Space::Space;
   int n() const noexcept { return springs.n(); }
   int states() const noexcept { return 6 * n(); }
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     struct Points {
@@ -57,6 +52,7 @@ struct FreeSystem {
   void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept {
     for (std::size_t i = 0; i < masses.size(); ++i) masses[i].a = at(dy, n() + static_cast<int>(i));
   }
+  std::string stopReason(StepStatus status, const State&) const { return plainReason(status, "there is no continuation here"); }
 
  private:
   static Vec3 at(const State& y, int i) noexcept { return {y[3 * i], y[3 * i + 1], y[3 * i + 2]}; }

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/dynamics/exact/linear_plant.h"
+#include "sim/dynamics/exact/linear_space.h"
 #include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
@@ -10,8 +10,7 @@ template <int N, bool Parallel>
 struct LineSystem {
   static constexpr int kStates = 2 * N;
   static constexpr bool kSecondOrder = true;
-  static constexpr bool kEnds = true;
-  static constexpr const char* kNoContinuation = "the line has no continuation here";
+  static constexpr Hooks kHas{.ends = true};
   using State = Numbers<kStates>;
   struct Hand {
     double r, v;
@@ -33,6 +32,7 @@ struct LineSystem {
     extraForce = dot(force, axis);
     gravity = dot(springs.gravity, axis);
   }
+  void setCoupled(const ObjectModel& model, bool coupled) noexcept { springs.setCoupled(model, coupled); }
   Hand handAt(const HandSegment& hand, double s) const noexcept {
     return {dot(valueAt(hand.position, hand.degree, s) - space.origin, axis), dot(valueAt(hand.velocity, hand.degree, s), axis)};
   }
@@ -66,6 +66,7 @@ struct LineSystem {
     for (std::size_t i = 0; i < masses.size(); ++i) masses[i].a = dy[n() + static_cast<int>(i)] * axis;
   }
 
+  std::string stopReason(StepStatus status, const State&) const { return plainReason(status, "the line has no continuation here"); }
   bool bounded() const noexcept { return !space.domain.periodic && (std::isfinite(space.domain.lo) || std::isfinite(space.domain.hi)); }
   bool bounces() const noexcept { return space.domain.atEnd == constraints::AtEnd::Bounce; }
   bool inside(const State& y) const noexcept {

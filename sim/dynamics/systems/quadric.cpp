@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/math/matrix.h"
+#include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "constraints/formula/polynomial.h"
 

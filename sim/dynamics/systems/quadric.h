@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/math/fused.h"
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 
 namespace reachlab::dynamics {
 

@@ -8,16 +8,13 @@ namespace reachlab::dynamics {
 /// A point on a surface of second degree in world coordinates, y = (r, v): r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and
 /// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for. On a sphere where nothing pulls, the motion
 /// is a great circle in closed form.
-struct QuadricSystem {
+struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 6;
   static constexpr bool kSecondOrder = true;
-  static constexpr bool kEnds = true;
+  static constexpr Hooks kHas{.ends = true, .settling = true, .losing = true, .parametrising = true, .gliding = true};
   static constexpr int kProjectEvery = 8;  // ticks
-  static constexpr const char* kNoContinuation = "the surface has no tangent plane here (a cone's apex): there is no unique continuation";
   using State = Numbers<6>;
-  using Hand = HandSample;
 
-  Springs<1, true> springs;
   Quadric quadric;
   constraints::Surface surface;
   std::array<constraints::Domain, 2> domain;
@@ -29,7 +26,7 @@ struct QuadricSystem {
   bool gliding = false;  // on a sphere, and nothing pulls
 
   QuadricSystem(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& q)
-      : springs(model), quadric(q), surface(constraint.surface), domain(constraint.domain), sphere(sphereOf(q)) {
+      : SpaceSystem(model), quadric(q), surface(constraint.surface), domain(constraint.domain), sphere(sphereOf(q)) {
     setGliding();
   }
   static constexpr int states() noexcept { return 6; }
@@ -41,8 +38,6 @@ struct QuadricSystem {
     springs.setCoupled(model, coupled);
     setGliding();
   }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     const Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
@@ -108,6 +103,10 @@ struct QuadricSystem {
     masses[0].qRate = solveRates(p, masses[0].v);
   }
   void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept { masses[0].a = {dy[3], dy[4], dy[5]}; }
+
+  std::string stopReason(StepStatus status, const State&) const {
+    return plainReason(status, "the surface has no tangent plane here (a cone's apex): there is no unique continuation");
+  }
 
   bool bounded() const noexcept { return edges; }
   bool bounces() const noexcept { return domain[0].atEnd == constraints::AtEnd::Bounce || domain[1].atEnd == constraints::AtEnd::Bounce; }

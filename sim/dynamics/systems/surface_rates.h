@@ -13,7 +13,4 @@ inline std::array<double, 2> solveRates(const constraints::SurfacePoint& p, cons
   return e > g ? std::array{a / e, 0.0} : std::array{0.0, g > 0 ? b / g : 0.0};
 }
 
-/// What becomes of a state after a step, before the next.
-enum class Settled { Same, OtherChart, Lost };
-
 }  // namespace reachlab::dynamics

@@ -11,9 +11,10 @@ constexpr double kContinuous = 1e-9;          // of a millimetre and of the surf
 constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
 constexpr double kMargin = 1e-5;              // of the argument's size
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
-constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen
-constexpr double kEnter = 0.4, kLeave = 0.6;  // radius of the polar chart
-constexpr double kBeside = 0.05;              // of a unit of the parameters
+constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
+constexpr double kEnter = 0.4, kLeave = 0.6;  // of a parameter: radius of the polar chart
+constexpr double kBeside = 0.05;              // of a parameter, from a line at which the formula ends: r_u may grow without bound
+constexpr double kEnding = 0.02;              // of a parameter, from such a line: what stops there stops because of it
 
 /// [m] by how much two limits of r may differ that are one.
 double slack(const constraints::SurfacePoint& p) noexcept {
@@ -25,13 +26,7 @@ double slack(const constraints::SurfacePoint& p) noexcept {
 Settled SurfaceSystem::chooseChart(State& y) noexcept {
   if (inPolar) {
     if (y[0] * y[0] + y[1] * y[1] < kLeave * kLeave) return Settled::Same;
-    const constraints::SurfacePoint local = constraints::evaluate(active, y[0], y[1]);
-    const Vec3 v = y[2] * local.rU + y[3] * local.rV;
-    const std::array<double, 2> q = polar.toBase(y[0], y[1]);
-    const std::array<double, 2> rate = solveRates(constraints::evaluate(surface, q[0], q[1]), v);
-    y.values = {q[0], q[1], rate[0], rate[1]};
-    active = surface;
-    inPolar = false;
+    leavePolar(y);
     return Settled::OtherChart;
   }
   const constraints::SurfacePoint p = constraints::evaluate(surface, y[0], y[1]);
@@ -50,6 +45,16 @@ Settled SurfaceSystem::chooseChart(State& y) noexcept {
   y.values = {q[0], q[1], rate[0], rate[1]};
   inPolar = true;
   return Settled::OtherChart;
+}
+
+void SurfaceSystem::leavePolar(State& y) noexcept {
+  const constraints::SurfacePoint local = constraints::evaluate(active, y[0], y[1]);
+  const Vec3 v = y[2] * local.rU + y[3] * local.rV;
+  const std::array<double, 2> q = polar.toBase(y[0], y[1]);
+  const std::array<double, 2> rate = solveRates(constraints::evaluate(surface, q[0], q[1]), v);
+  y.values = {q[0], q[1], rate[0], rate[1]};
+  active = surface;
+  inPolar = false;
 }
 
 bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
@@ -97,7 +102,7 @@ void SurfaceSystem::findBranch(std::span<const double> q, std::span<const double
 }
 
 bool SurfaceSystem::onBranch(const State& y) const noexcept {
-  const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
+  const std::array<double, 2> q = inBase(y);
   const auto lines = branches->at(q[0], q[1]);
   for (std::size_t k = 0; k < branches->lines.size(); ++k) {
     const double inwards = lines[k].value * where.side[k];
@@ -132,56 +137,56 @@ bool SurfaceSystem::turned(const State& from, const State& to, double dt) const 
 
 bool SurfaceSystem::passEnds(const State& beyond, State& y, const Hand&, double) noexcept {
   if (branches == nullptr) return false;
-  std::array<double, 2> behind = inPolar ? polar.toBase(beyond[0], beyond[1]) : std::array{beyond[0], beyond[1]};
-  // On a line where the formula has no limit nothing can be told: a little behind it.
-  constexpr double kBehind = 1e-12;  // of the parameters
-  auto lines = branches->at(behind[0], behind[1]);
-  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
-    const double steep = std::hypot(lines[k].u, lines[k].v);
-    if (lines[k].value != 0 || !(steep > 0) || hasLimit(behind, static_cast<int>(k), lines[k].u, lines[k].v)) continue;
-    const double step = kBehind * std::fmax(1, std::hypot(behind[0], behind[1])) * where.side[k] / steep;
-    behind = {behind[0] - step * lines[k].u, behind[1] - step * lines[k].v};
-  }
-  lines = branches->at(behind[0], behind[1]);
+  const std::array<double, 2> behind = behindTheLines(inBase(beyond));
+  const auto lines = branches->at(behind[0], behind[1]);
   bool passed = false;
   for (std::size_t k = 0; k < branches->lines.size(); ++k) {
     if (lines[k].value * where.side[k] >= margin[k]) continue;
     metLine = static_cast<int>(k);
-    const constraints::SurfaceBranches::Line& line = branches->lines[k];
-    if (!line.passable) return false;
-    if (inPolar) {
-      const constraints::SurfacePoint local = evaluate(active, y[0], y[1]);
-      const std::array<double, 2> q = polar.toBase(y[0], y[1]);
-      const std::array<double, 2> rate = solveRates(evaluate(surface, q[0], q[1]), y[2] * local.rU + y[3] * local.rV);
-      y.values = {q[0], q[1], rate[0], rate[1]};
-      active = surface;
-      inPolar = false;
-    }
-    const Where other{where.branch ^ (1 << line.bit), where.side};
-    const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
-    // Just behind the line: before it the other branch may have a value that it has not got there (atan2(u, u)).
-    const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], behind[0], behind[1]);
-    if (!(norm(here.r - there.r) <= slack(here))) return false;
-    const auto at = branches->at(behind[0], behind[1])[k];
-    // Unit vectors along the crease and across it, the latter in each side's tangent plane.
-    const auto across = [&](const constraints::SurfacePoint& p, const Vec3& along) {
-      const Vec3 through = at.u * p.rU + at.v * p.rV, part = through - dot(through, along) * along;
-      return part / norm(part);
-    };
-    Vec3 along = at.u * here.rV - at.v * here.rU;
-    along = along / norm(along);
-    const Vec3 v = y[2] * here.rU + y[3] * here.rV;
-    const Vec3 turnedVelocity = dot(v, along) * along + dot(v, across(here, along)) * across(there, along);
-    const std::array<double, 2> rate = solveRates(there, turnedVelocity);
-    if (!std::isfinite(rate[0]) || !std::isfinite(rate[1])) return false;
-    y.values = {behind[0], behind[1], rate[0], rate[1]};
-    where = other;
-    where.side[k] = static_cast<signed char>(-where.side[k]);
-    useBranch();
+    if (!branches->lines[k].passable) return false;
+    if (inPolar) leavePolar(y);
+    if (!crossLine(k, behind, y)) return false;
     metLine = -1;
     passed = true;
   }
   return passed;
+}
+
+std::array<double, 2> SurfaceSystem::behindTheLines(std::array<double, 2> q) const noexcept {
+  constexpr double kBehind = 1e-12;  // of the parameters
+  const auto lines = branches->at(q[0], q[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const double steep = std::hypot(lines[k].u, lines[k].v);
+    if (lines[k].value != 0 || !(steep > 0) || hasLimit(q, static_cast<int>(k), lines[k].u, lines[k].v)) continue;
+    const double step = kBehind * std::fmax(1, std::hypot(q[0], q[1])) * where.side[k] / steep;
+    q = {q[0] - step * lines[k].u, q[1] - step * lines[k].v};
+  }
+  return q;
+}
+
+bool SurfaceSystem::crossLine(std::size_t k, const std::array<double, 2>& behind, State& y) noexcept {
+  const Where other{where.branch ^ (1 << branches->lines[k].bit), where.side};
+  const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
+  // Just behind the line: before it the other branch may have a value that it has not got there (atan2(u, u)).
+  const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], behind[0], behind[1]);
+  if (!(norm(here.r - there.r) <= slack(here))) return false;
+  const auto line = branches->at(behind[0], behind[1])[k];
+  // Unit vectors along the crease and across it, the latter in each side's tangent plane.
+  const auto across = [&](const constraints::SurfacePoint& p, const Vec3& along) {
+    const Vec3 through = line.u * p.rU + line.v * p.rV, part = through - dot(through, along) * along;
+    return part / norm(part);
+  };
+  Vec3 along = line.u * here.rV - line.v * here.rU;
+  along = along / norm(along);
+  const Vec3 v = y[2] * here.rU + y[3] * here.rV;
+  const Vec3 turnedVelocity = dot(v, along) * along + dot(v, across(here, along)) * across(there, along);
+  const std::array<double, 2> rate = solveRates(there, turnedVelocity);
+  if (!std::isfinite(rate[0]) || !std::isfinite(rate[1])) return false;
+  y.values = {behind[0], behind[1], rate[0], rate[1]};
+  where = other;
+  where.side[k] = static_cast<signed char>(-where.side[k]);
+  useBranch();
+  return true;
 }
 
 bool SurfaceSystem::roundingShows(const State& y) const noexcept {
@@ -193,12 +198,17 @@ bool SurfaceSystem::roundingShows(const State& y) const noexcept {
 
 int SurfaceSystem::endingLine(const State& y) const noexcept {
   if (branches == nullptr) return -1;
-  const std::array<double, 2> q = inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]};
+  const std::array<double, 2> q = inBase(y);
   const auto lines = branches->at(q[0], q[1]);
   for (std::size_t k = 0; k < branches->lines.size(); ++k)
-    if (!branches->lines[k].passable && !(std::abs(lines[k].value) > 0.02 * (std::abs(lines[k].u) + std::abs(lines[k].v))))
+    if (!branches->lines[k].passable && !(std::abs(lines[k].value) > kEnding * (std::abs(lines[k].u) + std::abs(lines[k].v))))
       return static_cast<int>(k);
   return -1;
+}
+
+std::string SurfaceSystem::stopReason(StepStatus status, const State& y) const {
+  if (status == StepStatus::AtEnd) return endReason();
+  return status == StepStatus::NoContinuation ? lostReason(y) : "";
 }
 
 std::string SurfaceSystem::endReason() const {
@@ -228,7 +238,7 @@ std::string SurfaceSystem::lostReason(const State& y) const {
           "the surface is so steep in its parameters here (|r_u| {:.2g} m, |r_v| {:.2g} m) that their rounding shows in the speed; write the "
           "surface in other parameters",
           norm(p.rU), norm(p.rV));
-    return kNoContinuation;
+    return "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   }
   const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];
   return fmt::format("the mass is beside a place of the surface that is never crossed: {}: {}", nameOf(line.kind), line.because);

@@ -11,22 +11,20 @@
 
 namespace reachlab::dynamics {
 
-/// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
-struct SurfaceSystem {
+/// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is
+/// called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
+struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 4;
   static constexpr bool kSecondOrder = true;
-  static constexpr bool kEnds = true;
-  static constexpr const char* kNoContinuation =
-      "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
+  static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true};
   /// Squared sine of the angle between r_u and r_v below which the rates' tolerance, and their rounding, would show in the speed.
   static constexpr double kOblique = 1e-3, kParallel = 1e-6;
-  static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2
-  static constexpr double kLong = 1;           // [m^2] |r_u|^2, likewise
-  static constexpr double kShows = 5e-11;
+  static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2: below, r_u and r_v span no plane
+  static constexpr double kLong = 1;           // [m^2] |r_u|^2 or |r_v|^2 above which the rates' tolerance would show in the speed
+  static constexpr double kShows = 5e-11;      // of the speed: what a rounding of u or v may change
+  static constexpr double kTightening = 0.01;  // of the tolerance, where the rates nearly cancel in the velocity
   using State = Numbers<4>;
-  using Hand = HandSample;
 
-  Springs<1, true> springs;
   constraints::Surface surface;  // as defined
   constraints::Surface active;   // what the state's parameters are: `surface`, or `polar` while `inPolar`
   std::array<constraints::Domain, 2> domain;
@@ -60,11 +58,8 @@ struct SurfaceSystem {
   std::array<double, constraints::SurfaceBranches::kMaxGuards> margin{};
 
   SurfaceSystem(const ObjectModel& model, const constraints::Constraint& constraint)
-      : springs(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
+      : SpaceSystem(model), surface(constraint.surface), active(constraint.surface), domain(constraint.domain) {}
   static constexpr int states() noexcept { return 4; }
-  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
-  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
-  Hand handOf(const HandSample& hand) const noexcept { return hand; }
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
     constraints::Unfilled<constraints::SurfacePoint> room;
@@ -131,6 +126,10 @@ struct SurfaceSystem {
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
   }
   Settled chooseChart(State& y) noexcept;
+  /// From the polar chart back into the surface's own parameters.
+  void leavePolar(State& y) noexcept;
+  /// The surface's own parameters, whatever the chart.
+  std::array<double, 2> inBase(const State& y) const noexcept { return inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]}; }
   /// A rounding of u or v changes |r_u| or |r_v|, and with them the speed, by more than kShows of it.
   bool roundingShows(const State& y) const noexcept;
   /// Beside a place where r_u and r_v do not span a plane.
@@ -150,6 +149,8 @@ struct SurfaceSystem {
   /// The pole ahead where the lines of parameter `fixed` = const collapse, if there is one: Newton on r_(other) = 0 along it, then a look
   /// round the whole line.
   bool findPole(const State& y, int fixed) noexcept;
+  bool wantsSubSteps(const State&) const noexcept { return careful; }
+  double tightening() const noexcept { return careful ? kTightening : 1; }
   void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
     const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
     masses[0].a = dy[2] * p.rU + dy[3] * p.rV + (y[2] * y[2]) * p.rUu + (2 * y[2] * y[3]) * p.rUv + (y[3] * y[3]) * p.rVv;
@@ -167,6 +168,11 @@ struct SurfaceSystem {
   }
   /// Takes the branch at q; on a line itself the one that the rates lead to.
   void findBranch(std::span<const double> q, std::span<const double> qRate) noexcept;
+  Where branch() const noexcept { return where; }
+  void takeBack(const Where& before) noexcept {
+    where = before;
+    useBranch();
+  }
   void useBranch() noexcept {
     if (branches == nullptr) return;
     surface = branches->branches[static_cast<std::size_t>(where.branch)];
@@ -181,8 +187,7 @@ struct SurfaceSystem {
   bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept;
   /// A line at which the formula ends, if the mass is beside it; else -1.
   int endingLine(const State& y) const noexcept;
-  std::string endReason() const;
-  std::string lostReason(const State& y) const;
+  std::string stopReason(StepStatus status, const State& y) const;
   /// An elastic edge turns the velocity's part across it, which is not the parameter's rate where the lines are oblique.
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
     for (int k = 0; k < 2; ++k) {
@@ -197,6 +202,15 @@ struct SurfaceSystem {
       y[2 + (1 - k)] += oblique * (rate - y[2 + k]);
     }
   }
+
+ private:
+  /// On a line where the formula has no limit nothing can be told: a little behind it.
+  std::array<double, 2> behindTheLines(std::array<double, 2> q) const noexcept;
+  /// Over line k, a crease: what of the velocity is along it stays, what is across it turns into the other side's tangent plane. False where
+  /// r jumps there, or the other side carries no velocity.
+  bool crossLine(std::size_t k, const std::array<double, 2>& behind, State& y) noexcept;
+  std::string endReason() const;
+  std::string lostReason(const State& y) const;
 };
 
 }  // namespace reachlab::dynamics

@@ -1,23 +1,114 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <concepts>
+#include <initializer_list>
 #include <span>
+#include <string>
 
 #include "base/math/fused.h"
 #include "sim/dynamics/object/numbers.h"
 #include "sim/dynamics/object/object_model.h"
 #include "sim/dynamics/object/plant.h"
 
-// A System is what a method integrates: a state of kStates numbers (0: known when compiled), the hand as it enters, and
-//   rate(hand, y, dy)            the equations of motion (7)
-//   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y
-//   scale(i)                     the size below which an error of number i counts as absolute
-//   place, locate, accelerate    between the state and the masses' places
-//   parametrise                  their parameters, where the state is not made of them and finding them costs: only for whoever asks
-//   inside(y), reflect(y)        ends of the constraint (kEnds)
-// Sizes are template parameters and forces plain members, so that a step has no virtual call and no branch on configuration.
-
 namespace reachlab::dynamics {
+
+/// What becomes of a state after a step, before the next.
+enum class Settled { Same, OtherChart, Lost };
+
+/// What a system has beyond its equations of motion; each is absent unless the system says so in its `kHas`. The concept Equations holds this
+/// list against the functions: one that is named here and missing, misspelt or of other arguments does not compile, nor does one that is
+/// there and not named.
+struct Hooks {
+  bool ends = false;         // bounded, bounces, inside, meetEnd: the constraint may end
+  bool branches = false;     // branch, takeBack, passEnds, turned: behind some ends another formula holds
+  bool holding = false;      // anyHeld, release: a mass may rest in a kink
+  bool settling = false;     // settle: looks at each new state
+  bool losing = false;       // lost: tells where the motion has no continuation
+  bool parametrising = false;  // parametrise: finding q and q' costs, and only an observer asks for them
+  bool care = false;         // wantsSubSteps, tightening: some places need sub-steps, and smaller errors
+  bool pieces = false;       // steepness, reach: a formula by pieces, steep or narrow in some
+  bool leadRate = false;     // rate(hand, y, dy, lead, speed): |r_phi| of one mass comes with the rates
+  bool gliding = false;      // glide: some steps have a closed form
+};
+
+namespace systemDetail {
+/// Each is there if it is declared, and only then.
+consteval bool agree(bool declared, std::initializer_list<bool> present) {
+  for (const bool one : present)
+    if (one != declared) return false;
+  return true;
+}
+template <class S>
+concept HooksAgree =
+    agree(S::kHas.ends, {requires(const S s) { { s.bounded() } -> std::same_as<bool>; },
+                         requires(const S s) { { s.bounces() } -> std::same_as<bool>; },
+                         requires(const S s, const typename S::State y) { { s.inside(y) } -> std::same_as<bool>; },
+                         requires(const S s, const typename S::State beyond, typename S::State y) { s.meetEnd(beyond, y, true); }}) &&
+    agree(S::kHas.branches,
+          {requires(const S s) { s.branch(); }, requires(S s, const S before) { s.takeBack(before.branch()); },
+           requires(S s, const typename S::State beyond, typename S::State y, const typename S::Hand hand, double dt) {
+             { s.passEnds(beyond, y, hand, dt) } -> std::same_as<bool>;
+           },
+           requires(const S s, const typename S::State y, double dt) { { s.turned(y, y, dt) } -> std::same_as<bool>; }}) &&
+    agree(S::kHas.holding, {requires(const S s) { { s.anyHeld() } -> std::same_as<bool>; },
+                            requires(S s, const typename S::State y, const typename S::Hand hand) {
+                              { s.release(hand, hand, y) } -> std::same_as<bool>;
+                            }}) &&
+    agree(S::kHas.settling, {requires(S s, const typename S::State before, typename S::State y) {
+            { s.settle(before, y) } -> std::same_as<Settled>;
+          }}) &&
+    agree(S::kHas.losing, {requires(const S s, const typename S::State y) { { s.lost(y) } -> std::same_as<bool>; }}) &&
+    agree(S::kHas.parametrising, {requires(const S s, std::span<MassState> masses) { s.parametrise(masses); }}) &&
+    agree(S::kHas.care, {requires(const S s, const typename S::State y) { { s.wantsSubSteps(y) } -> std::same_as<bool>; },
+                         requires(const S s) { { s.tightening() } -> std::same_as<double>; }}) &&
+    agree(S::kHas.pieces, {requires(const S s, const typename S::State y) { { s.steepness(y) } -> std::same_as<double>; },
+                           requires(const S s, const typename S::State y) { { s.reach(y, y) } -> std::same_as<double>; }}) &&
+    agree(S::kHas.leadRate, {requires(const S s, const typename S::Hand hand, const typename S::State y, typename S::State dy, double speed) {
+            s.rate(hand, y, dy, 0, speed);
+          }}) &&
+    agree(S::kHas.gliding, {requires(const S s, const typename S::State y, typename S::State next, double dt) {
+            { s.glide(dt, y, next) } -> std::same_as<bool>;
+          }});
+}  // namespace systemDetail
+
+/// What a method integrates: a state of kStates numbers (0: known when compiled), and the hand as it enters.
+///   rate(hand, y, dy)            the equations of motion (7)
+///   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y
+///   scale(i)                     the size below which an error of number i counts as absolute
+///   handAt, handOf               the hand at a share of a step, and as a sample
+template <class S>
+concept Equations = requires(const S s, const typename S::State y, typename S::State dy, const HandSegment& hand, const HandSample& sample) {
+  requires std::same_as<decltype(S::kHas), const Hooks>;
+  requires std::same_as<decltype(S::kStates), const int>;
+  requires std::same_as<decltype(S::kSecondOrder), const bool>;
+  { s.states() } -> std::same_as<int>;
+  { s.handAt(hand, 0.5) } -> std::same_as<typename S::Hand>;
+  { s.handOf(sample) } -> std::same_as<typename S::Hand>;
+  s.rate(s.handOf(sample), y, dy);
+  { s.scale(0) } -> std::same_as<double>;
+} && systemDetail::HooksAgree<S>;
+
+/// Equations of an object's masses, which a SystemPlant steps.
+///   place, locate, accelerate    between the state and the masses' places
+///   stopReason                   why a step stopped there, in words
+/// Sizes are template parameters and forces plain members, so that a step has no virtual call and no branch on configuration.
+template <class S>
+concept ObjectSystem = Equations<S> && requires(S s, const S c, const ObjectModel& model, const Vec3& force, typename S::State y,
+                                                const typename S::State at, std::span<const double> q, std::span<MassState> masses) {
+  s.setExtraForce(force);
+  s.setCoupled(model, true);
+  s.place(q, q, y);
+  c.locate(at, masses);
+  c.accelerate(at, at, masses);
+  { c.stopReason(StepStatus::AtEnd, at) } -> std::same_as<std::string>;
+};
+
+/// Why a step stopped, where a system has nothing to add; `noContinuation`: its words for NoContinuation.
+inline std::string plainReason(StepStatus status, const char* noContinuation) {
+  if (status == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
+  return status == StepStatus::NoContinuation ? noContinuation : "";
+}
 
 template <int N>
 inline constexpr int kMassCapacity = N > 0 ? N : experiment::kMaxMasses;
@@ -69,6 +160,20 @@ struct Springs {
       force[n() - 1] = before;
     }
   }
+};
+
+/// What the systems share whose hand acts in space and whose forces are those of `TheSprings`.
+template <class TheSprings>
+struct SpaceSystem {
+  using Hand = HandSample;
+
+  TheSprings springs;
+
+  explicit SpaceSystem(const ObjectModel& model) : springs(model) {}
+  void setExtraForce(const Vec3& force) noexcept { springs.extraForce = force; }
+  void setCoupled(const ObjectModel& model, bool coupled) noexcept { springs.setCoupled(model, coupled); }
+  Hand handAt(const HandSegment& hand, double s) const noexcept { return sampleAt(hand, s); }
+  Hand handOf(const HandSample& hand) const noexcept { return hand; }
 };
 
 }  // namespace reachlab::dynamics

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/fault.h"
+#include "base/math/eigen_solvers.h"
 #include "sim/predict/curve/curve_motion.h"
 #include "sim/predict/curve/curve_prediction.h"
 #include "sim/predict/line/modes.h"
@@ -21,6 +22,7 @@ using Vector = Eigen::VectorXd;
 constexpr int kMaxIterations = 25;
 constexpr int kMaxUnknowns = 300, kMaxIntervals = 4000;
 constexpr double kSettled = 3e-6;       // change of the unknowns, relative: Newton's error is its square
+constexpr double kLeastError = 1e-12;  // of the profile, of its peak: rounding
 constexpr double kProfile = 2e-9;       // error of the profile, of its peak, that is aimed at
 constexpr double kArrived = 1e-11;      // of the way, by any mass on the finer intervals
 constexpr double kRounding = 1e-9;      // of the way, beyond the end of a curve whose target is its end
@@ -146,7 +148,7 @@ Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Ve
     if (damping == 0 && length == 1 && size <= small) {
       found.cost = cost.evaluate(found.unknowns);
       const Vector columns = r.colwise().norm().cwiseInverse();
-      const Vector sizes = Eigen::BDCSVD<Matrix>(r * columns.asDiagonal()).singularValues();
+      const Vector sizes = singularValues(r * columns.asDiagonal());
       found.condition = sizes(0) / sizes(conditions - 1);
       return found;
     }
@@ -255,6 +257,10 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurv
   Optimum best = continueFromStraight(curve, object, duration, n, intervals, work);
   MotionSeries hand = seriesOf(best, curve.length(), duration);
   double error = 0, before = 0, bound = 0;
+  if (unknowns > 0) {
+    const Optimum finer = search.solve(n + std::max(2, n / 2), intervals, best.unknowns, best.multiplier);
+    error = bound = std::max(kLeastError, compare(hand.velocity, seriesOf(finer, curve.length(), duration).velocity));
+  }
   while (unknowns == 0) {
     n += n / 2;
     if (n > kMaxUnknowns) break;

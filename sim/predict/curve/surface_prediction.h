@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "sim/predict/prediction/prediction.h"
 
 namespace reachlab::predict {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math/eigen_solvers.h"
 #include "base/math/gauss_legendre.h"
 #include "constraints/formula/sincos.h"
 
@@ -15,10 +16,10 @@ constexpr double kPhasePerInterval = 8;
 // Of a triangle. Its square's eigenvalues, which are cheap, have ten digits of the smallest one up to this condition.
 constexpr double kSquareTells = 1e3;
 double computeCondition(const Eigen::MatrixXd& r) {
-  const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(r.transpose() * r, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd squares = symmetricEigenvalues(r.transpose() * r);
   const double least = squares(0), most = squares(squares.size() - 1);
   if (most <= kSquareTells * kSquareTells * least) return std::sqrt(most / least);
-  const Eigen::VectorXd sizes = Eigen::BDCSVD<Eigen::MatrixXd>(r).singularValues();
+  const Eigen::VectorXd sizes = singularValues(r);
   return sizes(0) / sizes(sizes.size() - 1);
 }
 

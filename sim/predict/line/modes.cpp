@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/math/eigen_solvers.h"
+
 namespace reachlab::predict {
 namespace {
 
@@ -24,10 +26,10 @@ Modes computeNetworkModes(const Eigen::VectorXd& masses, const std::vector<Sprin
     k(s.from, s.to) -= s.stiffness;
     k(s.to, s.from) -= s.stiffness;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * k * scale.asDiagonal());
+  const SymmetricEigen solved = solveSymmetric(scale.asDiagonal() * k * scale.asDiagonal());
   const Eigen::Index first = dropRigid ? 1 : 0;
   Modes modes;
-  modes.shape = scale.asDiagonal() * solver.eigenvectors().rightCols(n - first);
+  modes.shape = scale.asDiagonal() * solved.vectors.rightCols(n - first);
   modes.frequency.resize(n - first);
   for (Eigen::Index j = 0; j < n - first; ++j) {
     double energy = 0;
@@ -56,9 +58,9 @@ Modes computeHubModes(const LineObject& object) {
   const Eigen::VectorXd scale = masses.cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd share = k / k.sum();
   const Eigen::MatrixXd stiffness = Eigen::MatrixXd(k.asDiagonal()) - k * share.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * stiffness * scale.asDiagonal());
+  const SymmetricEigen solved = solveSymmetric(scale.asDiagonal() * stiffness * scale.asDiagonal());
   Modes modes;
-  modes.shape = scale.asDiagonal() * solver.eigenvectors().rightCols(masses.size() - 1);
+  modes.shape = scale.asDiagonal() * solved.vectors.rightCols(masses.size() - 1);
   modes.frequency.resize(modes.shape.cols());
   for (Eigen::Index j = 0; j < modes.shape.cols(); ++j) {
     const Eigen::ArrayXd elongation = modes.shape.col(j).array() - share.dot(modes.shape.col(j));

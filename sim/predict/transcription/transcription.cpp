@@ -163,6 +163,14 @@ TranscribedMotion raiseUnknowns(const TranscribedProblem& problem, TranscribedMo
   return motion;
 }
 
+// With the error of its profile: what half as many unknowns again change.
+TranscribedMotion estimated(const TranscribedProblem& problem, TranscribedMotion motion) {
+  const int unknowns = motion.basis.columns() - 1;
+  const TranscribedMotion finer = solveTranscription(problem, unknowns + std::max(2, unknowns / 2), guessFrom(motion));
+  motion.uncertainty = motion.errorBound = std::max(kRounding, compare(motion, finer));
+  return motion;
+}
+
 // The lowest minimum of the straight start and others that are bent from it.
 TranscribedMotion solveFromBentStarts(const TranscribedProblem& problem, int unknowns) {
   constexpr double kBend = 0.2;  // of the way, early or late, for the starts that are not straight
@@ -192,7 +200,7 @@ TranscribedMotion solveFromBentStarts(const TranscribedProblem& problem, int unk
 }  // namespace
 
 TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknowns, const HandInSpace& placeOf) {
-  if (unknowns > 0) return solveFromBentStarts(problem, unknowns);
+  if (unknowns > 0) return estimated(problem, solveFromBentStarts(problem, unknowns));
   constexpr int kFirst = 16, kMaxAtFirst = 200;  // a way that bends often is not followed by few unknowns
   std::optional<TranscribedMotion> found;
   for (int n = kFirst; !found; n *= 3) {

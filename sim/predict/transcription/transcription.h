@@ -23,7 +23,7 @@ struct TranscribedMotion {
   double condition = 0;  // root of the last Newton matrix's, as it is of a square, its diagonal scaled to one
   int iterations = 0;
   double uncertainty = 0;  // likely error of the profile, of its peak, by which the number of unknowns is judged
-  double errorBound = 0;   // what it is said to be; 0 where only one number of unknowns was tried
+  double errorBound = 0;   // what it is said to be; 0 where it was found from neighbours and nothing is known
 
   /// d^m y / dt^m of one motion as a Legendre series in x = 2t/T - 1.
   LegendreSeries derivative(int motion, int m) const;
@@ -45,7 +45,7 @@ double boundError(double change, double before);
 
 /// The same from several starts, the straight one and others bent from it; the lowest minimum wins. Then the number of unknowns is
 /// raised by half until the motions' velocities are known to 1e-8 of their peak and checkPath() finds nothing that was not seen, or
-/// `unknowns` > 0 as given. Where 450 are not enough the result says how far it is known; above 1e-2, and where the movement is not
+/// `unknowns` > 0 as given, and the error from half as many again. Where 450 are not enough the result says how far it is known; above 1e-2, and where the movement is not
 /// smooth, it is refused. `placeOf` (may be empty) is the hand in space at time t.
 TranscribedMotion solveFromStarts(const TranscribedProblem& problem, int unknowns, const HandInSpace& placeOf = {});
 

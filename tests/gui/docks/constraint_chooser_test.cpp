@@ -18,7 +18,7 @@
 #include "gui/choosers/formula_editor.h"
 #include "gui/docks/constraint_dock.h"
 #include "gui/scene/scene_view.h"
-#include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
 
 namespace reachlab::gui::docks {
 namespace {

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "gui/plot/trial_errors.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "gui/scene_plan/constraint_mesh.h"
 
 #include <gtest/gtest.h>

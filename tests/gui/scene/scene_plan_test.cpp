@@ -1,3 +1,4 @@
+#include "constraints/constraint.h"
 #include "gui/scene_plan/scene_plan.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,13 @@
+#pragma once
+#include "base/math/vec3.h"
+
+namespace reachlab::dynamics {
+
+/// One hand sample in world coordinates, at the end of a tick. `valid` is false when the device was lost.
+struct HandSample {
+  Vec3 position;  // [m]
+  Vec3 velocity;  // [m/s] estimated
+  bool valid = true;
+};
+
+}  // namespace reachlab::dynamics

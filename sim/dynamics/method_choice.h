@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace reachlab::dynamics {
+
+/// What `method: auto` chose and why; shown before the trial and stored in the recording.
+struct MethodChoice {
+  std::string method;         // rk4 | exact | abm | adaptive | stiff
+  std::string form;           // "line, 10 states" / "curve in phi" / "surface in ambient coordinates" …
+  std::string reason;         // one sentence with the numbers
+  double fastestMode = 0;     // [1/s] largest |eigenvalue| at the start
+  double predictedError = 0;  // [m] position, over one reach
+  std::vector<std::string> warnings;
+};
+
+}  // namespace reachlab::dynamics

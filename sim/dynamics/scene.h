@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "constraints/constraint_spec.h"
+#include "sim/dynamics/method_choice.h"
+#include "sim/dynamics/object/plant.h"
+
+namespace reachlab::experiment {
+struct Experiment;
+class CompiledExperiment;
+}  // namespace reachlab::experiment
+
+namespace reachlab::dynamics {
+
+struct SceneOptions {
+  std::string method;    // empty: the experiment's
+  double step = 0.001;   // [s]
+  double tolerance = 0;  // adaptive methods; 0: default
+};
+
+class SharedPlant;
+
+struct Scene {
+  std::unique_ptr<Plant> plant;
+  SharedPlant* shared = nullptr;  // the same plant where several hands hold the object (shared_plant.h)
+  MethodChoice choice;
+  std::shared_ptr<const constraints::Constraint> constraint;
+};
+
+/// Compiles the experiment. Throws RefusedError (method unstable here, singular start …) with numbers and a remedy.
+Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options = {});
+/// The same for an experiment that is valid, with the constraint it has already.
+Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options = {});
+/// The same for an experiment that was changed but for its constraint.
+Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options = {});
+
+}  // namespace reachlab::dynamics
