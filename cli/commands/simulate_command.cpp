@@ -12,7 +12,6 @@
 #include "cli/commands/hand_laws.h"
 #include "cli/terminal/standard_streams.h"
 #include "constraints/constraint.h"
-#include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"

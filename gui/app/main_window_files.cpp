@@ -16,7 +16,7 @@
 #include "gui/inspector/inspector.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/message_bar.h"
-#include "sim/dynamics/compiled_scene.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
 // What the window opens, saves and edits.

@@ -21,7 +21,6 @@
 #include "base/math/seeded.h"
 #include "base/system/os.h"
 #include "base/ticks.h"
-#include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 

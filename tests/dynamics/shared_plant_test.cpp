@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"

@@ -15,7 +15,6 @@
 
 #include "base/error.h"
 #include "gui/app/main_window.h"
-#include "sim/dynamics/compiled_scene.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 #include "tests/gui/at_the_window.h"
