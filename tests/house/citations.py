@@ -17,7 +17,8 @@ ENDINGS = "h|cpp|py|sh|json|md|cmake|tsv|csv|R|svg|png|bin|txt"
 PAGE = re.compile(r'(?<![\w/.:-])((?:[\w.-]+/)*[\w.-]+\.md)(?:(?:,? |\)? )"([^"]+)"|, "([^"]+)"|#([\w-]+))?')
 FILE = re.compile(rf"(?<![\w/.-])((?:{'|'.join(TOPS)})/[\w./-]+\.(?:{ENDINGS}))(?![\w*-])")
 RECORD = re.compile(r"docs/adr/(\d{4})(?![\w-])")
-COMMENT = re.compile(r"^\s*(?:///?|#|\*)\s?(.*)$")
+COMMENT = re.compile(r"^\s*(?:///?|\*)\s?(.*)$")
+HASH_COMMENT = re.compile(r"^\s*#\s?(.*)$")
 PLACEHOLDER = re.compile(r"NAME|ROOM|FILE|EXPERIMENT|…")
 # Not about files of ours: what a dataset or a study's output is called.
 FOREIGN = {"README.md", "report.md"}
@@ -27,9 +28,9 @@ def comments(text, code):
     """(line, text) of each comment, its lines joined; of a page its paragraphs."""
     block, start = [], 0
     for number, line in enumerate([*text.splitlines(), ""], 1):
-        found = COMMENT.match(line) if code else None
+        found = code.match(line) if code else None
         said = found[1] if found else (line if not code and line.strip() else None)
-        trailing = re.search(r"//\s?(.*)$", line) if code and said is None else None
+        trailing = re.search(r"//\s?(.*)$", line) if code is COMMENT and said is None else None
         if said is not None:
             start = start or number
             block.append(said)
@@ -39,6 +40,10 @@ def comments(text, code):
         block, start = [], 0
         if trailing:
             yield number, trailing[1]
+
+
+def style_of(file):
+    return None if file.suffix == ".md" else COMMENT if file.suffix in (".h", ".cpp") else HASH_COMMENT
 
 
 def anchor_of(heading):
@@ -83,11 +88,11 @@ def faults(text, file, code):
 
 def self_test():
     said = ["// see docs/nowhere.md", '// docs/theory/criteria.md, "No such heading"', '// docs/theory/criteria.md,\n// "No such heading"', "// docs/adr/9999",
-            "// criteria.md 5", "int x;  // tests/long/gone.sh", "# docs/theory/criteria.md#no-such"]
-    silent = ['// docs/theory/criteria.md, "Flat\n// outputs"', "// docs/adr/0020", 'auto x = "docs/nowhere.md";', "// tests/house/citations.py", "// devices/ROOM/NAME.cpp"]
-    wrong = [text for text in said if not list(faults(text, "x.h", True))] + [text for text in silent if list(faults(text, "x.h", True))]
-    wrong += ["[x](gone.md)"] * (not list(faults("[x](gone.md)", "docs/x.md", False)))
-    wrong += ["[x](theory/motion.md#energy)"] * bool(list(faults("[x](theory/motion.md#energy)", "docs/x.md", False)))
+            "// criteria.md 5", "int x;  // tests/long/gone.sh", "// docs/theory/criteria.md#no-such"]
+    silent = ['// docs/theory/criteria.md, "Flat\n// outputs"', "// docs/adr/0020", 'auto x = "docs/nowhere.md";', "// tests/house/citations.py", "// devices/ROOM/NAME.cpp", '#include "base/gone.h"']
+    wrong = [text for text in said if not list(faults(text, "x.h", COMMENT))] + [text for text in silent if list(faults(text, "x.h", COMMENT))]
+    wrong += ["[x](gone.md)"] * (not list(faults("[x](gone.md)", "docs/x.md", None)))
+    wrong += ["[x](theory/motion.md#energy)"] * bool(list(faults("[x](theory/motion.md#energy)", "docs/x.md", None)))
     for text in wrong:
         print(f"citations.py judges wrongly: {text!r}")
     return bool(wrong)
@@ -107,7 +112,7 @@ def main():
             text = file.read_text()
         except UnicodeDecodeError:
             continue
-        found += [f"{name}:{number}: {said}" for number, said in faults(text, name, file.suffix != ".md")]
+        found += [f"{name}:{number}: {said}" for number, said in faults(text, name, style_of(file))]
     print("\n".join(found), end="\n" if found else "")
     print(f"{len(files)} files: {len(found)} citations lead nowhere")
     return bool(found)
