@@ -74,6 +74,7 @@ endforeach()
 
 # The manual as a site.
 file(GLOB_RECURSE manual_sources CONFIGURE_DEPENDS docs/* packaging/manual/site/*)
+list(APPEND manual_sources ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md)
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/manual/index.html
   COMMAND ${packaging}/manual/build ${PROJECT_BINARY_DIR}/manual
   DEPENDS ${manual_sources} ${packaging}/manual/build ${packaging}/manual/check_site.py VERBATIM)
