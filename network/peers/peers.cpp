@@ -303,6 +303,9 @@ std::string addStation(const std::string& folder, const std::string& requestFile
     throw FaultError(Fault{"request", "is not signed by its own key", "a station's request.pem as it was made", FilePlace{requestFile}});
   const std::string name = commonName(X509_REQ_get_subject_name(request.get()));
   requireName(name);
+  if (const std::string own = lookAt(folder, true).name; own == name)
+    throw FaultError(Fault{"request", fmt::format("is of a station named \"{}\", which is the conductor's name", name),
+                           "another name: make the station's key again with it", FilePlace{requestFile}});
   const std::string out = folder + "/for-" + name;
   makeFolder(out);
   answer(out, name, key, by, options.days);

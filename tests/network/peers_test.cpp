@@ -68,15 +68,6 @@ TEST_F(Peers, KeysAreTheOwnersAlone) {
   EXPECT_FALSE(listPeers(at("lab")).at(0).fault.empty());
 }
 
-// With one authority for both a station could sign permissions for itself.
-TEST_F(Peers, ThereAreTwoAuthorities) {
-  initConductor(at("lab"), "left");
-  EXPECT_NE(textOf(at("lab/identity_ca.pem")), textOf(at("lab/permissions_ca.pem")));
-  EXPECT_NE(textOf(at("lab/authority/identity_ca_key.pem")), textOf(at("lab/authority/permissions_ca_key.pem")));
-  EXPECT_NE(textOf(at("lab/permissions.p7s")).find("<topic>reach_*</topic>"), std::string::npos);
-  EXPECT_NE(textOf(at("lab/permissions.p7s")).find("CN=left"), std::string::npos);
-}
-
 TEST_F(Peers, WhatIsWrongWithAFolderIsSaid) {
   initConductor(at("lab"), "left");
   initConductor(at("foreign"), "left");
@@ -223,6 +214,19 @@ TEST_F(Peers, WhoWasAnsweredStandsInTheOrderOfTheNamesAndNeedsNoKeyThere) {
   EXPECT_EQ(all[1].name, "alpha");
   EXPECT_EQ(all[2].name, "zeta");
   for (const PeerFolder& one : {all[1], all[2]}) EXPECT_TRUE(one.complete && !one.conductor && one.fault.empty()) << one.fault;
+}
+
+// Two stations of one name could not be told apart, and one of them conducts.
+TEST_F(Peers, AStationWithTheConductorsNameIsRefused) {
+  initConductor(at("lab"), "left");
+  initStation(at("right"), "left");
+  try {
+    addStation(at("lab"), at("right/request.pem"));
+    FAIL();
+  } catch (const FaultError& error) {
+    EXPECT_EQ(error.faults.at(0).what, "is of a station named \"left\", which is the conductor's name");
+  }
+  EXPECT_FALSE(fs::exists(at("lab/for-left")));
 }
 
 // Whoever changes the name in a request cannot sign it again.
