@@ -48,21 +48,17 @@ CoupledCopy::CoupledCopy(const experiment::Experiment& experiment, const constra
         fmt::format("an object that stations share has up to {} coordinates, and this one has {}", kMaxCoordinates, plant_->placeCount()));
 }
 
+// What is known of the link outlasts a trial.
 void CoupledCopy::resetPeers() noexcept {
   for (Peer& peer : peers_) {
-    const double roundTrip = peer.line.roundTrip, usual = peer.line.usualAge;
+    const PeerLink before = peer.link;
     const std::uint32_t sequence = peer.newest.sequence;
-    const std::uint64_t taken = peer.line.taken, old = peer.line.old;
-    const double loss = peer.line.loss;
     peer.newest = {};
     peer.newest.sequence = sequence;
-    peer.line = {};
-    peer.line.roundTrip = roundTrip;
-    peer.line.usualAge = usual;
-    peer.line.frequency = settings_.frequency;
-    peer.line.taken = taken;
-    peer.line.old = old;
-    peer.line.loss = loss;
+    peer.link = {};
+    peer.link.roundTrip = before.roundTrip, peer.link.usualAge = before.usualAge;
+    peer.link.frequency = settings_.frequency;
+    peer.link.taken = before.taken, peer.link.old = before.old, peer.link.loss = before.loss;
     peer.count = {};
     peer.held = false;
   }
@@ -88,7 +84,7 @@ void CoupledCopy::noteAge(Peer& peer, double age) noexcept {
   if (known == kAges && peer.ageCount % 32 != 0) return;
   std::array<double, kAges> sorted = peer.ages;
   std::nth_element(sorted.begin(), sorted.begin() + known / 2, sorted.begin() + known);
-  peer.line.usualAge = sorted[static_cast<std::size_t>(known / 2)];
+  peer.link.usualAge = sorted[static_cast<std::size_t>(known / 2)];
 }
 
 void CoupledCopy::noteLoss(Peer& peer, std::uint32_t sequence) noexcept {
@@ -99,49 +95,53 @@ void CoupledCopy::noteLoss(Peer& peer, std::uint32_t sequence) noexcept {
   count.last = sequence;
   ++count.came;
   if (now_ - count.since < kSecond || count.came < 2) return;
-  peer.line.loss = 1 - (count.came - 1) / (static_cast<double>(count.last - count.first) / count.stride);
+  peer.link.loss = 1 - (count.came - 1) / (static_cast<double>(count.last - count.first) / count.stride);
   count = {now_, sequence, sequence, 0xffffffff, 1};
 }
 
 void CoupledCopy::setFrequency(double frequency) noexcept {
   settings_.frequency = frequency;
-  for (Peer& peer : peers_) peer.line.frequency = std::min(frequency, synchronisationLimit(settings_, peer.line.roundTrip));
+  for (Peer& peer : peers_) peer.link.frequency = std::min(frequency, synchronisationLimit(settings_, peer.link.roundTrip));
 }
 
 void CoupledCopy::take(int index, const CopySample& sample, double roundTrip) noexcept {
   Peer& peer = peers_[static_cast<std::size_t>(index)];
   if (static_cast<std::int32_t>(sample.sequence - peer.newest.sequence) <= 0) {
-    ++peer.line.old;
+    ++peer.link.old;
     return;
   }
-  ++peer.line.taken;
+  ++peer.link.taken;
   peer.newest = sample;
-  peer.line.heard = true;
+  peer.link.heard = true;
   noteAge(peer, now_ - sample.time);
   noteLoss(peer, sample.sequence);
   if (roundTrip < 0) return;
-  peer.line.roundTrip += (peer.line.roundTrip == 0 ? 1 : kTickSeconds / kRoundTripMemory) * (roundTrip - peer.line.roundTrip);
+  peer.link.roundTrip += (peer.link.roundTrip == 0 ? 1 : kTickSeconds / kRoundTripMemory) * (roundTrip - peer.link.roundTrip);
+}
+
+void CoupledCopy::breakOff(int peer) noexcept {
+  if (peer >= 0 && peer < peerCount()) peers_[static_cast<std::size_t>(peer)].link.lost = true;
 }
 
 bool CoupledCopy::anyLost() const noexcept {
-  return std::any_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.line.lost; });
+  return std::any_of(peers_.begin(), peers_.end(), [](const Peer& peer) { return peer.link.lost; });
 }
 
-void CoupledCopy::updateLine(Peer& peer, double dt) noexcept {
-  PeerLine& line = peer.line;
-  line.age = now_ - (line.heard ? peer.newest.time : peer.silentSince);
-  const double silence = line.age - (line.heard ? line.usualAge : std::max(line.usualAge, kFirstWord)) - settings_.fadeAfter;
-  line.fade = line.lost ? 0 : std::clamp(1 - silence / settings_.fadeDuration, 0.0, 1.0);
-  if (line.fade <= 0) line.lost = true;
-  if (!line.heard) line.fade = 0;
-  const double wanted = std::min(settings_.frequency, synchronisationLimit(settings_, line.roundTrip));
-  if (!begun_) line.frequency = wanted;
-  else if (!frozen_) line.frequency += std::clamp(wanted - line.frequency, -kFrequencySlope * dt, kFrequencySlope * dt);
+void CoupledCopy::updateLink(Peer& peer, double dt) noexcept {
+  PeerLink& link = peer.link;
+  link.age = now_ - (link.heard ? peer.newest.time : peer.silentSince);
+  const double silence = link.age - (link.heard ? link.usualAge : std::max(link.usualAge, kFirstWord)) - settings_.fadeAfter;
+  link.fade = link.lost ? 0 : std::clamp(1 - silence / settings_.fadeDuration, 0.0, 1.0);
+  if (link.fade <= 0) link.lost = true;
+  if (!link.heard) link.fade = 0;
+  const double wanted = std::min(settings_.frequency, synchronisationLimit(settings_, link.roundTrip));
+  if (!begun_) link.frequency = wanted;
+  else if (!frozen_) link.frequency += std::clamp(wanted - link.frequency, -kFrequencySlope * dt, kFrequencySlope * dt);
 }
 
 // Over the step the hand goes straight from where it was taken to be to where it is now.
 void CoupledCopy::guessHand(Peer& peer, int hand) noexcept {
-  const double ahead = std::clamp(peer.line.age, 0.0, settings_.mostGuessed);
+  const double ahead = std::clamp(peer.link.age, 0.0, settings_.mostGuessed);
   const dynamics::HandSample end{peer.newest.hand + ahead * peer.newest.handVelocity, peer.newest.handVelocity, true};
   const dynamics::HandSample from = peer.held ? peer.guessed : end;
   dynamics::HandSegment segment;
@@ -150,7 +150,7 @@ void CoupledCopy::guessHand(Peer& peer, int hand) noexcept {
   segment.position[1] = end.position - from.position;
   segment.velocity[0] = from.velocity;
   segment.velocity[1] = end.velocity - from.velocity;
-  plant_->setHand(hand, segment, end, peer.line.fade);
+  plant_->setHand(hand, segment, end, peer.link.fade);
   peer.guessed = end;
   peer.held = true;
 }
@@ -171,10 +171,10 @@ void CoupledCopy::synchronise() noexcept {
   bool allHeard = true;
   for (const Peer& peer : peers_) {
     put += peer.newest.work;
-    allHeard = allHeard && peer.line.heard;
-    if (peer.line.fade <= 0) continue;
+    allHeard = allHeard && peer.link.heard;
+    if (peer.link.fade <= 0) continue;
     plant_->difference({peer.newest.places.data(), places}, difference);
-    const double omega = peer.line.frequency, share = peer.line.fade / static_cast<double>(peers_.size());
+    const double omega = peer.link.frequency, share = peer.link.fade / static_cast<double>(peers_.size());
     for (std::size_t i = 0; i < rates; ++i)
       push[i] += share * (omega * omega * difference[i] + 2 * omega * (peer.newest.rates[i] - plant_->rates()[i]));
   }
@@ -199,7 +199,7 @@ dynamics::StepStatus CoupledCopy::step(const dynamics::HandSegment& hand, double
   for (std::size_t i = 0; i < peers_.size(); ++i) {
     Peer& peer = peers_[i];
     if (!begun_) peer.silentSince = now_ - dt;
-    updateLine(peer, dt);
+    updateLink(peer, dt);
     guessHand(peer, static_cast<int>(i) + 1);
   }
   begun_ = true;
@@ -207,7 +207,7 @@ dynamics::StepStatus CoupledCopy::step(const dynamics::HandSegment& hand, double
   const dynamics::StepStatus status = plant_->step(hand, dt);
   remember();
   for (Peer& peer : peers_)
-    if (peer.line.heard) peer.line.apart = apartAt(peer.newest);
+    if (peer.link.heard) peer.link.apart = apartAt(peer.newest);
   if (status == dynamics::StepStatus::Ok && anyLost()) return dynamics::StepStatus::PeerLost;
   return status;
 }

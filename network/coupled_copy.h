@@ -34,11 +34,11 @@ struct CopySettings {
 };
 /// The settings for an experiment's object.
 CopySettings copySettingsFor(const experiment::Experiment& experiment);
-/// [rad/s] beyond which no copy is synchronised over such a line, whatever omega_o.
+/// [rad/s] beyond which no copy is synchronised over such a link, whatever omega_o.
 double synchronisationLimit(const CopySettings& settings, double roundTrip) noexcept;
 
 /// How this copy stands to one peer, after a tick.
-struct PeerLine {
+struct PeerLink {
   bool heard = false;    // some sample has come in this trial
   bool lost = false;     // silent for too long; until the next trial
   double age = 0;        // [s] tau of the newest sample
@@ -70,12 +70,14 @@ class CoupledCopy final : public dynamics::Plant {
   void beginTick(double now) noexcept { now_ = now; }
   /// A sample of a peer has come; an older one than the newest is counted and dropped. `roundTrip` [s] as measured; below 0: not known.
   void take(int peer, const CopySample& sample, double roundTrip) noexcept;
+  /// That peer has broken the trial off: it is lost from the next step on.
+  void breakOff(int peer) noexcept;
   /// Another omega_o [rad/s]: between trials.
   void setFrequency(double frequency) noexcept;
   /// Holds omega where it is: at the end of a trial.
   void freeze(bool frozen) noexcept { frozen_ = frozen; }
 
-  const PeerLine& line(int peer) const noexcept { return peers_[static_cast<std::size_t>(peer)].line; }
+  const PeerLink& link(int peer) const noexcept { return peers_[static_cast<std::size_t>(peer)].link; }
   bool anyLost() const noexcept;
   /// [J] what the hands have put in, as far as is known here, less what this copy holds.
   double ledger() const noexcept { return ledger_; }
@@ -110,7 +112,7 @@ class CoupledCopy final : public dynamics::Plant {
   static constexpr int kHistory = 512;  // ticks of this copy's own past
   struct Peer {
     CopySample newest;
-    PeerLine line;
+    PeerLink link;
     std::array<double, kAges> ages{};
     int ageCount = 0;
     dynamics::HandSample guessed;  // where its hand was taken to be at the tick before
@@ -127,7 +129,7 @@ class CoupledCopy final : public dynamics::Plant {
   void noteAge(Peer& peer, double age) noexcept;
   void noteLoss(Peer& peer, std::uint32_t sequence) noexcept;
   void guessHand(Peer& peer, int hand) noexcept;
-  void updateLine(Peer& peer, double dt) noexcept;
+  void updateLink(Peer& peer, double dt) noexcept;
   void synchronise() noexcept;
   void remember() noexcept;
   double apartAt(const CopySample& sample) const noexcept;

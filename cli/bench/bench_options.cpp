@@ -6,9 +6,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
   command.add_option("--scene", options.scenes,
                      "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S7f S8), or constraint-eval for the price of a "
                      "constraint's derivatives; default all");
-  command.add_option(
-      "--method", options.methods,
-      "Methods (auto rk4 exact abm adaptive stiff, or a peer if built; with --network ways of coupling: design, server-force …); default all");
+  command.add_option("--method", options.methods, "Methods (auto rk4 exact abm adaptive stiff, or a peer if built); default all");
   command.add_option("--rounds", options.rounds, "Timed repetitions, interleaved over the methods")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
@@ -20,7 +18,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
       ->check(CLI::Range(1000, 100'000'000))
       ->capture_default_str();
   command.add_flag("--network", options.network,
-                   "Instead: two simulated people who move one object over a simulated line, by every way of coupling their stations");
+                   "Instead: how stable stations are: two simulated people move one object over simulated links");
   command.add_option("--setups", options.setups, "Random set-ups of an object for --network; 0: none")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
@@ -34,7 +32,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
       "          reach bench --json rows.json --svg work-precision.svg\n"
       "          reach bench --tick --scene S1 --ticks 100000\n"
       "          reach bench --network --quick --csv network.csv --svg network.svg\n"
-      "          reach bench --network --method design --setups 500\n"
+      "          reach bench --network --setups 500\n"
       "          reach bench --scene constraint-eval");
 }
 

@@ -12,7 +12,7 @@
 #include "base/fault.h"
 #include "cli/bench/allocation_count.h"
 #include "cli/bench/constraint_bench.h"
-#include "network/study/network_study.h"
+#include "network/link_check/link_bench.h"
 #include "bench/sampled_hand.h"
 #include "bench/suite.h"
 #include "sim/haptics/tick_timing.h"
@@ -94,29 +94,20 @@ void benchTicks(const BenchOptions& options) {
 }
 
 void benchNetwork(const BenchOptions& options) {
-  network::StudyPlan plan;
+  network::LinkBenchPlan plan;
   plan.setups = options.setups;
   if (options.quick) {
     plan.roundTrips = {0, 0.05, 0.1};
-    plan.couplings = {network::Coupling::ServerForce, network::Coupling::Design};
     plan.seeds = 2;
     plan.setups = 0;
   }
-  if (!options.methods.empty()) plan.couplings.clear();
-  for (const std::string& name : options.methods) {
-    const auto found =
-        std::find_if(network::kCouplings.begin(), network::kCouplings.end(), [&](network::Coupling c) { return nameOf(c) == name; });
-    if (found == network::kCouplings.end()) {
-      std::string allowed;
-      for (const network::Coupling c : network::kCouplings) allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", nameOf(c));
-      throw FaultError(Fault{"method", fmt::format("is \"{}\"", name), allowed + " with --network"});
-    }
-    plan.couplings.push_back(*found);
-  }
-  const network::StudyTables tables = network::runNetworkStudy(plan, showProgress);
-  std::fputs(network::formatStudy(tables).c_str(), stdout);
-  if (!options.csv.empty()) writeFile(options.csv, network::studyCsv(tables));
-  if (!options.svg.empty()) writeFile(options.svg, network::drawStudy(tables));
+  for (const std::string& name : options.methods)
+    if (name != "design")
+      throw FaultError(Fault{"method", fmt::format("is \"{}\"", name), "design with --network: the coupling that stations have"});
+  const network::LinkBenchTables tables = network::runLinkBench(plan, showProgress);
+  std::fputs(network::formatLinkBench(tables).c_str(), stdout);
+  if (!options.csv.empty()) writeFile(options.csv, network::linkBenchCsv(tables));
+  if (!options.svg.empty()) writeFile(options.svg, network::drawLinkBench(tables));
 }
 
 void benchMethods(const BenchOptions& options) {

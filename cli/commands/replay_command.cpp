@@ -2,7 +2,8 @@
 
 #include "cli/commands/commands.h"
 #include "cli/output/success_table.h"
-#include "network/line/station_line.h"
+#include "network/link/given_samples.h"
+#include "network/link/station_replay.h"
 #include "network/merge/station_merge.h"
 #include "sim/record/replay.h"
 

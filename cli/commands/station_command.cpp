@@ -11,7 +11,7 @@
 #include "cli/output/success_table.h"
 #include "cli/terminal/seed_option.h"
 #include "devices/make_device.h"
-#include "network/station/looker_on.h"
+#include "network/station/observer.h"
 #include "network/station/station_options.h"
 #include "sim/session/recorded_run.h"
 
@@ -23,7 +23,7 @@ constexpr auto kLook = std::chrono::milliseconds(2);
 struct StationRequest {
   session::SessionRequest session;
   network::StationSetup setup;
-  bool lookOn = false;
+  bool observes = false;
   double every = 1;  // [s] between two looks
 };
 
@@ -68,20 +68,20 @@ int conduct(const StationRequest& request) {
 /// Until the conductor's last word.
 int watchStations(const StationRequest& request) {
   const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
-  network::LookerOn looker(request.setup, block.experiment);
+  network::Observer observer(request.setup, block.experiment);
   const StopRequest stop;
   const auto every = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(request.every));
   auto shown = std::chrono::steady_clock::now();
   for (; !StopRequest::asked(); std::this_thread::sleep_for(kLook)) {
-    const network::LookerNews news = looker.poll();
-    for (const network::LineEvent& event : news.ended)
+    const network::ObserverNews news = observer.poll();
+    for (const network::LinkEvent& event : news.ended)
       fmt::print("station={} trial={} outcome={}{} apart_rms_m={:.6g}\n", event.station, event.trial, trial::nameOf(event.outcome),
                  event.reason == trial::Reason::None ? "" : fmt::format(" reason={}", trial::nameOf(event.reason)), event.apart);
     std::fflush(stdout);
     if (news.finished) return 0;
     if (!news.problem.empty()) throw ResourceError(news.problem);
     if (std::chrono::steady_clock::now() - shown < every) continue;
-    fmt::print("{}", network::describeNewest(looker, static_cast<double>(os::now()) * 1e-9));
+    fmt::print("{}", network::describeNewest(observer, static_cast<double>(os::now()) * 1e-9));
     std::fflush(stdout);
     shown = std::chrono::steady_clock::now();
   }
@@ -95,19 +95,20 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   const auto r = std::make_shared<StationRequest>();
   session::SessionRequest& s = r->session;
   command->add_option("experiment", s.what, "Experiment with a hand for each station; the same at all of them")->required();
-  auto* number = command->add_option("--number", r->setup.line.station, "Which of the experiment's hands is here, from 1")
+  auto* number = command->add_option("--number", r->setup.link.station, "Which of the experiment's hands is here, from 1")
                      ->check(CLI::Range(1, network::kMaxStations));
   auto* device = command->add_option("--device", s.device, "The device here; reach list devices tells all");
   network::addStationOptions(*command, r->setup);
-  auto* lookOn =
-      command->add_flag("--look-on", r->lookOn, "Without a hand: prints what the stations do, and how trials end; records nothing")
+  auto* observe =
+      command
+          ->add_flag("--observe,--look-on", r->observes, "Without a hand: prints what the stations do, and how trials end; records nothing")
           ->excludes(number)
           ->excludes(device)
           ->excludes(command->get_option("--conductor"));
-  command->add_option("--every", r->every, "Seconds between two looks of who looks on")
+  command->add_option("--every", r->every, "Seconds between two looks of an observer")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str()
-      ->needs(lookOn);
+      ->needs(observe);
   command->add_option("--trials", s.trials, "Trials [one]; the conductor's count holds")->check(CLI::Range(1, 1000000));
   command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", s.place.session, "Session's label, letters and digits [01]");
@@ -121,16 +122,16 @@ void addStationCommand(CLI::App& app, int& exitCode) {
       "Examples, on one machine:\n"
       "  reach station chain-two-hands --number 1 --conductor --device simulated --insecure --interface lo --peer 127.0.0.1 --data left\n"
       "  reach station chain-two-hands --number 2 --device partner:follower --insecure --interface lo --peer 127.0.0.1 --data right\n"
-      "  reach station chain-two-hands --look-on --insecure --interface lo --peer 127.0.0.1");
+      "  reach station chain-two-hands --observe --insecure --interface lo --peer 127.0.0.1");
   command->callback([r, number, device, &exitCode] {
-    if (!r->lookOn && number->count() == 0)
-      throw FaultError(Fault{"number", "is not told", "1 up, which of the experiment's hands is here; or --look-on"});
-    if (!r->lookOn && device->count() == 0)
-      throw FaultError(Fault{"device", "is not told", "the device here (reach list devices); or --look-on"});
-    if (r->lookOn) r->session.device = "simulated";  // of a plan that is never carried out
+    if (!r->observes && number->count() == 0)
+      throw FaultError(Fault{"number", "is not told", "1 up, which of the experiment's hands is here; or --observe"});
+    if (!r->observes && device->count() == 0)
+      throw FaultError(Fault{"device", "is not told", "the device here (reach list devices); or --observe"});
+    if (r->observes) r->session.device = "simulated";  // of a plan that is never carried out
     network::completeStationSetup(r->setup, r->session.device, "reach station");
     if (r->setup.insecure) fmt::print(stderr, "NOT ENCRYPTED: whoever is on this network can listen and join\n");
-    if (!r->lookOn) {
+    if (!r->observes) {
       exitCode = conduct(*r);
       return;
     }

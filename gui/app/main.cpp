@@ -34,13 +34,13 @@ struct Arguments {
   std::optional<reachlab::network::StationSetup> station;
 };
 
-// What only a station has; `number`: which it is, 0 where it is none or only looks on.
-void parseStation(CLI::App& app, int number, bool looksOn, const CLI::App& options, reachlab::network::StationSetup& setup, Arguments& a) {
-  if (number == 0 && !looksOn) {
+// What only a station has; `number`: which it is, 0 where it is none or only observes.
+void parseStation(CLI::App& app, int number, bool observes, const CLI::App& options, reachlab::network::StationSetup& setup, Arguments& a) {
+  if (number == 0 && !observes) {
     if (options.count_all() > 0) throw CLI::RequiresError("an option of a station", "--station");
     return;
   }
-  setup.line.station = number;
+  setup.link.station = number;
   reachlab::network::completeStationSetup(setup, a.request.device, app.get_name());
   a.station = setup;
 }
@@ -82,15 +82,17 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   auto* here = station->add_option("--station", number, "Which of the experiment's hands is here, from 1")
                    ->check(CLI::Range(1, reachlab::network::kMaxStations));
   reachlab::network::addStationOptions(*station, setup);
-  bool looksOn = false;
-  station->add_flag("--look-on", looksOn, "Without a hand: shows what the stations do; nothing is recorded, and they do not wait for it")
+  bool observes = false;
+  station
+      ->add_flag("--observe,--look-on", observes,
+                 "Without a hand: shows what the stations do; nothing is recorded, and they do not wait for it")
       ->excludes(here)
       ->excludes(station->get_option("--conductor"));
   app.footer(
       "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab data\n  reachlab parallel --device simulated --trials "
       "5\n  reachlab chain-two-hands --station 1 --conductor --peers lab");
   app.parse(argc, argv);
-  parseStation(app, number, looksOn, *station, setup, a);
+  parseStation(app, number, observes, *station, setup, a);
   return a;
 }
 

@@ -49,9 +49,9 @@ constexpr int kStatusMs = 200;
 
 void showTitle(MainWindow& window, const QString& name) {
   const network::StationSetup* station = window.session().station();
-  const QString what = station == nullptr           ? name
-                       : window.session().looksOn() ? MainWindow::tr("%1, looking on").arg(name)
-                                                    : MainWindow::tr("%1, station %2").arg(name).arg(station->line.station);
+  const QString what = station == nullptr            ? name
+                       : window.session().observes() ? MainWindow::tr("%1, observing").arg(name)
+                                                     : MainWindow::tr("%1, station %2").arg(name).arg(station->link.station);
   window.setWindowTitle(QStringLiteral("%1[*] – Reachlab").arg(what));
 }
 
@@ -65,7 +65,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   words_.setLanguage(QSettings().value(QStringLiteral("subject/language"), QStringLiteral("en")).toString());
   addCentre();
   docks_ = docks::makeDocks(*this, station.has_value());
-  if (station) screens_->setOwnHand(station->line.station - 1);
+  if (station) screens_->setOwnHand(station->link.station - 1);
   docks_.session->setRequest(request);
   status_ = std::make_unique<StatusLine>(*statusBar());
   actions_ = addMenus(*this);
@@ -225,7 +225,7 @@ void MainWindow::showOverlay() {
 void MainWindow::showStage() {
   using Stage = docks::SessionDock::Stage;
   const session::RecordedRun* run = session_.run();
-  const Stage stage = session_.looksOn()          ? Stage::Following
+  const Stage stage = session_.observes()         ? Stage::Following
                       : run == nullptr            ? Stage::Closed
                       : session_.underWay()       ? Stage::UnderWay
                       : session_.follows()        ? Stage::Following
@@ -332,12 +332,12 @@ void MainWindow::joinStations() {
 void MainWindow::showStations() {
   if (docks_.stations == nullptr) return;
   using Stage = docks::StationsDock::Stage;
-  const Stage stage = session_.looksOn()           ? Stage::LookingOn
+  const Stage stage = session_.observes()          ? Stage::Observing
                       : session_.run() == nullptr  ? Stage::Closed
                       : session_.isArming()        ? Stage::Arming
                       : session_.run()->underWay() ? Stage::UnderWay
                                                    : Stage::BetweenTrials;
-  docks_.stations->showStations(*session_.station(), stage, session_.standings());
+  docks_.stations->showStations(*session_.station(), stage, session_.statuses());
 }
 
 // With the picture that shows the signal.

@@ -9,7 +9,7 @@
 #include "gui/model/model_reader.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene_plan/scene_plan.h"
-#include "network/line/station_line.h"
+#include "network/link/station_sink.h"
 #include "sim/experiment/compiled_experiment.h"
 
 class QAction;

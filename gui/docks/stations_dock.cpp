@@ -12,9 +12,9 @@
 namespace reachlab::gui::docks {
 namespace {
 
-using Light = network::StationStanding::Light;
+using Light = network::StationStatus::Light;
 
-enum Column { kLight, kNumber, kName, kRoundTrip, kJitter, kLoss, kOffset, kAge, kDevice, kSoftware, kColumns };
+enum Column { kLight, kNumber, kName, kRoundTrip, kJitter, kLoss, kOvertaken, kOffset, kAge, kDevice, kSoftware, kColumns };
 constexpr int kMostLines = 3;
 
 // Told apart by shape and word; the colour only helps.
@@ -46,13 +46,15 @@ QString milliseconds(double seconds, int digits) { return QString::number(1e3 * 
 StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLiteral("stationsDock"), parent) {
   table_ = new QTableWidget(0, kColumns);
   table_->setObjectName(QStringLiteral("stations"));
-  table_->setHorizontalHeaderLabels({tr("line"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("loss\n[%]"),
-                                     tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
-  const std::pair<Column, QString> tips[] = {{kRoundTrip, tr("there and back; a trial is armed up to 120 ms")},
-                                             {kJitter, tr("standard deviation of the round trip")},
-                                             {kLoss, tr("samples of the last second that did not come, or came overtaken")},
-                                             {kOffset, tr("its clock less this one's")},
-                                             {kAge, tr("since its newest sample came")}};
+  table_->setHorizontalHeaderLabels({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
+                                     tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
+  const std::pair<Column, QString> tips[] = {
+      {kRoundTrip, tr("there and back; a trial is armed up to 120 ms")},
+      {kJitter, tr("standard deviation of the round trip")},
+      {kLoss, tr("what it sent in the last two seconds and did not come; a trial is armed up to 20 %")},
+      {kOvertaken, tr("samples of the last second that came after a newer one, and were not needed")},
+      {kOffset, tr("its clock less this one's")},
+      {kAge, tr("since its newest sample came")}};
   for (const auto& [column, tip] : tips) table_->horizontalHeaderItem(column)->setToolTip(tip);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(25);
@@ -79,10 +81,10 @@ StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLitera
 // Another experiment is another number of stations.
 void StationsDock::display(const experiment::CompiledExperiment&, bool) { table_->setRowCount(0); }
 
-void StationsDock::showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStanding>& others) {
-  network::StationStanding own;
-  own.station = here.line.station;
-  own.name = here.line.name, own.software = here.line.software, own.device = here.line.device, own.conductor = here.line.conductor;
+void StationsDock::showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStatus>& others) {
+  network::StationStatus own;
+  own.station = here.link.station;
+  own.name = here.link.name, own.software = here.link.software, own.device = here.link.device, own.conductor = here.link.conductor;
   QStringList obstacles;
   const int rows = static_cast<int>(others.size()) + (own.station > 0 ? 1 : 0);
   if (table_->rowCount() != rows) {
@@ -95,27 +97,27 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
       }
   }
   int row = 0;
-  bool placed = own.station == 0;  // it looks on
-  for (const network::StationStanding& other : others) {
+  bool placed = own.station == 0;  // it observes
+  for (const network::StationStatus& other : others) {
     if (!placed && other.station > own.station) fill(row++, own, true), placed = true;
     fill(row++, other, false);
     for (const std::string& what : other.obstacles) obstacles << tr("station %1: %2").arg(other.station).arg(QString::fromStdString(what));
   }
   if (!placed) fill(row, own, true);
   const QString why = obstacles.join(QStringLiteral("; "));
-  const QString next = stage == Stage::LookingOn ? tr("Looking on: nothing is recorded, and nobody waits for this window.") +
+  const QString next = stage == Stage::Observing ? tr("Observing: nothing is recorded, and nobody waits for this window.") +
                                                        (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
                        : stage == Stage::Closed ? tr("No run is open here: Space opens one, and the others hear of this station.")
                        : stage == Stage::UnderWay
                            ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
                        : !why.isEmpty()         ? tr("Not armed: %1.").arg(why)
-                       : stage == Stage::Arming ? tr("Every line is good: the trial is being armed.")
-                       : own.conductor          ? tr("Every line is good. Space arms the next trial.")
-                                                : tr("Every line is good. The conductor arms the next trial.");
+                       : stage == Stage::Arming ? tr("Every link is good: the trial is being armed.")
+                       : own.conductor          ? tr("Every link is good. Space arms the next trial.")
+                                                : tr("Every link is good. The conductor arms the next trial.");
   sentence_->setText(here.insecure ? next + QLatin1Char(' ') + tr("Nothing is encrypted.") : next);
 }
 
-void StationsDock::fill(int row, const network::StationStanding& station, bool isHere) {
+void StationsDock::fill(int row, const network::StationStatus& station, bool isHere) {
   const auto set = [&](Column column, const QString& text) { table_->item(row, column)->setText(text); };
   const auto text = [](const std::string& from) { return QString::fromStdString(from); };
   const auto number = [&](const QString& value) { return station.heard ? value : QString(); };
@@ -128,10 +130,11 @@ void StationsDock::fill(int row, const network::StationStanding& station, bool i
   if (isHere) roles << tr("here");
   if (station.conductor) roles << tr("conductor");
   set(kName, roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(QStringLiteral(", "))));
-  const bool answers = station.roundTrip >= 0;  // nobody answers who only looks on
+  const bool answers = station.roundTrip >= 0;  // nobody answers an observer
   set(kRoundTrip, answers ? number(milliseconds(station.roundTrip, 1)) : QString());
   set(kJitter, answers ? number(milliseconds(station.jitter, 1)) : QString());
   set(kLoss, number(QString::number(100 * station.loss, 'f', 1)));
+  set(kOvertaken, number(QString::number(100 * station.overtaken, 'f', 1)));
   set(kOffset, answers ? number(milliseconds(station.offset, 3)) : QString());
   set(kAge, number(milliseconds(station.age, 0)));
   set(kDevice, text(station.device));

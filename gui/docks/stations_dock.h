@@ -9,14 +9,14 @@ class QTableWidget;
 
 namespace reachlab::gui::docks {
 
-/// The stations that move one object together: who is there, how the line to each is, and why no trial is armed.
+/// The stations that move one object together: who is there, how the link to each is, and why no trial is armed.
 class StationsDock : public Dock {
   Q_OBJECT
  public:
   explicit StationsDock(QWidget* parent = nullptr);
-  /// Of this station's run: none is open, and so no line either; a trial waits for the lines to be good; one is under way.
-  enum class Stage { Closed, BetweenTrials, Arming, UnderWay, LookingOn };
-  void showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStanding>& others);
+  /// Of this station's run: none is open, and so no link either; a trial waits for the links to be good; one is under way.
+  enum class Stage { Closed, BetweenTrials, Arming, UnderWay, Observing };
+  void showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStatus>& others);
   /// One line of what the stations tell, the newest at the end.
   void tell(const QString& line);
   /// What stands under the table.
@@ -26,7 +26,7 @@ class StationsDock : public Dock {
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;
 
  private:
-  void fill(int row, const network::StationStanding& station, bool isHere);
+  void fill(int row, const network::StationStatus& station, bool isHere);
 
   QTableWidget* table_;
   QLabel *sentence_, *told_;

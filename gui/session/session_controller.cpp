@@ -67,8 +67,8 @@ std::optional<std::string> SessionController::putInOrder() {
 
 void SessionController::setProgramme(const session::Programme& programme) {
   programme_ = programme;
-  const bool lookedOn = looker_ != nullptr;
-  looker_.reset();  // of another experiment
+  const bool observed = observer_ != nullptr;
+  observer_.reset();  // of another experiment
   try {
     shown_ = firstExperiment(programme, asked_);
   } catch (const Error&) {  // the plan has nothing for this subject and day: that is said when a run is to be opened
@@ -83,7 +83,7 @@ void SessionController::setProgramme(const session::Programme& programme) {
   }
   Q_EMIT experimentChanged();
   try {
-    if (lookedOn) join(asked_);
+    if (observed) join(asked_);
   } catch (const std::exception& e) {
     Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
   }
@@ -142,7 +142,7 @@ void SessionController::openRun(const session::SessionRequest& request) {
   onOpening_.clear();
   if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) planRuns(request);
   if (setup_) {
-    setup_->line.device = request.device;
+    setup_->link.device = request.device;
     station_ = std::make_unique<network::StationRun>(*setup_, programme_.experiments.front());
     recorded_->prepareRuns([this](session::RecordedRunOptions& options) { station_->prepare(options); });
   }
@@ -197,9 +197,9 @@ QString SessionController::instructions() {
 
 void SessionController::join(const session::SessionRequest& request) {
   if (run() != nullptr) return;
-  if (looksOn()) {
+  if (observes()) {
     const std::scoped_lock lock(changing_);
-    if (!looker_) looker_ = std::make_unique<network::LookerOn>(*setup_, shown_);
+    if (!observer_) observer_ = std::make_unique<network::Observer>(*setup_, shown_);
     return;
   }
   openRun(request);
@@ -208,7 +208,7 @@ void SessionController::join(const session::SessionRequest& request) {
 
 bool SessionController::next(const session::SessionRequest& request) {
   if (underWay()) return false;
-  if (looksOn()) throw FaultError(Fault{"station", "only looks on", "a station's number, to take part"});
+  if (observes()) throw FaultError(Fault{"station", "only observes", "a station's number, to take part"});
   if (run() != nullptr && run()->trialsLeft() == 0 && !follows()) {
     endRun();
     if (isPlan() && recorded_->blocksLeft() == 0) return false;
@@ -289,7 +289,7 @@ void SessionController::pointTo(const Vec3& place, qint64 eventMs) {
 void SessionController::poll() {
   if (StopRequest::asked()) return;
   tellBackup();
-  if (looker_) return lookOn();
+  if (observer_) return observe();
   if (run() == nullptr) return;
   try {
     network::StationNews news;
@@ -321,9 +321,9 @@ void SessionController::poll() {
   }
 }
 
-void SessionController::lookOn() {
-  const network::LookerNews news = looker_->poll();
-  for (const network::LineEvent& event : news.ended) Q_EMIT stationTold(QString::fromStdString(network::wordsOf(event)));
+void SessionController::observe() {
+  const network::ObserverNews news = observer_->poll();
+  for (const network::LinkEvent& event : news.ended) Q_EMIT stationTold(QString::fromStdString(network::wordsOf(event)));
   if (news.finished) Q_EMIT told(tr("The conductor has ended the run."));
   if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
 }
@@ -334,15 +334,15 @@ void SessionController::tellStation(const network::StationNews& news) {
   if (news.begun) Q_EMIT trialBegun();
 }
 
-std::vector<network::StationStanding> SessionController::standings() {
+std::vector<network::StationStatus> SessionController::statuses() {
   const std::scoped_lock lock(changing_);
-  if (looker_) return looker_->line().standings();
-  return station_ ? station_->line().standings() : std::vector<network::StationStanding>();
+  if (observer_) return observer_->link().statuses();
+  return station_ ? station_->link().statuses() : std::vector<network::StationStatus>();
 }
 
 network::OtherHands SessionController::otherHands() {
   const std::scoped_lock lock(changing_);
-  if (looker_) return looker_->hands();
+  if (observer_) return observer_->hands();
   return station_ ? station_->otherHands() : network::OtherHands();
 }
 

@@ -12,7 +12,7 @@
 #include "base/fault.h"
 #include "base/system/stop_signals.h"
 #include "gui/plot/trial_trace.h"
-#include "network/station/looker_on.h"
+#include "network/station/observer.h"
 #include "network/station/station_run.h"
 #include "sim/session/backup_worker.h"
 #include "sim/session/recorded_session.h"
@@ -91,15 +91,15 @@ class SessionController : public QObject {
   /// One of several stations, by its setup; null: a window on its own.
   const network::StationSetup* station() const { return setup_ ? &*setup_ : nullptr; }
   /// Puts up what the conductor arms, and nothing else.
-  bool follows() const { return setup_ && !setup_->line.conductor; }
+  bool follows() const { return setup_ && !setup_->link.conductor; }
   /// No hand is here: the window shows what the stations do.
-  bool looksOn() const { return setup_ && setup_->line.station == 0; }
+  bool observes() const { return setup_ && setup_->link.station == 0; }
   /// What it shows; null: nothing has come yet, or a hand is here.
-  const haptics::TickState* seen() const { return looker_ ? looker_->state() : nullptr; }
+  const haptics::TickState* seen() const { return observer_ ? observer_->state() : nullptr; }
   /// A trial is to be armed, and is not yet.
   bool isArming() { return station_ && station_->isArming(); }
   /// How the other stations stand to this one; empty while no run is open.
-  std::vector<network::StationStanding> standings();
+  std::vector<network::StationStatus> statuses();
   /// Of a station's run: where the other hands are.
   network::OtherHands otherHands();
   std::optional<haptics::ConductedTrial> lastTrial() const { return last_; }
@@ -121,7 +121,7 @@ class SessionController : public QObject {
   void openRun(const session::SessionRequest& request);
   void planRuns(const session::SessionRequest& request);
   void tellStation(const network::StationNews& news);
-  void lookOn();
+  void observe();
   void tellOpened();
   void showBlock(const session::SessionRequest& request);
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
@@ -151,7 +151,7 @@ class SessionController : public QObject {
   session::BackupState::Kind backupTold_ = session::BackupState::Kind::Idle;
   std::optional<network::StationSetup> setup_;
   std::unique_ptr<network::StationRun> station_;  // of the run that is open, and outlives it
-  std::unique_ptr<network::LookerOn> looker_;
+  std::unique_ptr<network::Observer> observer_;
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
   std::function<std::optional<double>()> ownPause_;

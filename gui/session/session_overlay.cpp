@@ -29,24 +29,24 @@ void tellStations(SessionController& session, scene::OverlayState& overlay) {
 }
 
 // What the stations do, as far as a picture does not say it.
-scene::OverlayState lookersOverlay(SessionController& session) {
+scene::OverlayState observersOverlay(SessionController& session) {
   using trial::Phase;
   scene::OverlayState overlay;
   const haptics::TickState* state = session.seen();
   overlay.counter = state != nullptr && state->trial > 0 ? QStringLiteral("Trial %1").arg(state->trial)
                                                          : QString::fromStdString(session.experiment().name);
-  overlay.instruction = state == nullptr                 ? QStringLiteral("Looking on: nothing has come yet")
-                        : state->phase == Phase::Waiting ? QStringLiteral("Looking on: the hands go to the start")
-                        : state->phase == Phase::Armed   ? QStringLiteral("Looking on: every hand is at the start")
-                        : state->phase == Phase::Moving  ? QStringLiteral("Looking on: they move")
-                                                         : QStringLiteral("Looking on: between trials");
+  overlay.instruction = state == nullptr                 ? QStringLiteral("Observing: nothing has come yet")
+                        : state->phase == Phase::Waiting ? QStringLiteral("Observing: the hands go to the start")
+                        : state->phase == Phase::Armed   ? QStringLiteral("Observing: every hand is at the start")
+                        : state->phase == Phase::Moving  ? QStringLiteral("Observing: they move")
+                                                         : QStringLiteral("Observing: between trials");
   return overlay;
 }
 
 }  // namespace
 
 scene::OverlayState overlayOf(SessionController& session, bool mouse, bool massesHide) {
-  if (session.looksOn()) return lookersOverlay(session);
+  if (session.observes()) return observersOverlay(session);
   const experiment::Experiment& experiment = session.experiment();
   session::RecordedRun* run = session.run();
   scene::OverlayState overlay;

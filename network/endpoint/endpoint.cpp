@@ -1,5 +1,6 @@
 #include <dds/dds.h>
 #include <dds/ddsc/dds_statistics.h>
+#include <dds/ddsrt/log.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -11,14 +12,16 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "Reachlab.h"
 #include "base/error.h"
 #include "base/system/os.h"
+#include "network/endpoint/message_limit.h"
 #include "network/endpoint/peer_clock.h"
-#include "network/line/line_memory.h"
+#include "network/link/link_memory.h"
 
 /// A station's endpoint: sends what the station puts into the rings, and puts into them what comes. A process of its own, because it
 /// allocates, encrypts and listens to the network; if it dies, the station loses its peers and nothing else.
@@ -26,6 +29,7 @@ namespace reachlab::network {
 namespace {
 
 static_assert(reach_stations == kMaxStations && reach_coordinates == kMaxCoordinates);
+constexpr std::int64_t kProbeNs = 20'000'000;
 constexpr std::int64_t kNapNs = 200'000, kNapPerPeerNs = 100'000;  // with many peers a round takes longer, and finds more
 
 struct DdsError : ResourceError {
@@ -83,22 +87,22 @@ void addSecurity(dds_qos_t* qos, const std::string& folder) {
   set("dds.sec.access.permissions", file("permissions.p7s"));
 }
 
-LineMemory& mapMemory(const std::string& name) {
+LinkMemory& mapMemory(const std::string& name) {
   const int descriptor = ::shm_open(name.c_str(), O_RDWR, 0);
   if (descriptor < 0) throw DdsError(fmt::format("the station's memory {} cannot be opened: {}", name, std::strerror(errno)));
-  void* at = ::mmap(nullptr, sizeof(LineMemory), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  void* at = ::mmap(nullptr, sizeof(LinkMemory), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   ::close(descriptor);
   if (at == MAP_FAILED) throw DdsError(fmt::format("the station's memory cannot be mapped: {}", std::strerror(errno)));
-  auto& memory = *static_cast<LineMemory*>(at);
-  if (memory.version != LineMemory::kVersion) throw DdsError("the station is of another version than its endpoint");
+  auto& memory = *static_cast<LinkMemory*>(at);
+  if (memory.version != LinkMemory::kVersion) throw DdsError("the station is of another version than its endpoint");
   return memory;
 }
 
 /// Topic, writer and reader of one kind of message.
 template <class Message>
-struct Channel {
+struct TopicEnds {
   dds_entity_t writer = 0, reader = 0;
-  Channel(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* topic, const dds_qos_t* qos) {
+  TopicEnds(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* topic, const dds_qos_t* qos) {
     const dds_entity_t made = network::made(dds_create_topic(participant, &type, topic, nullptr, nullptr), topic);
     writer = network::made(dds_create_writer(participant, made, qos, nullptr), "a writer");
     reader = network::made(dds_create_reader(participant, made, qos, nullptr), "a reader");
@@ -144,8 +148,9 @@ void copyText(const char* from, std::array<char, N>& to) {
 
 class Endpoint {
  public:
-  Endpoint(LineMemory& memory, dds_entity_t participant)
+  Endpoint(LinkMemory& memory, dds_entity_t participant)
       : own_(memory.settings.card), memory_(memory), states_(participant, reach_State_desc, "reach_state", qos(stateQos())),
+        probes_(participant, reach_Probe_desc, "reach_probe", qos(stateQos())),
         events_(participant, reach_Event_desc, "reach_event", qos(reliableQos())),
         cards_(participant, reach_Card_desc, "reach_station", qos(cardQos())), statistics_(dds_create_statistics(states_.reader)) {}
   ~Endpoint() {
@@ -156,12 +161,16 @@ class Endpoint {
   Endpoint& operator=(const Endpoint&) = delete;
 
   void run() {
-    std::int64_t cardNs = 0;
+    std::int64_t cardNs = 0, probeNs = 0;
     while (!memory_.stop.load(std::memory_order_acquire)) {
       const std::int64_t now = os::now();
       memory_.aliveNs.store(now, std::memory_order_release);
       receive();
       send();
+      if (now - probeNs >= kProbeNs) {
+        sendProbe();
+        probeNs = now;
+      }
       if (now - cardNs > 1'000'000'000) {
         sendCard();
         countDiscarded();
@@ -182,50 +191,61 @@ class Endpoint {
   bool isPeer(std::uint32_t station) const { return station >= 1 && station <= kMaxStations && station != own_.station; }
 
   void receive() {
-    states_.takeAll([&](const reach_State& s) {
-      if (!isPeer(s.station)) return;
-      const std::int64_t now = os::now();
-      PeerClock& clock = clocks_[s.station - 1];
-      if (clock.echoHeard == 0) ++peers_;
-      const auto ours = static_cast<std::size_t>(own_.station) - 1;
-      clock.add(own_.station == 0 ? Echo{s.seq, s.sent_ns} : Echo{s.seq, s.sent_ns, s.echo_sent_ns[ours], s.echo_heard_ns[ours]}, now);
-      LineStatus& status = memory_.status[s.station - 1];
-      status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
-      status.loss.store(clock.loss), status.gap.store(clock.gap), status.heardNs.store(now);
-      if (clock.roundTrip < 0 && own_.station != 0) return;  // its time means nothing here yet
-      HeardState heard;
-      heard.trial = s.trial;
-      heard.phase = s.phase;
-      heard.roundTrip = clock.roundTrip;
-      CopySample& sample = heard.sample;
-      sample.sequence = s.seq;
-      sample.time = own_.station == 0 ? seconds(now) : seconds(s.time_ns) - clock.offset;  // nobody answers who only looks on
-      sample.hand = {s.hand[0], s.hand[1], s.hand[2]};
-      sample.handVelocity = {s.hand_velocity[0], s.hand_velocity[1], s.hand_velocity[2]};
-      sample.work = s.work;
-      std::copy_n(s.places._buffer, std::min<std::size_t>(s.places._length, kMaxCoordinates), sample.places.begin());
-      std::copy_n(s.rates._buffer, std::min<std::size_t>(s.rates._length, kMaxCoordinates), sample.rates.begin());
-      if (!memory_.in[s.station - 1].tryPush(heard)) memory_.ringsFull.fetch_add(1);
+    states_.takeAll([&](const reach_State& s) { hear(s); });
+    probes_.takeAll([&](const reach_Probe& probe) {
+      if (isPeer(probe.station)) losses_[probe.station - 1].add(probe.number);
     });
-    events_.takeAll([&](const reach_Event& e) {
-      if (!isPeer(e.station) || e.kind > static_cast<std::uint8_t>(EventKind::Finish)) return;
-      LineEvent event{e.station,
-                      static_cast<EventKind>(e.kind),
-                      e.trial,
-                      {e.index, e.foreperiod_ticks, e.catch_trial != 0},
-                      e.frequency,
-                      static_cast<trial::Outcome>(std::min<int>(e.outcome, static_cast<int>(trial::Outcome::Interrupted))),
-                      static_cast<trial::Reason>(std::min<int>(e.reason, static_cast<int>(trial::kLastReason))),
-                      e.apart};
-      if (!memory_.eventsIn.tryPush(event)) memory_.ringsFull.fetch_add(1);
-    });
-    cards_.takeAll([&](const reach_Card& c) {
-      if (!isPeer(c.station)) return;
-      StationCard card;
-      card.station = c.station, card.version = c.version, card.experiment = c.experiment, card.conductor = c.conductor != 0;
-      copyText(c.name, card.name), copyText(c.software, card.software), copyText(c.device, card.device);
-      (void)memory_.cardsIn.tryPush(card);
-    });
+    events_.takeAll([&](const reach_Event& e) { hear(e); });
+    cards_.takeAll([&](const reach_Card& c) { hear(c); });
+  }
+
+  void hear(const reach_State& s) {
+    if (!isPeer(s.station)) return;
+    const std::int64_t now = os::now();
+    PeerClock& clock = clocks_[s.station - 1];
+    if (clock.echoHeard == 0) ++peers_;
+    const auto ours = static_cast<std::size_t>(own_.station) - 1;
+    clock.add(own_.station == 0 ? Echo{s.seq, s.sent_ns} : Echo{s.seq, s.sent_ns, s.echo_sent_ns[ours], s.echo_heard_ns[ours]}, now);
+    const double loss = losses_[s.station - 1].share();
+    LinkStatus& status = memory_.status[s.station - 1];
+    status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
+    status.loss.store(loss), status.overtaken.store(std::max(0.0, clock.missing - loss)), status.gap.store(clock.gap),
+        status.heardNs.store(now);
+    if (clock.roundTrip < 0 && own_.station != 0) return;  // its time means nothing here yet
+    HeardState heard;
+    heard.trial = s.trial;
+    heard.phase = s.phase;
+    heard.roundTrip = clock.roundTrip;
+    CopySample& sample = heard.sample;
+    sample.sequence = s.seq;
+    sample.time = own_.station == 0 ? seconds(now) : seconds(s.time_ns) - clock.offset;  // nobody answers an observer
+    sample.hand = {s.hand[0], s.hand[1], s.hand[2]};
+    sample.handVelocity = {s.hand_velocity[0], s.hand_velocity[1], s.hand_velocity[2]};
+    sample.work = s.work;
+    std::copy_n(s.places._buffer, std::min<std::size_t>(s.places._length, kMaxCoordinates), sample.places.begin());
+    std::copy_n(s.rates._buffer, std::min<std::size_t>(s.rates._length, kMaxCoordinates), sample.rates.begin());
+    if (!memory_.in[s.station - 1].tryPush(heard)) memory_.ringsFull.fetch_add(1);
+  }
+
+  void hear(const reach_Event& e) {
+    if (!isPeer(e.station) || e.kind > static_cast<std::uint8_t>(LinkEvent::Kind::Finish)) return;
+    LinkEvent event{e.station,
+                    static_cast<LinkEvent::Kind>(e.kind),
+                    e.trial,
+                    {e.index, e.foreperiod_ticks, e.catch_trial != 0},
+                    e.frequency,
+                    static_cast<trial::Outcome>(std::min<int>(e.outcome, static_cast<int>(trial::Outcome::Interrupted))),
+                    static_cast<trial::Reason>(std::min<int>(e.reason, static_cast<int>(trial::kLastReason))),
+                    e.apart};
+    if (!memory_.eventsIn.tryPush(event)) memory_.ringsFull.fetch_add(1);
+  }
+
+  void hear(const reach_Card& c) {
+    if (!isPeer(c.station)) return;
+    StationCard card;
+    card.station = c.station, card.version = c.version, card.experiment = c.experiment, card.conductor = c.conductor != 0;
+    copyText(c.name, card.name), copyText(c.software, card.software), copyText(c.device, card.device);
+    (void)memory_.cardsIn.tryPush(card);
   }
 
   void send() {
@@ -249,7 +269,7 @@ class Endpoint {
       s.sent_ns = os::now();
       dds_write(states_.writer, &s);
     }
-    LineEvent event;
+    LinkEvent event;
     while (memory_.eventsOut.tryPop(event)) {
       reach_Event e{};
       e.station = own_.station, e.kind = static_cast<std::uint8_t>(event.kind), e.trial = event.trial;
@@ -266,10 +286,16 @@ class Endpoint {
     if (const dds_stat_keyvalue* bytes = dds_lookup_statistic(statistics_, "discarded_bytes")) memory_.discardedBytes.store(bytes->u.u64);
   }
 
+  void sendProbe() {
+    if (own_.station == 0) return;
+    const reach_Probe probe{own_.station, ++probe_};
+    dds_write(probes_.writer, &probe);
+  }
+
   void sendCard() {
-    if (own_.station == 0) return;  // who only looks on is nobody's peer
+    if (own_.station == 0) return;  // an observer is nobody's peer
     reach_Card card{};
-    card.station = own_.station, card.version = LineMemory::kVersion, card.experiment = own_.experiment, card.conductor = own_.conductor;
+    card.station = own_.station, card.version = LinkMemory::kVersion, card.experiment = own_.experiment, card.conductor = own_.conductor;
     std::copy(own_.name.begin(), own_.name.end(), std::begin(card.name));
     std::copy(own_.software.begin(), own_.software.end(), std::begin(card.software));
     std::copy(own_.device.begin(), own_.device.end(), std::begin(card.device));
@@ -277,13 +303,16 @@ class Endpoint {
   }
 
   StationCard own_;
-  LineMemory& memory_;
+  LinkMemory& memory_;
   std::vector<dds_qos_t*> kept_;
-  Channel<reach_State> states_;
-  Channel<reach_Event> events_;
-  Channel<reach_Card> cards_;
+  TopicEnds<reach_State> states_;
+  TopicEnds<reach_Probe> probes_;
+  TopicEnds<reach_Event> events_;
+  TopicEnds<reach_Card> cards_;
   dds_statistics* statistics_;  // of the states' reader; null where there are none
   std::array<PeerClock, kMaxStations> clocks_;
+  std::array<ProbeLoss, kMaxStations> losses_;
+  std::uint32_t probe_ = 0;
   std::int64_t peers_ = 0;  // heard so far
   reach_State outgoing_{};
 };
@@ -296,15 +325,44 @@ struct DdsThreads {
   ~DdsThreads() { dds_delete(DDS_CYCLONEDDS_HANDLE); }
 };
 
+/// What Cyclone DDS has to say goes to standard error, but no more of it than somebody can read: whoever sends rubbish to the port makes it
+/// say something of every packet.
+class LimitedMessages {
+ public:
+  LimitedMessages() { dds_set_log_sink(&LimitedMessages::take, this); }
+  ~LimitedMessages() {
+    dds_set_log_sink(nullptr, nullptr);
+    tell(limit_.takeHeld());
+  }
+  LimitedMessages(const LimitedMessages&) = delete;
+  LimitedMessages& operator=(const LimitedMessages&) = delete;
+
+ private:
+  static void tell(std::uint64_t held) {
+    if (held > 0) fmt::print(stderr, "endpoint: {} more messages about the network were not printed\n", held);
+  }
+  static void take(void* self, const dds_log_data_t* said) {
+    auto& messages = *static_cast<LimitedMessages*>(self);
+    const std::lock_guard lock(messages.mutex_);
+    const std::optional<std::uint64_t> held = messages.limit_.admit(seconds(os::now()));
+    if (!held) return;
+    tell(*held);
+    std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size, stderr);
+  }
+  std::mutex mutex_;
+  MessageLimit limit_;
+};
+
 void run(const std::string& memoryName) {
-  LineMemory& memory = mapMemory(memoryName);
+  LinkMemory& memory = mapMemory(memoryName);
   const EndpointSettings settings = memory.settings;
-  // Below the haptic thread, above what else the computer does; the threads of Cyclone DDS inherit it. Where it is not allowed the line is as
+  // Below the haptic thread, above what else the computer does; the threads of Cyclone DDS inherit it. Where it is not allowed the link is as
   // late as the computer is busy.
   constexpr int kPriority = 40;
   (void)os::requestRealTime(kPriority);
   os::requestExactSleep();
   const auto domain = static_cast<dds_domainid_t>(settings.domain);
+  LimitedMessages messages;
   const DdsThreads threads;
   made(dds_create_domain(domain, configurationOf(settings).c_str()), "the domain");
   dds_qos_t* qos = dds_create_qos();

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,15 +10,15 @@ namespace reachlab::network {
 
 inline double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-/// What a peer's sample says of the line: its number, when it left by the peer's clock, and of a sample of ours that the peer heard when it
+/// What a peer's sample says of the link: its number, when it left by the peer's clock, and of a sample of ours that the peer heard when it
 /// left by our clock and came by the peer's. [ns]; ours 0: it has heard none.
 struct Echo {
   std::uint32_t number = 0;
   std::int64_t left = 0, oursLeft = 0, oursCame = 0;
 };
 
-/// One peer's line from the echoes in its samples: round trip and clock as NTP has them (RFC 5905, section 8), and what was lost in the last
-/// second. One thread.
+/// One peer's link from the echoes in its samples: round trip and clock as NTP has them (RFC 5905, section 8), and what share of the last
+/// second's samples was missing: lost, or dropped because a newer one came before. One thread.
 class PeerClock {
  public:
   void add(const Echo& echo, std::int64_t nowNs) {
@@ -25,7 +26,7 @@ class PeerClock {
     echoSent = echo.left;
     echoHeard = nowNs;
     if (echo.oursLeft != 0) {
-      Exchange& e = exchanges_[at_++ % kExchanges];
+      EchoTrip& e = exchanges_[at_++ % kExchanges];
       e.roundTrip = seconds((nowNs - echo.oursLeft) - (echo.left - echo.oursCame));
       e.offset = 0.5 * (seconds(echo.oursCame - echo.oursLeft) + seconds(echo.left - nowNs));
       judge();
@@ -36,26 +37,26 @@ class PeerClock {
     ++came_;
     if (nowNs - sinceNs_ < 1'000'000'000) return;
     const double expected = static_cast<double>(lastSeq_ - firstSeq_) / (stride_ == kNoStride ? 1 : stride_) + 1;
-    loss = std::max(0.0, 1 - static_cast<double>(came_) / expected);
+    missing = std::max(0.0, 1 - static_cast<double>(came_) / expected);
     gap = longest_;
     firstSeq_ = lastSeq_ + (stride_ == kNoStride ? 1 : stride_), came_ = 0, sinceNs_ = nowNs, longest_ = 0, stride_ = kNoStride;
   }
-  double roundTrip = -1, jitter = 0, loss = 0, gap = 0;  // [s] below 0: not known, [s] SD, share, [s] the longest without a sample
-  double offset = 0;                                     // [s] how far the peer's clock is ahead of ours
-  std::int64_t echoSent = 0, echoHeard = 0;              // [ns]
+  double roundTrip = -1, jitter = 0, missing = 0, gap = 0;  // [s] below 0: not known, [s] SD, share, [s] the longest without a sample
+  double offset = 0;                                        // [s] how far the peer's clock is ahead of ours
+  std::int64_t echoSent = 0, echoHeard = 0;                 // [ns]
 
  private:
   static constexpr std::size_t kExchanges = 128;
-  struct Exchange {
+  struct EchoTrip {
     double roundTrip = 0, offset = 0;
   };
   // The fastest exchange has the least unequal ways.
   void judge() {
     const std::size_t known = std::min(at_, kExchanges);
-    const Exchange* fastest = &exchanges_[0];
+    const EchoTrip* fastest = &exchanges_[0];
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < known; ++i) {
-      const Exchange& e = exchanges_[i];
+      const EchoTrip& e = exchanges_[i];
       sum += e.roundTrip, squares += e.roundTrip * e.roundTrip;
       if (e.roundTrip < fastest->roundTrip) fastest = &e;
     }
@@ -64,13 +65,37 @@ class PeerClock {
     jitter = std::sqrt(std::max(0.0, squares / static_cast<double>(known) - mean * mean));
     offset = fastest->offset;
   }
-  std::array<Exchange, kExchanges> exchanges_{};
+  std::array<EchoTrip, kExchanges> exchanges_{};
   std::size_t at_ = 0;
   static constexpr std::uint32_t kNoStride = 0xffffffff;
   std::uint32_t firstSeq_ = 0, lastSeq_ = 0, stride_ = kNoStride;
   std::uint64_t came_ = 0;
   std::int64_t sinceNs_ = 0;
   double longest_ = 0;  // [s]
+};
+
+/// What a peer's link loses, from probes so far apart that none overtakes another (50 a second: a jitter of up to 10 ms either way).
+class ProbeLoss {
+ public:
+  void add(std::uint32_t number) {
+    if (known_ == 0 || number <= last_) came_.reset(), known_ = 0, last_ = number - 1;  // its program was started again
+    const std::size_t steps = std::min<std::size_t>(number - last_, kProbes);
+    came_ <<= steps;
+    came_.set(0);
+    known_ = std::min(known_ + steps, kProbes);
+    last_ = number;
+  }
+  /// Of the last two seconds; 0 in the first half second.
+  double share() const {
+    if (known_ < kLeast) return 0;
+    return 1 - static_cast<double>(came_.count()) / static_cast<double>(known_);
+  }
+
+ private:
+  static constexpr std::size_t kProbes = 100, kLeast = 25;
+  std::bitset<kProbes> came_;  // the newest first
+  std::size_t known_ = 0;
+  std::uint32_t last_ = 0;
 };
 
 }  // namespace reachlab::network

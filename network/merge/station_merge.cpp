@@ -13,7 +13,10 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "constraints/constraint.h"
-#include "network/line/station_line.h"
+#include "network/link/given_samples.h"
+#include "network/link/link_channels.h"
+#include "network/link/station_link.h"
+#include "network/link/station_replay.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/recorder.h"
 
@@ -22,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kMethod = "stations";
-constexpr double kMostContradiction = 0.005;  // [s] of two clocks told from either side, beyond what the line's unequal ways explain
+constexpr double kMostContradiction = 0.005;  // [s] of two clocks told from either side, beyond what the link's unequal ways explain
 
 /// A station's log, computed again.
 struct Station {
@@ -33,8 +36,8 @@ struct Station {
   std::vector<haptics::HandState> hands = {};  // after each tick
   std::vector<std::int32_t> trials = {};       // under way at it
   std::vector<trial::Phase> phases = {};
-  std::size_t lineColumns = 0;
-  std::vector<double> lines = {};  // how its copy stood to the others after each tick, as fillLines has it
+  std::size_t linkColumns = 0;
+  std::vector<double> links = {};  // how its copy stood to the others after each tick, as fillLinks has it
   std::vector<GivenSample> given = {};
   record::Replay replay = {};
 
@@ -77,10 +80,10 @@ Station readStation(const std::string& path) {
     s.hands.push_back(hand);
     s.trials.push_back(state.trial);
     s.phases.push_back(state.phase);
-    std::array<double, kMostLineColumns> columns{};
-    fillLines(copy, columns.data());
-    s.lineColumns = lineColumns(copy.peerCount());
-    s.lines.insert(s.lines.end(), columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(s.lineColumns));
+    std::array<double, kMostLinkColumns> columns{};
+    fillLinks(copy, columns.data());
+    s.linkColumns = linkColumns(copy.peerCount());
+    s.links.insert(s.links.end(), columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(s.linkColumns));
   });
   if (!s.replay.identical())
     refuse("is another when its copy is computed again: " + s.replay.firstDifference, "a log as this program recorded it", path);
@@ -157,7 +160,7 @@ std::vector<Station> readAll(const std::vector<std::string>& logs) {
   return stations;
 }
 
-// Told from either side the two must be opposite, but for the line's unequal ways.
+// Told from either side the two must be opposite, but for the link's unequal ways.
 void requireClocks(const ClockOffset& there, const ClockOffset& back, int station, int conductor) {
   if (!there.known() || !back.known()) return;
   const double contradiction = std::abs(there.median() + back.median());
@@ -199,8 +202,8 @@ double rmsApart(const Station& s) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < s.phases.size(); ++i) {
     if (s.phases[i] != trial::Phase::Moving) continue;
-    for (int peer = 0; lineColumns(peer) < s.lineColumns; ++peer)
-      if (const double apart = s.lines[i * s.lineColumns + lineColumns(peer)]; !std::isnan(apart)) squares += apart * apart, ++count;
+    for (int peer = 0; linkColumns(peer) < s.linkColumns; ++peer)
+      if (const double apart = s.links[i * s.linkColumns + linkColumns(peer)]; !std::isnan(apart)) squares += apart * apart, ++count;
   }
   return count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
 }
@@ -226,18 +229,18 @@ record::RunConfiguration mergedConfiguration(const std::vector<Station>& station
   const experiment::CompiledExperiment compiled = record::recordedExperiment(conductor.log.configuration());
   c.table = record::makeChannelTable(compiled.experiment(), compiled.constraint().parameterCount(), c.rendersForce);
   for (const Station& s : stations)
-    for (const record::Channel& channel : lineChannels(s.number, static_cast<int>(stations.size()))) c.table.channels.push_back(channel);
+    for (const record::Channel& channel : linkChannels(s.number, static_cast<int>(stations.size()))) c.table.channels.push_back(channel);
   return c;
 }
 
 /// How every station's copy stood to the others at the tick of its own that a row is of.
-class LinesOfAll final : public record::FurtherColumns {
+class LinksOfAll final : public record::FurtherColumns {
  public:
-  LinesOfAll(const std::vector<Station>& stations, const std::vector<std::size_t>& ticks) : stations_(stations), ticks_(ticks) {}
+  LinksOfAll(const std::vector<Station>& stations, const std::vector<std::size_t>& ticks) : stations_(stations), ticks_(ticks) {}
   void fill(double* columns) const noexcept override {
     for (std::size_t i = 0; i < stations_.size(); ++i) {
-      const std::size_t width = stations_[i].lineColumns;
-      columns = std::copy_n(stations_[i].lines.data() + ticks_[i] * width, width, columns);
+      const std::size_t width = stations_[i].linkColumns;
+      columns = std::copy_n(stations_[i].links.data() + ticks_[i] * width, width, columns);
     }
   }
 
@@ -245,6 +248,78 @@ class LinesOfAll final : public record::FurtherColumns {
   const std::vector<Station>& stations_;
   const std::vector<std::size_t>& ticks_;
 };
+
+// That of a station against the conductor's, where the two logs are of one run.
+ClockOffset clockOffset(const Station& conductor, const Station& s) {
+  ClockOffset offset(conductor, s);
+  if (!offset.known())
+    refuse(fmt::format("of the conductor holds nothing of station {}", s.number), "logs of one run", conductor.log.path());
+  requireClocks(offset, ClockOffset(s, conductor), s.number, conductor.number);
+  requireSameSamples(conductor, s), requireSameSamples(s, conductor);
+  return offset;
+}
+
+MergedStation reportOf(const Station& s, const Station& conductor, const std::optional<ClockOffset>& offset) {
+  return {s.log.path(),
+          s.number,
+          s.conductor,
+          s.ticks.size(),
+          s.given.size(),
+          s.replay.identical(),
+          s.replay.firstDifference,
+          countOtherOutcomes(s.log, conductor.log),
+          offset ? offset->median() : 0,
+          offset ? offset->spread() : 0,
+          rmsApart(s)};
+}
+
+// The conductor's ticks, each with every hand at the nearest tick of its own station. Returns the rows.
+std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& conductor,
+                          const std::vector<std::optional<ClockOffset>>& offsets, const record::RunConfiguration& merged,
+                          const std::string& path) {
+  std::vector<std::size_t> ticks(stations.size());
+  const LinksOfAll links(stations, ticks);
+  record::Recorder recorder(path, merged, record::RecorderOptions{.threaded = false, .further = &links});
+  std::vector<NearestTick> nearest;
+  for (const Station& s : stations) nearest.emplace_back(s.ticks);
+  const std::vector<record::TrialSetup> setups = conductor.log.setups();
+  std::size_t number = 0, setup = 0;
+  std::uint64_t rows = 0;
+  const auto state = std::make_unique<haptics::TickState>();
+  (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
+    const record::RecordedTick& tick = conductor.ticks[number];
+    haptics::copyState(own, *state);
+    state->handCount = static_cast<std::int32_t>(stations.size());
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      const Station& s = stations[i];
+      ticks[i] = s.conductor ? number : nearest[i].at(tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
+      state->hands[i] = s.hands[ticks[i]];
+    }
+    if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
+      recorder.announce(setups[setup].trial - merged.firstTrial + 1, setups[setup].planned);
+      ++setup;
+    }
+    recorder.onTick(*state, tick.command, tick.missedTicks);
+    if (own.tick % merged.sampleEveryTicks == 0) ++rows;
+    ++number;
+  });
+  for (const Station& s : stations)
+    for (const record::RecordedEvent& event : s.log.events())
+      if (event.kind == record::EventKind::Note) recorder.note(fmt::format("station {}: {}", s.number, event.text));
+  recorder.close();
+  return rows;
+}
+
+void keepLogs(const std::vector<Station>& stations, const std::string& path) {
+  const fs::path kept = fs::path(path).parent_path() / "stations";
+  std::error_code error;
+  fs::create_directories(kept, error);
+  for (const Station& s : stations) {
+    const fs::path to = kept / fmt::format("{}_station-{}.reach", fs::path(path).stem().string(), s.number);
+    if (!fs::copy_file(s.log.path(), to, error))
+      throw ResourceError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+  }
+}
 
 }  // namespace
 
@@ -268,73 +343,15 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
   if (logs.size() < 2) refuse(fmt::format("are {}", logs.size()), "one of each station, two or more");
   const std::vector<Station> stations = readAll(logs);
   const Station& conductor = *std::find_if(stations.begin(), stations.end(), [](const Station& s) { return s.conductor; });
-  std::vector<std::optional<ClockOffset>> offsets;
   MergeReport report;
-  for (const Station& s : stations) {
-    offsets.emplace_back(std::nullopt);
-    MergedStation told{s.log.path(),
-                       s.number,
-                       s.conductor,
-                       s.ticks.size(),
-                       s.given.size(),
-                       s.replay.identical(),
-                       s.replay.firstDifference,
-                       countOtherOutcomes(s.log, conductor.log),
-                       0,
-                       0,
-                       rmsApart(s)};
-    if (!s.conductor) {
-      offsets.back().emplace(conductor, s);
-      if (!offsets.back()->known())
-        refuse(fmt::format("of the conductor holds nothing of station {}", s.number), "logs of one run", conductor.log.path());
-      requireClocks(*offsets.back(), ClockOffset(s, conductor), s.number, conductor.number);
-      requireSameSamples(conductor, s), requireSameSamples(s, conductor);
-      told.offset = offsets.back()->median();
-      told.offsetSpread = offsets.back()->spread();
-    }
-    report.stations.push_back(told);
-  }
-
-  const record::RunConfiguration merged = mergedConfiguration(stations, conductor, configuration);
-  std::vector<std::size_t> ticks(stations.size());
-  const LinesOfAll lines(stations, ticks);
-  record::Recorder recorder(path, merged, record::RecorderOptions{.threaded = false, .further = &lines});
-  std::vector<NearestTick> nearest;
-  for (const Station& s : stations) nearest.emplace_back(s.ticks);
-  const std::vector<record::TrialSetup> setups = conductor.log.setups();
-  std::size_t number = 0, setup = 0;
-  const auto state = std::make_unique<haptics::TickState>();
-  (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
-    const record::RecordedTick& tick = conductor.ticks[number];
-    haptics::copyState(own, *state);
-    state->handCount = static_cast<std::int32_t>(stations.size());
-    for (std::size_t i = 0; i < stations.size(); ++i) {
-      const Station& s = stations[i];
-      ticks[i] = s.conductor ? number : nearest[i].at(tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
-      state->hands[i] = s.hands[ticks[i]];
-    }
-    if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
-      recorder.announce(setups[setup].trial - merged.firstTrial + 1, setups[setup].planned);
-      ++setup;
-    }
-    recorder.onTick(*state, tick.command, tick.missedTicks);
-    if (own.tick % merged.sampleEveryTicks == 0) ++report.rows;
-    ++number;
-  });
-  for (const Station& s : stations)
-    for (const record::RecordedEvent& event : s.log.events())
-      if (event.kind == record::EventKind::Note) recorder.note(fmt::format("station {}: {}", s.number, event.text));
-  recorder.close();
   report.trials = static_cast<int>(conductor.log.trials().size());
-
-  const fs::path kept = fs::path(path).parent_path() / "stations";
-  std::error_code error;
-  fs::create_directories(kept, error);
+  std::vector<std::optional<ClockOffset>> offsets;  // none for the conductor
   for (const Station& s : stations) {
-    const fs::path to = kept / fmt::format("{}_station-{}.reach", fs::path(path).stem().string(), s.number);
-    if (!fs::copy_file(s.log.path(), to, error))
-      throw ResourceError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+    offsets.push_back(s.conductor ? std::nullopt : std::optional(clockOffset(conductor, s)));
+    report.stations.push_back(reportOf(s, conductor, offsets.back()));
   }
+  report.rows = writeMerged(stations, conductor, offsets, mergedConfiguration(stations, conductor, configuration), path);
+  keepLogs(stations, path);
   return report;
 }
 

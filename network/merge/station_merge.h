@@ -34,7 +34,7 @@ bool isMerged(const record::RunLog& log);
 /// The stations' logs that a merged one was made from, as `mergeStations` keeps them.
 std::vector<std::string> logsOfMerged(const record::RunLog& log);
 
-/// Writes the merged log to `configuration.run`'s place `path`, with the channels of every station's lines, and copies of the logs
+/// Writes the merged log to `configuration.run`'s place `path`, with the channels of every station's links, and copies of the logs
 /// into the folder `stations` beside it. `configuration` names subject, session and run; the rest is the conductor's. Throws
 /// FaultError: not one log of each of the experiment's stations, no or two conductors, different experiments, clocks that contradict
 /// each other, a log whose copy is another when it is computed again.

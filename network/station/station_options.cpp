@@ -21,31 +21,31 @@ std::string named(const char* key) { return std::string("--") + key; }
 }  // namespace
 
 void addStationOptions(CLI::App& command, StationSetup& setup) {
-  StationOptions& line = setup.line;
-  command.add_flag(named("conductor"), line.conductor, "Arms the trials and judges them for all; one station");
-  auto* peers = command.add_option(named("peers"), line.secure, "Folder of this station's certificates (reach peers)");
+  StationOptions& link = setup.link;
+  command.add_flag(named("conductor"), link.conductor, "Arms the trials and judges them for all; one station");
+  auto* peers = command.add_option(named("peers"), link.secure, "Folder of this station's certificates (reach peers)");
   command.add_flag(named("insecure"), setup.insecure, "Without certificates and encryption: on a network of one's own")->excludes(peers);
-  command.add_option(named("name"), line.name, "Name that the others see [the computer's]");
-  command.add_option(named("interface"), line.interface, "Network interface [the system's choice]");
-  command.add_option(named("peer"), line.peers, "Address of another station beyond this network; several times. No multicast then")
+  command.add_option(named("name"), link.name, "Name that the others see [the computer's]");
+  command.add_option(named("interface"), link.interface, "Network interface [the system's choice]");
+  command.add_option(named("peer"), link.peers, "Address of another station beyond this network; several times. No multicast then")
       ->allow_extra_args(false);
-  command.add_option(named("domain"), line.domain, "Stations of one domain hear each other")
+  command.add_option(named("domain"), link.domain, "Stations of one domain hear each other")
       ->check(CLI::Range(0, 230))
       ->capture_default_str();
   command.add_option(named("wait"), setup.wait, "Seconds to wait for the others")->check(CLI::Range(1.0, 86400.0))->capture_default_str();
   command
-      .add_option(named("rate"), setup.rate, "How often a second this station's state is sent; less where the line or the computer is slow")
+      .add_option(named("rate"), setup.rate, "How often a second this station's state is sent; less where the link or the computer is slow")
       ->check(CLI::IsMember({1000, 500, 250, 125}))
       ->capture_default_str();
 }
 
 void completeStationSetup(StationSetup& setup, const std::string& device, const std::string& program) {
-  if (!setup.insecure && setup.line.secure.empty())
+  if (!setup.insecure && setup.link.secure.empty())
     throw FaultError(Fault{"peers", "are not told", "the folder of this station's certificates, or insecure in so many words"});
-  if (setup.line.name.empty()) setup.line.name = hostName();
-  setup.line.device = device;
-  setup.line.software = "reachlab " REACHLAB_VERSION;
-  setup.line.endpoint = findHelperProgram("reachlab-endpoint", program, "the program that speaks to the network");
+  if (setup.link.name.empty()) setup.link.name = hostName();
+  setup.link.device = device;
+  setup.link.software = "reachlab " REACHLAB_VERSION;
+  setup.link.endpoint = findHelperProgram("reachlab-endpoint", program, "the program that speaks to the network");
 }
 
 }  // namespace reachlab::network

@@ -6,7 +6,7 @@
 #include <future>
 #include <string>
 
-#include "network/line/station_line.h"
+#include "network/link/given_samples.h"
 #include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
@@ -39,7 +39,7 @@ class Stations : public testing::Test {
   const record::TemporaryFolder folder_{"stations"};
 };
 
-// How old the newest sample in force was at a tick, told from the log's inputs alone (network/line/station_line.cpp writes them): by these
+// How old the newest sample in force was at a tick, told from the log's inputs alone (network/link/station_link.cpp writes them): by these
 // clocks, not by the computer's at the time, it is judged whether a peer had to be lost.
 class Silence {
  public:

@@ -41,8 +41,9 @@ class StationLog:
             step = 88 + 8 * (places + rates)
             for i in range(count):
                 tick, peer, trip, sequence, time = struct.unpack_from("<QidId", p, 16 + i * step)
-                if peer < 0:
+                if peer == -1:
                     self.frequencies.append((tick, trip))
+                if peer < 0:
                     continue
                 self.given.append((tick, peer, trip, sequence, time))
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Two windows on one machine move the five masses from both ends, under a virtual display with a window manager: at first two simulated
-# people, until two trials have succeeded; a third window looks on for a trial. Then the conductor's hand is the mouse, moved by real events
+# people, until two trials have succeeded; a third window observes for a trial. Then the conductor's hand is the mouse, moved by real events
 # along the way of the simulated person's, and the other's a simulated partner, until a trial has succeeded. Both logs are computed again,
 # and made into one. Last the partner's window is closed, and the conductor's arms nothing and says why. Prints what came of it; exits 1
 # when something is not as it should be.
@@ -76,13 +76,13 @@ done
 told simulated
 check "two trials succeed" test "$(outcomes 1 success)" -ge 2
 
-# A third window looks on: it sees them move, and nothing of it is recorded.
+# A third window observes: it sees them move, and nothing of it is recorded.
 before=$(outcomes 1 "$all")
-XDG_CONFIG_HOME=$work/config3 "$build/gui/reachlab" "$work/chain-two-hands.json" --look-on --insecure --interface lo --peer 127.0.0.1 \
-  --domain $(($$ % 230)) --data "$work/data3" 2> "$work/said3" & looker=$!
+XDG_CONFIG_HOME=$work/config3 "$build/gui/reachlab" "$work/chain-two-hands.json" --observe --insecure --interface lo --peer 127.0.0.1 \
+  --domain $(($$ % 230)) --data "$work/data3" 2> "$work/said3" & observer=$!
 seen=
-for _ in $(seq 100); do seen=$(xdotool search --onlyvisible --name 'looking on' 2> /dev/null | head -1 || true); [[ -n $seen ]] && break; sleep 0.2; done
-check "a third window looks on" test -n "$seen"
+for _ in $(seq 100); do seen=$(xdotool search --onlyvisible --name 'observing' 2> /dev/null | head -1 || true); [[ -n $seen ]] && break; sleep 0.2; done
+check "a third window observes" test -n "$seen"
 sleep 5
 key space
 sleep 2.2
@@ -90,8 +90,8 @@ sleep 2.2
 check "a trial that is looked at ends at both stations" ended $((before + 1))
 sleep 1
 [[ -z $pictures || -z $seen ]] || import -silent -window "$seen" -depth 8 PNG24:"$pictures/2-looked-on.png"
-kill $looker; wait $looker 2> /dev/null || true
-check "who looks on records nothing" test ! -e "$work/data3"
+kill $observer; wait $observer 2> /dev/null || true
+check "an observer records nothing" test ! -e "$work/data3"
 close_run simulated
 /usr/bin/python3 tests/long/mouse_reach.py way "$work/data1" "$work/way"
 picture 3-run-ended

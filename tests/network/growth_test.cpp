@@ -1,4 +1,4 @@
-#include "network/study/growth.h"
+#include "network/link_check/growth.h"
 
 #include <gtest/gtest.h>
 

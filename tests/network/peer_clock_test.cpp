@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+
+#include "network/endpoint/message_limit.h"
 
 namespace reachlab::network {
 namespace {
@@ -42,18 +45,10 @@ TEST(PeerClock, TakesTheClockFromTheFastestExchange) {
   EXPECT_NEAR(clock.jitter, 0.002, 2e-4);
 }
 
-TEST(PeerClock, CountsWhatWasLostInASecondAndItsLongestGap) {
-  PeerClock clock;
-  for (std::uint32_t i = 1; i <= 2100; ++i)
-    if (i % 4 != 0 && (i < 1500 || i > 1529)) Peer().send(clock, 20 * kTick, i);
-  EXPECT_NEAR(clock.loss, 0.25 + 0.75 * 0.03, 0.005);
-  EXPECT_NEAR(clock.gap, 0.031, 0.0011);
-}
-
 TEST(PeerClock, SamplesOfEveryFourthTickAreNoLoss) {
   PeerClock clock;
   for (std::uint32_t i = 4; i <= 2400; i += 4) Peer().send(clock, 20 * kTick, i);
-  EXPECT_EQ(clock.loss, 0);
+  EXPECT_EQ(clock.missing, 0);
   EXPECT_NEAR(clock.gap, 0.004, 1e-9);
 }
 
@@ -65,16 +60,16 @@ TEST(PeerClock, CountsEverySecondByItself) {
       if (i < lostFrom || i >= lostTo) Peer().send(clock, 20 * kTick, i);
   };
   second(1, 1000, 500, 600);
-  EXPECT_EQ(clock.loss, 0) << "not before the second is over";
+  EXPECT_EQ(clock.missing, 0) << "not before the second is over";
   EXPECT_EQ(clock.gap, 0);
   Peer().send(clock, 20 * kTick, 1001);
-  EXPECT_NEAR(clock.loss, 100.0 / 1001, 1e-12);
+  EXPECT_NEAR(clock.missing, 100.0 / 1001, 1e-12);
   EXPECT_NEAR(clock.gap, 0.101, 1e-12);
   second(1002, 2001, 0, 0);
-  EXPECT_EQ(clock.loss, 0);
+  EXPECT_EQ(clock.missing, 0);
   EXPECT_NEAR(clock.gap, 0.001, 1e-12);
   second(2002, 3001, 2100, 2350);
-  EXPECT_NEAR(clock.loss, 0.25, 1e-12);
+  EXPECT_NEAR(clock.missing, 0.25, 1e-12);
   EXPECT_EQ(clock.echoHeard, 3021 * kTick);
   EXPECT_EQ(clock.echoSent, 3001 * kTick + kAhead);
 }
@@ -83,7 +78,7 @@ TEST(PeerClock, OfAPeerThatBeginsAnewCountsFromItsNewNumber) {
   PeerClock clock;
   for (std::uint32_t i = 5000; i <= 5400; ++i) Peer().send(clock, 20 * kTick, i);
   for (std::uint32_t i = 1; i <= 1001; ++i) clock.add({i, 0, 0, 0}, (5500 + i) * kTick);  // its program was started again
-  EXPECT_EQ(clock.loss, 0);
+  EXPECT_EQ(clock.missing, 0);
   EXPECT_NEAR(clock.gap, 0.081, 1e-12);
   EXPECT_NEAR(clock.roundTrip, 0.04, 1e-12) << "it has heard nothing of ours since";
 }
@@ -114,6 +109,46 @@ TEST(PeerClock, TakesThePeersOwnTimeOffTheRoundTripAndHalvesWhatTheWaysDiffer) {
   EXPECT_NEAR(clock.offset, 5 + (0.03 - 0.05) / 2, 1e-9);
   EXPECT_EQ(clock.echoSent, answered);
   EXPECT_EQ(clock.echoHeard, back);
+}
+
+double lossOver(std::uint32_t from, std::uint32_t to, const std::function<bool(std::uint32_t)>& comes, ProbeLoss loss = {}) {
+  for (std::uint32_t number = from; number <= to; ++number)
+    if (comes(number)) loss.add(number);
+  return loss.share();
+}
+
+TEST(ProbeLoss, IsTheShareOfTheLastHundredThatDidNotCome) {
+  const auto all = [](std::uint32_t) { return true; };
+  EXPECT_EQ(lossOver(7, 1000, all), 0);
+  EXPECT_NEAR(lossOver(1, 1001, [](std::uint32_t number) { return number % 5 != 0; }), 0.2, 1e-12);
+  EXPECT_NEAR(lossOver(1, 1000, [](std::uint32_t number) { return number > 970 || number <= 940; }), 0.3, 1e-12) << "at one go";
+  EXPECT_EQ(lossOver(1, 1000, [](std::uint32_t number) { return number > 900; }), 0) << "forgotten after a hundred";
+  EXPECT_NEAR(lossOver(1, 1000, [](std::uint32_t number) { return number < 10 || number == 1000; }), 0.99, 1e-12);
+}
+
+TEST(ProbeLoss, IsNotJudgedByAFewNorByThoseOfAnEarlierStart) {
+  EXPECT_EQ(lossOver(1, 24, [](std::uint32_t number) { return number % 2 == 0; }), 0) << "half a second says little";
+  ProbeLoss before;
+  for (std::uint32_t number = 5000; number < 5100; number += 2) before.add(number);
+  EXPECT_NEAR(before.share(), 0.5, 0.01);
+  EXPECT_EQ(lossOver(
+                1, 50, [](std::uint32_t) { return true; }, before),
+            0)
+      << "its program was started again";
+}
+
+TEST(MessageLimit, LetsTenAMinuteThroughAndCountsTheOthers) {
+  MessageLimit limit;
+  int printed = 0;
+  for (int i = 0; i < 10'000; ++i)
+    if (limit.admit(100 + 1e-3 * i)) ++printed;
+  EXPECT_EQ(printed, 10);
+  EXPECT_EQ(limit.admit(159), std::nullopt);
+  EXPECT_EQ(limit.admit(160), 9991u) << "held back before it";
+  EXPECT_EQ(limit.admit(161), 0u);
+  EXPECT_EQ(limit.takeHeld(), 0u);
+  for (int i = 0; i < 20; ++i) (void)limit.admit(162);
+  EXPECT_EQ(limit.takeHeld(), 12u) << "what is told at the end";
 }
 
 }  // namespace

@@ -2,24 +2,24 @@
 
 #include "cli/bench/allocation_count.h"
 #include "constraints/constraint.h"
-#include "network/line/station_line.h"
+#include "network/link/station_replay.h"
+#include "network/link/station_sink.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/haptics/haptic_loop.h"
 #include "sim/record/log/recorder.h"
-#include "tests/haptics/borrowed.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::network {
 namespace {
 
-/// To the line, then to the log: as a recorded run has it.
+/// To the link, then to the log: as a recorded run has it.
 class BothSinks final : public haptics::RunSink {
  public:
-  BothSinks(haptics::RunSink& line, haptics::RunSink& log) : line_(line), log_(log) {}
+  BothSinks(haptics::RunSink& link, haptics::RunSink& log) : link_(link), log_(log) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missed) noexcept override {
-    line_.onTick(state, command, missed);
+    link_.onTick(state, command, missed);
     return log_.onTick(state, command, missed);
   }
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
@@ -27,7 +27,7 @@ class BothSinks final : public haptics::RunSink {
   void close() override {}
 
  private:
-  haptics::RunSink &line_, &log_;
+  haptics::RunSink &link_, &log_;
 };
 
 /// What a station's haptic thread asks for in a trial of which the other's samples come, fail to come for 90 ms, and come twice.
@@ -39,10 +39,10 @@ Asked askedByAStation(const std::string& name) {
   experiment::Experiment e = experiment::readExperiment(name);
   e.task->rest = experiment::kNoStartRest;
   const experiment::CompiledExperiment experiment{e};
-  const auto memory = std::make_unique<LineMemory>();
+  const auto memory = std::make_unique<LinkMemory>();
   CoupledCopy* copy = nullptr;
   auto engine = makeStationEngine(experiment, 0, {{{.deviceMaxForce = 12, .virtualHand = true}}}, copy);
-  StationSink line(*memory, *copy, 0);
+  StationSink link(*memory, *copy, 0);
   const Vec3 start = engine->protocol().start;
   const auto device = std::make_shared<haptics::test::ScriptedDevice>(start.x, start.x + 0.05, 1000);
   device->beside = start;
@@ -54,19 +54,19 @@ Asked askedByAStation(const std::string& name) {
   experiment::Experiment recorded = e;
   recorded.hands.clear();
   c.table = record::makeChannelTable(recorded, experiment.constraint().parameterCount());
-  for (const record::Channel& channel : lineChannels(1, 2)) c.table.channels.push_back(channel);
-  record::Recorder log(folder / "log.reach", c, {.further = &line});
-  BothSinks sink(line, log);
+  for (const record::Channel& channel : linkChannels(1, 2)) c.table.channels.push_back(channel);
+  record::Recorder log(folder / "log.reach", c, {.further = &link});
+  BothSinks sink(link, log);
 
   haptics::LoopOptions options;
   options.virtualClock = true;
-  haptics::HapticLoop loop(std::move(engine), haptics::test::borrowed(device), &sink, options);
+  haptics::HapticLoop loop(std::move(engine), device, &sink, options);
   Asked asked;
   OwnState sent;
   HeardState heard;
   for (int i = 0; i < 3000; ++i) {
     if (i == 1) loop.tryCommand(trial::Command::NextTrial);
-    if (i == 2) line.synchroniseBy(2);
+    if (i == 2) link.synchroniseBy(2);
     const std::uint64_t before = cli::countAllocations();
     loop.advance();
     asked.allocations += cli::countAllocations() - before;
@@ -79,10 +79,10 @@ Asked askedByAStation(const std::string& name) {
     (void)memory->in[1].tryPush(heard);
     if (i % 3 == 0) (void)memory->in[1].tryPush(heard);
   }
-  asked.taken = copy->line(0).taken;
+  asked.taken = copy->link(0).taken;
   asked.steps = loop.engine().state().faults.steps[0];
   asked.trial = loop.engine().state().trial;
-  EXPECT_EQ(copy->line(0).frequency, copy->line(0).lost ? 0 : 2) << "the rate that was asked for holds";
+  EXPECT_EQ(copy->link(0).frequency, copy->link(0).lost ? 0 : 2) << "the rate that was asked for holds";
   return asked;
 }
 

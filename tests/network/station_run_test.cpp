@@ -52,12 +52,12 @@ class OneStation : public testing::Test {
     request.trials = 3;
     request.everyTick = true;
     StationSetup setup;
-    setup.line.station = number;
-    setup.line.conductor = conductor;
-    setup.line.endpoint = endpoint;
-    setup.line.name = "here";
-    setup.line.software = software_;
-    setup.line.device = device_;
+    setup.link.station = number;
+    setup.link.conductor = conductor;
+    setup.link.endpoint = endpoint;
+    setup.link.name = "here";
+    setup.link.software = software_;
+    setup.link.device = device_;
     setup.wait = wait;
     const session::BlockToRun block = session::planSession(request).blocks.at(0);
     station_ = std::make_unique<StationRun>(setup, block.experiment);
@@ -79,23 +79,23 @@ class OneStation : public testing::Test {
     run_.reset();
     station_.reset();
   }
-  LineMemory& memory() { return station_->line().memory(); }
+  LinkMemory& memory() { return station_->link().memory(); }
   void showCard(std::uint32_t number, bool conductor) {
     StationCard card;
     card.station = number;
-    card.version = LineMemory::kVersion;
+    card.version = LinkMemory::kVersion;
     card.experiment = hash_;
     card.conductor = conductor;
     std::strcpy(card.software.data(), "reachlab");
     ASSERT_TRUE(memory().cardsIn.tryPush(card));
   }
   void hear(std::uint32_t number, double roundTrip) {
-    LineStatus& status = memory().status[number - 1];
+    LinkStatus& status = memory().status[number - 1];
     status.roundTrip.store(roundTrip);
     status.heardNs.store(os::now());
   }
-  void tell(std::uint32_t number, EventKind kind, std::int32_t trial, trial::Outcome outcome = trial::Outcome::None) {
-    LineEvent event;
+  void tell(std::uint32_t number, LinkEvent::Kind kind, std::int32_t trial, trial::Outcome outcome = trial::Outcome::None) {
+    LinkEvent event;
     event.outcome = outcome;
     event.station = number;
     event.kind = kind;
@@ -118,10 +118,25 @@ class OneStation : public testing::Test {
     }
     return all;
   }
+  // A station's samples of the first trial, a millisecond apart.
+  std::jthread sendFrom(std::size_t station) {
+    return std::jthread([this, station](const std::stop_token& over) {
+      HeardState heard;
+      heard.trial = 1;
+      heard.sample.hand = {-0.1, 0, 0};  // at the start, where the object is
+      for (std::uint32_t sequence = 1; !over.stop_requested(); ++sequence) {
+        heard.roundTrip = 0.01 + 1e-5 * (sequence % 100);
+        heard.sample.sequence = sequence;
+        heard.sample.time = 1e-9 * static_cast<double>(os::now());
+        (void)memory().in[station - 1].tryPush(heard);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+  }
   static bool never(const StationNews&) { return false; }
   static bool begun(const StationNews& news) { return news.begun; }
-  std::optional<LineEvent> sent(EventKind kind) {
-    for (LineEvent event; memory().eventsOut.tryPop(event);)
+  std::optional<LinkEvent> sent(LinkEvent::Kind kind) {
+    for (LinkEvent event; memory().eventsOut.tryPop(event);)
       if (event.kind == kind) return event;
     return std::nullopt;
   }
@@ -145,44 +160,44 @@ TEST_F(OneStation, LongNamesAreShownAsFarAsACardHoldsThem) {
 
 TEST_F(OneStation, OnlyTheConductorsWordCounts) {
   open(2, false);
-  tell(1, EventKind::Arm, 1);
+  tell(1, LinkEvent::Kind::Arm, 1);
   EXPECT_FALSE(pollUntil(begun, 0.3).begun) << "nobody has said yet who station 1 is";
   showCard(1, false);
   const StationNews refused = pollUntil(begun, 0.3);
   EXPECT_FALSE(refused.begun);
   ASSERT_EQ(refused.words.size(), 1u);
   EXPECT_NE(refused.words[0].find("station 1 is not the conductor"), std::string::npos) << refused.words[0];
-  tell(1, EventKind::Finish, 1);
+  tell(1, LinkEvent::Kind::Finish, 1);
   EXPECT_FALSE(pollUntil([](const StationNews& news) { return news.finished; }, 0.2).finished);
 }
 
 TEST_F(OneStation, AFollowerPutsUpWhatTheConductorArmsAndEndsWhenItIsTold) {
   open(2, false);
-  tell(1, EventKind::Arm, 1);
+  tell(1, LinkEvent::Kind::Arm, 1);
   EXPECT_FALSE(pollUntil(begun, 0.1).begun);
   showCard(1, true);
   EXPECT_TRUE(pollUntil(begun).begun) << "what was told before its card came is done";
   EXPECT_FALSE(pollUntil(begun, 0.2).begun) << "once";
-  tell(1, EventKind::Interrupt, 1);
+  tell(1, LinkEvent::Kind::Interrupt, 1);
   const StationNews ended = pollUntil([](const StationNews& news) { return news.ended.has_value(); });
   ASSERT_TRUE(ended.ended);
   EXPECT_EQ(ended.ended->result.reason, trial::Reason::Experimenter);
   EXPECT_FALSE(ended.finished) << "another trial may follow";
-  tell(1, EventKind::Arm, 2);
+  tell(1, LinkEvent::Kind::Arm, 2);
   EXPECT_TRUE(pollUntil(begun).begun);
-  tell(1, EventKind::Finish, 2);
+  tell(1, LinkEvent::Kind::Finish, 2);
   EXPECT_FALSE(pollUntil([](const StationNews& news) { return news.finished; }, 0.2).finished) << "the trial under way goes to its end";
-  tell(1, EventKind::Interrupt, 2);
+  tell(1, LinkEvent::Kind::Interrupt, 2);
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
 }
 
 TEST_F(OneStation, ATrialThatIsOverForTheOthersIsNotPutUp) {
   open(2, false);
   showCard(1, true);
-  tell(1, EventKind::Arm, 4);
-  tell(1, EventKind::Ended, 4);
+  tell(1, LinkEvent::Kind::Arm, 4);
+  tell(1, LinkEvent::Kind::Ended, 4);
   EXPECT_FALSE(pollUntil(begun, 0.3).begun);
-  tell(1, EventKind::Arm, 5);
+  tell(1, LinkEvent::Kind::Arm, 5);
   EXPECT_TRUE(pollUntil(begun).begun);
 }
 
@@ -203,18 +218,18 @@ TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
     return news.begun;
   });
   EXPECT_TRUE(armed.begun);
-  const std::optional<LineEvent> arm = sent(EventKind::Arm);
+  const std::optional<LinkEvent> arm = sent(LinkEvent::Kind::Arm);
   ASSERT_TRUE(arm);
   EXPECT_EQ(arm->frequency, 3) << "a chain's, which the check before the block has found to do";
   station_->stop();
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
-  EXPECT_TRUE(sent(EventKind::Finish));
+  EXPECT_TRUE(sent(LinkEvent::Kind::Finish));
   endEndpoint();
   (void)station_->close();
-  EXPECT_TRUE(noted("simulated with limp hands over this line (round trip 2.0 ms")) << "what was checked is in the log";
+  EXPECT_TRUE(noted("simulated with limp hands over this link (round trip 2.0 ms")) << "what was checked is in the log";
 }
 
-// The rod is stiffer than what the design was studied with: 100 ms are within what a line may take, and too much for it.
+// The rod is stiffer than what the design was studied with: 100 ms are within what a link may take, and too much for it.
 TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
   open(1, true, 2, "body-two-hands");
   showCard(2, false);
@@ -226,9 +241,9 @@ TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
       },
       5);
   EXPECT_FALSE(refused.begun);
-  EXPECT_TRUE(refused.problem.starts_with("no trial was armed: simulated with limp hands over this line (round trip 100.0 ms"))
+  EXPECT_TRUE(refused.problem.starts_with("no trial was armed: simulated with limp hands over this link (round trip 100.0 ms"))
       << refused.problem;
-  EXPECT_FALSE(sent(EventKind::Arm));
+  EXPECT_FALSE(sent(LinkEvent::Kind::Arm));
   EXPECT_FALSE(station_->isArming());
 }
 
@@ -236,24 +251,14 @@ TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
 TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
   open(2, false);
   showCard(1, true);
-  tell(1, EventKind::Arm, 1);
+  tell(1, LinkEvent::Kind::Arm, 1);
   EXPECT_TRUE(pollUntil(begun).begun);
-  std::jthread others([this](const std::stop_token& over) {
-    HeardState heard;
-    heard.trial = 1;
-    for (std::uint32_t sequence = 1; !over.stop_requested(); ++sequence) {
-      heard.roundTrip = 0.01 + 1e-5 * (sequence % 100);
-      heard.sample.sequence = sequence;
-      heard.sample.time = 1e-9 * static_cast<double>(os::now());
-      (void)memory().in[0].tryPush(heard);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  });
+  std::jthread other = sendFrom(1);
   (void)pollUntil(never, 0.3);
   endEndpoint();
   (void)station_->close();
-  others.request_stop();
-  others.join();
+  other.request_stop();
+  other.join();
   const record::RunLog log = record::RunLog::open(run_->logPath());
   EXPECT_GT(givenSamples(log).size(), 100u);
   const record::Replay replay = replayStation(log);
@@ -263,25 +268,70 @@ TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
 TEST_F(OneStation, TheConductorsOutcomeIsKeptBesideWhatTheCopyHereCameTo) {
   open(2, false);
   showCard(1, true);
-  tell(1, EventKind::Arm, 1);
+  tell(1, LinkEvent::Kind::Arm, 1);
   EXPECT_TRUE(pollUntil(begun).begun);
-  tell(1, EventKind::Interrupt, 1);
+  tell(1, LinkEvent::Kind::Interrupt, 1);
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.ended.has_value(); }).ended);
-  tell(1, EventKind::Ended, 1, trial::Outcome::Success);
+  tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Interrupted);
   const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; });
   ASSERT_EQ(told.words.size(), 2u);
-  EXPECT_EQ(told.words[1], "trial 1: success by the conductor's copy, which counts; aborted (experimenter) by the copy here");
+  EXPECT_EQ(told.words[1], "trial 1: interrupted by the conductor's copy, which counts; aborted (experimenter) by the copy here");
   endEndpoint();
   (void)station_->close();
-  EXPECT_TRUE(noted("trial 1: outcome success by the conductor, station 1; aborted (experimenter) here, where the copies were"));
+  EXPECT_TRUE(noted("trial 1: outcome interrupted by the conductor, station 1; aborted (experimenter) here, where the copies were"));
 }
 
-TEST_F(OneStation, StandingsSayHowGoodALineIs) {
-  using Light = StationStanding::Light;
+// The other stood still for a moment, which ended its trial, and goes on sending. Its word comes in mid-trial or after the end.
+TEST_F(OneStation, ATrialThatAnyStationBrokeOffIsBrokenOffForAll) {
+  open(2, false);
+  showCard(1, true);
+  tell(1, LinkEvent::Kind::Arm, 1);
+  EXPECT_TRUE(pollUntil(begun).begun);
+  const std::jthread other = sendFrom(1);
+  tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Interrupted);
+  const StationNews ended = pollUntil([](const StationNews& news) { return news.ended.has_value(); });
+  ASSERT_TRUE(ended.ended);
+  EXPECT_EQ(ended.ended->result.reason, trial::Reason::PeerLost);
+}
+
+TEST_F(OneStation, AWordThatComesAfterTheEndBreaksTheTrialOffForAll) {
+  open(2, false);
+  showCard(1, true);
+  tell(1, LinkEvent::Kind::Arm, 1);
+  EXPECT_TRUE(pollUntil(begun).begun);
+  tell(1, LinkEvent::Kind::Interrupt, 1);
+  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.ended.has_value(); }).ended);
+  tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Success);
+  const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; }, 0.5);
+  ASSERT_EQ(told.words.size(), 1u) << "the outcome is aborted at both";
+  endEndpoint();
+  (void)station_->close();
+  EXPECT_TRUE(noted("trial 1: outcome aborted (experimenter) by the one that broke it off, station 2; aborted (experimenter) here"));
+}
+
+TEST_F(OneStation, ALinkThatLosesMoreThanAFifthStandsInTheWay) {
+  using Light = StationStatus::Light;
+  open(1, true);
+  showCard(2, false);
+  LinkStatus& link = memory().status[1];
+  const auto status = [&](double loss, double overtaken) {
+    link.loss.store(loss), link.overtaken.store(overtaken);
+    hear(2, 0.002);
+    station_->keep();
+    return station_->link().statuses().at(0);
+  };
+  EXPECT_EQ(status(0, 0.76).light, Light::Good) << "what is overtaken is not lost";
+  EXPECT_EQ(status(0.11, 0).light, Light::Fair);
+  EXPECT_EQ(status(0.2, 0).obstacles, (std::vector<std::string>{}));
+  EXPECT_EQ(status(0.21, 0).obstacles, (std::vector<std::string>{"21 % of what it sends is lost; allowed: up to 20"}));
+}
+
+TEST_F(OneStation, StatusesSayHowGoodALineIs) {
+  using Light = StationStatus::Light;
   open(1, true);
   const auto now = [&] {
     station_->keep();
-    return station_->line().standings().at(0);
+    return station_->link().statuses().at(0);
   };
   EXPECT_EQ(now().light, Light::Absent);
   showCard(2, false);
@@ -302,14 +352,14 @@ TEST_F(OneStation, ACardThatDoesNotFitIsSaidWithBothSides) {
   const auto obstaclesOf = [&](const std::function<void(StationCard&)>& change) {
     StationCard card;
     card.station = 2;
-    card.version = LineMemory::kVersion;
+    card.version = LinkMemory::kVersion;
     card.experiment = hash_;
     std::strcpy(card.software.data(), "reachlab");
     change(card);
     EXPECT_TRUE(memory().cardsIn.tryPush(card));
     hear(2, 0.002);
     station_->keep();
-    return station_->line().standings().at(0).obstacles;
+    return station_->link().statuses().at(0).obstacles;
   };
   using Words = std::vector<std::string>;
   EXPECT_EQ(obstaclesOf([](StationCard&) {}), Words{});
@@ -323,14 +373,14 @@ TEST_F(OneStation, ACardThatDoesNotFitIsSaidWithBothSides) {
 }
 
 TEST_F(OneStation, GapsAndClocksThatJumpStandInTheWay) {
-  using Light = StationStanding::Light;
+  using Light = StationStatus::Light;
   open(1, true);
   showCard(2, false);
-  LineStatus& status = memory().status[1];
+  LinkStatus& status = memory().status[1];
   const auto standing = [&] {
     hear(2, 0.002);
     station_->keep();
-    return station_->line().standings().at(0);
+    return station_->link().statuses().at(0);
   };
   status.gap.store(0.026);
   EXPECT_EQ(standing().light, Light::Fair) << "more than half of what is allowed";
@@ -354,11 +404,11 @@ TEST_F(OneStation, HowAnEndpointEndedIsSaid) {
     StationOptions options;
     options.station = 1;
     options.endpoint = folder_ / "ends";
-    StationLine line(options, 1);
-    for (int look = 0; look < 500 && line.endpointFault().empty(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    EXPECT_FALSE(line.endpointAlive());
-    EXPECT_EQ(line.obstacles().at(0), line.endpointFault());
-    return line.endpointFault();
+    StationLink link(options, 1);
+    for (int look = 0; look < 500 && link.endpointFault().empty(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    EXPECT_FALSE(link.endpointAlive());
+    EXPECT_EQ(link.obstacles().at(0), link.endpointFault());
+    return link.endpointFault();
   };
   EXPECT_EQ(saysOf("exit 7"), "this station's endpoint has ended with exit code 7");
   EXPECT_EQ(saysOf("kill -TERM $$; sleep 5"), "this station's endpoint was ended by signal 15");

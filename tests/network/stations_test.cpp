@@ -17,14 +17,15 @@
 #include "base/math/seeded.h"
 #include "base/ticks.h"
 #include "constraints/constraint.h"
-#include "network/line/station_line.h"
+#include "network/link/station_replay.h"
+#include "network/link/station_sink.h"
 #include "network/merge/station_merge.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/recorder.h"
 #include "tests/record/made_run.h"
 #include "sim/haptics/tick_order.h"
 
-// Two whole stations, engine, sink, rings and log, on clocks of the test: the line between them is a function, so what is judged never
+// Two whole stations, engine, sink, rings and log, on clocks of the test: the link between them is a function, so what is judged never
 // depends on how busy the computer is.
 namespace reachlab::network {
 namespace {
@@ -36,7 +37,7 @@ constexpr std::int64_t kDelayNs = 10'000'000;
 class Station {
  public:
   Station(const experiment::CompiledExperiment& experiment, int own, bool conductor, std::int64_t clockNs, const std::string& path)
-      : memory_(std::make_unique<LineMemory>()), clockNs_(clockNs) {
+      : memory_(std::make_unique<LinkMemory>()), clockNs_(clockNs) {
     const haptics::EngineOptions options{{{.deviceMaxForce = 12, .virtualHand = true}}};
     engine_ = makeStationEngine(experiment, own, options, copy_);
     sink_ = std::make_unique<StationSink>(*memory_, *copy_, own);
@@ -54,7 +55,7 @@ class Station {
     experiment::Experiment recorded = experiment.experiment();
     recorded.hands.clear();
     c.table = record::makeChannelTable(recorded, 1);
-    for (const record::Channel& channel : lineChannels(own + 1, 2)) c.table.channels.push_back(channel);
+    for (const record::Channel& channel : linkChannels(own + 1, 2)) c.table.channels.push_back(channel);
     recorder_ = std::make_unique<record::Recorder>(path, c, record::RecorderOptions{.threaded = false, .further = sink_.get()});
     recorder_->note("station " + std::to_string(own + 1) + " of 2" + (conductor ? ", conductor" : "") + ", not encrypted");
     const auto& curve = experiment.constraint().curve;
@@ -87,13 +88,13 @@ class Station {
     recorder_.reset();
   }
   const haptics::TickState& state() const { return engine_->state(); }
-  LineMemory& memory() { return *memory_; }
-  const StationSink& sink() const { return *sink_; }
+  LinkMemory& memory() { return *memory_; }
+  StationSink& sink() { return *sink_; }
   std::int64_t clockNs() const { return clockNs_; }
   const CoupledCopy& copy() const { return *copy_; }
 
  private:
-  std::unique_ptr<LineMemory> memory_;
+  std::unique_ptr<LinkMemory> memory_;
   std::int64_t clockNs_;
   CoupledCopy* copy_ = nullptr;
   std::unique_ptr<haptics::TickEngine> engine_;
@@ -104,14 +105,14 @@ class Station {
   double moved_ = 0;  // [s] since the go signal
 };
 
-/// What the line does with a sample that is sent at a time: when it comes, once or several times; never where there is none.
-using Line = std::function<std::vector<std::int64_t>(std::int64_t sentNs)>;
+/// What the link does with a sample that is sent at a time: when it comes, once or several times; never where there is none.
+using Link = std::function<std::vector<std::int64_t>(std::int64_t sentNs)>;
 std::vector<std::int64_t> good(std::int64_t ns) { return {ns + kDelayNs}; }
 
 class StationsOnClocks : public testing::Test {
  protected:
   std::string logOf(int station) const { return folder_ / ("station" + std::to_string(station + 1) + ".reach"); }
-  void run(const Line& line, std::int64_t firstStops = -1) {
+  void run(const Link& link, std::int64_t firstStops = -1, const std::function<void(std::int64_t ns)>& meanwhile = {}) {
     stations_.clear();
     for (int i = 0; i < 2; ++i) {
       std::filesystem::remove(logOf(i));
@@ -123,6 +124,7 @@ class StationsOnClocks : public testing::Test {
     // The second station's ticks lie between the first's.
     for (std::int64_t ns = 1'000'000'000; (on[0] || on[1]) && ns < 9'000'000'000; ns += 500'000) {
       const std::size_t at = ns % 1'000'000 == 0 ? 0 : 1;
+      if (meanwhile) meanwhile(ns);
       Station& own = *stations_[at];
       Station& other = *stations_[1 - at];
       if (firstStops >= 0 && at == 0 && ns > firstStops) continue;
@@ -134,7 +136,7 @@ class StationsOnClocks : public testing::Test {
       on[at] = own.tick(ns) && on[at];
       OwnState sent;
       while (own.memory().out.tryPop(sent))
-        for (const std::int64_t arrives : line(ns)) under[1 - at].emplace(arrives, sent);
+        for (const std::int64_t arrives : link(ns)) under[1 - at].emplace(arrives, sent);
       if (firstStops >= 0 && !on[1]) break;
     }
     for (const auto& station : stations_) station->close();
@@ -173,7 +175,7 @@ class StationsOnClocks : public testing::Test {
   // Clocks that have nothing to do with each other.
   static constexpr std::array<std::int64_t, 2> kClocks{0, 7'654'321'000'000};
   static constexpr std::int64_t kMoving = 2'200'000'000;  // about the middle of the reach
-  static Line cutFor(std::int64_t ns) {
+  static Link cutFor(std::int64_t ns) {
     return [ns](std::int64_t sent) { return sent >= kMoving && sent < kMoving + ns ? std::vector<std::int64_t>{} : good(sent); };
   }
   const record::TemporaryFolder folder_{"stations-on-clocks"};
@@ -186,7 +188,7 @@ TEST_F(StationsOnClocks, TheyMoveTheObjectTogether) {
   run(good);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(resultOf(i).outcome, trial::Outcome::Success) << trial::nameOf(resultOf(i).reason);
-    const StationSink& sink = stations_[static_cast<std::size_t>(i)]->sink();
+    StationSink& sink = stations_[static_cast<std::size_t>(i)]->sink();
     EXPECT_LT(sink.mostApart(), 1e-3);
     EXPECT_EQ(sink.fadedTicks(), 0u);
     EXPECT_EQ(sink.repeated(), 0u);
@@ -210,7 +212,7 @@ TEST_F(StationsOnClocks, ALineCutFor90MillisecondsFadesRecoversAndIsMarked) {
     EXPECT_NE(resultOf(i).reason, trial::Reason::PeerLost);
     EXPECT_NEAR(static_cast<double>(stations_[static_cast<std::size_t>(i)]->sink().fadedTicks()), 40, 2);
     EXPECT_NEAR(stations_[static_cast<std::size_t>(i)]->sink().oldest(), 0.1, 2e-3);
-    EXPECT_EQ(stations_[static_cast<std::size_t>(i)]->copy().line(0).fade, 1);
+    EXPECT_EQ(stations_[static_cast<std::size_t>(i)]->copy().link(0).fade, 1);
   }
   expectReplays();
 }
@@ -231,6 +233,19 @@ TEST_F(StationsOnClocks, AStationThatIsGoneEndsTheOthersTrial) {
   run(good, kMoving);
   EXPECT_EQ(resultOf(1).reason, trial::Reason::PeerLost);
   EXPECT_LE(ticksUnheard(1), 150u);
+  expectNoForceAfterTheEnd(1);
+  expectReplays();
+}
+
+// A station that stood still for a moment has broken its trial off, though it goes on sending: the other hears of it and ends too.
+TEST_F(StationsOnClocks, ATrialThatOneBreaksOffIsOverForTheOther) {
+  run(good, -1, [&](std::int64_t ns) {
+    if (ns == 1'000'000'000) stations_[1]->sink().breakOff(1, 2);  // of another trial
+    if (ns == kMoving) stations_[1]->sink().breakOff(1, 1);
+  });
+  EXPECT_EQ(resultOf(1).outcome, trial::Outcome::Interrupted);
+  EXPECT_EQ(resultOf(1).reason, trial::Reason::PeerLost);
+  EXPECT_NEAR(static_cast<double>(resultOf(1).endTick), (kMoving - 1'000'000'000) / 1e6, 3);
   expectNoForceAfterTheEnd(1);
   expectReplays();
 }
@@ -340,7 +355,7 @@ TEST_F(StationsOnClocks, LogsThatAreOfNoOneRunAreRefused) {
 // The haptic thread moves the copy while the controlling thread reads what was given: it must not ask the copy anything meanwhile.
 TEST(StationSink, IsReadWhileTheCopyMoves) {
   const experiment::CompiledExperiment experiment{experiment::readExperiment("chain-two-hands")};
-  const auto memory = std::make_unique<LineMemory>();
+  const auto memory = std::make_unique<LinkMemory>();
   CoupledCopy* copy = nullptr;
   const auto engine = makeStationEngine(experiment, 0, {{{.deviceMaxForce = 12, .virtualHand = true}}}, copy);
   StationSink sink(*memory, *copy, 0);

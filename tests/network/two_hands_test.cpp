@@ -1,5 +1,5 @@
-// The study's simulation held against another one of the same two people, written from its description.
-#include "network/study/two_hands.h"
+// The simulation of two people held against another one of the same two people, written from its description.
+#include "network/link_check/two_hands.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <set>
-#include <string>
 #include <vector>
 
 #include "sim/experiment/experiment.h"
@@ -34,7 +32,7 @@ double meantBy(int h, double t) {
 struct Hand {
   double x = 0, v = 0, x0 = 0, v0 = 0, taken = 0;
   // A millisecond under a force that is held, in a hundred steps.
-  void advance(const StudyHand& arm, int h, double t, double force) {
+  void advance(const SimulatedArm& arm, int h, double t, double force) {
     x0 = x, v0 = v;
     const bool limp = t > 6.4999;
     for (int i = 0; i < 100; ++i) {
@@ -126,14 +124,14 @@ struct Way {
   std::function<double()> speedSquares;
 };
 
-Course courseOf(const StudySetup& setup, const Way& way) {
+Course courseOf(const TwoHandsSetup& setup, const Way& way) {
   Course course;
   std::array<Hand, 2> hands;
   std::array<double, 2> force{};
   double early = 0, late = 0;
   int earlyCount = 0, lateCount = 0;
   for (int k = 0; k < 13'000; ++k) {
-    for (int h = 0; h < 2; ++h) hands[static_cast<std::size_t>(h)].advance(setup.hand, h, 1e-3 * k, force[static_cast<std::size_t>(h)]);
+    for (int h = 0; h < 2; ++h) hands[static_cast<std::size_t>(h)].advance(setup.arm, h, 1e-3 * k, force[static_cast<std::size_t>(h)]);
     force = way.tick(hands);
     for (std::size_t h = 0; h < 2; ++h) course.force[h].push_back(force[h]);
     course.places.push_back({way.seen(0), way.seen(1)});
@@ -147,7 +145,7 @@ Course courseOf(const StudySetup& setup, const Way& way) {
 }
 
 // Both hands on one object.
-Course together(const StudySetup& setup) {
+Course together(const TwoHandsSetup& setup) {
   Masses object(setup.experiment, 1);
   return courseOf(setup, {[&](const std::array<Hand, 2>& hands) {
                             object.step({hands[0], hands[1]});
@@ -158,36 +156,28 @@ Course together(const StudySetup& setup) {
                           [&](int) { return object.x; }, [&] { return 2 * squaresOf(object.v); }});
 }
 
-// The object at the first station; the second hand's place comes there `delay` ticks late, what comes back as late again.
-Course overServer(const StudySetup& setup, std::size_t delay, bool sendsForce) {
-  Masses object(setup.experiment, 1);
-  struct Sent {
-    Hand hand;
-    Numbers x, v;
-    double force = 0;
-  };
-  std::vector<Sent> sent;
-  std::array<double, 2> force{};
-  Numbers seen = object.x, fast = object.v;
-  Hand before;
-  return courseOf(setup,
-                  {[&](const std::array<Hand, 2>& hands) {
-                     sent.emplace_back().hand = hands[1];
-                     Hand there = sent.size() > delay ? sent[sent.size() - 1 - delay].hand : Hand{};
-                     there.x0 = before.x, there.v0 = before.v;
-                     before = there;
-                     object.step({hands[0], there});
-                     sent.back().x = object.x, sent.back().v = object.v;
-                     sent.back().force = -object.forceOf(1, there.x, there.v, object.x, object.v);
-                     force[0] = -object.forceOf(0, hands[0].x, hands[0].v, object.x, object.v);
-                     if (sent.size() > delay) {
-                       const Sent& back = sent[sent.size() - 1 - delay];
-                       seen = back.x, fast = back.v;
-                       force[1] = sendsForce ? back.force : -object.forceOf(1, hands[1].x, hands[1].v, seen, fast);
-                     }
-                     return force;
-                   },
-                   [&](int station) { return station == 0 ? object.x : seen; }, [&] { return squaresOf(object.v) + squaresOf(fast); }});
+// A copy at each station, alone: the other hand comes `delay` ticks late and is moved on by its speed.
+Course overLink(const TwoHandsSetup& setup, std::size_t delay) {
+  std::array<Masses, 2> copies{Masses(setup.experiment, 1), Masses(setup.experiment, 1)};
+  std::vector<std::array<Hand, 2>> sent;
+  std::array<Hand, 2> guessed;
+  return courseOf(setup, {[&](const std::array<Hand, 2>& hands) {
+                            sent.push_back(hands);
+                            std::array<double, 2> force{};
+                            for (std::size_t h = 0; h < 2; ++h) {
+                              Hand& other = guessed[1 - h];
+                              other.x0 = other.x, other.v0 = other.v;
+                              if (sent.size() > delay) {
+                                const Hand& heard = sent[sent.size() - 1 - delay][1 - h];
+                                other.x = heard.x + 1e-3 * static_cast<double>(delay) * heard.v, other.v = heard.v;
+                              }
+                              copies[h].step(h == 0 ? std::vector{hands[0], other} : std::vector{other, hands[1]});
+                              force[h] = -copies[h].forceOf(h, hands[h].x, hands[h].v, copies[h].x, copies[h].v);
+                            }
+                            return force;
+                          },
+                          [&](int station) { return copies[static_cast<std::size_t>(station)].x; },
+                          [&] { return squaresOf(copies[0].v) + squaresOf(copies[1].v); }});
 }
 
 double rms(const std::function<double(std::size_t)>& difference) {
@@ -196,10 +186,10 @@ double rms(const std::function<double(std::size_t)>& difference) {
   return std::sqrt(sum / 6499);
 }
 
-StudySetup setupOf(StudyObject object) {
-  StudySetup setup;
-  setup.experiment = makeStudyExperiment(object, 400, 3, 1);
-  setup.hand = {.mass = 1.5, .stiffness = 250, .damping = 30, .limpStiffness = 25, .limpDamping = 4};
+TwoHandsSetup setupOf(SharedObject object) {
+  TwoHandsSetup setup;
+  setup.experiment = makeSharedExperiment(object, 400, 3, 1);
+  setup.arm = {.mass = 1.5, .stiffness = 250, .damping = 30, .limpStiffness = 25, .limpDamping = 4};
   setup.jitterShare = 0;
   setup.loss = 0;
   return setup;
@@ -222,11 +212,11 @@ double apartOf(const Course& course) {
   });
 }
 
-TEST(TwoHandsStudy, ItsReferenceIsTheMotionThatItDescribes) {
-  for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel}) {
-    const StudySetup setup = setupOf(object);
+TEST(TwoHands, TheirReferenceIsTheMotionThatIsDescribed) {
+  for (const SharedObject object : kSharedObjects) {
+    const TwoHandsSetup setup = setupOf(object);
     const Course expected = together(setup);
-    const StudyReference reference = makeReference(setup);
+    const TwoHandsReference reference = makeReference(setup);
     const double size = rms([&](std::size_t k) { return (std::pow(expected.force[0][k], 2) + std::pow(expected.force[1][k], 2)) / 2; });
     ASSERT_GT(size, 1);
     EXPECT_NEAR(reference.rms, size, 2e-3 * size);
@@ -238,117 +228,80 @@ TEST(TwoHandsStudy, ItsReferenceIsTheMotionThatItDescribes) {
   }
 }
 
-TEST(TwoHandsStudy, WithoutALineTheServerIsTheReference) {
-  const StudySetup setup = setupOf(StudyObject::Chain);
-  const StudyReference reference = makeReference(setup);
-  for (const Coupling coupling : {Coupling::ServerForce, Coupling::ServerPlace}) {
-    const StudyOutcome outcome = runTwoHands(setup, coupling, {}, reference);
-    EXPECT_TRUE(outcome.stable);
-    EXPECT_EQ(outcome.apart, 0);
-    EXPECT_NEAR(outcome.forceError, 0, 1e-9);
-    EXPECT_NEAR(outcome.growth, reference.growth, 1e-9);
-    EXPECT_EQ(outcome.force, reference.rms);
-    EXPECT_EQ(outcome.ledgerWorst, 0) << "there is no ledger";
+TEST(TwoHands, OverALinkEachCopyHearsTheOtherHandLate) {
+  constexpr std::size_t kLate = 20;  // ticks
+  for (const SharedObject object : kSharedObjects) {
+    SCOPED_TRACE(testing::Message() << nameOf(object));
+    TwoHandsSetup setup = setupOf(object);
+    const Course reference = together(setup), expected = overLink(setup, kLate);
+    const TwoHandsReference without = makeReference(setup);
+    setup.roundTrip = 2e-3 * kLate;
+    setup.jitterShare = -0.025;  // takes off what the link adds to every delay: half a millisecond either way
+    CopySettings alone;
+    alone.frequency = 0, alone.ledger = false;
+    const TwoHandsOutcome outcome = runTwoHands(setup, alone, without);
+    ASSERT_GT(apartOf(expected), 1e-5);
+    EXPECT_NEAR(outcome.apart, apartOf(expected), 0.03 * apartOf(expected));
+    EXPECT_NEAR(outcome.forceError, forceErrorOf(expected, reference), 0.03 * forceErrorOf(expected, reference));
+    EXPECT_NEAR(outcome.given, expected.given, 0.02 * std::abs(expected.given) + 1e-3);
+    EXPECT_NEAR(outcome.growth, expected.growth, 0.05 * expected.growth);
+    EXPECT_EQ(outcome.force, without.rms);
   }
 }
 
-TEST(TwoHandsStudy, OverALineTheServerHearsAndIsHeardLate) {
-  for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel})
-    for (const bool sendsForce : {true, false}) {
-      SCOPED_TRACE(testing::Message() << nameOf(sendsForce ? Coupling::ServerForce : Coupling::ServerPlace));
-      StudySetup setup = setupOf(object);
-      const Course reference = together(setup), expected = overServer(setup, 2, sendsForce);
-      const StudyReference without = makeReference(setup);
-      setup.roundTrip = 0.004;
-      setup.jitterShare = -0.25;  // takes off what the line adds to every delay: half a millisecond either way
-      const StudyOutcome outcome = runTwoHands(setup, sendsForce ? Coupling::ServerForce : Coupling::ServerPlace, {}, without);
-      EXPECT_NEAR(outcome.apart, apartOf(expected), 0.02 * apartOf(expected));
-      EXPECT_NEAR(outcome.forceError, forceErrorOf(expected, reference), 0.03 * forceErrorOf(expected, reference));
-      EXPECT_NEAR(outcome.given, expected.given, 0.02 * std::abs(expected.given) + 1e-3);
-      EXPECT_NEAR(outcome.growth, expected.growth, 0.05 * expected.growth);
-    }
-}
-
-TEST(TwoHandsStudy, AHandThatIsThrownEndsARunThatIsNotStable) {
-  StudySetup setup = setupOf(StudyObject::Chain);
-  const StudyReference reference = makeReference(setup);
+// Dead reckoning alone lets a chain ring up over 100 ms, and a stiff one throws the hands over 200 ms.
+TEST(TwoHands, WithoutSynchronisationAChainIsNotStable) {
+  TwoHandsSetup setup;
+  setup.experiment = makeSharedExperiment(SharedObject::Chain);
+  setup.roundTrip = 0.1;
+  const TwoHandsReference reference = makeReference(setup);
+  CopySettings alone;
+  alone.frequency = 0, alone.ledger = false;
+  EXPECT_FALSE(runTwoHands(setup, alone, reference).stable);
+  EXPECT_TRUE(runTwoHands(setup, copySettingsFor(setup.experiment), reference).stable);
+  setup.experiment = makeSharedExperiment(SharedObject::Chain, 2000);
   setup.roundTrip = 0.2;
-  setup.experiment = makeStudyExperiment(StudyObject::Chain, 2000, 0, 0);
-  const StudyOutcome outcome = runTwoHands(setup, Coupling::ServerForce, {}, reference);
-  EXPECT_FALSE(outcome.stable);
-  EXPECT_TRUE(std::isinf(outcome.growth));
+  const TwoHandsOutcome thrown = runTwoHands(setup, alone, reference);
+  EXPECT_FALSE(thrown.stable);
+  EXPECT_TRUE(std::isinf(thrown.growth));
 }
 
-TEST(TwoHandsStudy, EveryWayOfCouplingHasANameAndAPhraseOfItsOwn) {
-  std::set<std::string> names, phrases;
-  for (const Coupling coupling : kCouplings) {
-    names.emplace(nameOf(coupling));
-    phrases.emplace(describe(coupling));
-  }
-  EXPECT_EQ(names, (std::set<std::string>{"server-force", "server-place", "copies-held", "copies-guessed", "design", "half-delayed",
-                                          "half-projected", "half-waves"}));
-  EXPECT_EQ(phrases.size(), kCouplings.size());
-}
-
-TEST(TwoHandsStudy, ItsObjectsAndHandsAreThoseOfTheDesign) {
-  const experiment::Experiment chain = makeStudyExperiment(StudyObject::Chain), parallel = makeStudyExperiment(StudyObject::Parallel);
-  EXPECT_EQ(chain.object.masses, Numbers(5, 0.6));
-  EXPECT_EQ(chain.object.stiffness, Numbers(4, 600));
-  EXPECT_EQ(chain.object.damping, Numbers(4, 0));
-  EXPECT_EQ(chain.hands[0].mass, 1);
-  EXPECT_EQ(chain.hands[1].mass, 5);
-  for (const experiment::Hand& hand : chain.hands) EXPECT_EQ(hand.stiffness, Numbers{600});
-  EXPECT_EQ(parallel.object.masses, Numbers(2, 3));
-  EXPECT_EQ(parallel.hands[0].stiffness, (Numbers{50, 250}));
-  EXPECT_EQ(parallel.hands[1].stiffness, (Numbers{250, 50}));
-  for (const experiment::Experiment* e : {&chain, &parallel}) EXPECT_NEAR(e->task->target[0] - e->task->start[0], 0.2, 1e-12);
-  const StudyHand hand;
-  EXPECT_EQ(hand.mass, 1);
-  EXPECT_EQ(hand.stiffness, 300);
-  EXPECT_EQ(hand.damping, 20);
-  EXPECT_EQ(hand.limpStiffness, 20);
-  EXPECT_EQ(hand.limpDamping, 5);
-  const StudySetup setup;
-  EXPECT_EQ(setup.jitterShare, 0.1);
-  EXPECT_EQ(setup.loss, 0.05);
-  EXPECT_EQ(kMostGiven, 0.3);
-  EXPECT_EQ(kLedgerAmount, 0.05);
-}
-
-TEST(RandomSetups, ArePeopleFromTheirRangesEachOnItsOwn) {
-  const auto spread = [](const std::function<double(const StudySetup&)>& of, StudyObject object) {
-    double least = 1e9, most = -1e9;
-    for (int i = 0; i < 300; ++i) {
-      const double value = of(makeRandomSetup(object, 1, i));
-      least = std::min(least, value), most = std::max(most, value);
-    }
-    return std::pair{least, most};
-  };
+TEST(RandomSetups, ArePeopleAndCouplingsFromTheirRangesEachOnItsOwn) {
   struct Range {
-    std::function<double(const StudySetup&)> of;
+    SharedObject object;
+    std::function<double(const TwoHandsSetup&)> of;
     double least, most;
   };
-  for (const Range& r : {Range{[](const StudySetup& s) { return s.hand.stiffness; }, 100, 600},
-                         Range{[](const StudySetup& s) { return s.hand.damping; }, 5, 40},
-                         Range{[](const StudySetup& s) { return s.hand.limpStiffness; }, 0, 60},
-                         Range{[](const StudySetup& s) { return s.hand.limpDamping; }, 3, 10},
-                         Range{[](const StudySetup& s) { return s.hand.mass; }, 0.5, 2}})
-    for (const StudyObject object : {StudyObject::Chain, StudyObject::Parallel}) {
-      const auto [least, most] = spread(r.of, object);
-      const double slack = 0.03 * (r.most - r.least);
-      EXPECT_GE(least, r.least);
-      EXPECT_LE(least, r.least + slack);
-      EXPECT_LE(most, r.most);
-      EXPECT_GE(most, r.most - slack);
+  std::vector<Range> ranges;
+  for (const SharedObject object : kSharedObjects)
+    for (const Range& r : {Range{object, [](const TwoHandsSetup& s) { return s.arm.stiffness; }, 100, 600},
+                           Range{object, [](const TwoHandsSetup& s) { return s.arm.damping; }, 5, 40},
+                           Range{object, [](const TwoHandsSetup& s) { return s.arm.limpStiffness; }, 0, 60},
+                           Range{object, [](const TwoHandsSetup& s) { return s.arm.limpDamping; }, 3, 10},
+                           Range{object, [](const TwoHandsSetup& s) { return s.arm.mass; }, 0.5, 2}})
+      ranges.push_back(r);
+  ranges.push_back({SharedObject::Chain, [](const TwoHandsSetup& s) { return s.experiment.coupling->stiffness; }, 200, 600});
+  ranges.push_back({SharedObject::Chain, [](const TwoHandsSetup& s) { return s.experiment.coupling->damping; }, 0, 5});
+  ranges.push_back({SharedObject::Parallel, [](const TwoHandsSetup& s) { return s.experiment.object.damping[0]; }, 0, 2.5});
+  for (const Range& r : ranges) {
+    double least = 1e9, most = -1e9;
+    for (int i = 0; i < 300; ++i) {
+      const double value = r.of(makeRandomSetup(r.object, 1, i));
+      least = std::min(least, value), most = std::max(most, value);
     }
+    const double slack = 0.03 * (r.most - r.least);
+    EXPECT_GE(least, r.least);
+    EXPECT_LE(least, r.least + slack);
+    EXPECT_LE(most, r.most);
+    EXPECT_GE(most, r.most - slack);
+  }
   for (int i = 0; i < 6; ++i) {
-    const StudySetup chain = makeRandomSetup(StudyObject::Chain, 1, i);
+    const TwoHandsSetup chain = makeRandomSetup(SharedObject::Chain, 1, i);
     EXPECT_EQ(chain.experiment.object.damping, Numbers(4, i % 3 == 0 ? 1 : 0)) << "every third damps its own springs";
     EXPECT_EQ(chain.experiment.coupling->damping > 0, i % 2 == 1);
-    EXPECT_EQ(chain.seed, 100u + static_cast<unsigned>(i));
-    EXPECT_NE(chain.hand.mass, makeRandomSetup(StudyObject::Parallel, 1, i).hand.mass);
-    EXPECT_NE(chain.hand.mass, makeRandomSetup(StudyObject::Chain, 2, i).hand.mass);
-    EXPECT_EQ(chain.hand.mass, makeRandomSetup(StudyObject::Chain, 1, i).hand.mass);
+    EXPECT_NE(chain.arm.mass, makeRandomSetup(SharedObject::Parallel, 1, i).arm.mass);
+    EXPECT_NE(chain.arm.mass, makeRandomSetup(SharedObject::Chain, 2, i).arm.mass);
+    EXPECT_EQ(chain.arm.mass, makeRandomSetup(SharedObject::Chain, 1, i).arm.mass);
   }
 }
 

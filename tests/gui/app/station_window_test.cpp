@@ -24,11 +24,11 @@ class StationWindow : public AtTheWindow {
     request_.what = "chain-two-hands";
     request_.device = "simulated";
     network::StationSetup setup;
-    setup.line.station = number;
-    setup.line.conductor = conductor;
-    setup.line.name = "here";
-    setup.line.software = "reachlab";
-    setup.line.endpoint = endpoint.toStdString();
+    setup.link.station = number;
+    setup.link.conductor = conductor;
+    setup.link.name = "here";
+    setup.link.software = "reachlab";
+    setup.link.endpoint = endpoint.toStdString();
     setup.wait = 1;
     setup.insecure = true;
     window_ = std::make_unique<MainWindow>(request_, setup);
@@ -70,17 +70,17 @@ TEST_F(StationWindow, AFollowersWaitsForTheConductor) {
   EXPECT_EQ(window.overlay().instruction, QStringLiteral("The conductor begins the next trial"));
 }
 
-TEST_F(StationWindow, OneThatLooksOnHasNoHandAndRecordsNothing) {
+TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {
   MainWindow& window = openStation(0, false);
   EXPECT_EQ(window.session().run(), nullptr);
   EXPECT_EQ(window.session().seen(), nullptr) << "nothing has come";
   QTest::keyClick(&window, Qt::Key_Space);
   QTest::qWait(100);
   EXPECT_EQ(window.session().run(), nullptr);
-  EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("looking on")));
+  EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("observing")));
   auto* dock = window.findChild<docks::StationsDock*>();
   ASSERT_NE(dock, nullptr);
-  EXPECT_TRUE(dock->sentence().startsWith(QStringLiteral("Looking on"))) << dock->sentence().toStdString();
+  EXPECT_TRUE(dock->sentence().startsWith(QStringLiteral("Observing"))) << dock->sentence().toStdString();
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2) << "both stations, and no row of its own";
   EXPECT_FALSE(QFile::exists(QString::fromStdString(request_.place.data)));
 }

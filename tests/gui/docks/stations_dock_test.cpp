@@ -9,20 +9,20 @@ namespace {
 
 network::StationSetup conductor() {
   network::StationSetup here;
-  here.line.station = 1;
-  here.line.stations = 2;
-  here.line.conductor = true;
-  here.line.name = "left";
+  here.link.station = 1;
+  here.link.stations = 2;
+  here.link.conductor = true;
+  here.link.name = "left";
   return here;
 }
 
-network::StationStanding other() {
-  network::StationStanding s;
+network::StationStatus other() {
+  network::StationStatus s;
   s.station = 2;
   s.name = "right", s.device = "phantom", s.software = "reachlab 1";
-  s.light = network::StationStanding::Light::Good;
+  s.light = network::StationStatus::Light::Good;
   s.heard = true;
-  s.roundTrip = 0.0314, s.jitter = 0.002, s.loss = 0.015, s.offset = -0.0025, s.age = 0.004;
+  s.roundTrip = 0.0314, s.jitter = 0.002, s.loss = 0.015, s.overtaken = 0.25, s.offset = -0.0025, s.age = 0.004;
   return s;
 }
 
@@ -30,26 +30,26 @@ QString cell(const StationsDock& dock, int row, int column) {
   return dock.findChild<QTableWidget*>(QStringLiteral("stations"))->item(row, column)->text();
 }
 
-TEST(StationsDock, TellsEachStationsLineInNumbersAndItsLightWithoutColour) {
+TEST(StationsDock, TellsEachStationsLinkInNumbersAndItsLightWithoutColour) {
   StationsDock dock;
   dock.showStations(conductor(), StationsDock::Stage::BetweenTrials, {other()});
   EXPECT_EQ(cell(dock, 0, 2), QStringLiteral("left (here, conductor)"));
   EXPECT_EQ(cell(dock, 1, 0), QStringLiteral("● good"));
-  const QStringList numbers{cell(dock, 1, 3), cell(dock, 1, 4), cell(dock, 1, 5), cell(dock, 1, 6), cell(dock, 1, 7)};
-  EXPECT_EQ(numbers, (QStringList{"31.4", "2.0", "1.5", "-2.500", "4"})) << "ms, ms, %, ms, ms";
+  const QStringList numbers{cell(dock, 1, 3), cell(dock, 1, 4), cell(dock, 1, 5), cell(dock, 1, 6), cell(dock, 1, 7), cell(dock, 1, 8)};
+  EXPECT_EQ(numbers, (QStringList{"31.4", "2.0", "1.5", "25.0", "-2.500", "4"})) << "ms, ms, % lost, % overtaken, ms, ms";
   EXPECT_TRUE(dock.sentence().contains(QStringLiteral("Space arms"))) << dock.sentence().toStdString();
 }
 
 TEST(StationsDock, SaysWhyNothingIsArmedAndShowsNoNumberThatIsNotKnown) {
   StationsDock dock;
-  network::StationStanding slow = other();
-  slow.light = network::StationStanding::Light::Stop;
+  network::StationStatus slow = other();
+  slow.light = network::StationStatus::Light::Stop;
   slow.obstacles = {"a round trip takes 200 ms; allowed: up to 120"};
   dock.showStations(conductor(), StationsDock::Stage::Arming, {slow});
   EXPECT_EQ(cell(dock, 1, 0), QStringLiteral("■ stop"));
   EXPECT_TRUE(dock.sentence().contains(QStringLiteral("Not armed: station 2: a round trip takes 200 ms; allowed: up to 120")))
       << dock.sentence().toStdString();
-  network::StationStanding absent;
+  network::StationStatus absent;
   absent.station = 2;
   absent.obstacles = {"is not there"};
   dock.showStations(conductor(), StationsDock::Stage::BetweenTrials, {absent});

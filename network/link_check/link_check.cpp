@@ -1,4 +1,4 @@
-#include "network/study/line_check.h"
+#include "network/link_check/link_check.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 #include "base/ticks.h"
 #include "constraints/constraint.h"
-#include "network/study/copies_over_lines.h"
-#include "network/study/growth.h"
-#include "network/study/two_hands.h"
+#include "network/link_check/copies_over_links.h"
+#include "network/link_check/growth.h"
+#include "network/link_check/two_hands.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::network {
@@ -29,12 +29,12 @@ struct LimpHand {
   Vec3 home, x, v, beforeX, beforeV;
 
   void advance(const Vec3& force) {
-    constexpr StudyHand kHand;
+    constexpr SimulatedArm kArm;
     constexpr double kStep = kTickSeconds / kSubsteps;
     beforeX = x, beforeV = v;
     for (int i = 0; i < kSubsteps; ++i) {
       const Vec3 was = v;
-      v += kStep / kHand.mass * (kHand.limpStiffness * (home - x) - kHand.limpDamping * v + force);
+      v += kStep / kArm.mass * (kArm.limpStiffness * (home - x) - kArm.limpDamping * v + force);
       x += 0.5 * kStep * (was + v);
     }
   }
@@ -108,12 +108,12 @@ double growthAlone(const experiment::Experiment& experiment, const constraints::
 }
 
 double growthOver(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const std::vector<LimpHand>& hands,
-                  const MeasuredLine& line, const CopySettings& settings, const std::stop_token& stop) {
+                  const MeasuredLink& link, const CopySettings& settings, const std::stop_token& stop) {
   // Uniform jitter either way makes this standard deviation of the round trip.
-  const LineConditions conditions{line.roundTrip / 2, std::sqrt(1.5) * line.jitter, line.loss};
+  const LinkConditions conditions{link.roundTrip / 2, std::sqrt(1.5) * link.jitter, link.loss};
   double worst = 0;
   for (const std::uint64_t seed : kSeeds) {
-    CopiesOverLines copies(experiment, constraint, experiment.task->start, settings, conditions, line.roundTrip, seed);
+    CopiesOverLinks copies(experiment, constraint, experiment.task->start, settings, conditions, link.roundTrip, seed);
     worst = std::max(worst, letBe(
                                 hands, stop,
                                 [&](const auto& segments, const auto& samples, double t) {
@@ -127,31 +127,31 @@ double growthOver(const experiment::Experiment& experiment, const constraints::C
 
 }  // namespace
 
-MeasuredLine MeasuredLine::worse(const MeasuredLine& a, const MeasuredLine& b) {
+MeasuredLink MeasuredLink::worse(const MeasuredLink& a, const MeasuredLink& b) {
   return {std::max(a.roundTrip, b.roundTrip), std::max(a.jitter, b.jitter), std::max(a.loss, b.loss)};
 }
 
-LineCheck checkLine(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const MeasuredLine& line,
+LinkCheck checkLink(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const MeasuredLink& link,
                     const CopySettings& settings, const std::stop_token& stop) {
   const std::vector<LimpHand> hands = pushedHands(experiment, constraint);
   const double alone = growthAlone(experiment, constraint, hands, stop);
-  const double most = std::min(kMostFrequency, synchronisationLimit(settings, line.roundTrip));
-  LineCheck check;
+  const double most = std::min(kMostFrequency, synchronisationLimit(settings, link.roundTrip));
+  LinkCheck check;
   CopySettings tried = settings;
   while (true) {
     check.frequency = tried.frequency;
-    check.growth = growthOver(experiment, constraint, hands, line, tried, stop);
+    check.growth = growthOver(experiment, constraint, hands, link, tried, stop);
     check.stable = Growth::isStable(check.growth, alone);
     if (check.stable || tried.frequency >= most || stop.stop_requested()) break;
     tried.frequency = std::min(most, tried.frequency + kFrequencyStep);
   }
   const std::string over =
-      fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * line.roundTrip, 1e3 * line.jitter, 100 * line.loss);
+      fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * link.roundTrip, 1e3 * link.jitter, 100 * link.loss);
   const bool ended = !check.stable && stop.stop_requested();
   const std::string how = ended                         ? "ended before it was known"
                           : std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth)
                                                         : "thrown out of the hands";
-  check.sentence = fmt::format("simulated with limp hands over this line ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
+  check.sentence = fmt::format("simulated with limp hands over this link ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
                                check.stable ? "comes to rest"
                                : ended      ? "may come to rest or not"
                                             : "does not come to rest",
@@ -159,8 +159,8 @@ LineCheck checkLine(const experiment::Experiment& experiment, const constraints:
   return check;
 }
 
-LineCheck checkLine(const experiment::Experiment& experiment, const MeasuredLine& line, const std::stop_token& stop) {
-  return checkLine(experiment, constraints::makeConstraint(experiment.constraint), line, copySettingsFor(experiment), stop);
+LinkCheck checkLink(const experiment::Experiment& experiment, const MeasuredLink& link, const std::stop_token& stop) {
+  return checkLink(experiment, constraints::makeConstraint(experiment.constraint), link, copySettingsFor(experiment), stop);
 }
 
 }  // namespace reachlab::network

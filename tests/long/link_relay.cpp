@@ -1,6 +1,6 @@
-// Joins two network interfaces as a line with delay, jitter and loss: line_relay IFACE IFACE DELAY_MS JITTER_MS LOSS_PERCENT [SEED]
-//   or has an interface fill in checksums itself, as no card does on a virtual one: line_relay checksums IFACE
-// On standard input, a line each, while it runs: "line DELAY_MS JITTER_MS LOSS_PERCENT" is another line from now on; "cut MS" drops everything
+// Joins two network interfaces as a link with delay, jitter and loss: link_relay IFACE IFACE DELAY_MS JITTER_MS LOSS_PERCENT [SEED]
+//   or has an interface fill in checksums itself, as no card does on a virtual one: link_relay checksums IFACE
+// On standard input, a line each, while it runs: "link DELAY_MS JITTER_MS LOSS_PERCENT" is another link from now on; "cut MS" drops everything
 // for so long; "twice PERCENT" sends so many frames twice; "again" sends the last 4,000 frames once more.
 // Raw Ethernet, seeded; address resolution goes through at once. Needs CAP_NET_RAW.
 #include <arpa/inet.h>
@@ -78,7 +78,7 @@ struct Orders {
         continue;
       }
       double number = 0, more = 0, percent = 0;
-      if (std::sscanf(line_.c_str(), "line %lf %lf %lf", &number, &more, &percent) == 3)
+      if (std::sscanf(line_.c_str(), "link %lf %lf %lf", &number, &more, &percent) == 3)
         delay = number, jitter = more, loss = percent / 100;
       if (std::sscanf(line_.c_str(), "cut %lf", &number) == 1)
         cutUntil = Clock::now() + std::chrono::microseconds(static_cast<long>(1e3 * number));
@@ -109,7 +109,7 @@ int fillChecksums(const char* name) {
 int main(int argc, char** argv) {
   if (argc == 3 && std::strcmp(argv[1], "checksums") == 0) return fillChecksums(argv[2]);
   if (argc < 6) {
-    std::fprintf(stderr, "line_relay IFACE IFACE DELAY_MS JITTER_MS LOSS_PERCENT [SEED]\n");
+    std::fprintf(stderr, "link_relay IFACE IFACE DELAY_MS JITTER_MS LOSS_PERCENT [SEED]\n");
     return 2;
   }
   ::prctl(PR_SET_TIMERSLACK, 1UL);

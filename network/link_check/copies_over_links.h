@@ -4,17 +4,17 @@
 #include <vector>
 
 #include "network/coupled_copy.h"
-#include "network/simulated_line.h"
+#include "network/link_check/simulated_link.h"
 
 namespace reachlab::network {
 
-/// One object's copies at its stations, joined by simulated lines, under a clock of the caller's: what the study and the check before a block
+/// One object's copies at its stations, joined by simulated links, under a clock of the caller's: what the study and the check before a block
 /// are made of.
-class CopiesOverLines {
+class CopiesOverLinks {
  public:
-  /// Every line like every other; at rest at `start`, in coordinates of the constraint.
-  CopiesOverLines(const experiment::Experiment& experiment, const constraints::Constraint& constraint, std::span<const double> start,
-                  const CopySettings& settings, const LineConditions& line, double roundTrip, std::uint64_t seed);
+  /// Every link like every other; at rest at `start`, in coordinates of the constraint.
+  CopiesOverLinks(const experiment::Experiment& experiment, const constraints::Constraint& constraint, std::span<const double> start,
+                  const CopySettings& settings, const LinkConditions& link, double roundTrip, std::uint64_t seed);
 
   /// One tick that ends at `now` [s]: where each hand goes in it, and where it is then.
   void tick(std::span<const dynamics::HandSegment> hands, std::span<const dynamics::HandSample> ends, double now);
@@ -27,11 +27,11 @@ class CopiesOverLines {
   double aboveLedger() const;
 
  private:
-  SimulatedLine<CopySample>& line(std::size_t from, std::size_t to);
+  SimulatedLink<CopySample>& link(std::size_t from, std::size_t to);
 
   double roundTrip_;
   std::vector<std::unique_ptr<CoupledCopy>> copies_;
-  std::vector<SimulatedLine<CopySample>> lines_;  // by receiver, then by peer of its copy
+  std::vector<SimulatedLink<CopySample>> links_;  // by receiver, then by peer of its copy
   std::vector<CopySample> samples_;
 };
 

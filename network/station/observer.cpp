@@ -1,4 +1,4 @@
-#include "network/station/looker_on.h"
+#include "network/station/observer.h"
 
 #include <fmt/format.h>
 
@@ -10,52 +10,52 @@ namespace {
 
 double now() { return static_cast<double>(os::now()) * 1e-9; }
 
-StationSetup lookingOn(StationSetup setup, const experiment::Experiment& experiment) {
-  setup.line.station = 0;
-  setup.line.stations = static_cast<int>(experiment.hands.size());
+StationSetup observing(StationSetup setup, const experiment::Experiment& experiment) {
+  setup.link.station = 0;
+  setup.link.stations = static_cast<int>(experiment.hands.size());
   return setup;
 }
 
 }  // namespace
 
-LookerOn::LookerOn(const StationSetup& setup, const experiment::CompiledExperiment& experiment)
-    : setup_(lookingOn(setup, experiment.experiment())),
+Observer::Observer(const StationSetup& setup, const experiment::CompiledExperiment& experiment)
+    : setup_(observing(setup, experiment.experiment())),
       plant_(dynamics::makeSharedPlant(experiment.experiment(), experiment.constraint())),
-      line_(std::make_unique<StationLine>(setup_.line, sharedHash(experiment.experiment()))),
+      link_(std::make_unique<StationLink>(setup_.link, sharedHash(experiment.experiment()))),
       state_(std::make_unique<haptics::TickState>()), begun_(now()) {}
 
-LookerNews LookerOn::poll() {
-  LookerNews news;
-  line_->look();
+ObserverNews Observer::poll() {
+  ObserverNews news;
+  link_->look();
   take(news);
   if (shown_ >= 0) show();
   if (told_) return news;
-  news.problem = line_->endpointFault();
+  news.problem = link_->endpointFault();
   if (news.problem.empty() && first_ < 0 && now() - begun_ > setup_.wait)
     news.problem = fmt::format("no station was heard within {:.0f} s", setup_.wait);
   told_ = !news.problem.empty();
   return news;
 }
 
-void LookerOn::take(LookerNews& news) {
-  LineMemory& memory = line_->memory();
-  for (int i = 0; i < setup_.line.stations; ++i) {
+void Observer::take(ObserverNews& news) {
+  LinkMemory& memory = link_->memory();
+  for (int i = 0; i < setup_.link.stations; ++i) {
     const auto index = static_cast<std::size_t>(i);
     while (memory.in[index].tryPop(newest_[index])) {}
     if (!isHeard(i)) continue;
     if (first_ < 0) first_ = i;
-    if (shown_ < 0 || line_->isConductor(static_cast<std::uint32_t>(i + 1)).value_or(false)) shown_ = i;
+    if (shown_ < 0 || link_->isConductor(static_cast<std::uint32_t>(i + 1)).value_or(false)) shown_ = i;
     hands_.place[index] = newest_[index].sample.hand;
     hands_.known[index] = i > 0;
   }
-  LineEvent event;
+  LinkEvent event;
   while (memory.eventsIn.tryPop(event)) {
-    if (event.kind == EventKind::Finish) news.finished = true;
-    if (event.kind == EventKind::Ended) news.ended.push_back(event);
+    if (event.kind == LinkEvent::Kind::Finish) news.finished = true;
+    if (event.kind == LinkEvent::Kind::Ended) news.ended.push_back(event);
   }
 }
 
-void LookerOn::show() {
+void Observer::show() {
   const HeardState& heard = newest_[static_cast<std::size_t>(shown_)];
   plant_->show({heard.sample.places.data(), static_cast<std::size_t>(plant_->placeCount())},
                {heard.sample.rates.data(), static_cast<std::size_t>(plant_->rateCount())});
@@ -71,18 +71,18 @@ void LookerOn::show() {
   state.body = plant_->body();
 }
 
-double LookerOn::apart(int station) const {
+double Observer::apart(int station) const {
   if (first_ < 0 || !isHeard(station)) return 0;
   const auto count = static_cast<std::size_t>(plant_->placeCount());
   return plant_->distanceBetween({newest_[static_cast<std::size_t>(first_)].sample.places.data(), count},
                                  {newest_[static_cast<std::size_t>(station)].sample.places.data(), count});
 }
 
-std::string describeNewest(const LookerOn& looker, double now) {
+std::string describeNewest(const Observer& observer, double now) {
   constexpr std::array kPhases{"idle", "waiting", "armed", "moving", "done"};
   std::string text;
   int station = -1;
-  for (const HeardState& state : looker.newest()) {
+  for (const HeardState& state : observer.newest()) {
     ++station;
     const CopySample& sample = state.sample;
     if (sample.sequence == 0) continue;
@@ -90,7 +90,7 @@ std::string describeNewest(const LookerOn& looker, double now) {
     text += fmt::format("station={} trial={} phase={} age_s={:.3f} hand_m={:.5f},{:.5f},{:.5f} work_j={:.5f}", station + 1, state.trial,
                         state.phase < kPhases.size() ? kPhases[state.phase] : "unknown", now - sample.time, sample.hand.x, sample.hand.y,
                         sample.hand.z, sample.work);
-    if (!first) text += fmt::format(" apart_m={:.6f}", looker.apart(station));
+    if (!first) text += fmt::format(" apart_m={:.6f}", observer.apart(station));
     text += '\n';
   }
   return text;

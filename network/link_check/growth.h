@@ -16,7 +16,7 @@ class Growth {
     constexpr double kStill = 1e-12;  // [m^2/s^2]
     return std::sqrt(late_ / std::max(1, lateCount_) / (early_ / std::max(1, earlyCount_) + kStill));
   }
-  /// An object that hardly comes to rest by itself may ring as long over a line.
+  /// An object that hardly comes to rest by itself may ring as long over a link.
   static bool isStable(double ratio, double alone) {
     constexpr double kMost = 1.05, kLikeAlone = 1.3;
     return std::isfinite(ratio) && (ratio < kMost || ratio < kLikeAlone * alone);

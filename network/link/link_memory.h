@@ -28,15 +28,15 @@ struct HeardState {
   CopySample sample;
 };
 
-enum class EventKind : std::uint8_t {
-  Arm,        // the conductor: put this trial up
-  Ended,      // any station: its trial has ended so
-  Interrupt,  // the conductor: end the trial under way
-  Finish,     // the conductor: no more trials
-};
-struct LineEvent {
+struct LinkEvent {
+  enum class Kind : std::uint8_t {
+    Arm,        // the conductor: put this trial up
+    Ended,      // any station: its trial has ended so
+    Interrupt,  // the conductor: end the trial under way
+    Finish,     // the conductor: no more trials
+  };
   std::uint32_t station = 0;  // from 1
-  EventKind kind = EventKind::Arm;
+  Kind kind = Kind::Arm;
   std::int32_t trial = 0;
   trial::PlannedTrial planned;
   double frequency = 0;  // [rad/s] omega_o of the trial that is armed; 0: as the object has it
@@ -47,7 +47,7 @@ struct LineEvent {
 
 /// Who a station says it is. Texts end with a zero.
 struct StationCard {
-  std::uint32_t station = 0;  // from 1; 0 only looks on
+  std::uint32_t station = 0;  // from 1; 0 only observes
   std::uint32_t version = 0;  // of the messages
   std::uint64_t experiment = 0;
   bool conductor = false;
@@ -55,12 +55,13 @@ struct StationCard {
   std::array<char, 97> device{};
 };
 
-/// How the line to one station is, written by the endpoint; numbers of one moment may be of neighbouring ones.
-struct LineStatus {
+/// How the link to one station is, written by the endpoint; numbers of one moment may be of neighbouring ones.
+struct LinkStatus {
   std::atomic<double> roundTrip{-1};  // [s] the newest; -1: not known
   std::atomic<double> jitter{0};      // [s] SD of the round trip over the last samples
   std::atomic<double> offset{0};      // [s] the peer's clock less ours, of the fastest exchange lately
-  std::atomic<double> loss{0};        // share of a second's samples that did not come, or came overtaken: only the newest counts
+  std::atomic<double> loss{0};        // share of what it sends that does not come, of the last two seconds
+  std::atomic<double> overtaken{0};   // share of a second's samples that came after a newer one, and were not used
   std::atomic<double> gap{0};         // [s] the longest that nothing came in the last second
   std::atomic<std::int64_t> heardNs{0};
 };
@@ -76,17 +77,17 @@ struct EndpointSettings {
   std::array<std::array<char, kAddress>, kAddresses> peers{};  // addresses; the first empty one ends the list
 };
 
-struct LineMemory {
-  static constexpr std::uint32_t kVersion = 3;
+struct LinkMemory {
+  static constexpr std::uint32_t kVersion = 4;
   std::uint32_t version = kVersion;
   EndpointSettings settings;
   std::atomic<bool> stop{false};
   std::atomic<std::int64_t> aliveNs{0};  // the endpoint's last round
   SpscQueue<OwnState, 64> out;
   std::array<SpscQueue<HeardState, 64>, kMaxStations> in;  // by station, from 0; one's own stays empty
-  SpscQueue<LineEvent, 64> eventsOut, eventsIn;
+  SpscQueue<LinkEvent, 64> eventsOut, eventsIn;
   SpscQueue<StationCard, 32> cardsIn;
-  std::array<LineStatus, kMaxStations> status;
+  std::array<LinkStatus, kMaxStations> status;
   std::atomic<std::uint64_t> ringsFull{0};       // samples that found no room
   std::atomic<std::uint64_t> discardedBytes{0};  // of states that came twice or after newer ones, dropped by the endpoint's reader
 };

@@ -9,21 +9,21 @@
 
 namespace reachlab::network {
 
-/// What a looker-on has seen since the last look.
-struct LookerNews {
-  std::vector<LineEvent> ended;  // how a station's trial ended
+/// What an observer has seen since the last look.
+struct ObserverNews {
+  std::vector<LinkEvent> ended;  // how a station's trial ended
   bool finished = false;         // the conductor said that no more trials follow
   std::string problem;           // in vain: no station was heard, the endpoint has ended; once
 };
 
-/// Who only looks on: no hand, no copy, nothing sent and nothing recorded; the others do not wait for it, nor know of it. Never waits; `poll` it
+/// A station without a hand: no copy, nothing sent and nothing recorded; the others do not wait for it, nor know of it. Never waits; `poll` it
 /// often. Every call from one thread at a time.
-class LookerOn {
+class Observer {
  public:
   /// Starts the endpoint. Throws FaultError, RefusedError: an experiment that stations cannot share; ResourceError.
-  LookerOn(const StationSetup& setup, const experiment::CompiledExperiment& experiment);
+  Observer(const StationSetup& setup, const experiment::CompiledExperiment& experiment);
 
-  LookerNews poll();
+  ObserverNews poll();
   /// The newest that came of every station, from 0; a sample with sequence number 0: nothing yet.
   const std::array<HeardState, kMaxStations>& newest() const { return newest_; }
   /// How far a station's copy is from that of the first that was heard, each as it came last [m].
@@ -32,16 +32,16 @@ class LookerOn {
   /// nothing has come. The other hands stand in `hands`.
   const haptics::TickState* state() const { return shown_ < 0 ? nullptr : state_.get(); }
   const OtherHands& hands() const { return hands_; }
-  StationLine& line() { return *line_; }
+  StationLink& link() { return *link_; }
 
  private:
   bool isHeard(int station) const { return newest_[static_cast<std::size_t>(station)].sample.sequence != 0; }
-  void take(LookerNews& news);
+  void take(ObserverNews& news);
   void show();
 
   StationSetup setup_;
   std::unique_ptr<dynamics::SharedPlant> plant_;
-  std::unique_ptr<StationLine> line_;
+  std::unique_ptr<StationLink> link_;
   std::array<HeardState, kMaxStations> newest_{};
   std::unique_ptr<haptics::TickState> state_;
   OtherHands hands_;
@@ -53,6 +53,6 @@ class LookerOn {
 
 /// Of every station that was heard a line `key=value …` of the newest that came, and how far its copy was then from the first's.
 /// `now`: of the samples' clock [s].
-std::string describeNewest(const LookerOn& looker, double now);
+std::string describeNewest(const Observer& observer, double now);
 
 }  // namespace reachlab::network

@@ -6,18 +6,18 @@
 
 namespace reachlab::network {
 
-/// How a line treats what is sent over it, one way.
-struct LineConditions {
+/// How a link treats what is sent over it, one way.
+struct LinkConditions {
   double delay = 0;   // [s]
   double jitter = 0;  // [s] uniform, +-
   double loss = 0;    // share
 };
 
-/// A line under a clock of the caller's, seeded: the same sends give the same arrivals on every machine.
+/// A link under a clock of the caller's, seeded: the same sends give the same arrivals on every machine.
 template <class Sample>
-class SimulatedLine {
+class SimulatedLink {
  public:
-  SimulatedLine(const LineConditions& conditions, std::uint64_t seed) : conditions_(conditions), seed_(seed) {}
+  SimulatedLink(const LinkConditions& conditions, std::uint64_t seed) : conditions_(conditions), seed_(seed) {}
 
   void send(const Sample& sample, double now) {
     if (seededFraction(seed_, count_++) < conditions_.loss) return;
@@ -39,7 +39,7 @@ class SimulatedLine {
     Sample sample;
     bool taken = false;
   };
-  LineConditions conditions_;
+  LinkConditions conditions_;
   std::uint64_t seed_, count_ = 0;
   std::deque<Flying> under_;  // in the order of sending
 };

@@ -1,0 +1,131 @@
+#include "network/link/station_sink.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/ticks.h"
+#include "sim/trial/protocol.h"
+
+namespace reachlab::network {
+
+std::uint64_t StationSink::repeatedNow() const noexcept {
+  std::uint64_t all = 0;
+  for (int i = 0; i < copy_.peerCount(); ++i) all += copy_.link(i).old;
+  return all;
+}
+
+bool StationSink::give(const GivenSample& given) noexcept {
+  if (given_->tryPush(given)) return true;
+  memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
+// What cannot be kept in the log is not done yet: the copy must be the same when it is computed again.
+void StationSink::giveOrders(const haptics::TickState& state, std::int32_t trial) noexcept {
+  if (const double wanted = frequency_.load(std::memory_order_acquire); wanted != frequencyNow_) {
+    const GivenSample order{state.tick, GivenSample::kFrequency, wanted, {}};
+    if (given_->tryPush(order)) frequencyNow_ = wanted, order.giveTo(copy_);
+  }
+  std::int64_t broken = brokenOff_.load(std::memory_order_acquire);
+  if (broken == 0) return;
+  const auto of = static_cast<std::int32_t>(broken >> 8);
+  if (of == trial) {
+    if (!trial::isEngaged(state.phase)) return;  // it will be lost as soon as the hands hold the object
+    const GivenSample order{state.tick, GivenSample::kBrokenOff, static_cast<double>(broken & 0xff), {}};
+    if (!given_->tryPush(order)) return;
+    order.giveTo(copy_);
+  } else if (of > trial) {
+    return;
+  }
+  brokenOff_.compare_exchange_strong(broken, 0, std::memory_order_acq_rel);
+}
+
+void StationSink::noteApart(const haptics::TickState& state) noexcept {
+  if (state.trial != trial_) {
+    trial_ = state.trial;
+    squares_ = 0, count_ = 0;
+    for (auto* apart : {&mostApart_, &rmsApart_, &lastApart_}) apart->store(0, std::memory_order_relaxed);
+    oldest_.store(0, std::memory_order_relaxed), fadedTicks_.store(0, std::memory_order_relaxed);
+    repeatedBefore_ = repeatedNow();
+  }
+  if (!trial::isEngaged(state.phase)) return;
+  double apart = 0;
+  double oldest = 0;
+  bool faded = false;
+  for (int i = 0; i < copy_.peerCount(); ++i) {
+    const PeerLink& link = copy_.link(i);
+    apart = std::max(apart, link.apart), oldest = std::max(oldest, link.age);
+    faded = faded || (link.heard && link.age > 0 && link.fade < 1);  // age 0: not stepped yet
+  }
+  oldest_.store(std::max(oldest, oldest_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+  if (faded) fadedTicks_.store(fadedTicks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  repeated_.store(repeatedNow() - repeatedBefore_, std::memory_order_relaxed);
+  squares_ += apart * apart, ++count_;
+  lastApart_.store(apart, std::memory_order_relaxed);
+  mostApart_.store(std::max(apart, mostApart_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+  rmsApart_.store(std::sqrt(squares_ / static_cast<double>(count_)), std::memory_order_relaxed);
+}
+
+void StationSink::takeHeard(const haptics::TickState& state, std::int32_t trial, bool gives) noexcept {
+  HeardState heard;
+  bool came = false;
+  for (int peer = 0; peer < copy_.peerCount(); ++peer) {
+    const auto station = static_cast<std::size_t>(peer < own_ ? peer : peer + 1);
+    while (memory_.in[station].tryPop(heard)) {
+      seen_.place[station] = heard.sample.hand;
+      seen_.known[station] = came = true;
+      if (!gives || heard.trial != trial || trial < 1) continue;
+      const GivenSample given{state.tick, peer, heard.roundTrip, heard.sample};
+      given.giveTo(copy_);
+      (void)give(given);
+    }
+  }
+  if (came) hands_.publish(seen_);
+}
+
+void StationSink::send(const haptics::TickState& state, std::int32_t trial) noexcept {
+  OwnState own;
+  own.timeNs = state.measuredNs;
+  own.trial = trial;
+  own.phase = static_cast<std::uint8_t>(state.phase);
+  own.places = places_, own.rates = rates_;
+  own.sample.sequence = ++sequence_;
+  // Before it is armed a hand holds nothing: for the others it is where it will hold.
+  const bool armed = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving || state.phase == trial::Phase::Done;
+  copy_.fill(own.sample, armed ? state.hands[0].hip : dynamics::HandSample{copy_.ownFixedPoint(), {}, true});
+  if (state.tick % static_cast<std::uint64_t>(sendEvery_) != 0) return;
+  if (!memory_.out.tryPush(own)) memory_.ringsFull.fetch_add(1, std::memory_order_relaxed);
+}
+
+bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::uint32_t) noexcept {
+  const std::int32_t trial = state.trial < 1 ? state.trial : state.trial + trialsBefore_.load(std::memory_order_acquire);
+  const bool gives = !givesNoMore_.load(std::memory_order_acquire);
+  if (!gives) gaveLast_.store(true, std::memory_order_release);
+  fillLinks(copy_, links_.data());
+  noteApart(state);
+  copy_.beginTick(timeAfter(state));
+  if (gives) giveOrders(state, trial);
+  takeHeard(state, trial, gives);
+  send(state, trial);
+  return true;
+}
+
+std::vector<std::uint8_t> StationSink::takeGiven() {
+  record::ByteWriter out;
+  std::uint32_t count = 0;
+  if (!std::exchange(said_, true)) beginGiven(out, own_, places_, rates_);
+  GivenSample given;
+  while (given_->tryPop(given)) {
+    if (out.size() == 0) beginGiven(out, own_, places_, rates_);
+    ++count;
+    addGiven(out, given, places_, rates_);
+  }
+  if (out.size() == 0) return {};
+  endGiven(out, count);
+  return {out.bytes().begin(), out.bytes().end()};
+}
+
+double timeAfter(const haptics::TickState& state) noexcept { return static_cast<double>(state.measuredNs + kTickNs) * 1e-9; }
+
+}  // namespace reachlab::network

@@ -1,0 +1,48 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "network/link_check/two_hands.h"
+
+namespace reachlab::network {
+
+/// Over which links the shipped coupling is tried, and how often.
+struct LinkBenchPlan {
+  std::vector<double> roundTrips{0, 0.01, 0.05, 0.1, 0.2};  // [s]
+  int seeds = 8;                                            // of losses and jitter, a cell
+  int setups = 40;                                          // random ones, an object; 0: none
+  double loss = 0.05, jitterShare = 0.1;
+  std::uint64_t seed = 5;  // of the random set-ups
+};
+
+/// One object over one link, over the seeds: means of the stable runs (of all, where none is).
+struct LinkBenchCell {
+  SharedObject object = SharedObject::Chain;
+  double roundTrip = 0;  // [s]
+  int stable = 0, runs = 0;
+  double apart = 0, forceError = 0, force = 0;  // [m], [N], [N]
+  double given = 0;                             // [J] the most
+};
+/// The same over random set-ups.
+struct LinkBenchShare {
+  SharedObject object = SharedObject::Chain;
+  double roundTrip = 0;  // [s]
+  int stable = 0, runs = 0;
+  double ledgerWorst = 0, ledgerDuration = 0;  // [J], [s] TwoHandsOutcome
+};
+struct LinkBenchTables {
+  std::vector<LinkBenchCell> cells;
+  std::vector<LinkBenchShare> shares;
+};
+
+using LinkBenchProgress = std::function<void(const std::string& line)>;
+LinkBenchTables runLinkBench(const LinkBenchPlan& plan, const LinkBenchProgress& progress = {});
+/// Random set-ups of one kind over one link.
+LinkBenchShare runRandomSetups(const LinkBenchPlan& plan, SharedObject object, double roundTrip);
+
+std::string formatLinkBench(const LinkBenchTables& tables);  // for a terminal
+std::string linkBenchCsv(const LinkBenchTables& tables);     // one line a cell or share
+std::string drawLinkBench(const LinkBenchTables& tables);    // SVG
+
+}  // namespace reachlab::network

@@ -1,4 +1,0 @@
-#!/bin/bash
-# Two stations over a line with delay, jitter and loss: how far their copies are apart. $1 is the build folder; needs root.
-set -euo pipefail
-exec "$(dirname "$0")/station_faults.py" "$1" line_50 line_100
