@@ -18,7 +18,7 @@ StudyInput readChosen(std::span<const ChosenTrials> chosen, const std::function<
     auto known = parsed.find({c.experimentText, c.definitionText});
     if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
     RunSource run{
-        c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, false, record::readMarks(some.log)};
+        c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, record::readMarks(some.log)};
     for (const int number : some.trials) {
       const auto trial = std::find_if(log.trials().begin(), log.trials().end(), [&](const auto& t) { return t.trial == number; });
       if (trial != log.trials().end()) run.trials.push_back(*trial);

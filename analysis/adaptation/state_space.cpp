@@ -143,6 +143,14 @@ LearningFit fitStates(std::size_t states, const AdaptationSeries& series, int me
   return fit;
 }
 
+/// Quantile of sorted values, linear between them (Hyndman and Fan's type 7).
+double quantileOfSorted(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto i = static_cast<std::size_t>(at);
+  if (i + 1 >= sorted.size()) return sorted.back();
+  return sorted[i] + (at - static_cast<double>(i)) * (sorted[i + 1] - sorted[i]);
+}
+
 /// Percentile intervals from series whose residuals are drawn anew in blocks of neighbours.
 void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured, int resamples, std::uint64_t seed) {
   const std::vector<double> x = simulateLearning(fit.states, series);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/error.h"
+
 namespace reachlab::haptics {
 namespace {
 
