@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -16,10 +18,14 @@ namespace {
 constexpr int kMostTrials = 10'000'000;
 const NumberRange kSinceArming{0, 1e6, true, "a time in s, 0 or more"};
 
-TrialMark readMark(FaultList& faults, const JsonNode& node, std::size_t index) {
+using Refuse = std::function<std::optional<Fault>(int trial)>;
+
+TrialMark readMark(FaultList& faults, const JsonNode& node, std::size_t index, const Refuse& refuse) {
   TrialMark mark;
   ObjectReader reader(faults, node, fmt::format("trials[{}]", index));
   if (reader.required("trial", "the number of a trial") != nullptr) reader.integer("trial", 1, kMostTrials, mark.trial);
+  if (mark.trial > 0)
+    if (const auto fault = refuse(mark.trial)) faults.add(*node.find("trial"), reader.keyPath("trial"), fault->what, fault->allowed);
   reader.boolean("flagged", mark.flagged);
   reader.text("excluded", mark.excluded);
   reader.text("note", mark.note);
@@ -57,10 +63,13 @@ std::string marksPathOf(const std::string& logPath) {
   return logPath + "_marks.json";
 }
 
-RunMarks readMarks(const std::string& logPath) {
+namespace {
+
+RunMarks readMarks(const std::string& logPath, const Refuse& refuseTrial) {
   const std::string file = marksPathOf(logPath);
   std::error_code error;
   RunMarks marks;
+  std::set<int> seen;
   if (!std::filesystem::exists(file, error)) return marks;
   const std::string text = readWholeFile(file);
   const JsonNode root = parseJson(text, file);
@@ -70,11 +79,34 @@ RunMarks readMarks(const std::string& logPath) {
   reader.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
   if (const JsonNode* trials = reader.required("trials", "an array of marks")) {
     if (trials->kind != JsonNode::Kind::Array) faults.add(*trials, "trials", "is no array", "an array of marks");
-    for (std::size_t i = 0; i < trials->items.size(); ++i) marks.set(readMark(faults, trials->items[i], i));
+    for (std::size_t i = 0; i < trials->items.size(); ++i) {
+      const Refuse refuse = [&](int trial) -> std::optional<Fault> {
+        if (!seen.insert(trial).second) return Fault{{}, fmt::format("is {} for the second time", trial), "each trial once"};
+        return refuseTrial(trial);
+      };
+      marks.set(readMark(faults, trials->items[i], i, refuse));
+    }
   }
   reader.finish();
   faults.throwIfAny();
   return marks;
+}
+
+}  // namespace
+
+RunMarks readMarks(const std::string& logPath) {
+  return readMarks(logPath, [](int) { return std::nullopt; });
+}
+
+RunMarks readMarks(const RunLog& run) {
+  const std::vector<RecordedTrial>& trials = run.trials();
+  return readMarks(run.path(), [&](int trial) -> std::optional<Fault> {
+    if (std::any_of(trials.begin(), trials.end(), [&](const RecordedTrial& t) { return t.trial == trial; })) return std::nullopt;
+    return Fault{{},
+                 fmt::format("is {}, which the run does not have", trial),
+                 trials.empty() ? std::string("no marks, because the run has no trials")
+                                : fmt::format("{} to {}", trials.front().trial, trials.back().trial)};
+  });
 }
 
 void writeMarks(const std::string& logPath, const RunMarks& marks) {

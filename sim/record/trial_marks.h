@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/record/log/run_log.h"
+
 namespace reachlab::record {
 
 /// What a person says of a recorded trial, while the run goes on or long after. SI, seconds since the trial was armed.
@@ -27,8 +29,11 @@ struct RunMarks {
 
 /// Where the marks of a log stand: beside it, `…_log.reach` and `…_marks.json`. The log itself is never touched.
 std::string marksPathOf(const std::string& logPath);
-/// None where there is no such file. Throws FaultError with every fault of the file at its place, ResourceError.
+/// None where there is no such file. Throws FaultError with every fault of the file at its place, ResourceError. A trial that is named twice
+/// is refused, because the later line would undo the exclusion of the earlier one.
 RunMarks readMarks(const std::string& logPath);
+/// The same of a run that is over: a trial that the run does not have is refused too, because another one was meant.
+RunMarks readMarks(const RunLog& run);
 /// Replaces the file in one step; without marks there is none. Throws ResourceError.
 void writeMarks(const std::string& logPath, const RunMarks& marks);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/analysis/whole_dataset.h"
 #include "base/error.h"
 #include "tests/analysis/recorded.h"
 
@@ -44,6 +45,41 @@ TEST(TrialMarks, AFaultyFileIsToldWithItsPlaces) {
     const std::string text = e.what();
     for (const char* part : {"a_marks.json:1:", "trials[0].trial", "trials[0].offset_s: is not after onset_s", "excludde"})
       EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  }
+}
+
+// The later of two lines of one trial would undo the exclusion that the earlier one asks for.
+TEST(TrialMarks, OfATrialThatIsNamedTwiceAreRefused) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() + "/a_log.reach";
+  std::ofstream(marksPathOf(log))
+      << R"({"schema_version": 1, "trials": [{"trial": 3, "excluded": "talked"}, {"trial": 3, "flagged": true}]})";
+  try {
+    (void)readMarks(log);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("trials[1].trial: is 3 for the second time"), std::string::npos) << e.what();
+  }
+}
+
+TEST(TrialMarks, OfATrialThatTheRunDoesNotHaveAreRefused) {
+  const TemporaryFolder folder;
+  const std::string log = analysis::recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+  std::ofstream(marksPathOf(log))
+      << R"({"schema_version": 1, "trials": [{"trial": 2, "flagged": true}, {"trial": 300, "excluded": "talked"}]})";
+  EXPECT_NO_THROW((void)readMarks(log)) << "a run that goes on may still have it";
+  try {
+    (void)readMarks(RunLog::open(log));
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("trials[1].trial: is 300, which the run does not have"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("1 to 2"), std::string::npos) << e.what();
+  }
+  try {
+    (void)analysis::openDataset(folder.path());
+    FAIL() << "the only run is left out, because another trial was meant";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("is 300"), std::string::npos) << e.what();
   }
 }
 
