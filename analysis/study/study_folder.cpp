@@ -75,10 +75,8 @@ StudyFolder makeFolder(const Design& design, const std::string& path) {
   StudyFolder folder = folderOf(design, path);
   record::makeFolders(path);
   record::removeLeftovers(path);
-  std::error_code error;
   const std::string file = designPath(path), text = textOf(folder);
-  if (!fs::exists(file, error)) record::writeFileAtomically(file, text);
-  else if (record::readWholeFile(file) != text)
+  if (!record::createFileAtomically(file, text) && record::readWholeFile(file) != text)
     throw ResourceError(file +
                         ": is of another study, or of this one with other files or another version of the program; allowed: a folder of "
                         "its own for each study");

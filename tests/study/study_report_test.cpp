@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <sstream>
@@ -191,9 +193,6 @@ TEST(StudyReport, SaysWhereNothingReachesTheLevelAndWhatIsNoted) {
   EXPECT_EQ(lineWith(folder.path() + "/power.csv", "min-crackle"), "min-crackle,a=1,5,10,8,6,1,75");
   EXPECT_EQ(lineWith(folder.path() + "/learning.csv", ",11"), lineWith(folder.path() + "/learning.csv", ",11,20,5,8,62.5,"));
   EXPECT_NE(lineWith(folder.path() + "/report.md", "![power](power.svg)"), "");
-  const ReportOptions usual;
-  EXPECT_EQ(usual.studies, 200);
-  EXPECT_TRUE(SmallestDesign{}.level == 0.8 && LearningAt{}.firstTrial == 1 && LearningAt{}.lastTrial == 1);
 }
 
 TEST(StudyFolder, GivesEachShareItsChunks) {
@@ -245,6 +244,27 @@ TEST(StudyFolder, KeepsItsDesignAndRefusesAnother) {
   EXPECT_THROW(openFolder(folder.path() + "/none"), FaultError);
   record::writeFileAtomically(folder.path() + "/study.json", "{}");
   EXPECT_THROW(openFolder(folder.path()), FaultError);
+}
+
+// Many programs at once: a folder is of the one design that was there first, and every other one is told so.
+TEST(StudyFolder, BegunByTwoStudiesAtOnceIsOfOneOfThem) {
+  for (int round = 0; round < 40; ++round) {
+    const OwnFolder folder;
+    std::atomic<int> made{0};
+    std::string winner;
+    {
+      std::vector<std::jthread> programs;
+      for (int subjects = 1; subjects <= 4; ++subjects)
+        programs.emplace_back([&, subjects] {
+          try {
+            folderOf(folder.path(), R"("subjects": )" + std::to_string(subjects));
+            if (made++ == 0) winner = std::to_string(subjects);
+          } catch (const ResourceError&) {}
+        });
+    }
+    ASSERT_EQ(made, 1) << round;
+    EXPECT_EQ(std::to_string(openFolder(folder.path()).design.subjects), winner);
+  }
 }
 
 }  // namespace

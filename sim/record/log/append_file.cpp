@@ -168,10 +168,28 @@ void AtomicFile::flush() {
   waiting_.clear();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::close() {
   flush();
   if (!os::syncFile(descriptor_)) giveUp();
   ::close(std::exchange(descriptor_, -1));
+}
+
+bool AtomicFile::commitNew() {
+  close();
+  const bool linked = ::link(temporary_.c_str(), path_.c_str()) == 0;
+  if (!linked && errno != EEXIST) {
+    // Without hard links a file system cannot tell who comes first.
+    if (errno != EPERM && errno != EOPNOTSUPP) giveUp();
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) giveUp();
+    return true;
+  }
+  ::unlink(temporary_.c_str());
+  if (linked) syncFolderOf(path_);
+  return linked;
+}
+
+void AtomicFile::commit() {
+  close();
   // A rename puts the new name in place of a link, never through it.
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) giveUp();
   syncFolderOf(path_);
@@ -181,6 +199,22 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
   AtomicFile file(path);
   file.append(text);
   file.commit();
+}
+
+bool createFileAtomically(const std::string& path, std::string_view text) {
+  AtomicFile file(path);
+  file.append(text);
+  return file.commitNew();
+}
+
+FolderHold::FolderHold(const std::string& folder) {
+  makeFolders(folder);
+  descriptor_ = os::aboveStandardDescriptors(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
+}
+
+FolderHold::~FolderHold() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 ForeignFile::ForeignFile(const std::string& path) : path_(path) {

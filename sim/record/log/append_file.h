@@ -51,15 +51,33 @@ class AtomicFile {
 
   void append(std::string_view piece);
   void commit();
+  /// Puts the file in place only where nothing has that name yet. False: something has, and it is left alone.
+  bool commitNew();
 
  private:
   void flush();
+  void close();
   [[noreturn]] void giveUp();
   std::string path_, temporary_, waiting_;
   int descriptor_ = -1;
 };
 /// The same with the whole text at once.
 void writeFileAtomically(const std::string& path, std::string_view text);
+/// The same for a new file: of several programs that write it at once, one succeeds. False: it is there already.
+bool createFileAtomically(const std::string& path, std::string_view text);
+
+/// While it lives no other program holds the same folder, so that files that belong together come from one program. Where the file system
+/// has no locks it holds nothing. Makes the folder. One thread.
+class FolderHold {
+ public:
+  explicit FolderHold(const std::string& folder);
+  ~FolderHold();
+  FolderHold(const FolderHold&) = delete;
+  FolderHold& operator=(const FolderHold&) = delete;
+
+ private:
+  int descriptor_;
+};
 /// Removes what programs that were killed while they wrote left behind in a folder and those below it (`.….reachlab-tmp`, older than ten
 /// minutes). Throws nothing: what cannot be removed stays.
 void removeLeftovers(const std::string& folder);
