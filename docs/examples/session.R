@@ -31,7 +31,7 @@ profiles <- do.call(rbind, lapply(seq_len(nrow(runs)), function(i) {
   rows <- merge(good, runs[i, ])
   rows <- rows[order(rows$trial), ]
   t(sapply(seq_len(nrow(rows)), function(k) {
-    time <- seq(rows$onset_s[k], rows$end_s[k], length.out = 101)
+    time <- seq(rows$task_onset_s[k], rows$end_s[k], length.out = 101)
     velocity <- approx(samples$time_s, samples$hand_vx_m_per_s, time, rule = 2)$y
     velocity * rows$movement_time_s[k] / mean(good$movement_time_s)
   }))

@@ -33,7 +33,7 @@ for (subject, session, run), rows in good.groupby(["subject", "session", "run"])
     file = next(folder.glob(f"sub-{subject}_ses-{session}_*_run-{run:02d}_samples.csv"))
     samples = pd.read_csv(file)
     for trial in rows.itertuples():
-        time = np.linspace(trial.onset_s, trial.end_s, 101)
+        time = np.linspace(trial.task_onset_s, trial.end_s, 101)
         velocity = np.interp(time, samples.time_s, samples.hand_vx_m_per_s)
         profiles.append(velocity * trial.movement_time_s / good.movement_time_s.mean())
 mean = np.mean(profiles, axis=0)

@@ -110,7 +110,7 @@ def check_c3d(path, samples, trial):
         expected = numpy.array([float(row[column]) for row in rows]).astype("<f4")
         assert numpy.array_equal(c3d.signal[:, c3d.signals.index(channel)].astype("<f4"), expected), (path, channel)
     assert c3d.signal_units[c3d.signals.index("coupling_force_x")] == "N"
-    for event, column in {"go": "go_s", "onset": "onset_s", "end": "end_s"}.items():
+    for event, column in {"go": "go_s", "onset": "task_onset_s", "end": "end_s"}.items():
         if trial[column]:
             assert abs(c3d.events[event] - (float(trial[column]) - begin)) < 1e-5, (event, c3d.events)
     assert c3d.parameters["REACHLAB:OUTCOME"].texts()[0] == trial["outcome"]

@@ -115,7 +115,7 @@ TEST_F(Exported, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
 TEST_F(Exported, EventsGiveOneRowATrialInOrderWithinTheRecording) {
   const RunLog log = RunLog::open(path_);
   const auto rows = cellsOf(textOf(eventsTsv, log), '\t');
-  const json described = json::parse(eventsJson(configuration_));
+  const json described = json::parse(eventsJson(log));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0][0], "onset");
   EXPECT_EQ(rows[0][1], "duration");

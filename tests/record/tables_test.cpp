@@ -80,7 +80,7 @@ TEST_F(Tables, EveryEventCellIsOfItsTrial) {
   EXPECT_EQ(rowOf(table, 2)["reason"], "none");
 }
 
-TEST_F(Tables, TimesOfEventsAreSinceTheFirstRowAndNotTheFirstTick) {
+TEST_F(Tables, TimesAreSinceTheFirstRowAndNotTheFirstTick) {
   configuration_.sampleEveryTicks = 10;
   const std::string path = folder_ / "late_log.reach";
   {
@@ -96,6 +96,21 @@ TEST_F(Tables, TimesOfEventsAreSinceTheFirstRowAndNotTheFirstTick) {
   EXPECT_EQ(row["onset"], "0.04") << "50 ticks less 10";
   EXPECT_EQ(row["go"], "0.01");
   EXPECT_EQ(row["armed"], "0.01");
+  // Every export has this one clock.
+  std::vector<RunLog> runs;
+  runs.push_back(RunLog::open(path));
+  const ColumnTable trials = trialTable(runs.front());
+  const auto column = [&](const char* name) {
+    return std::find_if(trials.columns().begin(), trials.columns().end(), [&](const auto& c) { return c.name == name; })->numbers.at(0);
+  };
+  EXPECT_EQ(column("task_onset_s"), 0.04);
+  EXPECT_EQ(column("go_s"), 0.01);
+  std::string motion, samples;
+  motionTsv(runs.front(), [&](std::string_view piece) { motion += piece; });
+  samplesCsv(runs.front(), [&](std::string_view piece) { samples += piece; });
+  EXPECT_TRUE(motion.starts_with("0\t")) << motion.substr(0, 40);
+  EXPECT_TRUE(samples.substr(samples.find('\n') + 1).starts_with("0,")) << samples.substr(samples.find('\n'), 40);
+  EXPECT_NE(clockStatement(runs.front()).find("first sample, which is 0.01 s after it began"), std::string::npos);
 }
 
 TEST_F(Tables, ATrialWithoutAMovementIsPlacedWhereItStarted) {
@@ -388,8 +403,8 @@ TEST_F(Tables, ATrialsRowHasEveryNumberUnderItsName) {
   experiment::Task task;
   task.duration = 1.35;
   task.tolerance = {0.012, 0.02, 0.5};
-  ColumnTable table(kTrialColumns);
-  addTrial(table, c, task, t);
+  ColumnTable table(trialColumnNames());
+  addTrial(table, c, task, t, 100);
   const std::map<std::string, double> numbers{{"run", 3},
                                               {"block", 4},
                                               {"trial", 7},
@@ -404,12 +419,12 @@ TEST_F(Tables, ATrialsRowHasEveryNumberUnderItsName) {
                                               {"position_tolerance_m", 0.012},
                                               {"velocity_tolerance_m_per_s", 0.02},
                                               {"time_tolerance_s", 0.5},
-                                              {"start_s", 0.1},
-                                              {"armed_s", 0.2},
-                                              {"go_s", 0.9},
-                                              {"onset_s", 1.5},
-                                              {"end_s", 3.25},
-                                              {"reaction_time_s", 0.6},
+                                              {"start_s", 0},
+                                              {"armed_s", 0.1},
+                                              {"go_s", 0.8},
+                                              {"task_onset_s", 1.4},
+                                              {"end_s", 3.15},
+                                              {"task_reaction_time_s", 0.6},
                                               {"peak_hand_speed_m_per_s", 0.5},
                                               {"hand_path_m", 0.75},
                                               {"peak_force_n", 8.5},

@@ -442,29 +442,31 @@ TEST_F(Facts, OfSeveralHandsAreWhatActsOnAnyOfThem) {
   EXPECT_TRUE(factsOf(s).clamped);
 }
 
-TEST(TrialTimes, AreSecondsSinceTheRunBeganAndNoNumbersWhereSomethingNeverCame) {
+TEST(TrialTimes, AreSecondsSinceTheFirstSampleAndNoNumbersWhereSomethingNeverCame) {
   RecordedTrial t;
   t.lastTick = 4000;
-  TrialTimes times = timesOf(t);
+  TrialTimes times = timesOf(t, 0);
   EXPECT_EQ(times.start, 0) << "a trial may start with the run";
   EXPECT_EQ(times.end, 4) << "where no end is known, its last tick";
-  for (const double never : {times.armed, times.go, times.onset, times.reaction, movementTimeOf(t)}) EXPECT_TRUE(std::isnan(never));
+  const auto reaction = [&] { return tickMeasure("task_reaction_time_s").of(t); };
+  const auto movement = [&] { return tickMeasure("movement_time_s").of(t); };
+  for (const double never : {times.armed, times.go, times.onset, reaction(), movement()}) EXPECT_TRUE(std::isnan(never));
   t.startTick = 250, t.armedTick = 500, t.goTick = 1250, t.result.onsetTick = 1500, t.result.endTick = 3000;
   t.result.movementTime = 1.4;
-  times = timesOf(t);
-  EXPECT_EQ(times.start, 0.25);
-  EXPECT_EQ(times.armed, 0.5);
-  EXPECT_EQ(times.go, 1.25);
-  EXPECT_EQ(times.onset, 1.5);
-  EXPECT_EQ(times.end, 3);
-  EXPECT_EQ(times.reaction, 0.25);
-  EXPECT_EQ(movementTimeOf(t), 1.4);
+  times = timesOf(t, 10);
+  EXPECT_EQ(times.start, 0.24);
+  EXPECT_EQ(times.armed, 0.49);
+  EXPECT_EQ(times.go, 1.24);
+  EXPECT_EQ(times.onset, 1.49);
+  EXPECT_EQ(times.end, 2.99);
+  EXPECT_EQ(reaction(), 0.25);
+  EXPECT_EQ(movement(), 1.4);
   t.result.onsetTick = 1200;
-  EXPECT_EQ(timesOf(t).reaction, -0.05) << "off before the signal";
+  EXPECT_EQ(reaction(), -0.05) << "off before the signal";
   t.goTick = 0;
-  EXPECT_TRUE(std::isnan(timesOf(t).reaction));
+  EXPECT_TRUE(std::isnan(reaction()));
   t.goTick = 1, t.result.onsetTick = 0;
-  EXPECT_TRUE(std::isnan(timesOf(t).reaction));
+  EXPECT_TRUE(std::isnan(reaction()));
 }
 
 }  // namespace

@@ -99,8 +99,8 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   table.body = experiment.object.kind == experiment::ObjectKind::Body;
   auto& out = table.channels;
   addScalar(out,
-            {"latency", "time_s", "LATENCY", "n/a", "s", "time since the run began: ticks of 1 ms, the clock of protocol and physics"});
-  addScalar(out, {"measured_time", "measured_s", "MISC", "n/a", "s", "monotonic clock of the computer since the run began"});
+            {"latency", "time_s", "LATENCY", "n/a", "s", "time in ticks of 1 ms, the clock of protocol and physics; in exported files since the first sample, as events"});
+  addScalar(out, {"measured_time", "measured_s", "MISC", "n/a", "s", "monotonic clock of the computer, from the same moment as latency"});
   addVector(out, {"hand_pos", "hand_{}_m", "POS", "hand", "m", "haptic interface point as the coupling sees it"});
   addVector(out, {"hand_vel", "hand_v{}_m_per_s", "VEL", "hand", "m/s", "haptic interface point, estimated velocity"});
   addVector(out, {"device_pos", "device_{}_m", "POS", "device", "m", "haptic interface point, raw device position"});

@@ -39,6 +39,6 @@ std::string channelsTsv(const RunConfiguration& configuration, int hand = 1);
 std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand);
 std::string channelsJson();
 void eventsTsv(const RunLog& run, const TakePiece& take);
-std::string eventsJson(const RunConfiguration& configuration);
+std::string eventsJson(const RunLog& run);
 
 }  // namespace reachlab::record

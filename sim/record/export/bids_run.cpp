@@ -136,22 +136,22 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
   table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
              "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
              "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s"});
-  // BIDS counts events from the first row of the motion file, which is not the run's first tick.
-  double begin = 0;
-  if (!run.trials().empty())
-    if (const SampleRows first = run.rows(0, run.trials().front().lastTick); first.size() > 0) begin = secondsOf(first.ticks.front());
+  const std::uint64_t first = run.firstSampleTick();
   for (const RecordedTrial& trial : run.trials()) {
-    const TrialTimes times = timesOf(trial);
+    const TrialTimes times = timesOf(trial, first);
     const double onset = std::isfinite(times.onset) ? times.onset : times.start;
-    table.number(onset - begin).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
+    table.number(onset).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
     table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(c.condition);
     table.cell(trial::nameOf(trial.result.outcome))
         .cell(trial::nameOf(trial.result.reason))
         .whole(trial.result.mass)
         .number(trial.result.by);
-    table.number(movementTimeOf(trial)).number(times.reaction).number(times.go - begin).number(secondsOf(trial.planned.foreperiodTicks));
+    table.number(tickMeasure("movement_time_s").of(trial))
+        .number(tickMeasure("task_reaction_time_s").of(trial))
+        .number(times.go)
+        .number(secondsOf(trial.planned.foreperiodTicks));
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
-    table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed - begin).number(trial.meanForce).whole(c.day);
+    table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed).number(trial.meanForce).whole(c.day);
     table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed);
     table.endRow();
     take(table.takeText());
@@ -159,9 +159,10 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
   take(table.takeText());
 }
 
-std::string eventsJson(const RunConfiguration& c) {
+std::string eventsJson(const RunLog& run) {
+  const RunConfiguration& c = run.configuration();
   Json j = Json::object();
-  j["onset"] = described("Since the first sample of the recording. " + clockStatement(c), "s");
+  j["onset"] = described("Since the first sample of the recording, as the channel latency counts. " + clockStatement(run), "s");
   j["trial_type"] = described("Kind of trial");
   j["trial_type"]["Levels"] = {{"reach", "Rest-to-rest reach; onset is the start of the movement, duration ends with the trial"},
                                {"catch", "Trial without a go signal: the hand should stay"}};
@@ -219,7 +220,7 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
   }
   const std::string base = baseOf(1);
   writePieces(base + "_events.tsv", [&](const TakePiece& take) { eventsTsv(run, take); });
-  write(base + "_events.json", eventsJson(c));
+  write(base + "_events.json", eventsJson(run));
   write(folder + "/" + experimentPath(c), experimentJson(c));
   return written;
 }

@@ -27,7 +27,8 @@ device and method, is in `code/experiments/`, a file a run: `experiment` there i
 `motion.json` says it in words.
 
 Positions are in metres in one right-handed frame: x to the subject's right, y up, z towards the subject. `latency` is the time of the
-protocol and the physics in ticks of 1 ms; `measured_time` is the computer's clock. Forces are MISC channels in newtons.
+protocol and the physics in ticks of 1 ms; `measured_time` is the computer's clock. Both count from the first sample, as `onset` does in the
+events files. Forces are MISC channels in newtons.
 )";
 
 // A table that a person may have added rows and columns to: what is there stays, what is new or was unknown is filled in.

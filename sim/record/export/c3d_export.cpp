@@ -71,12 +71,13 @@ C3dFile c3dOf(const RunLog& run, const RecordedTrial& trial) {
     for (std::size_t k = 0; k < columns.signals.size(); ++k)
       file.signals[frame * columns.signals.size() + k] = static_cast<float>(rows.at(row, columns.signals[k]));
   }
-  const TrialTimes times = timesOf(trial);
-  const double begin = secondsOf(first);
+  const ExportClock clock(run);
+  const TrialTimes times = timesOf(trial, run.firstSampleTick());
+  const double begin = clock.at(first);
   for (const auto& [label, time] : {std::pair{"go", times.go}, {"onset", times.onset}, {"end", times.end}})
     if (std::isfinite(time)) file.events.push_back({label, time - begin});
-  file.notes = {{"CLOCK", clockStatement(c)},
-                {"BEGIN_S", fmt::format("{}", begin)},  // of the first frame, since the run's first tick
+  file.notes = {{"CLOCK", clockStatement(run)},
+                {"BEGIN_S", fmt::format("{}", begin)},  // of the first frame
                 {"SUBJECT", c.subject},
                 {"SESSION", c.session},
                 {"RUN", fmt::format("{}", c.run)},

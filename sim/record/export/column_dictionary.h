@@ -7,7 +7,7 @@ namespace reachlab::record {
 
 /// What a column of a CSV file holds, in words. A name that ends in `*` stands for all columns that begin with it.
 struct ColumnMeaning {
-  std::string_view column, meaning;
+  std::string_view column, meaning = {};
 };
 
 /// The dictionary that lies beside a CSV file, as BIDS describes tables: for each column of the header its Description, and Units where

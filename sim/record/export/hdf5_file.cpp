@@ -99,7 +99,7 @@ void addTable(hid_t file, const char* name, const ColumnTable& table) {
 
 void addRun(hid_t file, const RunLog& run) {
   const RunConfiguration& c = run.configuration();
-  addAttribute(file, "clock", clockStatement(c));
+  addAttribute(file, "clock", clockStatement(run));
   addAttribute(file, "software", c.softwareVersion);
   addAttribute(file, "subject", c.subject);
   addAttribute(file, "session", c.session);

@@ -102,7 +102,7 @@ std::vector<Written> writeRun(mat_t* file, const RunLog& run) {
   const RunConfiguration& c = run.configuration();
   std::vector<Written> written;
   const auto whole = [&](const char* name, const Variable& variable) { put(file, variable, written, {name}); };
-  whole("clock", text("clock", clockStatement(c)));
+  whole("clock", text("clock", clockStatement(run)));
   whole("software", text("software", c.softwareVersion));
   whole("experiment_json", text("experiment_json", c.experimentText));
   whole("units", textsOf("units", c.table, [](const Channel& channel) { return channel.units == "n/a" ? "" : channel.units; }));

@@ -19,7 +19,24 @@ ColumnTable eventTable(const RunLog& run);
 void eachSampleColumn(const RunLog& run, const std::function<void(std::size_t channel, std::span<const double> values)>& take,
                       std::size_t mostNumbers = std::size_t{1} << 22);
 
-/// Which clock the times of this run are of, in one sentence: every file that has times carries it.
+/// The one clock of an export: seconds since the run's first sample, from which BIDS counts events. The log itself counts ticks from the
+/// run's first one.
+class ExportClock {
+ public:
+  explicit ExportClock(const RunLog& run);
+  double at(std::uint64_t tick) const;
+  /// A cell of the samples; the two channels of time are turned to this clock.
+  double cell(const SampleRows& rows, std::size_t row, std::size_t column) const;
+
+ private:
+  std::uint64_t first_;
+  std::size_t ticks_ = kNone, measured_ = kNone;  // columns
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+};
+
+/// Which clock the times of an export are of, in one sentence: every file that has times carries it.
+std::string clockStatement(const RunLog& run);
+/// The same of a stream while it is recorded, whose times count from the run's first tick.
 std::string clockStatement(const RunConfiguration& configuration);
 
 }  // namespace reachlab::record

@@ -1,62 +1,122 @@
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "base/ticks.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
+#include "sim/record/export/trial_row.h"
 
 namespace reachlab::record {
 namespace {
 
-constexpr ColumnMeaning kTrialMeanings[] = {
-    {"subject", "Subject's label, letters and digits; read it as text: 01 is not 1"},
-    {"session", "Session's label, letters and digits; read it as text: 01 is not 1"},
-    {"run", "Run number within the session, as in the file names"},
-    {"block", "Block of the session's plan, from 1"},
-    {"trial", "Trial number within the block, from 1"},
-    {"phase",
-     "Whether the block counts: practice or recorded. In the samples files a column of this name is the trial's own phase, a number"},
-    {"condition", "Condition of the plan, else the experiment's name"},
-    {"outcome", "How the trial ended: success, failure, aborted or interrupted"},
-    {"reason", "Which tolerance was missed, or what stopped the trial; empty for a success"},
-    {"mass", "Mass that missed the tolerance, from 1; 0: none"},
-    {"movement_time_s", "From movement onset to the end of the trial"},
-    {"by", "Excess over the tolerance that was missed, in the unit of by_unit"},
-    {"by_unit", "Unit of by: m, m/s or s; empty where there is no excess"},
-    {"experiment", "Name of the experiment"},
-    {"day", "Day of the plan; 0: the plan has none"},
-    {"order_index", "Place of the trial in the planned order, from 0"},
-    {"catch_trial", "1: no go signal was given, the hand should stay; 0: a reach"},
-    {"foreperiod_s", "Planned time from arming to the go signal"},
-    {"target_time_s", "Duration that the task asks for"},
-    {"position_tolerance_m", "Tolerance of every mass's position at the target"},
-    {"velocity_tolerance_m_per_s", "Tolerance of every mass's speed at the target"},
-    {"time_tolerance_s", "Tolerance of the duration"},
-    {"start_s", "Start of the trial, since the run began"},
-    {"armed_s", "When the hand was in place, since the run began"},
-    {"go_s", "Go signal, since the run began"},
-    {"onset_s", "Movement onset, since the run began"},
-    {"end_s", "End of the movement, since the run began"},
-    {"reaction_time_s", "From the go signal to movement onset"},
-    {"peak_hand_speed_m_per_s", "Largest estimated speed of the hand over every tick of the movement, unfiltered"},
-    {"hand_path_m", "Length of the hand's path over every tick of the movement, unfiltered"},
-    {"peak_force_n", "Largest coupling force over every tick of the movement"},
-    {"mean_force_n", "Mean coupling force over every tick of the movement"},
-    {"clamped_ticks", "Ticks of 1 ms in which the force was held to the device's limit"},
-    {"missed_ticks", "Ticks of 1 ms that were skipped"},
-    {"dropped_samples", "Ticks that were simulated but not recorded, because the disk was too slow"},
-    {"elapsed_s", "From the go signal to the end by the computer's clock; longer than the ticks say when ticks were missed"},
-    {"complete", "0: the log broke off in this trial"},
-    {"seed", "Seed of the block; up to 64 bits, read it as text or as an integer, not as a floating-point number"},
-    {"device", "Device as it was asked for"},
-    {"age_years", "Participant's age"},
-    {"sex", "Participant's sex: F, M or O"},
-    {"handedness", "Participant's handedness: R, L or A"},
-    {"notes", "Notes by the experimenter"}};
+struct Row {
+  const RunConfiguration& run;
+  const experiment::Task& task;
+  const RecordedTrial& trial;
+  TrialTimes times;
+};
+
+struct TrialColumn {
+  std::string name, sentence;
+  std::function<TrialCell(const Row&)> of;
+};
+
+TrialColumn measured(std::string_view name) {
+  const TickMeasure& measure = tickMeasure(name);
+  return {std::string(measure.name), std::string(measure.sentence), [&measure](const Row& r) { return measure.of(r.trial); }};
+}
+
+double whole(auto number) { return static_cast<double>(number); }
+std::string textOf(std::string_view words) { return std::string(words); }
+
+const std::vector<TrialColumn>& trialColumns() {
+  static const std::vector<TrialColumn> kColumns{
+      {"subject", "Subject's label, letters and digits; read it as text: 01 is not 1", [](const Row& r) { return r.run.subject; }},
+      {"session", "Session's label, letters and digits; read it as text: 01 is not 1", [](const Row& r) { return r.run.session; }},
+      {"run", "Run number within the session, as in the file names", [](const Row& r) { return whole(r.run.run); }},
+      {"block", "Block of the session's plan, from 1", [](const Row& r) { return whole(r.run.block); }},
+      {"trial", "Trial number within the block, from 1", [](const Row& r) { return whole(r.trial.trial); }},
+      {"phase",
+       "Whether the block counts: practice or recorded. In the samples files a column of this name is the trial's own phase, a number",
+       [](const Row& r) { return textOf(r.run.practice ? "practice" : "recorded"); }},
+      {"condition", "Condition of the plan, else the experiment's name", [](const Row& r) { return r.run.condition; }},
+      {"outcome", "How the trial ended: success, failure, aborted or interrupted",
+       [](const Row& r) { return textOf(trial::nameOf(r.trial.result.outcome)); }},
+      {"reason", "Which tolerance was missed, or what stopped the trial; empty for a success",
+       [](const Row& r) { return textOf(trial::nameOf(r.trial.result.reason)); }},
+      measured("mass"),
+      measured("movement_time_s"),
+      measured("by"),
+      {"by_unit", "Unit of by: m, m/s or s; empty where there is no excess", [](const Row& r) { return unitOf(r.trial.result.reason); }},
+      {"experiment", "Name of the experiment", [](const Row& r) { return r.run.experimentName; }},
+      {"day", "Day of the plan; 0: the plan has none", [](const Row& r) { return whole(r.run.day); }},
+      {"order_index", "Place of the trial in the planned order, from 0", [](const Row& r) { return whole(r.trial.planned.index); }},
+      {"catch_trial", "1: no go signal was given, the hand should stay; 0: a reach",
+       [](const Row& r) { return whole(r.trial.planned.catchTrial); }},
+      {"foreperiod_s", "Planned time from arming to the go signal",
+       [](const Row& r) { return secondsOf(r.trial.planned.foreperiodTicks); }},
+      {"target_time_s", "Duration that the task asks for", [](const Row& r) { return r.task.duration; }},
+      {"position_tolerance_m", "Tolerance of every mass's position at the target", [](const Row& r) { return r.task.tolerance.position; }},
+      {"velocity_tolerance_m_per_s", "Tolerance of every mass's speed at the target",
+       [](const Row& r) { return r.task.tolerance.velocity; }},
+      {"time_tolerance_s", "Tolerance of the duration", [](const Row& r) { return r.task.tolerance.time; }},
+      {"start_s", "Start of the trial, since the first sample", [](const Row& r) { return r.times.start; }},
+      {"armed_s", "When the hand was in place, since the first sample", [](const Row& r) { return r.times.armed; }},
+      {"go_s", "Go signal, since the first sample", [](const Row& r) { return r.times.go; }},
+      {"task_onset_s", "When the hand had left the start by onset_m, since the first sample", [](const Row& r) { return r.times.onset; }},
+      {"end_s", "End of the movement, since the first sample", [](const Row& r) { return r.times.end; }},
+      measured("task_reaction_time_s"),
+      measured("peak_hand_speed_m_per_s"),
+      measured("hand_path_m"),
+      measured("peak_force_n"),
+      measured("mean_force_n"),
+      measured("clamped_ticks"),
+      measured("missed_ticks"),
+      measured("dropped_samples"),
+      measured("elapsed_s"),
+      {"complete", "0: the log broke off in this trial", [](const Row& r) { return whole(r.trial.complete); }},
+      // As text, because a double cannot hold every seed.
+      {"seed", "Seed of the block; up to 64 bits, read it as text or as an integer, not as a floating-point number",
+       [](const Row& r) { return fmt::format("{}", r.run.seed); }},
+      {"device", "Device as it was asked for", [](const Row& r) { return r.run.device; }},
+      {"age_years", "Participant's age",
+       [](const Row& r) { return r.run.participant.age.value_or(std::numeric_limits<double>::quiet_NaN()); }},
+      {"sex", "Participant's sex: F, M or O", [](const Row& r) { return r.run.participant.sex; }},
+      {"handedness", "Participant's handedness: R, L or A", [](const Row& r) { return r.run.participant.handedness; }},
+      {"notes", "Notes by the experimenter", [](const Row& r) { return r.run.notes; }}};
+  return kColumns;
+}
 
 }  // namespace
 
-std::string trialsDictionary(std::string_view csv) { return columnDictionary(csv, kTrialMeanings); }
+std::vector<TrialCell> trialCells(const RunConfiguration& run, const experiment::Task& task, const RecordedTrial& trial,
+                                  std::uint64_t firstSampleTick) {
+  const Row row{run, task, trial, timesOf(trial, firstSampleTick)};
+  std::vector<TrialCell> cells;
+  for (const TrialColumn& column : trialColumns()) cells.push_back(column.of(row));
+  return cells;
+}
 
-std::string samplesDictionary(const RunConfiguration& configuration, std::string_view csv) {
-  const std::string clock = clockStatement(configuration);
+const std::vector<std::string>& trialColumnNames() {
+  static const auto kNames = [] {
+    std::vector<std::string> names;
+    for (const TrialColumn& column : trialColumns()) names.push_back(column.name);
+    return names;
+  }();
+  return kNames;
+}
+
+std::string trialsDictionary(std::string_view csv) {
+  std::vector<ColumnMeaning> meanings;
+  for (const TrialColumn& column : trialColumns()) meanings.push_back({column.name, column.sentence});
+  return columnDictionary(csv, meanings);
+}
+
+std::string samplesDictionary(const RunLog& run, std::string_view csv) {
+  const RunConfiguration& configuration = run.configuration();
+  const std::string clock = clockStatement(run);
   std::vector<ColumnMeaning> meanings{
       {"phase",
        "Phase of the trial at this sample: 0 idle, 1 waiting, 2 armed, 3 moving, 4 done. In trials.csv a column of this name says whether "

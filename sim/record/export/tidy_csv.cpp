@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <numeric>
 
 #include "base/table_text.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/column_dictionary.h"
+#include "sim/record/export/run_tables.h"
 #include "sim/record/export/trial_row.h"
 #include "sim/record/log/append_file.h"
 
@@ -45,9 +47,10 @@ void writeRows(const RunLog& run, TableText table, const TakePiece& take) {
 }
 
 void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take) {
+  const ExportClock clock(run);
   run.eachBlock([&](const SampleRows& block) {
     for (std::size_t row = 0; row < block.size(); ++row) {
-      for (const std::size_t column : columns) table.number(block.at(row, column));
+      for (const std::size_t column : columns) table.number(clock.cell(block, row, column));
       table.endRow();
     }
     take(table.takeText());
@@ -56,11 +59,12 @@ void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableTex
 
 void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take) {
   TableText table(',', "");
-  table.row(kTrialColumns);
+  table.row(trialColumnNames());
   for (const RunLog& run : runs) {
     const experiment::Task task = taskOf(run.configuration());
+    const std::uint64_t first = run.firstSampleTick();
     for (const RecordedTrial& trial : run.trials()) {
-      addTrial(table, run.configuration(), task, trial);
+      addTrial(table, run.configuration(), task, trial, first);
       take(table.takeText());
     }
   }
@@ -91,7 +95,7 @@ std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std
   for (const RunLog& run : runs)
     write(
         runName(run.configuration()) + "_samples.csv", [&](const TakePiece& take) { samplesCsv(run, take); },
-        [&](const std::string& header) { return samplesDictionary(run.configuration(), header); });
+        [&](const std::string& header) { return samplesDictionary(run, header); });
   write(
       "trials.csv", [&](const TakePiece& take) { trialsCsv(runs, take); }, trialsDictionary);
   return written;

@@ -21,7 +21,7 @@ void writeRows(const RunLog& run, TableText table, const TakePiece& take);
 void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take);
 /// What each column of these files is, in words, with its unit.
 std::string trialsDictionary(std::string_view csv);
-std::string samplesDictionary(const RunConfiguration& configuration, std::string_view csv);
+std::string samplesDictionary(const RunLog& run, std::string_view csv);
 
 /// `sub-01_ses-01_task-chainmoderate_run-01`: the BIDS name of a run without `tracksys` and suffix.
 std::string runName(const RunConfiguration& configuration, const std::string& between = "");

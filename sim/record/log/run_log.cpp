@@ -202,6 +202,16 @@ SampleRows RunLog::rows(std::uint64_t firstTick, std::uint64_t lastTick) const {
 
 SampleRows RunLog::allRows() const { return rows(0, kNoTick); }
 
+std::uint64_t RunLog::firstSampleTick() const {
+  std::uint64_t first = 0;
+  visit(0, [&](const RecordView& record) {
+    if (record.type != RecordType::Samples) return true;
+    first = firstTickOf(record.payload);
+    return false;
+  });
+  return first;
+}
+
 void RunLog::eachBlock(const std::function<void(const SampleRows& block)>& take) const {
   SampleRows block;
   block.columns = configuration_.table.size();

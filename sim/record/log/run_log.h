@@ -112,6 +112,8 @@ class RunLog {
   /// Rows of a trial (from trials()), from where it was put up to its end.
   SampleRows rows(const RecordedTrial& trial) const { return rows(trial.startTick, trial.lastTick); }
   SampleRows allRows() const;
+  /// Tick of the first row, from which every export counts its times; 0 where there are no rows.
+  std::uint64_t firstSampleTick() const;
   /// The rows block by block as they were written, for runs longer than memory; a block is gone when `take` returns.
   void eachBlock(const std::function<void(const SampleRows& block)>& take) const;
   std::vector<RecordedTick> ticks() const;

@@ -1,33 +1,29 @@
 #pragma once
 #include <limits>
+#include <span>
+#include <string_view>
 
-#include "base/ticks.h"
 #include "sim/record/log/run_log.h"
 
 namespace reachlab::record {
 
-/// A trial's moments in seconds since the run began; NaN: never came.
+/// A trial's moments in seconds since the run's first sample, as every export counts. NaN: never came.
 struct TrialTimes {
   double start = 0, armed = 0, go = 0, onset = 0, end = 0;
-  double reaction = 0;  // [s] from the go signal to the onset
 };
+TrialTimes timesOf(const RecordedTrial& trial, std::uint64_t firstSampleTick);
 
-inline TrialTimes timesOf(const RecordedTrial& trial) {
-  const auto seconds = [](std::uint64_t tick) { return tick == 0 ? std::numeric_limits<double>::quiet_NaN() : secondsOf(tick); };
-  TrialTimes t;
-  t.start = secondsOf(trial.startTick);
-  t.armed = seconds(trial.armedTick);
-  t.go = seconds(trial.goTick);
-  t.onset = seconds(trial.result.onsetTick);
-  t.end = secondsOf(trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick);
-  t.reaction = trial.result.onsetTick > 0 && trial.goTick > 0 ? secondsBetween(trial.goTick, trial.result.onsetTick)
-                                                              : std::numeric_limits<double>::quiet_NaN();
-  return t;
-}
-
-/// NaN where the hand never set off.
-inline double movementTimeOf(const RecordedTrial& trial) {
-  return trial.result.onsetTick > 0 ? trial.result.movementTime : std::numeric_limits<double>::quiet_NaN();
-}
+/// What the haptic ticks of a trial measured. Exports, their dictionaries, `reach show`, studies and the inspector follow this table.
+/// What the analysis measures from filtered samples stands in analysis/measures/measures.h, under other names.
+struct TickMeasure {
+  std::string_view name;      // with its unit, as in every table
+  std::string_view sentence;  // of every dictionary
+  double (*of)(const RecordedTrial& trial);
+  bool count = false;         // a whole number
+  bool ofComputer = false;    // of the computer that recorded and not of the movement
+};
+std::span<const TickMeasure> tickMeasures();
+/// The measure of that name. A name that is in no table is a mistake in the program and throws FaultError.
+const TickMeasure& tickMeasure(std::string_view name);
 
 }  // namespace reachlab::record
